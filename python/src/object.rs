@@ -1,4 +1,4 @@
-//! What serde says of a value, as plain objects of Python.
+//! Turns serde's view of a value into plain objects of Python.
 //!
 //! | serde | Python |
 //! |---|---|
@@ -70,7 +70,6 @@ enum Place<'a, 'py> {
     InRow(&'a mut List<'py>),
 }
 
-/// Writes one value.
 struct Writer<'a, 'py> {
     py: Python<'py>,
     place: Place<'a, 'py>,

@@ -36,7 +36,7 @@ pub(super) fn judge(found: &Solution<Centers>, source: &dyn PointSource) -> Judg
         verdict,
         core_set: found.certificate.core_set.len(),
         proof: match found.certificate.proof {
-            LowerBound::Apart => "apart",
+            LowerBound::Separated => "apart",
             LowerBound::Branches { .. } => "branches",
         },
         seconds: start.elapsed().as_secs_f64(),
@@ -52,7 +52,9 @@ impl Judgement {
     /// Cells under [`COLUMNS`].
     pub(super) fn cells(&self) -> Vec<String> {
         let (said, nodes) = match &self.verdict {
-            Ok(verdict) => (format!("proved, gap {:.1e}", verdict.gap), verdict.nodes.to_string()),
+            Ok(verdict) => {
+                (format!("proved, gap {:.1e}", verdict.gap), verdict.branches.to_string())
+            }
             Err(why) => (format!("REJECTED: {why}"), String::new()),
         };
         let radius = format!("{:.8}", self.radius);
@@ -70,7 +72,7 @@ impl Judgement {
             "rejected": verdict.err(),
             "core_set": self.core_set,
             "proof": self.proof,
-            "nodes": verdict.ok().map(|verdict| verdict.nodes),
+            "nodes": verdict.ok().map(|verdict| verdict.branches),
             "check_seconds": self.seconds,
         })
     }

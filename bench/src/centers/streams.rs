@@ -3,7 +3,7 @@
 use anyhow::Result;
 use serde_json::json;
 use taut_certify::Placement;
-use taut_enclose::{Cover, CoverOptions};
+use taut_enclose::{StreamingCenters, StreamingOptions};
 use taut_points::{Distribution, Monitor, Points, generate};
 
 use super::Context;
@@ -46,10 +46,10 @@ pub(super) fn run(context: &mut Context, case: &Case) -> Result<()> {
         let points = Points::new(values, DIM)?;
         for k in CENTERS {
             for instances in INSTANCES {
-                let options = CoverOptions { instances };
+                let options = StreamingOptions { instances };
                 let (mut clocks, mut found) = (vec![], None);
                 for _ in 0..context.runs {
-                    let mut cover = Cover::new(DIM, k, &options)?;
+                    let mut cover = StreamingCenters::new(DIM, k, &options)?;
                     let meter = Meter::start();
                     pool.install(|| {
                         (0..n).step_by(BLOCK).try_for_each(|first| {

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use anyhow::Result;
-use taut_draw::{Axis, Figure as Drawing, Plot, Scale, Series, SeriesLook, Style, Tone, to_svg};
+use taut_draw::{Axis, Figure as Drawing, Plot, Scale, Series, SeriesStyle, Style, Tone, to_svg};
 
 use crate::table::Table;
 
@@ -83,12 +83,12 @@ impl Figure {
         const TONES: [Tone; 6] =
             [Tone::Answer, Tone::Second, Tone::Third, Tone::Fourth, Tone::Bound, Tone::Support];
         // More curves than tones come round again with another look.
-        const LOOKS: [SeriesLook; 3] =
-            [SeriesLook::LineAndDots, SeriesLook::Dashed, SeriesLook::Line];
+        const LOOKS: [SeriesStyle; 3] =
+            [SeriesStyle::LineAndDots, SeriesStyle::Dashed, SeriesStyle::Line];
         let series = self.curves.iter().enumerate().map(|(at, curve)| Series {
             name: curve.name.clone(),
             tone: TONES[at % TONES.len()],
-            look: LOOKS[at / TONES.len() % LOOKS.len()],
+            style: LOOKS[at / TONES.len() % LOOKS.len()],
             points: curve.points.clone(),
         });
         Plot {

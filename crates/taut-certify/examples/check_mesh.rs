@@ -1,4 +1,4 @@
-//! How fast one triangulation is proved: `cargo run --release -p taut-certify --example check_mesh D POINTS SIMPLICES
+//! Measures how fast one triangulation is proved: `cargo run --release -p taut-certify --example check_mesh D POINTS SIMPLICES
 //! NEIGHBORS [plain]`; with `plain` also without neighbors.
 //!
 //! The files are raw: `f64` rows of D coordinates, and `u32` rows of D + 1 ids, the neighbor opposite each vertex in the

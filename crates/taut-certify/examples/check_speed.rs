@@ -1,4 +1,4 @@
-//! How fast one check runs: `cargo run --release -p taut-certify --example check_speed [rows] [columns]`.
+//! Measures how fast one check runs: `cargo run --release -p taut-certify --example check_speed [rows] [columns]`.
 //!
 //! Each line is one kind of point set; the ball is the true one of the kind, so that all stages of the checker have
 //! the work they have in life. A plain sum of the same memory stands beside it.

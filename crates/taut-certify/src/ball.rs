@@ -14,7 +14,7 @@ use crate::{Answer, CheckError, Items, Verdict};
 pub struct Ball {
     /// The d coordinates of the center.
     pub center: Vec<f64>,
-    /// What is to be added to `center`, coordinate by coordinate, for the exact center; empty means nothing.
+    /// The vector to add to `center`, coordinate by coordinate, for the exact center; empty means nothing.
     ///
     /// Given when the points lie so far from the origin that rounding the center to one `f64` would cost more than
     /// 1e-15 of the radius. It is what that rounding leaves over: adding it to `center` in `f64` changes nothing.

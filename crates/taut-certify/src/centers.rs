@@ -47,7 +47,7 @@ pub struct Centers {
     pub assignment: Vec<u32>,
 }
 
-/// How the lower bound is to be confirmed: that no k balls of a radius less than it hold all of a core-set but so many of
+/// The way in which the lower bound is to be confirmed: that no k balls of a radius less than it hold all of a core-set but so many of
 /// its items.
 ///
 /// A ball of a radius less than ρ holds items just when its center is less than ρᵢ from each of them, with ρᵢ = ρ for points,
@@ -56,10 +56,11 @@ pub struct Centers {
 /// rounds, some 1e-14·d/8 of ρ: claim the radius at which all cases are refuted, less 1e-12 of it. For centers among the
 /// rows, and for two items apart, it decides exactly.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case", tag = "by", try_from = "Written")]
+#[serde(rename_all = "kebab-case", tag = "by", try_from = "LowerBoundFields")]
 pub enum LowerBound {
     /// No two items of the core-set fit in one ball, and there are more than k and the outliers together. O(|X|²d).
-    Apart,
+    #[serde(rename = "apart")]
+    Separated,
     /// By the branches of a search, in the order in which they were taken (preorder), over at most 16384 items. For
     /// free centers the checker compares all pairs of items first. It replays the branches in time linear in their number.
     Branches {
@@ -75,20 +76,23 @@ pub enum LowerBound {
 /// versions may also say `search`.
 #[derive(Deserialize)]
 #[serde(rename_all = "kebab-case", tag = "by", deny_unknown_fields)]
-enum Written {
-    Apart {},
+enum LowerBoundFields {
+    #[serde(rename = "apart")]
+    Separated {},
     Search {},
-    Branches { items: Vec<u32> },
+    Branches {
+        items: Vec<u32>,
+    },
 }
 
-impl TryFrom<Written> for LowerBound {
+impl TryFrom<LowerBoundFields> for LowerBound {
     type Error = &'static str;
 
-    fn try_from(written: Written) -> Result<Self, Self::Error> {
+    fn try_from(written: LowerBoundFields) -> Result<Self, Self::Error> {
         match written {
-            Written::Apart {} => Ok(LowerBound::Apart),
-            Written::Branches { items } => Ok(LowerBound::Branches { items }),
-            Written::Search {} => Err(
+            LowerBoundFields::Separated {} => Ok(LowerBound::Separated),
+            LowerBoundFields::Branches { items } => Ok(LowerBound::Branches { items }),
+            LowerBoundFields::Search {} => Err(
                 "the proof of these centers is \"search\", which an earlier version of taut wrote and \
                  which is no longer verified: solve again to get a proof that lists its branches",
             ),
@@ -96,7 +100,7 @@ impl TryFrom<Written> for LowerBound {
     }
 }
 
-/// What was asked, and a few items that prove the lower bound.
+/// The question, and a few items that prove the lower bound.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(
     deny_unknown_fields,
@@ -105,7 +109,7 @@ impl TryFrom<Written> for LowerBound {
 pub struct CentersCertificate {
     /// Points or balls.
     pub items: Items,
-    /// Whether the last column holds the weights w > 0 of points.
+    /// True if the last column holds the weights w > 0 of points.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub weights: bool,
     /// Where centers may be.
@@ -120,14 +124,14 @@ pub struct CentersCertificate {
     pub gap: f64,
     /// Row numbers, none twice, in the order that `proof` speaks of.
     pub core_set: Vec<u64>,
-    /// How these rows prove the lower bound. Where that is 0 nothing has to be proved.
+    /// The way in which these rows prove the lower bound. Where that is 0 nothing has to be proved.
     pub proof: LowerBound,
     /// The hash of the rows this was made for.
     #[serde(serialize_with = "hash_to_hex", deserialize_with = "hash_from_hex")]
     pub points_hash: PointsHash,
 }
 
-/// What was proved of centers.
+/// The proved facts about centers.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct CentersVerdict {
     /// No k centers have a smaller radius.
@@ -137,7 +141,8 @@ pub struct CentersVerdict {
     /// `upper / lower − 1`, rounded up; 0 where both are equal, infinite where `lower` alone is 0.
     pub gap: f64,
     /// Branches that were replayed to prove the lower bound; 0 where it needs none.
-    pub nodes: u64,
+    #[serde(rename = "nodes")]
+    pub branches: u64,
 }
 
 impl Answer for Centers {

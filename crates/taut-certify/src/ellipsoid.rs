@@ -51,7 +51,7 @@ use crate::{Answer, CheckError, Items, Violation};
 pub struct Ellipsoid {
     /// The d coordinates of the center c.
     pub center: Vec<f64>,
-    /// What is to be added to `center`, coordinate by coordinate, for the exact center; empty means nothing.
+    /// The vector to add to `center`, coordinate by coordinate, for the exact center; empty means nothing.
     ///
     /// Given when the points lie so far from the origin that rounding the center to one `f64` would cost more than
     /// rounding the rest. It is what that rounding leaves over: adding it to `center` in `f64` changes nothing.
@@ -160,7 +160,7 @@ pub struct EllipsoidCertificate {
     pub points_hash: PointsHash,
 }
 
-/// What was proved of an ellipsoid.
+/// The proved facts about an ellipsoid.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct EllipsoidVerdict {
     /// No enclosing ellipsoid has a log-volume below this.

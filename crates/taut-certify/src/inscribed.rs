@@ -49,7 +49,7 @@ pub struct InscribedCertificate {
     pub points_hash: PointsHash,
 }
 
-/// What was proved of an inscribed ellipsoid.
+/// The proved facts about an inscribed ellipsoid.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct InscribedVerdict {
     /// The log-volume of the answer, rounded down as found here: it lies in every half-space, so the optimum is no less.

@@ -1,9 +1,9 @@
-//! What the rows of a source stand for.
+//! The objects that the rows of a source stand for.
 
 use serde::{Deserialize, Serialize};
 use taut_points::choice;
 
-/// What the rows of a source stand for.
+/// The objects that the rows of a source stand for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Items {
@@ -45,7 +45,7 @@ impl Items {
         }
     }
 
-    /// How many numbers a row has in a space of dimension `dim`.
+    /// Returns how many numbers a row has in a space of dimension `dim`.
     pub fn columns(self, dim: usize) -> usize {
         match self {
             Items::Points => dim,

@@ -84,7 +84,6 @@ impl<A: Answer> Solution<A> {
     }
 }
 
-/// Writes a document of any kind.
 pub(crate) fn write_document(
     kind: &str,
     answer: &impl Serialize,
@@ -103,7 +102,7 @@ struct RowFormatter {
     pretty: PrettyFormatter<'static>,
     /// For each open list or object, whether it is a list.
     open: Vec<bool>,
-    /// How many of the innermost lists stand on one line.
+    /// The number of innermost lists on one line.
     inline: usize,
 }
 

@@ -8,7 +8,7 @@ use taut_points::{Monitor, PointSource, PointsHash, choice};
 use crate::json::{hash_from_hex, hash_to_hex};
 use crate::{Answer, CheckError, Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Hull};
 
-/// What an estimate of center and scatter is to be robust by.
+/// The criterion of a robust estimate of center and scatter.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum RobustMethod {
@@ -39,7 +39,7 @@ choice! { "method", RobustMethod {
 pub struct RobustEllipsoid {
     /// The d coordinates of the center c.
     pub center: Vec<f64>,
-    /// What is to be added to `center` for the exact center, as in [`Ellipsoid::center_tail`]. By `mcd` and `mve` it is empty
+    /// The vector to add to `center` for the exact center, as in [`Ellipsoid::center_tail`]. By `mcd` and `mve` it is empty
     /// unless the points are so far from the origin that rounding the center to `f64` would move it by a visible part of
     /// their spread.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -75,21 +75,21 @@ impl RobustEllipsoid {
     }
 }
 
-/// What robust estimates are made of, so that all of it can be calculated again from the points.
+/// The parts of a robust estimate, so that all of it can be calculated again from the points.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(
     deny_unknown_fields,
     expecting = "the certificate of a robust ellipsoid: an object with method, kept, left_out, objective and others"
 )]
 pub struct RobustCertificate {
-    /// What was minimized.
+    /// The objective that was minimized.
     pub method: RobustMethod,
     /// h, how many points were asked for.
     pub kept: u64,
     /// Rows not among them, ascending. By `mcd` there are n − h; by `mve` and `trim` perhaps fewer, as an ellipsoid may
     /// hold more points than it was asked to.
     pub left_out: Vec<u64>,
-    /// What was minimized, reached: by `mcd` ln det of the covariance (divisor h − 1) of the points kept, by `mve` and
+    /// The value of the objective: by `mcd` ln det of the covariance (divisor h − 1) of the points kept, by `mve` and
     /// `trim` the log-volume of the ellipsoid around them. Of dimension r where a hull is given.
     pub objective: f64,
     /// The part of normal points that the tolerance ellipsoid holds. By `trim`, 1.
@@ -147,27 +147,27 @@ pub struct Enclosure {
     pub certificate: EllipsoidCertificate,
 }
 
-/// What was proved of a robust ellipsoid.
+/// The proved facts about a robust ellipsoid.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct RobustVerdict {
-    /// What the method minimizes, of the points kept, as found here. By `mcd` no C-step lowers it; that no other points
+    /// The objective of the method, of the points kept, as found here. By `mcd` no C-step lowers it; that no other points
     /// have less is not proved.
     pub objective: f64,
     /// By `mve` and `trim`, what was proved of the ellipsoid around the points kept.
     pub enclosure: Option<EllipsoidVerdict>,
     /// h, how many points were asked for. By `mcd` and `mve` at least ⌊(n + d + 1)/2⌋, or n.
     pub wanted: u64,
-    /// How many points are kept: h, and by `mve` and `trim` those that lie on the border besides.
+    /// The number of points that are kept: h, and by `mve` and `trim` those that lie on the border besides.
     pub kept: u64,
     /// Points on the hull; all of them where there is none.
     pub on_hull: u64,
     /// By how much a point that is not flagged lies beyond the border, or one that is flagged within, in units of the
     /// border: what evaluating |F(x − c)| in `f64` may be off by. 0 where the flags are exactly the points outside.
     pub flag_excess: f64,
-    /// What center, scatter, and the border of the points weighed out may be off by, in units of the border: 1e-9, more
+    /// The tolerance of center, scatter, and the border of the points weighed out, in units of the border: 1e-9, more
     /// where rounding the coordinates leaves the points few digits.
     pub slack: f64,
-    /// Whether center and scatter are those of the points not weighed out, rather than of the points kept.
+    /// True if center and scatter are those of the points not weighed out, rather than of the points kept.
     pub reweighted: bool,
     /// r, the dimension of the ellipsoid.
     pub rank: usize,

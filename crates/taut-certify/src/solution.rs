@@ -9,10 +9,10 @@ use crate::CheckError;
 
 /// A tight shape that can be judged from the points and its certificate.
 pub trait Answer: Serialize + DeserializeOwned {
-    /// What convinces a stranger that this answer is tight.
+    /// The data that convince a third party that this answer is tight.
     type Certificate: Serialize + DeserializeOwned;
 
-    /// What the checker says when it finds nothing wrong.
+    /// The result of the checker if it finds nothing wrong.
     type Verdict;
 
     /// The word for it in JSON: `"ball"`.
@@ -83,7 +83,7 @@ pub struct PassBounds {
     pub working_set: u64,
 }
 
-/// How an answer came about: counters of events, the same on every run and for every number of threads.
+/// The way in which an answer came about: counters of events, the same on every run and for every number of threads.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a trace: an object of counters")]
 pub struct Trace {

@@ -64,7 +64,7 @@ impl Triangulation {
         self.simplices.len().checked_div(self.vertices_per_simplex()).unwrap_or(0)
     }
 
-    /// Whether there is no simplex, which is so for no points alone.
+    /// Returns true if there is no simplex, which is so for no points alone.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -75,7 +75,7 @@ impl Triangulation {
     }
 }
 
-/// What makes the check of a [`Triangulation`] one linear pass, and ties it to its points.
+/// The data that make the check of a [`Triangulation`] one linear pass, and ties it to its points.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(try_from = "json::CertificateDocument")]
 pub struct TriangulationCertificate {
@@ -87,7 +87,7 @@ pub struct TriangulationCertificate {
     pub fingerprint: Fingerprint,
     /// The hash of the rows this was made for.
     pub points_hash: PointsHash,
-    /// How many there are of what.
+    /// The number of there that are of what.
     pub counts: TriangulationCounts,
 }
 
@@ -106,10 +106,10 @@ pub struct TriangulationCounts {
     pub hull: u64,
 }
 
-/// What was proved of a triangulation: it is the Delaunay triangulation of these points.
+/// The proved facts about a triangulation: it is the Delaunay triangulation of these points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct TriangulationVerdict {
-    /// How many there are of what.
+    /// The number of there that are of what.
     pub counts: TriangulationCounts,
     /// The fingerprint of the simplices.
     pub fingerprint: Fingerprint,

@@ -1,4 +1,4 @@
-//! How the command ends: one exit code, and for a failure one line on standard error.
+//! Defines how the command ends: one exit code, and for a failure one line on standard error.
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -9,7 +9,7 @@ use crate::watch;
 /// The exit code for bad input or usage, and for what the system refuses.
 pub(crate) const FAILURE_CODE: u8 = 2;
 
-/// How a subcommand that did not fail ended.
+/// The way in which a subcommand that did not fail ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Outcome {
     /// Done and as asked.

@@ -1,4 +1,4 @@
-//! What the kernel of the plane and the kernel of space have in common, so that rounds, cells and canonical order are
+//! The parts that the kernel of the plane and the kernel of space have in common, so that rounds, cells and canonical order are
 //! written once.
 
 use taut_predicates::Stages;
@@ -18,10 +18,9 @@ pub(crate) trait Kernel<const D: usize, const V: usize>: Sized {
         Self::new((0..count).map(site).collect(), settings)
     }
 
-    /// How many sites are numbered.
+    /// Returns how many sites are numbered.
     fn site_count(&self) -> u32;
 
-    /// A site.
     fn site(&self, site: u32) -> [f64; D];
 
     /// Begins with `first`, which must be affinely independent (any orientation).
@@ -47,14 +46,14 @@ pub(crate) trait Kernel<const D: usize, const V: usize>: Sized {
     fn finish(self) -> (Vec<Simplex<V>>, Option<Vec<[f64; D]>>, Counters);
 }
 
-/// What the kernels must know of the coordinates.
+/// The properties that the kernels must know of the coordinates.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Settings {
     /// Every coordinate is an integer.
     pub(crate) integral: bool,
     /// Magnitudes allow floating filters; otherwise each sign is taken exactly.
     pub(crate) filtered: bool,
-    /// Whether vector instructions may be used where the machine has them; without, the scalar path runs (the meshes are
+    /// True if vector instructions may be used where the machine has them; without, the scalar path runs (the meshes are
     /// identical).
     pub(crate) vectors: bool,
 }

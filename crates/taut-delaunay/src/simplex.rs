@@ -21,12 +21,12 @@ pub struct Simplex<const V: usize> {
 }
 
 impl<const V: usize> Simplex<V> {
-    /// Whether the vertex at infinity is among the vertices.
+    /// Returns true if the vertex at infinity is among the vertices.
     pub fn is_ghost(&self) -> bool {
         self.vertices.contains(&GHOST)
     }
 
-    /// Whether this slot holds a simplex; if not, its other contents mean nothing.
+    /// Returns true if this slot holds a simplex; if not, its other contents mean nothing.
     pub fn is_live(&self) -> bool {
         self.vertices[0] != DEAD_MARK
     }
@@ -54,12 +54,12 @@ impl<const V: usize> Slots<V> {
         Self { begins: begins.collect(), parts }
     }
 
-    /// How many slots there are.
+    /// Returns how many slots there are.
     pub fn len(&self) -> usize {
         self.parts.iter().map(Vec::len).sum()
     }
 
-    /// Whether there is none.
+    /// Returns true if there is none.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }

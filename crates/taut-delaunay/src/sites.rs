@@ -29,9 +29,9 @@ pub(crate) struct Sites<const D: usize> {
     pub(crate) rows: Vec<u32>,
     /// Each row that is not in `rows`, with the smallest row it equals; by row.
     pub(crate) duplicates: Vec<[u32; 2]>,
-    /// What the kernels must know.
+    /// The properties that the kernels must know.
     pub(crate) settings: Settings,
-    /// What the coordinates were multiplied with.
+    /// The factor that the coordinates were multiplied with.
     pub(crate) scale: Scale,
 }
 
@@ -101,7 +101,7 @@ impl<const D: usize> Sites<D> {
         self.coordinates = self.rows.par_iter().with_min_len(TASK).map(site).collect();
     }
 
-    /// How many sites there are.
+    /// Returns how many sites there are.
     pub(crate) fn len(&self) -> usize {
         self.rows.len()
     }
@@ -166,7 +166,7 @@ fn lowest_exponent_above<T: Scalar>(points: &Points<'_, T>, floor: i32) -> Optio
     Some(lowest)
 }
 
-/// How to scale, and whether coordinates are then integers, and filters safe.
+/// Returns how to scale, and whether coordinates are then integers, and filters safe.
 fn normalization<T: Scalar>(points: &Points<'_, T>, largest: f64) -> (Scale, bool, bool) {
     if largest == 0.0 {
         return (Scale::by(0), true, true);

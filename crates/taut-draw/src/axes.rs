@@ -64,7 +64,7 @@ pub(crate) fn padded(low: f64, high: f64, part: f64) -> [f64; 2] {
 pub(crate) struct Tick {
     /// Where, as a part of the interval.
     pub(crate) fraction: f64,
-    /// What it says.
+    /// The text.
     pub(crate) label: String,
 }
 

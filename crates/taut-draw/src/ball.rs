@@ -9,12 +9,12 @@
 use taut_certify::{Ball, BallCertificate, Items, Solution};
 use taut_points::PointSource;
 
+use crate::item_pass::{Measure, PassQuery, Scaled};
 use crate::marks::{agree, all_finite, all_there, support_marks};
 use crate::number::{count, counted, short};
 use crate::passes::{Words, passes};
 use crate::project::{dot, plane, to_unit_reach};
 use crate::scene::{Histogram, Input, Layer, Marks, Projected, Scene, histogram};
-use crate::survey::{Measure, Question, Scaled};
 use crate::{DrawOptions, Error, Figure, Tone};
 
 /// At most this many points of the support choose the directions of a projection: those with the largest multipliers, as
@@ -39,7 +39,7 @@ pub fn ball_figures(
     options.check()?;
     check(solution, source)?;
     let scaled = Scaled::new(&solution.answer);
-    let question = Question {
+    let question = PassQuery {
         items: solution.certificate.items,
         support: &solution.certificate.support,
         left_out: &[],
@@ -61,7 +61,7 @@ pub fn ball_figures(
     Ok(figures)
 }
 
-/// What the answer and its points must agree in before anything is drawn.
+/// Checks what the answer and its points must agree in before anything is drawn.
 fn check(solution: &Solution<Ball>, source: &dyn PointSource) -> Result<(), Error> {
     let (ball, certificate) = (&solution.answer, &solution.certificate);
     let dim = certificate.items.dim(source.dim());
@@ -80,7 +80,7 @@ fn check(solution: &Solution<Ball>, source: &dyn PointSource) -> Result<(), Erro
     Ok(())
 }
 
-/// What all pictures of one ball share.
+/// The data that all pictures of one ball share.
 struct Picture<'a> {
     solution: &'a Solution<Ball>,
     scaled: Scaled,
@@ -102,7 +102,7 @@ impl Picture<'_> {
         if gap.is_finite() && gap >= 0.0 { self.ball().radius / (1.0 + gap) } else { 0.0 }
     }
 
-    /// Whether the lower bound can be told from the ball by eye.
+    /// Returns true if the lower bound can be told from the ball by eye.
     fn lower_is_visible(&self) -> bool {
         let lower = self.lower();
         lower > 0.0 && self.ball().radius - lower > 0.004 * self.ball().radius
@@ -126,7 +126,7 @@ impl Picture<'_> {
         format!("Radius {}; {gap}.{bound}", short(self.ball().radius, 8))
     }
 
-    /// What is drawn of how many, and what the support is.
+    /// Returns what is drawn of how many, and what the support is.
     fn counts(&self) -> String {
         let thing = self.input.thing();
         let support = match self.certificate().support.len() as u64 {
@@ -143,7 +143,7 @@ impl Picture<'_> {
     fn others(&self) -> Vec<u64> {
         let mut support = self.certificate().support.clone();
         support.sort_unstable();
-        let ids = self.input.survey.ids.iter().copied();
+        let ids = self.input.item_pass.ids.iter().copied();
         ids.filter(|id| support.binary_search(id).is_err()).collect()
     }
 

@@ -6,8 +6,8 @@
 
 use taut_certify::{Ellipsoid, Items};
 
+use crate::item_pass::Measure;
 use crate::project::dot;
-use crate::survey::Measure;
 
 /// An ellipsoid, ready to be drawn.
 pub(crate) struct Body {
@@ -57,7 +57,7 @@ impl Body {
         self.factor.len()
     }
 
-    /// How far the ellipsoid reaches from its center along a coordinate.
+    /// Returns how far the ellipsoid reaches from its center along a coordinate.
     pub(crate) fn half_width(&self, j: usize) -> f64 {
         let row: Vec<f64> = self.axes[j].iter().map(|v| v / self.scale).collect();
         length(&row)

@@ -4,7 +4,7 @@
 //! theme gives the class its color. The palette is built on that of Okabe and Ito, which people with the common
 //! forms of color blindness can tell apart; marks of differing meaning also differ in shape, size or dash.
 
-/// How figures are colored in SVG and PNG. Write `Style { theme: Theme::Dark, ..Default::default() }`.
+/// The way in which figures are colored in SVG and PNG. Write `Style { theme: Theme::Dark, ..Default::default() }`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Style {
     /// Dark ink on white, or light ink on near-black. Default [`Theme::Light`].
@@ -21,7 +21,7 @@ pub enum Theme {
     Dark,
 }
 
-/// What a mark stands for.
+/// The role of a mark.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Tone {
     /// Input points, of which there are many.
@@ -31,7 +31,7 @@ pub enum Tone {
     Support,
     /// The answer.
     Answer,
-    /// What is proved: a lower bound.
+    /// A proved lower bound.
     Bound,
     /// A second thing to compare with.
     Second,
@@ -45,9 +45,9 @@ pub enum Tone {
     Muted,
 }
 
-/// How lines and areas are drawn.
+/// The way in which lines and areas are drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Look {
+pub enum LineStyle {
     /// A line.
     #[default]
     Solid,
@@ -98,7 +98,6 @@ impl Theme {
         pair[usize::from(self == Theme::Dark)]
     }
 
-    /// The color of a tone.
     pub(crate) fn color(self, tone: Tone) -> &'static str {
         self.pick(match tone {
             Tone::Point => ["#52697c", "#9db2c4"],

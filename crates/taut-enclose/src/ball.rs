@@ -24,7 +24,7 @@ use taut_points::InputError;
 use taut_points::{PointSource, on_threads};
 
 use crate::Error;
-use crate::scan::Scan;
+use crate::item_reader::ItemReader;
 pub use options::{BallMethod, BallOptions};
 pub(crate) use proof::reach_up;
 
@@ -79,13 +79,13 @@ fn solve(source: &dyn PointSource, options: &BallOptions<'_>) -> Result<Solution
     if options.inputs == Items::Ellipsoids {
         return of_shapes::solve(source, options, &options.monitor);
     }
-    let mut scan = Scan::new(source, options.inputs, &options.monitor)?;
+    let mut reader = ItemReader::new(source, options.inputs, &options.monitor)?;
     let outcome = match options.method {
-        BallMethod::CoreSet => core_set::solve(&mut scan, options)?,
+        BallMethod::CoreSet => core_set::solve(&mut reader, options)?,
         #[cfg(feature = "conic")]
-        BallMethod::ThesisPure => thesis::pure(&mut scan, options)?,
+        BallMethod::ThesisPure => thesis::pure(&mut reader, options)?,
         #[cfg(feature = "conic")]
-        BallMethod::ThesisFast => thesis::fast(&mut scan, options)?,
+        BallMethod::ThesisFast => thesis::fast(&mut reader, options)?,
         #[cfg(not(feature = "conic"))]
         method @ (BallMethod::ThesisPure | BallMethod::ThesisFast) => {
             return Err(Error::Input(InputError::Option {
@@ -94,7 +94,7 @@ fn solve(source: &dyn PointSource, options: &BallOptions<'_>) -> Result<Solution
                 expected: "core-set or badoiu-clarkson, as this program is built without a conic solver",
             }));
         }
-        BallMethod::BadoiuClarkson => badoiu_clarkson::solve(&mut scan, options)?,
+        BallMethod::BadoiuClarkson => badoiu_clarkson::solve(&mut reader, options)?,
     };
-    proof::prove(&mut scan, outcome, options)
+    proof::prove(&mut reader, outcome, options)
 }

@@ -16,21 +16,21 @@ mod nnls;
 mod of_shapes;
 mod options;
 pub(crate) mod outcome;
-mod pool;
+pub(crate) mod point_reader;
 mod proof;
 mod rounds;
 mod sample;
 mod shortlist;
-pub(crate) mod survey;
 mod whitener;
+mod working_set;
 
 use taut_certify::{Ellipsoid, Items, Solution};
 use taut_points::{Monitor, PointSource, on_threads};
 
-use self::flat::Look;
+use self::flat::RankResult;
 use self::outcome::Outcome;
+use self::point_reader::PointReader;
 use self::sample::Sample;
-use self::survey::Survey;
 use self::whitener::Whitener;
 use crate::Error;
 pub use batch::ellipsoids;
@@ -98,25 +98,25 @@ fn solve(
     if options.inputs != Items::Points {
         return of_shapes::solve(source, options, monitor);
     }
-    let mut survey = Survey::new(source, monitor)?;
-    match flat::look(&mut survey, options)? {
-        Look::Flat(found) => Ok(*found),
-        Look::Full(sample, whitener) => {
-            let outcome = method(&mut survey, &sample, whitener, options)?;
-            proof::prove(&mut survey, outcome, options)
+    let mut reader = PointReader::new(source, monitor)?;
+    match flat::decide_rank(&mut reader, options)? {
+        RankResult::Flat(found) => Ok(*found),
+        RankResult::Full(sample, whitener) => {
+            let outcome = method(&mut reader, &sample, whitener, options)?;
+            proof::prove(&mut reader, outcome, options)
         }
     }
 }
 
 /// Solves a set that does not lie in a hyperplane.
 fn method(
-    survey: &mut Survey<'_>,
+    reader: &mut PointReader<'_>,
     sample: &Sample,
     whitener: Whitener,
     options: &EllipsoidOptions<'_>,
 ) -> Result<Outcome, Error> {
     match options.method {
-        EllipsoidMethod::Newton => rounds::solve(survey, sample, whitener, options),
-        _ => first_order::solve(survey, sample, options),
+        EllipsoidMethod::Newton => rounds::solve(reader, sample, whitener, options),
+        _ => first_order::solve(reader, sample, options),
     }
 }

@@ -29,7 +29,7 @@ const ROUNDING: f64 = 1e-13;
 /// A multiplier below this part of the largest is taken for that of a half-space that does not touch.
 const MULTIPLIER_RATIO_MIN: f64 = 1e-6;
 
-/// How to look for the inscribed ellipsoid. Write `InscribedOptions { epsilon: 1e-6, ..Default::default() }`.
+/// Options to look for the inscribed ellipsoid. Write `InscribedOptions { epsilon: 1e-6, ..Default::default() }`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InscribedOptions<'a> {
     /// Wanted gap, optimum ≤ log-volume + ε. Range (0, 1), default 1e-9.
@@ -179,7 +179,7 @@ struct View {
     unit: f64,
 }
 
-/// What a half-space looks like, with twice the digits where numbers cancel.
+/// Returns what a half-space looks like, with twice the digits where numbers cancel.
 fn seen(row: &[f64], center: &[f64], axes: &[f64]) -> View {
     let dim = center.len();
     let mut slack = DoubleDouble::from(row[dim]);

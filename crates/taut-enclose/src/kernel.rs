@@ -36,7 +36,7 @@ const EIGHT_ROWS_MAX: usize = 96;
 pub(crate) struct Center {
     /// The coordinates, rounded.
     pub(crate) high: Vec<f64>,
-    /// What rounding took away; empty stands for zeros.
+    /// The part that rounding took away; empty stands for zeros.
     pub(crate) low: Vec<f64>,
 }
 

@@ -28,7 +28,7 @@ use self::fit::{Fit, Placed};
 use crate::Error;
 use crate::ellipsoid::dense::divide_rows;
 use crate::ellipsoid::outcome::log_unit_ball;
-use crate::ellipsoid::survey::Survey;
+use crate::ellipsoid::point_reader::PointReader;
 pub use options::RobustOptions;
 
 /// Center and scatter of most of n points of dimension d, the tolerance ellipsoid, and the points outside of it.
@@ -87,7 +87,7 @@ fn solve(
     options: &RobustOptions<'_>,
     monitor: &Monitor<'_>,
 ) -> Result<Solution<RobustEllipsoid>, Error> {
-    let mut data = Survey::new(source, monitor)?;
+    let mut data = PointReader::new(source, monitor)?;
     // Names what is not finite before anything is calculated from it.
     data.visit(|_, _| ())?;
     let h = options.kept(data.len() as usize, data.dim());
@@ -115,7 +115,7 @@ fn solve(
 
 /// The answer in the space of the points.
 fn answer(
-    data: &mut Survey<'_>,
+    data: &mut PointReader<'_>,
     placed: &Placed,
     method: RobustMethod,
 ) -> Result<RobustEllipsoid, Error> {
@@ -203,7 +203,7 @@ fn answer(
 
 /// The rows outside the ellipsoid as it is returned, or off the hull.
 fn flagged(
-    data: &mut Survey<'_>,
+    data: &mut PointReader<'_>,
     placed: &Placed,
     (center, tail): (&[f64], &[f64]),
     factor: &[Vec<f64>],
@@ -231,7 +231,7 @@ fn flagged(
 }
 
 fn certificate(
-    data: &Survey<'_>,
+    data: &PointReader<'_>,
     placed: Placed,
     h: usize,
     options: &RobustOptions<'_>,

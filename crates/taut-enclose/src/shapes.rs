@@ -95,12 +95,12 @@ impl Shapes {
         &self.row(i)[..self.dim]
     }
 
-    /// What describes S.
+    /// Returns the coordinates that describe S.
     fn described(&self, i: usize) -> &[f64] {
         &self.row(i)[self.dim..]
     }
 
-    /// Whether S = 0.
+    /// Returns true if S = 0.
     pub(crate) fn is_point(&self, i: usize) -> bool {
         self.described(i).iter().all(|&v| v == 0.0)
     }

@@ -18,10 +18,10 @@ use taut_points::{
     InputError, Monitor, PointSource, Points, ReadError, Rows, Scalar, Scratch, on_threads,
 };
 
-use crate::frame::survey;
+use crate::frame::frame_pass;
 use crate::{BallOptions, Error, ball};
 
-/// How to build the tree. Write `SphereTreeOptions { leaf_size: 1, ..Default::default() }`.
+/// Options to build the tree. Write `SphereTreeOptions { leaf_size: 1, ..Default::default() }`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SphereTreeOptions<'a> {
     /// Most points of a leaf, unless they are all equal. At least 1, default 8.
@@ -123,7 +123,7 @@ impl SphereTreeOptions<'_> {
             return Err(Error::Input(InputError::Option { name, value, expected: "at least 1" }));
         }
         // What a row is called, whatever is wrong with it: the balls know rows by their place in a node.
-        survey(source, &self.monitor).map(|_| ())
+        frame_pass(source, &self.monitor).map(|_| ())
     }
 }
 

@@ -9,7 +9,7 @@
 //! compared with what is there and never trusted: memory grows with what was read.
 //! *Trap.* Normals and colors are kept where each vertex has one, and only one.
 
-mod building;
+mod builder;
 mod colors;
 mod dxf;
 mod gltf;
@@ -30,7 +30,7 @@ mod xyz;
 use taut_mesh::TriangleMesh;
 use taut_points::PointSource;
 
-pub(crate) use building::{Building, printable};
+pub(crate) use builder::{MeshBuilder, printable};
 pub(crate) use reading::read_stream;
 pub use reading::{open_mesh, open_mesh_bytes};
 pub use writing::{Encoding, MeshOptions, mesh_file, write_mesh};

@@ -31,7 +31,7 @@ use std::path::Path;
 use taut_points::{FileSource, MappedSource, PointSource, ScalarKind};
 
 #[cfg(feature = "arrow")]
-use crate::MeshPlace;
+use crate::FilePlace;
 use crate::input::{Job, Medium};
 use crate::{Content, Error, Format};
 use crate::{limits, npy_header};
@@ -142,7 +142,7 @@ fn guarded(job: &Job<'_>, read: impl FnOnce() -> Result<Decoded, Error>) -> Resu
         Err(Error::Damaged {
             path: job.path.to_owned(),
             format: job.format,
-            place: MeshPlace::File,
+            place: FilePlace::File,
             problem: "its decoder stumbled over bytes that contradict each other".to_owned(),
         })
     })

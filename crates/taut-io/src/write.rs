@@ -96,7 +96,7 @@ impl Points<'_> {
 pub(crate) struct Out<'a> {
     pub(crate) to: Encoder<AtomicFile>,
     pub(crate) path: &'a str,
-    /// What an error of writing means.
+    /// The meaning of an error of writing.
     pub(crate) failure: fn(&str, std::io::Error) -> Error,
 }
 

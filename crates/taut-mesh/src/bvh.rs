@@ -73,7 +73,6 @@ pub(crate) struct Bvh {
     nodes: Vec<Node>,
     /// The number of the triangle at each place.
     numbers: Vec<u32>,
-    /// Its corners.
     corners: Vec<[[f64; 3]; 3]>,
     /// Its box.
     bounds: Vec<Bounds>,

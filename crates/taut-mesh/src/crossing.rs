@@ -72,12 +72,12 @@ pub fn crossings(curves: &[Polyline<'_>]) -> usize {
     meeting.len()
 }
 
-/// Whether the second edge, which begins where the first ends, leads back along it.
+/// Returns true if the second edge, which begins where the first ends, leads back along it.
 fn folds((a, b): Segment, (_, c): Segment) -> bool {
     orient(a, b, c).is_zero() && lexicographic(a, b) == lexicographic(c, b)
 }
 
-/// Whether two segments have a point in common.
+/// Returns true if two segments have a point in common.
 pub(crate) fn meet((a, b): Segment, (c, d): Segment) -> bool {
     if (0..2).any(|k| a[k].max(b[k]) < c[k].min(d[k]) || c[k].max(d[k]) < a[k].min(b[k])) {
         return false;

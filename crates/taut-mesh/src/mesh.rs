@@ -65,7 +65,7 @@ impl<'a> TriangleMesh<'a> {
     }
 }
 
-/// Whether a triangle names a vertex twice.
+/// Tests whether a triangle names a vertex twice.
 pub(crate) fn repeats([a, b, c]: [u32; 3]) -> bool {
     a == b || b == c || c == a
 }

@@ -59,7 +59,7 @@ pub fn parents(curves: &[Polyline<'_>]) -> Vec<Option<u32>> {
     parents
 }
 
-/// Whether a loop runs counter-clockwise, by the exact sign of the turn at its leftmost vertex, of several the lowest. Of one that meets
+/// Returns true if a loop runs counter-clockwise, by the exact sign of the turn at its leftmost vertex, of several the lowest. Of one that meets
 /// itself this is all that is said.
 ///
 /// ```

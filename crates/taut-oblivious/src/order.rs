@@ -204,7 +204,6 @@ mod tests {
         morton_order(points.len(), |i| points[i]).into_iter().map(|i| points[i as usize]).collect()
     }
 
-    /// A seeded shuffle.
     fn shuffled<T: Copy>(items: &[T], seed: u64) -> Vec<T> {
         let mut state = seed | 1;
         let mut keyed: Vec<(u64, T)> = items

@@ -1,4 +1,4 @@
-//! How a caller watches long work and stops it.
+//! Defines how a caller watches long work and stops it.
 
 use std::fmt;
 use std::ptr;
@@ -70,7 +70,7 @@ impl Monitor<'_> {
         }
     }
 
-    /// Whether to go on.
+    /// Tests whether to go on.
     ///
     /// # Errors
     /// [`Cancelled`] once the caller asked to stop.

@@ -23,7 +23,7 @@ pub trait PointSource: Send + Sync {
     /// Number of points, n.
     fn len(&self) -> u64;
 
-    /// Whether there is no point at all.
+    /// Returns true if there is no point at all.
     fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -31,7 +31,7 @@ pub trait PointSource: Send + Sync {
     /// Dimension, d ≥ 1.
     fn dim(&self) -> usize;
 
-    /// How coordinates are stored.
+    /// Returns how coordinates are stored.
     fn scalar(&self) -> ScalarKind;
 
     /// The points `range.start..range.end`: borrowed where they already are in memory, else read to `scratch`.

@@ -71,7 +71,7 @@ impl Met {
         }
     }
 
-    /// Whether no answer is rarer than one in so many.
+    /// Returns true if no answer is rarer than one in so many.
     pub(crate) fn is_balanced(&self, one_in: u64) -> bool {
         let least = (self.positive + self.zero + self.negative) / one_in;
         self.positive > least && self.zero > least && self.negative > least

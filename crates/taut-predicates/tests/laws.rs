@@ -1,4 +1,4 @@
-//! What has to hold whatever the answer is: moving and scaling a point set, and who asks whom.
+//! Tests what has to hold whatever the answer is: moving and scaling a point set, and who asks whom.
 
 use taut_predicates::{Exact, Sign, Stages, plane, space};
 

@@ -66,7 +66,7 @@ impl<K: Key, V: Copy> PriorityQueue<K, V> {
         self.core.len()
     }
 
-    /// Whether there are none.
+    /// Returns true if there are none.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -92,7 +92,6 @@ fn rank<K: Key>(key: K) -> u64 {
     key.word().into()
 }
 
-/// Returns the key with this rank.
 fn of_rank<K: Key>(rank: u64) -> K {
     K::of_word(K::Word::low_bits(rank))
 }
@@ -146,7 +145,7 @@ impl<K: Key, V: Pod> SpillingQueue<K, V> {
         self.core.len()
     }
 
-    /// Whether there are none.
+    /// Returns true if there are none.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }

@@ -78,7 +78,7 @@ struct Package {
     name: String,
     /// Roots of its library and its programs.
     roots: Vec<PathBuf>,
-    /// What it is built from; what only its tests use is left out, as a test may call upstairs.
+    /// The packages that it is built from; what only its tests use is left out, as a test may call upstairs.
     imports: Vec<String>,
     /// All it names from outside the workspace, tests included.
     outside: Vec<String>,
@@ -255,7 +255,7 @@ fn constants_are_found() {
     assert_eq!(constants_of("const SMALL_GAP: f64 = 1e-6; // SMALL"), ["SMALL_GAP"]);
 }
 
-/// What a program sees at the root of `taut`: the functions, and all names.
+/// Returns what a program sees at the root of `taut`: the functions, and all names.
 fn public_names(source: &str) -> (Vec<String>, Vec<String>) {
     let (mut functions, mut names) = (vec![], vec![]);
     let items = source.split(';').flat_map(|item| item.split_once("pub ").map(|(_, item)| item));

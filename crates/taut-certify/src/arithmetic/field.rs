@@ -3,7 +3,7 @@
 use super::double_double::{U, two_product, two_sum};
 use super::ring::{DoubleDouble, Ring};
 
-/// What linear algebra is made of. Each operation is off by at most `ROUNDOFF` of its result, but for underflow.
+/// The operations of linear algebra. Each operation is off by at most `ROUNDOFF` of its result, but for underflow.
 pub(crate) trait Field: Ring + Copy {
     const ROUNDOFF: f64;
     fn of(value: f64) -> Self;

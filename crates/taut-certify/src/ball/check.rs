@@ -36,7 +36,7 @@ use self::enclosure::Enclosure;
 use super::{Ball, BallCertificate};
 use crate::{CheckError, Items, Verdict, Violation};
 
-/// How much the gap claimed may fall short of the gap proved, relatively and in units of 1.
+/// The amount by which the gap claimed may fall short of the gap proved, relatively and in units of 1.
 ///
 /// A solver finds its gap as R/L − 1 in arithmetic of its own: a few units in the last place of the quotient, 4e-16,
 /// and a relative error of the gap, for which 1e-9 is ample. As a radius that is larger by a factor 1 + 1e-9 raises

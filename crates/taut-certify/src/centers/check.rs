@@ -49,12 +49,12 @@ pub(super) fn check(
     let kept = Enclosure::of(answer, kind).check(source, certificate, monitor)?;
     are_rows(answer, kind, &kept)?;
     let (lower, upper) = (answer.lower_bound, answer.radius);
-    let mut verdict = CentersVerdict { lower, upper, gap, nodes: 0 };
+    let mut verdict = CentersVerdict { lower, upper, gap, branches: 0 };
     if lower > 0.0 {
         let rows: Vec<f64> =
             certificate.core_set.iter().flat_map(|&id| kept.row(id)).copied().collect();
         let core = Core::of(&rows, source.dim(), kind, lower);
-        verdict.nodes = prove(&core, kind, certificate, source, monitor)?;
+        verdict.branches = prove(&core, kind, certificate, source, monitor)?;
     }
     Ok(verdict)
 }
@@ -93,7 +93,7 @@ fn prove(
     };
     let mut meter = Meter::of(monitor);
     match &certificate.proof {
-        LowerBound::Apart => {
+        LowerBound::Separated => {
             if rows as u64 <= certificate.k.saturating_add(outliers) {
                 return refused(CentersViolation::TooFew { rows, outliers });
             }

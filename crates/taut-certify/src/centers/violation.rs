@@ -1,4 +1,4 @@
-//! What can be wrong with centers.
+//! The violations of centers.
 
 /// Why centers or their certificate are wrong.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -52,7 +52,7 @@ pub enum CentersViolation {
         center: usize,
         /// The row it is said to be.
         row: u64,
-        /// What is wrong with that.
+        /// The reason for the refusal.
         problem: &'static str,
     },
     /// More rows are left out than may be.
@@ -74,7 +74,7 @@ pub enum CentersViolation {
     /// The gap between the bounds is larger than the gap claimed.
     #[error("the bounds are {found:e} apart, relatively; the certificate claims {claimed:e}")]
     Gap {
-        /// What the certificate says.
+        /// The value that the certificate claims.
         claimed: f64,
         /// `radius / lower_bound − 1`, rounded up.
         found: f64,
@@ -88,7 +88,7 @@ pub enum CentersViolation {
         row: u64,
         /// The center next to it, from 0.
         center: usize,
-        /// How far it reaches from there.
+        /// The distance that it reaches from there.
         distance: f64,
         /// The claimed radius.
         radius: f64,
@@ -120,7 +120,7 @@ pub enum CentersViolation {
         position: usize,
         /// The row it names.
         row: u64,
-        /// What is wrong with that.
+        /// The reason for the refusal.
         problem: &'static str,
     },
     /// The core-set is larger than a proof of its kind may have.
@@ -160,7 +160,7 @@ pub enum CentersViolation {
         entry: usize,
         /// The item it gives.
         item: u32,
-        /// What is wrong with that.
+        /// The reason for the refusal.
         problem: &'static str,
     },
     /// The log of branches ends where a node is neither refuted nor branched on.
@@ -190,7 +190,7 @@ pub enum CentersViolation {
         "centers among the rows cannot be judged by so large a core-set: what each row is near to takes more than {most} bytes"
     )]
     Memory {
-        /// What is granted.
+        /// The largest value that is accepted.
         most: u64,
     },
 }

@@ -1,4 +1,4 @@
-//! What shows that a triangle of a surface has an empty ball.
+//! The data that show that a triangle of a surface has an empty ball.
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 

@@ -1,4 +1,4 @@
-//! What triangles are as a surface, in numbers.
+//! The topology of triangles, in numbers.
 
 use serde::{Deserialize, Serialize};
 
@@ -58,7 +58,7 @@ pub struct SurfaceComponent {
     pub triangles: u64,
     /// Its boundary loops.
     pub boundary_loops: u64,
-    /// Whether all triangles can be turned such that the two of an edge run along it in opposite directions; edges of more than
+    /// True if all triangles can be turned such that the two of an edge run along it in opposite directions; edges of more than
     /// two triangles ask for nothing.
     pub orientable: bool,
     /// With ℓ boundary loops and χ = vertices − edges + triangles, the number of handles (2 − ℓ − χ)/2 if orientable, that of
@@ -69,17 +69,17 @@ pub struct SurfaceComponent {
 }
 
 impl SurfaceTopology {
-    /// Whether no edge has one triangle only.
+    /// Returns true if no edge has one triangle only.
     pub fn is_closed(&self) -> bool {
         self.boundary_edges == 0
     }
 
-    /// Whether it is a surface, with or without a boundary: no vertex, and so no edge, is non-manifold.
+    /// Tests whether it is a surface, with or without a boundary: no vertex, and so no edge, is non-manifold.
     pub fn is_manifold(&self) -> bool {
         self.non_manifold_edges == 0 && self.non_manifold_vertices == 0
     }
 
-    /// Whether the two triangles of each edge run along it in opposite directions.
+    /// Returns true if the two triangles of each edge run along it in opposite directions.
     pub fn is_oriented(&self) -> bool {
         self.inconsistent_edges == 0
     }

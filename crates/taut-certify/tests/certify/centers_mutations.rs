@@ -18,7 +18,7 @@ struct Known {
 }
 
 impl Known {
-    /// Whether no k balls of a radius less than `bound` hold these rows but z.
+    /// Returns true if no k balls of a radius less than `bound` hold these rows but z.
     fn is_bound(&self, core: &[u64], k: usize, z: usize, bound: f64) -> bool {
         let rows = core.iter().fold(0, |all, &row| all | 1 << row);
         best(&self.radii, rows, k, z).radius >= bound
@@ -60,7 +60,7 @@ fn valid() -> Vec<Known> {
             if core.len() == k + z + 1 {
                 let pair = |i: usize, j: usize| radii[1 << core[i] | 1 << core[j]] >= lower;
                 if (0..core.len()).all(|i| (0..i).all(|j| pair(i, j))) {
-                    let case = make(kind, &found, LowerBound::Apart);
+                    let case = make(kind, &found, LowerBound::Separated);
                     all.push(Known { case, radii: radii.clone(), k, z });
                 }
             }
@@ -172,7 +172,7 @@ fn core(case: &Case) -> Vec<u64> {
     case.solution.certificate.core_set.clone()
 }
 
-/// Whether some row that counts is clearly outside.
+/// Returns true if some row that counts is clearly outside.
 fn is_outside(case: &Case) -> bool {
     let answer = &case.solution.answer;
     (0..case.task.len()).filter(|&i| !answer.outliers.contains(&(i as u64))).any(|i| {

@@ -168,7 +168,7 @@ fn degenerate_inputs_are_judged() {
     }
 }
 
-/// What a change to a valid case is called, and whether it is refused for the right reason.
+/// The name of a change to a valid case, and whether it is refused for the right reason.
 type Damage = (&'static str, fn(&mut Case, usize), fn(&Violation) -> bool);
 
 /// Damage that takes a number, to be done in many places.

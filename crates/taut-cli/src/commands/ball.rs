@@ -96,7 +96,7 @@ impl Args {
     }
 }
 
-/// What the rows are, by the options of that name.
+/// Returns the kind of the inputs, by the options of that name.
 pub(crate) fn items(balls: bool, ellipsoids: bool) -> Items {
     match (balls, ellipsoids) {
         (_, true) => Items::Ellipsoids,

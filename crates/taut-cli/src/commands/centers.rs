@@ -129,7 +129,7 @@ impl Args {
         }
     }
 
-    /// What some methods do not do, in the words of the command line.
+    /// Returns what some methods do not do, in the words of the command line.
     fn check_method(&self) -> anyhow::Result<()> {
         let asked = [
             ("--discrete", self.discrete),

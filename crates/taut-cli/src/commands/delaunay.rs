@@ -73,7 +73,7 @@ pub(crate) struct Args {
     effort: Effort,
 }
 
-/// What side outputs of a triangulation are made from.
+/// The data for the side outputs of a triangulation.
 pub(crate) struct Extra {
     built: Built,
     complex: Option<alpha::Complex>,

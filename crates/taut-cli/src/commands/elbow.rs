@@ -42,7 +42,7 @@ pub(crate) fn range(text: &str) -> Result<Range, String> {
     }
 }
 
-/// What was found for one k.
+/// The result for one k.
 #[derive(Clone, Debug, PartialEq)]
 struct Row {
     step: ElbowStep,
@@ -73,7 +73,7 @@ impl Row {
         }
     }
 
-    /// Whether this k has the gap that was asked for; a search beside it may have helped.
+    /// Tests whether this k has the gap that was asked for; a search beside it may have helped.
     fn ended(&self, epsilon: f64) -> Outcome {
         match self.gap() {
             Some(gap) if gap <= epsilon => Outcome::Done,

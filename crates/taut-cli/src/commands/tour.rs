@@ -119,7 +119,7 @@ impl Args {
     }
 }
 
-/// What came of a station.
+/// The result of a station.
 struct Stop {
     section: Section,
     summary: String,

@@ -149,7 +149,7 @@ impl Args {
     }
 }
 
-/// How the vertices of a mesh are not the points, if they are not: ids would then mean something else.
+/// Returns how the vertices of a mesh are not the points, if they are not: ids would then mean something else.
 fn other_vertices(mesh: &Mesh, file: &str, points: &Opened) -> anyhow::Result<Option<String>> {
     // Parquet holds ids alone.
     let vertices = &mesh.vertices;

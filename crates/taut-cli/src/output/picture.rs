@@ -142,7 +142,6 @@ fn png() -> anyhow::Result<Picture> {
     bail!("this build of taut draws no PNG: draw SVG or HTML, or build it with the feature `png`")
 }
 
-/// What drawing refused of these points.
 pub(crate) fn refused(error: DrawError, points: &Opened) -> anyhow::Error {
     match error {
         DrawError::Read(error) => points.reading_failed(error),

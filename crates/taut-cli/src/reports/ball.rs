@@ -1,4 +1,4 @@
-//! What is said about a ball.
+//! The report about a ball.
 
 use taut::certify::Ball;
 use taut::points::PointSource;

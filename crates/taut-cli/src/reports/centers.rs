@@ -1,4 +1,4 @@
-//! What is said about centers.
+//! The report about centers.
 
 use taut::certify::Centers;
 use taut::certify::{CentersCertificate, LowerBound, Placement};
@@ -50,7 +50,7 @@ impl Summary for Centers {
         }
         fields.push(Field::new("method", &*trace.method).remark(stopped(trace.stop)));
         let proof = match certificate.proof {
-            LowerBound::Apart => "no two of which fit in one ball".to_owned(),
+            LowerBound::Separated => "no two of which fit in one ball".to_owned(),
             LowerBound::Branches { ref items } => {
                 format!("with {} of a search", counted_branches(items.len() as u64))
             }
@@ -99,7 +99,7 @@ impl Summary for Centers {
             left_out,
             Field::proved("bracket", bracket),
             Field::proved("gap", gap(proved.gap)).remark("relative, from the points alone"),
-            Field::new("branches", count(proved.nodes)).remark("replayed for the lower bound"),
+            Field::new("branches", count(proved.branches)).remark("replayed for the lower bound"),
         ];
         Claims {
             what: format!(
@@ -166,7 +166,6 @@ fn counted_branches(branches: u64) -> String {
     format!("{} branch{}", count(branches), if branches == 1 { "" } else { "es" })
 }
 
-/// What the rows are, and how many.
 fn items_of(certificate: &CentersCertificate, rows: u64, dim: usize) -> String {
     let items = counted(rows, noun(certificate.items));
     let weights = if certificate.weights { " with weights" } else { "" };

@@ -1,4 +1,4 @@
-//! What is said about an ellipsoid.
+//! The report about an ellipsoid.
 
 use taut::certify::Ellipsoid;
 use taut::certify::Stop;

@@ -1,4 +1,4 @@
-//! What is said about an ellipsoid inside a polytope.
+//! The report about an ellipsoid inside a polytope.
 
 use taut::Solution;
 use taut::certify::InscribedEllipsoid;

@@ -1,4 +1,4 @@
-//! What is said about a robust ellipsoid.
+//! The report about a robust ellipsoid.
 
 use taut::certify::RobustEllipsoid;
 use taut::points::PointSource;

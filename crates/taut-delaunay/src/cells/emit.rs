@@ -46,7 +46,7 @@ struct Side<const V: usize> {
     opposite: u32,
 }
 
-/// What a cell leaves for others.
+/// The facets that a cell leaves for others.
 struct Border<const V: usize> {
     /// Facets to join.
     joints: Vec<[Side<V>; 2]>,
@@ -65,7 +65,7 @@ fn smallest_without<const V: usize>(vertices: [u32; V], except: usize) -> u32 {
 }
 
 impl<const V: usize> Cell<V> {
-    /// Whether a vertex is one of the own sites.
+    /// Returns true if a vertex is one of the own sites.
     #[inline(always)]
     fn is_own(&self, v: u32) -> bool {
         v.wrapping_sub(self.own_local.start) < self.own.end - self.own.start
@@ -95,7 +95,7 @@ impl<const V: usize> Cell<V> {
         simplex.is_live().then_some(sites)
     }
 
-    /// Whether this cell hands over a simplex with these sites.
+    /// Tests whether this cell hands over a simplex with these sites.
     #[inline(always)]
     fn owns(&self, sites: &[u32; V]) -> bool {
         self.own.contains(&sites.iter().copied().fold(GHOST, u32::min))

@@ -31,7 +31,7 @@ pub(super) struct Edge {
     db: f64,
 }
 
-/// What becomes of the cavity.
+/// The receiver of the cavity.
 pub(super) trait Sink {
     /// The mesh that is dug in.
     fn triangles(&self) -> &[Simplex<3>];

@@ -21,7 +21,7 @@ const IN_CIRCLE: f64 = 11.0 * EPSILON;
 /// at most a lift, below 2⁸⁴.
 const UNDERFLOW_ERROR: f64 = f64::from_bits((1023 - 900) << 52);
 
-/// What is seen of the ghost vertex: every comparison with it is false, so the common path need not ask for it.
+/// The coordinates of the ghost vertex: every comparison with it is false, so the common path need not ask for it.
 const NOWHERE: [f64; 2] = [f64::NAN; 2];
 
 /// p − q, and its square.
@@ -106,7 +106,7 @@ impl<'a> View<'a> {
         if determinant.abs() > error { determinant } else { 0.0 }
     }
 
-    /// Whether the perturbed circumcircle of a counter-clockwise triangle holds q, whatever it takes.
+    /// Tests whether the perturbed circumcircle of a counter-clockwise triangle holds q, whatever it takes.
     pub(super) fn conflict_exact(&self, triangle: [u32; 3], exact: &mut Exact) -> bool {
         let [a, b, c] = triangle.map(|v| self.sites[v as usize]);
         let determinant =

@@ -75,7 +75,7 @@ pub(super) const NEXT_FACET: [usize; 4] = [1, 2, 0, 0];
 /// The place before this one.
 pub(super) const LAST_FACET: [usize; 4] = [2, 0, 1, 0];
 
-/// Whether q lies strictly to the right of the directed edge from u to v. It does of no edge at the ghost vertex.
+/// Returns true if q lies strictly to the right of the directed edge from u to v. It does of no edge at the ghost vertex.
 #[inline(always)]
 fn strictly_right<M: MulAdd>(
     view: &View<'_>,

@@ -17,9 +17,9 @@ const BOX_GROWTH: f64 = 16.0;
 /// is inside anyway.
 const BOX_GROWTHS_MAX: u32 = 12;
 
-/// What `weights_in` needs of a body.
+/// The operations that `weights_in` needs of a body.
 trait Touches<const D: usize>: Body<D> {
-    /// Whether a corner reaches beyond the box around `center`.
+    /// Tests whether a corner reaches beyond the box around `center`.
     fn touches(&self, center: [f64; D], half: f64) -> bool;
 }
 

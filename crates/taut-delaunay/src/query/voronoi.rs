@@ -14,7 +14,7 @@ use crate::vector::difference;
 const COORDINATE_MAX: f64 = (1u64 << 50) as f64;
 
 impl<const D: usize, const V: usize> Locator<'_, D, V> {
-    /// What of the box is nearer to `site` than to any other site. In the scale of the sites and relative to `site`, as
+    /// Returns what of the box is nearer to `site` than to any other site. In the scale of the sites and relative to `site`, as
     /// products of coordinates as they are given may leave the range of `f64`.
     fn cell<B: Body<D>>(&self, site: u32, low: [f64; D], high: [f64; D]) -> B {
         let Triangulation { sites, .. } = self.triangulation;

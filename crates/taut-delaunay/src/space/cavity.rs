@@ -49,7 +49,7 @@ pub(super) struct Cavity {
     seen: Vec<u32>,
     /// The boundary; longer than what is in use.
     facets: Vec<Facet>,
-    /// How much of `facets` is in use.
+    /// The part of `facets` that is in use.
     boundary: usize,
 }
 

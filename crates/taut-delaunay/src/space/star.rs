@@ -21,7 +21,7 @@ const TABLE_MAX: usize = 256;
 /// No edge: an empty slot of the hash table.
 const EMPTY: u32 = u32::MAX;
 
-/// What it takes to number and to pair, kept between insertions.
+/// The lists to number and to pair simplices, kept between insertions.
 pub(super) struct Star {
     /// For each site, after the vertex at infinity: its number in the last boundary it was on.
     local: Vec<u16>,
@@ -34,7 +34,6 @@ pub(super) struct Star {
 }
 
 impl Star {
-    /// For so many sites.
     pub(super) fn new(sites: usize) -> Self {
         Star {
             local: vec![0; sites + 1],

@@ -25,7 +25,6 @@ impl Numbers {
         x ^ (x >> 31)
     }
 
-    /// Below `end`.
     fn below(&mut self, end: usize) -> usize {
         (self.next() % end as u64) as usize
     }
@@ -79,7 +78,7 @@ fn quadruples(mesh: &Mesh) -> Vec<[u32; 4]> {
     all
 }
 
-/// How many simplices are finite.
+/// Returns how many simplices are finite.
 fn finite(mesh: &Mesh) -> usize {
     mesh.simplices().iter().filter(|s| s.is_live() && !s.is_ghost()).count()
 }

@@ -2,12 +2,12 @@
 
 use crate::marks::all_finite;
 use crate::number::count;
-use crate::{Axis, DrawOptions, Error, Figure, Plot, Scale, Series, SeriesLook, Tone};
+use crate::{Axis, DrawOptions, Error, Figure, Plot, Scale, Series, SeriesStyle, Tone};
 
 /// The radius of k centers, and what no k centers have less than.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ElbowStep {
-    /// How many centers.
+    /// The number of centers.
     pub k: u64,
     /// Their radius.
     pub radius: f64,
@@ -29,7 +29,7 @@ pub fn elbow_figure(steps: &[ElbowStep], options: &DrawOptions) -> Result<Figure
     let series = |name: &str, tone, value: fn(&ElbowStep) -> f64| Series {
         name: name.to_owned(),
         tone,
-        look: SeriesLook::LineAndDots,
+        style: SeriesStyle::LineAndDots,
         points: steps.iter().map(|step| [step.k as f64, value(step)]).collect(),
     };
     let range = match (steps.first(), steps.last()) {

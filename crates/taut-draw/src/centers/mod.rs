@@ -14,12 +14,12 @@ use taut_certify::{Centers, CentersCertificate, Solution};
 use taut_points::PointSource;
 
 use self::nearest::Nearest;
+use crate::item_pass::{Measure, PassQuery};
 use crate::marks::{agree, all_finite, all_there, support_size};
 use crate::number::{count, counted, short};
 use crate::passes::{Words, passes};
 use crate::project::{plane, to_unit_reach};
 use crate::scene::{Histogram, Input, Layer, Marks, Projected, Scene, histogram};
-use crate::survey::{Measure, Question};
 use crate::{DrawOptions, Error, Figure, Tone};
 pub use elbow::{ElbowStep, elbow_figure};
 
@@ -28,7 +28,7 @@ const PROJECTION_ITEM_WEIGHT: f64 = 1e-4;
 /// About this many items of each group are looked at for that; more would take long in high dimensions and change little.
 const PROJECTION_ITEM_COUNT: usize = 64;
 
-/// What there is between two pairs of bounds.
+/// The noun for the steps between two pairs of bounds.
 const STEP_WORDS: Words =
     Words { step: ["step", "steps", "step of the search"], ..Words::ENCLOSING };
 
@@ -48,7 +48,7 @@ pub fn centers_figures(
     let dim = check(answer, certificate, source)?;
     let nearest = Nearest::new(answer, certificate, dim);
     let always = [&certificate.core_set[..], &answer.outliers].concat();
-    let question = Question {
+    let question = PassQuery {
         items: certificate.items,
         support: &always,
         left_out: &answer.outliers,
@@ -71,7 +71,7 @@ pub fn centers_figures(
     Ok(figures)
 }
 
-/// What the answer and its items must agree in before anything is drawn; the dimension.
+/// Checks what the answer and its items must agree in before anything is drawn; the dimension.
 fn check(
     answer: &Centers,
     certificate: &CentersCertificate,
@@ -99,7 +99,7 @@ fn check(
     Ok(dim)
 }
 
-/// What all pictures of the same centers share.
+/// The data that all pictures of the same centers share.
 struct Picture<'a> {
     answer: &'a Centers,
     certificate: &'a CentersCertificate,
@@ -108,7 +108,7 @@ struct Picture<'a> {
 }
 
 impl<'a> Picture<'a> {
-    /// Whether balls are drawn, and those of the lower bound.
+    /// Returns true if balls are drawn, and those of the lower bound.
     fn has_balls(&self) -> bool {
         !self.certificate.weights
     }
@@ -151,7 +151,7 @@ impl<'a> Picture<'a> {
         format!("Radius {}; {gap}.{bound}{weights}", short(radius, 8))
     }
 
-    /// What is drawn of how many, and what proves the bound.
+    /// Returns what is drawn of how many, and what proves the bound.
     fn counts(&self) -> String {
         let thing = self.input.thing();
         let core_set = match self.certificate.core_set.len() as u64 {
@@ -191,7 +191,7 @@ impl<'a> Picture<'a> {
         core.retain(|id| outliers.binary_search(id).is_err());
         let is_other =
             |id: &u64| core.binary_search(id).is_err() && outliers.binary_search(id).is_err();
-        let others = self.input.survey.ids.iter().copied().filter(is_other).collect();
+        let others = self.input.item_pass.ids.iter().copied().filter(is_other).collect();
         let balls = |radius: &f64| Marks::Balls { centers, radius: *radius };
         let mut layers = Vec::new();
         if self.has_balls() {

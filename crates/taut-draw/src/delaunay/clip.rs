@@ -1,4 +1,4 @@
-//! What lies of a segment or a ray in a box, by the parameters at which it enters and leaves (Liang and Barsky, ACM
+//! The part of a segment or a ray that lies in a box, by the parameters at which it enters and leaves (Liang and Barsky, ACM
 //! Transactions on Graphics 3(1), 1984).
 
 /// A box of the plane.

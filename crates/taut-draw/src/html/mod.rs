@@ -47,9 +47,9 @@ pub struct Section {
 /// A number with its name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Field {
-    /// What it is.
+    /// The name.
     pub name: String,
-    /// How much, as it is to be printed.
+    /// The value as it is printed.
     pub value: String,
 }
 

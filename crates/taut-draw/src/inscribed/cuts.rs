@@ -5,7 +5,7 @@ use super::{ELLIPSOID, Picture};
 use crate::body::Shadow;
 use crate::scene::LARGE_CORNERS;
 use crate::scene::pairs::{PANEL_HALF_WIDTH, choice, coordinates, framed, panels};
-use crate::{Axis, Layer2, Level, Look, Plot, Scale, Scene2, Series, Shape2, Tone};
+use crate::{Axis, Layer2, Level, LineStyle, Plot, Scale, Scene2, Series, Shape2, Tone};
 
 /// This part of a panel is filled.
 const FILLED_PART: f64 = 0.94;
@@ -44,8 +44,12 @@ impl Picture<'_> {
             let cut = Shadow([[wide * x, 0.0], [slope * y, tall * y]]);
             ellipses.push(cut.chain(panel.middle, 1.0, LARGE_CORNERS));
         }
-        let layer =
-            |name: &str, tone, shape| Layer2 { name: name.into(), tone, look: Look::Filled, shape };
+        let layer = |name: &str, tone, shape| Layer2 {
+            name: name.into(),
+            tone,
+            line_style: LineStyle::Filled,
+            shape,
+        };
         let layers = [
             layer("polytope", Tone::Point, Shape2::Polygons(polytopes)),
             layer(ELLIPSOID, Tone::Answer, Shape2::Polygons(ellipses)),

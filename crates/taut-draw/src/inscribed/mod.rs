@@ -19,7 +19,7 @@ use crate::marks::{agree, all_finite, all_there, support_size};
 use crate::number::{count, counted, short};
 use crate::passes::{Gap, Words, passes};
 use crate::scene::{Layer, Mark, Marks, Scene};
-use crate::{DrawOptions, Error, Figure, Look, Tone};
+use crate::{DrawOptions, Error, Figure, LineStyle, Tone};
 
 /// Pictures of an ellipsoid in a polytope, whose half-spaces are the rows of `source`: the plane for d ≤ 2, space for
 /// d = 3, cuts through the center and the distances of the half-spaces beyond; then bounds and gap by stage, where the
@@ -61,7 +61,7 @@ pub fn inscribed_figures(
     Ok(figures)
 }
 
-/// What the answer and its half-spaces must agree in before anything is drawn.
+/// Checks what the answer and its half-spaces must agree in before anything is drawn.
 fn check(solution: &Solution<InscribedEllipsoid>, source: &dyn PointSource) -> Result<(), Error> {
     let (ellipsoid, certificate) = (&solution.answer, &solution.certificate);
     let dim = ellipsoid.center.len();
@@ -79,7 +79,7 @@ fn check(solution: &Solution<InscribedEllipsoid>, source: &dyn PointSource) -> R
     all_finite(numbers)
 }
 
-/// What all pictures of one ellipsoid share.
+/// The data that all pictures of one ellipsoid share.
 struct Picture<'a> {
     solution: &'a Solution<InscribedEllipsoid>,
     source: &'a dyn PointSource,
@@ -120,8 +120,8 @@ impl Picture<'_> {
     fn scene(&self) -> Scene<'_> {
         let (dim, options) = (self.dim(), self.options);
         let (polytope, is_whole) = self.polytope();
-        let look = if dim == 3 { Look::Solid } else { Look::Filled };
-        let polytope = Layer::new("polytope", Tone::Point, look, polytope);
+        let line_style = if dim == 3 { LineStyle::Solid } else { LineStyle::Filled };
+        let polytope = Layer::new("polytope", Tone::Point, line_style, polytope);
         let body = Marks::Ellipsoid { body: &self.body, part: 1.0 };
         let mark = |side: &Side| Mark {
             id: side.id,
@@ -192,7 +192,7 @@ impl Picture<'_> {
         words
     }
 
-    /// How many come near, in words.
+    /// Returns how many come near, in words.
     fn nearness(&self) -> String {
         format!(
             "{} of {} come within {} % of touching.",

@@ -30,7 +30,7 @@ fn beside([x, y, z]: [f64; 3]) -> [[f64; 3]; 2] {
 }
 
 impl Picture<'_> {
-    /// What is drawn of the polytope, and whether all of it is.
+    /// Returns what is drawn of the polytope, and whether all of it is.
     pub(super) fn polytope(&self) -> (Marks<'static>, bool) {
         match self.dim() {
             1 => self.interval(),

@@ -31,9 +31,9 @@ pub(super) struct Sides {
     pub(super) near: Vec<Side>,
     /// The largest weight.
     pub(super) largest: f64,
-    /// How many come within a thousandth of touching.
+    /// The number of sides that come within a thousandth of touching.
     pub(super) close: u64,
-    /// How many reach into the ellipsoid by more than rounding.
+    /// The number of sides that reach into the ellipsoid by more than rounding.
     pub(super) cutting: u64,
 }
 

@@ -65,7 +65,7 @@ impl Raster {
         Image { width, height, pixels }
     }
 
-    /// Whether beside a sample, so many samples away, the surface ends or is much farther away.
+    /// Tests whether beside a sample, so many samples away, the surface ends or is much farther away.
     fn is_cliff(&self, u: usize, v: usize, reach: usize) -> bool {
         let near = |u: usize, v: usize| self.near[v * self.width + u];
         let edge = near(u, v) - NEARNESS_STEP_MIN;

@@ -7,14 +7,14 @@ use crate::base64::base64;
 use crate::number::px;
 use crate::raster::{Image, png};
 use crate::text::escape;
-use crate::{Look, Tone};
+use crate::{LineStyle, Tone};
 
 /// Elements written so far.
 pub(super) struct Canvas {
     body: String,
     /// Pixels of images to each unit of the picture.
     pub(super) density: f64,
-    /// Whether images are written into the body; else they are kept beside it, to be laid over what was written before the first.
+    /// True if images are written into the body; else they are kept beside it, to be laid over what was written before the first.
     pub(super) embeds: bool,
     /// Images with their places.
     pub(super) images: Vec<Laid>,
@@ -24,7 +24,7 @@ pub(super) struct Canvas {
     pub(super) size: [f64; 2],
     /// Marks for the pointer.
     pub(super) hovers: Vec<Hover>,
-    /// Whether marks carry titles of their own; a page shows their words itself.
+    /// True if marks carry titles of their own; a page shows their words itself.
     pub(super) titled: bool,
 }
 
@@ -192,7 +192,6 @@ impl Canvas {
         );
     }
 
-    /// The whole document.
     pub(super) fn document(&self, title: &str, caption: &str, chrome: Chrome) -> String {
         let mut out = self.head(title, caption, chrome);
         if let Chrome::Full(_) = chrome {
@@ -226,19 +225,21 @@ impl Canvas {
         format!("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {w} {h}\"{attributes}")
     }
 
-    /// What was written, without a document around it.
+    /// Returns what was written, without a document around it.
     pub(super) fn into_body(self) -> String {
         self.body
     }
 }
 
 /// The classes of lines and areas of a layer, and the attributes that go with its look.
-pub(super) fn stroke(tone: Tone, look: Look) -> (String, &'static str) {
+pub(super) fn stroke(tone: Tone, line_style: LineStyle) -> (String, &'static str) {
     let name = tone.name();
-    match look {
-        Look::Solid => (format!("s-{name}"), "stroke-width=\"2\" stroke-linejoin=\"round\""),
-        Look::Dashed => (format!("s-{name}"), "stroke-width=\"1.8\" stroke-dasharray=\"6 5\""),
-        Look::Filled => (format!("f-{name} e-{name}"), "stroke-width=\"2\" fill-opacity=\"0.07\""),
-        Look::Thin => (format!("s-{name}"), "stroke-width=\"0.8\" stroke-linejoin=\"round\""),
+    match line_style {
+        LineStyle::Solid => (format!("s-{name}"), "stroke-width=\"2\" stroke-linejoin=\"round\""),
+        LineStyle::Dashed => (format!("s-{name}"), "stroke-width=\"1.8\" stroke-dasharray=\"6 5\""),
+        LineStyle::Filled => {
+            (format!("f-{name} e-{name}"), "stroke-width=\"2\" fill-opacity=\"0.07\"")
+        }
+        LineStyle::Thin => (format!("s-{name}"), "stroke-width=\"0.8\" stroke-linejoin=\"round\""),
     }
 }

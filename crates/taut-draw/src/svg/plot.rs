@@ -7,7 +7,7 @@ use super::plane::ticks_along;
 use crate::axes::{Span, Ticks, linear, logarithmic, padded, unit};
 use crate::number::short;
 use crate::text::width;
-use crate::{Level, Look, Plot, Scale, SeriesLook};
+use crate::{Level, LineStyle, Plot, Scale, SeriesStyle};
 
 pub(super) fn draw(plot: &Plot, chrome: Chrome, canvas: &mut Canvas) {
     let entries: Vec<_> = plot
@@ -16,11 +16,11 @@ pub(super) fn draw(plot: &Plot, chrome: Chrome, canvas: &mut Canvas) {
         .map(|series| Entry {
             name: &series.name,
             tone: series.tone,
-            key: match series.look {
-                SeriesLook::LineAndDots => Key::LineAndDot,
-                SeriesLook::Line => Key::Line(Look::Solid),
-                SeriesLook::Dashed => Key::Line(Look::Dashed),
-                SeriesLook::Dots => Key::Disc(4.0),
+            key: match series.style {
+                SeriesStyle::LineAndDots => Key::LineAndDot,
+                SeriesStyle::Line => Key::Line(LineStyle::Solid),
+                SeriesStyle::Dashed => Key::Line(LineStyle::Dashed),
+                SeriesStyle::Dots => Key::Disc(4.0),
             },
         })
         .collect();
@@ -99,7 +99,7 @@ pub(super) fn draw(plot: &Plot, chrome: Chrome, canvas: &mut Canvas) {
                 (tone, label, [room.left, at], [right, at], [right - 4.0, at - 6.0], Anchor::End)
             }
         };
-        let (classes, attributes) = stroke(*tone, Look::Dashed);
+        let (classes, attributes) = stroke(*tone, LineStyle::Dashed);
         canvas.open(&classes, &format!("data-layer=\"level\" {attributes}"));
         canvas.line(from, to);
         canvas.close();
@@ -111,17 +111,18 @@ pub(super) fn draw(plot: &Plot, chrome: Chrome, canvas: &mut Canvas) {
         let name = series.tone.name();
         let places: Vec<_> =
             series.points.iter().filter_map(|p| Some((p, [x.at(p[0])?, y.at(p[1])?]))).collect();
-        let look = if series.look == SeriesLook::Dashed { Look::Dashed } else { Look::Solid };
-        if series.look != SeriesLook::Dots {
-            let (classes, attributes) = stroke(series.tone, look);
+        let style =
+            if series.style == SeriesStyle::Dashed { LineStyle::Dashed } else { LineStyle::Solid };
+        if series.style != SeriesStyle::Dots {
+            let (classes, attributes) = stroke(series.tone, style);
             canvas.open(&classes, &format!("data-layer=\"curve\" {attributes}"));
             canvas.chain(&places.iter().map(|(_, at)| *at).collect::<Vec<_>>(), false);
             canvas.close();
         }
-        let dots = matches!(series.look, SeriesLook::Dots | SeriesLook::LineAndDots);
+        let dots = matches!(series.style, SeriesStyle::Dots | SeriesStyle::LineAndDots);
         if dots {
-            let radius = match series.look {
-                SeriesLook::Dots => 4.0,
+            let radius = match series.style {
+                SeriesStyle::Dots => 4.0,
                 _ if places.len() > 80 => 1.6,
                 _ => 2.8,
             };
@@ -150,7 +151,7 @@ fn hover(name: String, value: &[f64; 2], at: [f64; 2]) -> Hover {
 struct Ruler {
     scale: Scale,
     span: Span,
-    /// Whether all values are whole numbers: then so are the ticks, as half a pass says nothing.
+    /// True if all values are whole numbers: then so are the ticks, as half a pass says nothing.
     whole: bool,
 }
 
@@ -191,7 +192,7 @@ impl Ruler {
         })
     }
 
-    /// Whether the number cannot be shown and stands at the lower edge.
+    /// Returns true if the number cannot be shown and stands at the lower edge.
     fn below(&self, value: f64) -> bool {
         self.scale == Scale::Log && value <= 0.0
     }

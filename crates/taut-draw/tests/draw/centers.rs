@@ -1,4 +1,4 @@
-//! What pictures of centers must hold: a circle each, what is left out, the core-set, and both bounds by k.
+//! Tests what pictures of centers must hold: a circle each, what is left out, the core-set, and both bounds by k.
 
 use taut_certify::{Centers, CentersCertificate, Items, LowerBound, Placement, Solution, Trace};
 use taut_draw::{
@@ -34,7 +34,7 @@ fn case(dim: usize, most: usize) -> (Vec<f64>, Solution<Centers>) {
         outliers: 1,
         gap: 0.25,
         core_set: vec![3, 0, 1, most as u64 - 1],
-        proof: LowerBound::Apart,
+        proof: LowerBound::Separated,
         points_hash,
     };
     (values, Solution { answer, certificate, trace: Trace::default() })

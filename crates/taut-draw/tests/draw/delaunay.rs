@@ -1,4 +1,4 @@
-//! What pictures of triangulations must hold: every edge once, honest counts, finite numbers, the same bytes again.
+//! Tests what pictures of triangulations must hold: every edge once, honest counts, finite numbers, the same bytes again.
 
 use taut_certify::{Solution, Triangulation};
 use taut_delaunay::{DelaunayOptions, delaunay};

@@ -436,7 +436,7 @@ fn largest_norm2(set: &WorkingSet) -> f64 {
     (0..set.len()).map(|i| set.norm2(i)).fold(0.0, f64::max)
 }
 
-/// How far weight can move along y to the entering item, and who stops it: the least λᵢ/yᵢ, ties to the largest yᵢ.
+/// Returns how far weight can move along y to the entering item, and who stops it: the least λᵢ/yᵢ, ties to the largest yᵢ.
 fn exchange(lambda: &[f64], y: &[f64]) -> Option<(usize, f64)> {
     let mut found: Option<(usize, f64)> = None;
     for i in 0..y.len() {

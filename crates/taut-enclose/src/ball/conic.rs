@@ -72,7 +72,7 @@ impl Hull {
     }
 }
 
-/// What the conic solver found.
+/// The answer of the conic solver.
 pub(super) struct Answer {
     /// A multiplier for each item; they sum to 1.
     pub(super) lambda: Vec<f64>,

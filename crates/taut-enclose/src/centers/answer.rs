@@ -16,7 +16,7 @@ const MEASURED_ITEMS_MAX: usize = 64;
 /// Squares of distances below this have lost digits.
 const SQUARE_MIN: f64 = 1e-140;
 
-/// What is said of the items.
+/// The statements about the items.
 pub(super) struct Answered {
     pub(super) centers: Vec<Vec<f64>>,
     /// The upper bound, not below any reach, exactly or in plain `f64`.
@@ -86,7 +86,7 @@ pub(super) fn answer<P: Position>(
     Ok(Answered { centers: outside, radius, outliers, assignment: numbers })
 }
 
-/// How far an item reaches from the nearest center, in the units of the rows: the larger of what is exact, rounded up, and what
+/// Returns how far an item reaches from the nearest center, in the units of the rows: the larger of what is exact, rounded up, and what
 /// plain `f64` says.
 fn reach<P: Position>(
     table: &Table,

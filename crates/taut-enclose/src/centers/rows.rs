@@ -36,9 +36,9 @@ use self::sites::Sites;
 use self::start::{Incumbent, start};
 use self::state::State;
 use crate::Error;
-use crate::apart::claimed;
 use crate::centers::item_rows::ItemRows;
 use crate::centers::{CentersMethod, CentersOptions, PROOF_FACTOR, PROOF_NODES};
+use crate::separated_set::claimed;
 
 /// Once the gap is at most this beyond the one wanted, the radius wanted is tried at once.
 const NEAR_GAP: f64 = 0.02;
@@ -51,7 +51,7 @@ fn rounding(sites: &Sites) -> f64 {
     1e-12 + sites.dim() as f64 * 4.0 * f64::EPSILON
 }
 
-/// What is proved when no k balls of less than `radius` hold X: less by a little, so that rounding explains no cover.
+/// Returns what is proved when no k balls of less than `radius` hold X: less by a little, so that rounding explains no cover.
 fn proved(radius: f64, sites: &Sites) -> f64 {
     claimed(radius * (1.0 - rounding(sites)), 1.0)
 }
@@ -132,7 +132,7 @@ struct Bracket<'a> {
     /// Radii less than which no k balls hold so many of the first members, ascending.
     refuted: Vec<(f64, usize)>,
     nodes: u64,
-    /// Whether the nodes ended the search.
+    /// True if the nodes ended the search.
     is_spent: bool,
     scans: u64,
     history: Vec<PassBounds>,
@@ -167,7 +167,7 @@ impl<'a> Bracket<'a> {
         self.refuted.last().map_or(0.0, |&(radius, _)| radius)
     }
 
-    /// Whether the gap is as small as was asked.
+    /// Returns true if the gap is as small as was asked.
     fn is_closed(&self) -> bool {
         let (upper, lower) = (self.incumbent.radius, self.lower());
         // Half of the rounding is for the radius, which is given a little larger.
@@ -226,7 +226,7 @@ impl<'a> Bracket<'a> {
                     let next = next.fold(self.incumbent.radius, f64::min).max(radius);
                     self.refuted.push((next, self.members.len()));
                 }
-                End::Covered | End::Grown => {}
+                End::StreamingReport | End::Grown => {}
             }
             self.record();
         }
@@ -262,7 +262,7 @@ impl<'a> Bracket<'a> {
             // All tries together cost no more than two of the first.
             max_nodes /= 2;
         }
-        Ok((0.0, Proof { members: vec![], by: LowerBound::Apart, nodes: 0 }, why))
+        Ok((0.0, Proof { members: vec![], by: LowerBound::Separated, nodes: 0 }, why))
     }
 }
 

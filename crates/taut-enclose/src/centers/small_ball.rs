@@ -39,21 +39,19 @@ pub(super) struct Ball<P> {
 }
 
 impl<P: Position> Ball<P> {
-    /// That of one item.
     pub(super) fn of_one(items: &ItemSet<P>, item: u32) -> Self {
         let at = item as usize;
         let (center, radius) = (items.position(at), items.radius(at));
         Ball { center, radius, support: vec![item], shares: vec![1.0] }
     }
 
-    /// That of all of these.
     pub(super) fn of_all(items: &ItemSet<P>, members: &[u32], work: &mut Workspace<P>) -> Self {
         let mut ball = Ball::of_one(items, members[0]);
         ball.grow(items, members, members[0], f64::INFINITY, work);
         ball
     }
 
-    /// Whether an item is inside, but for rounding.
+    /// Returns true if an item is inside, but for rounding.
     #[inline(always)]
     pub(super) fn holds(&self, items: &ItemSet<P>, item: u32) -> bool {
         items.reach(item as usize, &self.center) <= self.radius * (1.0 + REACH_TOLERANCE)
@@ -154,7 +152,7 @@ impl<P: Position> Ball<P> {
         false
     }
 
-    /// What the shares prove: no ball that holds the support has a smaller radius, but for a few roundings; 0 where they prove
+    /// Returns what the shares prove: no ball that holds the support has a smaller radius, but for a few roundings; 0 where they prove
     /// nothing.
     pub(super) fn lower_bound(&self, items: &ItemSet<P>) -> f64 {
         // Items without a share are left out, as their weights may be such that 0 times something is no number.

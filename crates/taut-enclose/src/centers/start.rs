@@ -24,17 +24,17 @@ pub(super) struct Incumbent<P> {
     pub(super) radius: f64,
 }
 
-/// What the traversals found.
+/// The results of the traversals.
 pub(super) struct Start<P> {
     /// The best centers after Lloyd's steps.
     pub(super) incumbent: Incumbent<P>,
     /// The first centers of the first traversal, as they are.
     pub(super) plain: Incumbent<P>,
-    /// No k centers have a smaller radius: of `apart`, no two fit in one smaller ball.
+    /// No k centers have a smaller radius: of `separated`, no two fit in one smaller ball.
     pub(super) lower: f64,
     /// k + z + 1 items; none where there are not so many different ones.
-    pub(super) apart: Vec<u32>,
-    /// The traversal that `apart` begins.
+    pub(super) separated: Vec<u32>,
+    /// The traversal that `separated` begins.
     pub(super) traversal: Vec<u32>,
 }
 
@@ -59,19 +59,19 @@ pub(super) fn start<P: Position>(
         at += 1;
         let plain = heaviest(cloud, &traversal, k, z);
         let incumbent = improve(cloud, plain.clone(), k, z, monitor)?;
-        let apart: Vec<u32> =
+        let separated: Vec<u32> =
             traversal.iter().copied().take(k.saturating_add(z).saturating_add(1)).collect();
-        let apart = if apart.len() > k.saturating_add(z) { apart } else { vec![] };
-        let lower = least_pair_radius(cloud, &apart, monitor)?;
+        let separated = if separated.len() > k.saturating_add(z) { separated } else { vec![] };
+        let lower = least_pair_radius(cloud, &separated, monitor)?;
         let Some(best) = &mut best else {
-            best = Some(Start { incumbent, plain, lower, apart, traversal });
+            best = Some(Start { incumbent, plain, lower, separated, traversal });
             continue;
         };
         if incumbent.radius < best.incumbent.radius {
             best.incumbent = incumbent;
         }
         if lower > best.lower {
-            (best.lower, best.apart, best.traversal) = (lower, apart, traversal);
+            (best.lower, best.separated, best.traversal) = (lower, separated, traversal);
         }
     }
     Ok(best.expect("there is a first item"))
@@ -158,7 +158,7 @@ pub(super) fn improve<P: Position>(
         }
         let mut centers = best.centers.clone();
         // A center that is still free goes where it helps most.
-        if let Some(Far { item, .. }) = spare(cloud, &best, k, z) {
+        if let Some(Far { item, .. }) = outliers_left(cloud, &best, k, z) {
             centers.push(cloud.items.position(item as usize));
         }
         clusters.iter_mut().for_each(Vec::clear);
@@ -186,7 +186,12 @@ pub(super) fn improve<P: Position>(
 }
 
 /// The item to open a further center at, where there are fewer than k.
-fn spare<P: Position>(cloud: &Cloud<P>, best: &Incumbent<P>, k: usize, z: usize) -> Option<Far> {
+fn outliers_left<P: Position>(
+    cloud: &Cloud<P>,
+    best: &Incumbent<P>,
+    k: usize,
+    z: usize,
+) -> Option<Far> {
     if best.centers.len() >= k || best.radius == 0.0 {
         return None;
     }

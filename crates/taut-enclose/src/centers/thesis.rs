@@ -18,7 +18,7 @@ use super::cloud::Cloud;
 use super::items::{Position, Shape, distance};
 use super::small_ball::{Ball, Workspace};
 use super::start::Incumbent;
-use super::tree::{Found, Shown};
+use super::tree::{ProvedBound, SearchResult};
 use crate::Error;
 
 struct Cluster<P> {
@@ -42,7 +42,7 @@ pub(super) fn solve<P: Position>(
     epsilon: f64,
     max_nodes: u64,
     monitor: &Monitor<'_>,
-) -> Result<Found<P>, Error> {
+) -> Result<SearchResult<P>, Error> {
     let items = &cloud.items;
     let mut work = Workspace::new(items.dim());
     let mut best = plain;
@@ -97,13 +97,13 @@ pub(super) fn solve<P: Position>(
     core_set.dedup();
     let threshold = best.radius / (1.0 + epsilon);
     let is_shown = stop == Stop::Converged;
-    let shown = is_shown.then_some(Shown { threshold, items: core_set.len() });
-    let lower = shown.map_or(0.0, |shown| shown.threshold);
+    let proved = is_shown.then_some(ProvedBound { threshold, items: core_set.len() });
+    let lower = proved.map_or(0.0, |proved| proved.threshold);
     let history =
         vec![PassBounds { lower, upper: best.radius, working_set: core_set.len() as u64 }];
-    Ok(Found {
+    Ok(SearchResult {
         incumbent: best,
-        shown: shown.into_iter().collect(),
+        proved: proved.into_iter().collect(),
         core_set,
         stop,
         nodes,

@@ -20,8 +20,8 @@ use faer::{Accum, MatMut, MatRef, Par};
 
 use super::counters::Counters;
 use super::factor::Factor;
-use super::pool::copy_row;
 use super::whitener::Whitened;
+use super::working_set::copy_row;
 use crate::kernel::triangle::{POINTS, Triangle, forms, moments};
 use crate::kernel::vector::dot;
 
@@ -36,7 +36,7 @@ const BLOCKED_FACTOR_MIN: usize = 96;
 /// From this size p = m(m + 1)/2 of a model on, a cold start guesses the points in use. Below, guessing gains nothing.
 const GUESSED_START_MIN: usize = 300;
 
-/// How a model ended.
+/// The way in which a model ended.
 pub(super) enum Outcome {
     /// Solved: the step to take.
     Solved(Step),
@@ -356,20 +356,20 @@ impl<'a> ActiveSet<'a> {
 mod tests {
     use super::*;
     use crate::ellipsoid::newton::REBASE_TOLERANCE;
-    use crate::ellipsoid::pool::Pool;
     use crate::ellipsoid::whitener::{Rebased, Whitener};
+    use crate::ellipsoid::working_set::WorkingSet;
     use taut_points::{Distribution, generate};
 
     /// Rows with equal weights, under their whitener.
     fn whitened(rows: &[f64], dim: usize) -> Whitened {
-        let mut pool = Pool::new(dim);
+        let mut working_set = WorkingSet::new(dim);
         for (i, row) in rows.chunks_exact(dim).enumerate() {
-            pool.push(i as u64, row, 1.0);
+            working_set.push(i as u64, row, 1.0);
         }
-        pool.normalize();
+        working_set.normalize();
         let mut whitener = Whitener::of_scales(&vec![1.0; dim]);
-        assert_eq!(whitener.rebase(&pool, REBASE_TOLERANCE), Rebased::Plainly);
-        whitener.apply(&pool)
+        assert_eq!(whitener.rebase(&working_set, REBASE_TOLERANCE), Rebased::Plainly);
+        whitener.apply(&working_set)
     }
 
     /// v ≥ 0, g ≤ 0 and gv = 0, with g = b − Hv from all of H.

@@ -17,16 +17,16 @@ mod base;
 mod pass;
 mod proof;
 mod rounds;
-mod touches;
+mod support_points;
 
 use taut_certify::{Ellipsoid, EllipsoidCertificate, Solution, Trace};
 use taut_points::{InputError, Monitor, OwnedPoints, PointSource};
 
 use self::base::Base;
-use super::flat::{self, Look, lifted};
+use super::flat::{self, RankResult, lifted};
+use super::point_reader::PointReader;
 use super::rounds::center_of;
 use super::sample::Sample;
-use super::survey::Survey;
 use super::whitener::Rebased;
 use super::{EllipsoidMethod, EllipsoidOptions};
 use crate::Error;
@@ -51,9 +51,9 @@ pub(super) fn solve(
     let shapes = Shapes::read(source, options.inputs, monitor)?;
     let generators = generators(&shapes)?;
     let silent = Monitor { cancel: monitor.cancel, ..Monitor::silent() };
-    let mut survey = Survey::new(&generators, &silent)?;
-    match flat::look(&mut survey, options)? {
-        Look::Full(sample, whitener) => {
+    let mut reader = PointReader::new(&generators, &silent)?;
+    match flat::decide_rank(&mut reader, options)? {
+        RankResult::Full(sample, whitener) => {
             let dim = shapes.dim();
             let base = Base {
                 center: center_of(&sample.origin, &whitener),
@@ -64,7 +64,7 @@ pub(super) fn solve(
             };
             base.solve(&shapes, options, monitor)
         }
-        Look::Flat(found) => in_flat(&shapes, &found, &generators, options, monitor),
+        RankResult::Flat(found) => in_flat(&shapes, &found, &generators, options, monitor),
     }
 }
 
@@ -109,8 +109,8 @@ fn in_flat(
     let images = points.rows().flat_map(|row| map.point(row)).collect();
     let projected = OwnedPoints::new(images, rank).expect("whole rows, one at least");
     let silent = Monitor::silent();
-    let survey = Survey::new(&projected, &silent)?;
-    let sample = Sample::new(&survey)?;
+    let reader = PointReader::new(&projected, &silent)?;
+    let sample = Sample::new(&reader)?;
     let (whitener, how) = sample.whitener(&sample.extents());
     if how == Rebased::Never {
         return Err(Error::Overflow);

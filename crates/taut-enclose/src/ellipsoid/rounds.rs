@@ -17,12 +17,12 @@ use taut_certify::Stop;
 use super::counters::Counters;
 use super::newton::{self, Tolerance, gap};
 use super::outcome::{Candidate, Outcome, Progress};
-use super::pool::{Pool, copy_row};
+use super::point_reader::{PassResult, PointReader, Query};
 use super::proof::{pass_error, triangular_spread};
 use super::sample::Sample;
 use super::shortlist::{self, Shortlist};
-use super::survey::{Found, Query, Survey};
 use super::whitener::Whitener;
+use super::working_set::{WorkingSet, copy_row};
 use super::{EllipsoidOptions, ROUNDING};
 use crate::Error;
 use crate::kernel::{Center, DoubleDouble};
@@ -62,40 +62,40 @@ fn sizes(dim: usize, n: u64) -> (usize, usize) {
 
 /// The ellipsoid of the points of a survey that do not lie in a hyperplane.
 pub(super) fn solve(
-    survey: &mut Survey<'_>,
+    reader: &mut PointReader<'_>,
     sample: &Sample,
     mut whitener: Whitener,
     options: &EllipsoidOptions<'_>,
 ) -> Result<Outcome, Error> {
-    let dim = survey.dim();
+    let dim = reader.dim();
     let wanted = options.epsilon.max(ROUNDING * dim as f64);
-    let (first, later) = sizes(dim, survey.len());
+    let (first, later) = sizes(dim, reader.len());
     let mut counters = Counters::default();
     let mut progress = Progress::new(dim);
-    let share = shortlist::share(dim, &sample.pool, survey.len());
+    let share = shortlist::share(dim, &sample.working_set, reader.len());
     let mut list = share.map(|_| Shortlist::of_sample(sample));
     let share = share.unwrap_or(0.0);
-    let mut pool = match list {
-        Some(_) => pool_of_sample(sample, &whitener, first.min(4 * (dim + 1) * (dim + 2))),
-        None => first_pool(survey, sample, &mut whitener, first)?,
+    let mut working_set = match list {
+        Some(_) => working_set_of_sample(sample, &whitener, first.min(4 * (dim + 1) * (dim + 2))),
+        None => first_working_set(reader, sample, &mut whitener, first)?,
     };
     let mut later = later;
     // With all points in the pool there is nothing to come.
-    let first = if pool.len() as u64 == survey.len() { 0.6 * wanted } else { 1e-2 };
+    let first = if working_set.len() as u64 == reader.len() { 0.6 * wanted } else { 1e-2 };
     let mut tolerance = Tolerance { easy: first, hard: first };
     let mut last = f64::INFINITY;
     let (mut best, mut stale) = (f64::INFINITY, 0);
     // Of the rounds over a list.
     let (mut least, mut idle) = (f64::INFINITY, 0);
     let stop = loop {
-        newton::solve(&mut pool, &mut whitener, tolerance, &mut counters, survey.monitor())?;
+        newton::solve(&mut working_set, &mut whitener, tolerance, &mut counters, reader.monitor())?;
         let center = center_of(&sample.origin, &whitener);
         let matrix = whitener.matrix();
         let doubt = 3.0 * pass_error(dim, triangular_spread(matrix, dim));
         let above = dim as f64 * (1.0 - doubt.min(LISTED_TOLERANCE));
         let query = Query { matrix, center: &center, above, keep: 4 * later };
         let (found, all) = match &mut list {
-            None => (survey.pass(query)?, true),
+            None => (reader.pass(query)?, true),
             Some(list) => {
                 let mut found = list.pass(query)?;
                 let mut others = list.others(&whitener, doubt);
@@ -105,14 +105,14 @@ pub(super) fn solve(
                 let reached = gap(dim, found.largest);
                 let open = reached > wanted
                     && !(idle >= STALE_PASSES_MAX && reached < SMALL_GAP)
-                    && !outside(&found, dim, &pool).is_empty();
+                    && !outside(&found, dim, &working_set).is_empty();
                 let mut all = others < dim as f64;
                 if !all && !open {
-                    if survey.passes() >= options.max_passes && progress.best_gap() < f64::INFINITY
+                    if reader.passes() >= options.max_passes && progress.best_gap() < f64::INFINITY
                     {
                         break Stop::PassBudget;
                     }
-                    *list = Shortlist::of_pass(survey, query, &whitener, sample, share)?;
+                    *list = Shortlist::of_pass(reader, query, &whitener, sample, share)?;
                     found = list.pass(query)?;
                     others = list.others(&whitener, doubt);
                     all = true;
@@ -126,21 +126,30 @@ pub(super) fn solve(
         if !largest.is_finite() {
             return Err(Error::Overflow);
         }
-        let mut far = outside(&found, dim, &pool);
+        let mut far = outside(&found, dim, &working_set);
         far.truncate(4 * later);
-        let size = pool.len();
+        let size = working_set.len();
         if all {
-            progress.note(&whitener, size, largest, || candidate(&pool, &whitener, center, found));
+            progress.note(&whitener, size, largest, || {
+                candidate(&working_set, &whitener, center, found)
+            });
         }
         let reached = gap(dim, largest);
         if progress.best_gap() <= wanted {
             break Stop::Converged;
         }
-        if all && list.is_none() && survey.passes() >= options.max_passes {
+        if all && list.is_none() && reader.passes() >= options.max_passes {
             break Stop::PassBudget;
         }
-        let added =
-            add(&mut pool, survey, &sample.origin, &whitener, &far, later, counters.interior > 0)?;
+        let added = add(
+            &mut working_set,
+            reader,
+            &sample.origin,
+            &whitener,
+            &far,
+            later,
+            counters.interior > 0,
+        )?;
         if all {
             stale = if progress.best_gap() < best { 0 } else { stale + 1 };
             best = progress.best_gap();
@@ -166,17 +175,17 @@ pub(super) fn solve(
         }
         last = reached;
         if largest > WEIGHTED_EXCESS_MIN * dim as f64 {
-            jump(&mut pool, added);
+            jump(&mut working_set, added);
         }
     };
-    let core_set = pool.len();
+    let core_set = working_set.len();
     Ok(progress.into_outcome(stop, counters, core_set))
 }
 
 /// Equal weights on points of a sample: those of large leverage, an affine basis, and what is extreme.
-fn pool_of_sample(sample: &Sample, whitener: &Whitener, size: usize) -> Pool {
-    let images = whitener.apply(&sample.pool);
-    let mut order: Vec<usize> = (0..sample.pool.len()).collect();
+fn working_set_of_sample(sample: &Sample, whitener: &Whitener, size: usize) -> WorkingSet {
+    let images = whitener.apply(&sample.working_set);
+    let mut order: Vec<usize> = (0..sample.working_set.len()).collect();
     let farther = |&a: &usize, &b: &usize| images.leverages[b].total_cmp(&images.leverages[a]);
     let size = size.min(order.len());
     if size < order.len() {
@@ -184,29 +193,29 @@ fn pool_of_sample(sample: &Sample, whitener: &Whitener, size: usize) -> Pool {
         order.truncate(size);
         order.sort_unstable();
     }
-    let mut pool = Pool::new(sample.pool.dim());
-    let mut row = vec![0.0; sample.pool.dim()];
+    let mut working_set = WorkingSet::new(sample.working_set.dim());
+    let mut row = vec![0.0; sample.working_set.dim()];
     for i in order.into_iter().chain(sample.spread(&images.blocks)) {
-        sample.pool.copy_row(i, &mut row);
-        pool.push(sample.pool.ids()[i], &row, 1.0);
+        sample.working_set.copy_row(i, &mut row);
+        working_set.push(sample.working_set.ids()[i], &row, 1.0);
     }
-    pool.normalize();
-    pool
+    working_set.normalize();
+    working_set
 }
 
 /// Equal weights on points of large leverage, on an affine basis, and on what is extreme in the sample.
-fn first_pool(
-    survey: &mut Survey<'_>,
+fn first_working_set(
+    reader: &mut PointReader<'_>,
     sample: &Sample,
     whitener: &mut Whitener,
     size: usize,
-) -> Result<Pool, Error> {
-    let dim = survey.dim();
-    let n = survey.len();
-    if n == sample.pool.len() as u64 && n <= 2 * size as u64 {
-        return Ok(sample.pool.clone());
+) -> Result<WorkingSet, Error> {
+    let dim = reader.dim();
+    let n = reader.len();
+    if n == sample.working_set.len() as u64 && n <= 2 * size as u64 {
+        return Ok(sample.working_set.clone());
     }
-    let images = whitener.apply(&sample.pool);
+    let images = whitener.apply(&sample.working_set);
     let mut leverages = images.leverages.clone();
     leverages.sort_unstable_by(|a, b| b.total_cmp(a));
     // Few of the listed points should be thrown away again, and enough should be listed.
@@ -214,20 +223,20 @@ fn first_pool(
     let above = leverages.get(rank as usize).copied().unwrap_or(0.0);
     let center = center_of(&sample.origin, whitener);
     let query = Query { matrix: whitener.matrix(), center: &center, above, keep: size };
-    let found = survey.pass(query)?;
-    let mut pool = Pool::new(dim);
+    let found = reader.pass(query)?;
+    let mut working_set = WorkingSet::new(dim);
     let ids: Vec<u64> = found.far.iter().map(|far| far.id).collect();
-    let rows = survey.rows_from(&sample.origin, &ids)?;
+    let rows = reader.rows_from(&sample.origin, &ids)?;
     for (&id, row) in ids.iter().zip(rows.chunks_exact(dim)) {
-        pool.push(id, row, 1.0);
+        working_set.push(id, row, 1.0);
     }
     let mut row = vec![0.0; dim];
     for i in sample.spread(&images.blocks) {
-        sample.pool.copy_row(i, &mut row);
-        pool.push(sample.pool.ids()[i], &row, 1.0);
+        sample.working_set.copy_row(i, &mut row);
+        working_set.push(sample.working_set.ids()[i], &row, 1.0);
     }
-    pool.normalize();
-    Ok(pool)
+    working_set.normalize();
+    Ok(working_set)
 }
 
 /// The center of a whitener in the coordinates of the source; in two terms where rounding it to one could be seen.
@@ -249,12 +258,12 @@ pub(super) fn center_of(origin: &[f64], whitener: &Whitener) -> Center {
 }
 
 pub(super) fn candidate(
-    pool: &Pool,
+    working_set: &WorkingSet,
     whitener: &Whitener,
     center: Center,
-    found: Found,
+    found: PassResult,
 ) -> Candidate {
-    let weighted = pool.ids().iter().zip(pool.weights()).filter(|(_, u)| **u > 0.0);
+    let weighted = working_set.ids().iter().zip(working_set.weights()).filter(|(_, u)| **u > 0.0);
     let mut pairs: Vec<(u64, f64)> = weighted.map(|(&id, &u)| (id, u)).collect();
     pairs.sort_unstable_by_key(|pair| pair.0);
     let (support, multipliers) = pairs.into_iter().unzip();
@@ -262,26 +271,27 @@ pub(super) fn candidate(
 }
 
 /// The points outside that are not in the pool.
-fn outside(found: &Found, dim: usize, pool: &Pool) -> Vec<Far> {
-    let beyond = |far: &&Far| far.reach2 > dim as f64 * (1.0 + 1e-14) && !pool.contains(far.id);
+fn outside(found: &PassResult, dim: usize, working_set: &WorkingSet) -> Vec<Far> {
+    let beyond =
+        |far: &&Far| far.reach2 > dim as f64 * (1.0 + 1e-14) && !working_set.contains(far.id);
     found.far.iter().filter(beyond).copied().collect()
 }
 
 /// Takes some of the far points to the pool, and useless points out of it, more of them if the pool is `hard`; says how
 /// many were taken.
 fn add(
-    pool: &mut Pool,
-    survey: &Survey<'_>,
+    working_set: &mut WorkingSet,
+    reader: &PointReader<'_>,
     origin: &[f64],
     whitener: &Whitener,
     far: &[Far],
     most: usize,
     hard: bool,
 ) -> Result<usize, Error> {
-    let dim = pool.dim();
-    if pool.len() > 4 * most || hard {
-        let leverages = whitener.apply(pool).leverages;
-        let weights = pool.weights().to_vec();
+    let dim = working_set.dim();
+    if working_set.len() > 4 * most || hard {
+        let leverages = whitener.apply(working_set).leverages;
+        let weights = working_set.weights().to_vec();
         let mut least = LEVERAGE_RATIO_MIN * dim as f64;
         let spare = HARD_SPARE * (dim + 1) * (dim + 2) / 2;
         if hard {
@@ -292,11 +302,11 @@ fn add(
                 least = least.max(*bound);
             }
         }
-        pool.retain(|i| weights[i] > 0.0 || leverages[i] > least);
+        working_set.retain(|i| weights[i] > 0.0 || leverages[i] > least);
     }
     let ids: Vec<u64> = far.iter().map(|far| far.id).collect();
-    let rows = survey.rows_from(origin, &ids)?;
-    let mut arrivals = Pool::new(dim);
+    let rows = reader.rows_from(origin, &ids)?;
+    let mut arrivals = WorkingSet::new(dim);
     for (&id, row) in ids.iter().zip(rows.chunks_exact(dim)) {
         arrivals.push(id, row, 0.0);
     }
@@ -311,7 +321,7 @@ fn add(
         if *sector < each && added < most {
             *sector += 1;
             added += 1;
-            pool.push(id, row, 0.0);
+            working_set.push(id, row, 0.0);
         }
     }
     Ok(added)
@@ -324,10 +334,10 @@ fn sector(image: &[f64]) -> usize {
 }
 
 /// Half of the weight goes to the points that came last.
-fn jump(pool: &mut Pool, added: usize) {
-    let k = pool.len();
-    for (i, u) in pool.weights_mut().iter_mut().enumerate() {
+fn jump(working_set: &mut WorkingSet, added: usize) {
+    let k = working_set.len();
+    for (i, u) in working_set.weights_mut().iter_mut().enumerate() {
         *u = if i + added < k { *u / 2.0 } else { 0.5 / added as f64 };
     }
-    pool.normalize();
+    working_set.normalize();
 }

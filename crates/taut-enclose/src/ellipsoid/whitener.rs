@@ -10,14 +10,14 @@
 //! Comput. 42(1), 2020).
 
 use super::dense::{cholesky, divide_rows, forward};
-use super::pool::Pool;
+use super::working_set::WorkingSet;
 use crate::kernel::triangle::{POINTS, Triangle, images, moments};
 use crate::kernel::vector::dot;
 
 /// It is left at that after this many turns: each takes off at least some ten digits of a condition number.
 const TURNS_MAX: usize = 40;
 
-/// How a covariance became the identity.
+/// The way in which a covariance became the identity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Rebased {
     /// By plain factors.
@@ -75,9 +75,9 @@ impl Whitener {
     }
 
     /// The images of all points of a pool.
-    pub(super) fn apply(&self, pool: &Pool) -> Whitened {
-        let mut whitened = self.apply_to(pool.blocks());
-        whitened.leverages.truncate(pool.len());
+    pub(super) fn apply(&self, working_set: &WorkingSet) -> Whitened {
+        let mut whitened = self.apply_to(working_set.blocks());
+        whitened.leverages.truncate(working_set.len());
         whitened
     }
 
@@ -120,11 +120,11 @@ impl Whitener {
 
     /// Makes the covariance of the weighted points the identity; the last turn starts from one within `near` of it.
     ///
-    /// What it costs in rounding is known from what it returns.
-    pub(super) fn rebase(&mut self, pool: &Pool, near: f64) -> Rebased {
+    /// The returned value tells the cost in rounding.
+    pub(super) fn rebase(&mut self, working_set: &WorkingSet, near: f64) -> Rebased {
         let (dim, m) = (self.dim, self.dim + 1);
         let mut how = Rebased::Plainly;
-        let (points, weights) = pool.support();
+        let (points, weights) = working_set.support();
         for _ in 0..TURNS_MAX {
             let images = self.apply_to(&points);
             let moments = moments(dim, &images.blocks, &weights);

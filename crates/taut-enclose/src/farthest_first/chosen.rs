@@ -24,7 +24,7 @@ pub(super) struct Scratch {
     pub(super) values: Vec<f64>,
     /// One point as a center.
     pub(super) center: Option<Center>,
-    /// What a source reads to.
+    /// The buffer that a source reads into.
     pub(super) read: taut_points::Scratch,
 }
 

@@ -21,16 +21,14 @@ const LEAF_ROWS: usize = 256;
 /// Up to this dimension the kernel takes eight rows for the price of one; beyond, one at a time.
 const EIGHT_MAX: usize = 96;
 
-/// What is known of a row.
+/// The known facts about a row.
 #[derive(Clone, Copy)]
 struct Known {
     /// With how many chosen points it was compared.
     seen: u32,
-    /// Which of them is nearest.
     nearest: u32,
 }
 
-/// Some rows.
 pub(super) struct RowLeaf<'p, T> {
     points: Points<'p, T>,
     first_row: u64,
@@ -40,7 +38,6 @@ pub(super) struct RowLeaf<'p, T> {
     top: Top,
 }
 
-/// All rows in leaves.
 pub(super) fn leaves<'p, T: Scalar>(points: &Points<'p, T>) -> Leaves<RowLeaf<'p, T>> {
     let starts = (0..points.len()).into_par_iter().step_by(LEAF_ROWS);
     let leaves = starts

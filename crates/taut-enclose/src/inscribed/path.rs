@@ -319,7 +319,7 @@ pub(super) fn corrected(views: &[View], mut lambda: Vec<f64>) -> Vec<f64> {
     lambda
 }
 
-/// What multipliers prove: the bound of the certificate.
+/// Returns what multipliers prove: the bound of the certificate.
 pub(super) fn gap(views: &[View], lambda: &[f64]) -> f64 {
     let dim = views[0].normal.len();
     let d = dim as f64;

@@ -20,7 +20,7 @@ use crate::Error;
 use crate::kernel::vector::{add_scaled, dot};
 use crate::shapes::eigen::eigen;
 
-/// What a conic solver leaves of a sum that is 0, for unit normals.
+/// The rest that a conic solver leaves of a sum that is 0, for unit normals.
 const ZERO: f64 = 1e-6;
 /// A ray may rise beyond a face by this for each dimension, as it is rounded.
 const RAY_RISE_MAX: f64 = 64.0 * f64::EPSILON;
@@ -140,7 +140,7 @@ struct Spread {
     least: f64,
 }
 
-/// What the radius of a ball in the polytope is at most: from λ ≥ 0 with Σλᵢâᵢ = 0, Σλᵢbᵢ/Σλᵢ.
+/// Returns what the radius of a ball in the polytope is at most: from λ ≥ 0 with Σλᵢâᵢ = 0, Σλᵢbᵢ/Σλᵢ.
 ///
 /// *Idea.* The sum of the multipliers found is some r ≠ 0. With A the matrix of normals, of least singular value σ, there is
 /// w with A′w = −r and |w| ≤ |r|/σ, and likewise w₀ for the λ₀ ≥ 1 of a spread and its r₀. Then λ + w + t(λ₀ + w₀) has sum 0

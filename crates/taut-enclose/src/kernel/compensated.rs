@@ -14,7 +14,7 @@ type Eight = [f64; 8];
 pub(crate) struct Map<'a> {
     pub(crate) matrix: &'a [f64],
     pub(crate) center: &'a Center,
-    /// Whether it is square and lower triangular; what is above the diagonal is not read then.
+    /// True if it is square and lower triangular; what is above the diagonal is not read then.
     pub(crate) triangular: bool,
 }
 

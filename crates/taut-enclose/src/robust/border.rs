@@ -25,7 +25,7 @@ use super::search::{GOLDEN, mix};
 use super::starts::nearest;
 use crate::Error;
 use crate::ellipsoid::dense::{cholesky, forward};
-use crate::ellipsoid::survey::Survey;
+use crate::ellipsoid::point_reader::PointReader;
 use crate::kernel::vector::{add_scaled, dot};
 
 /// This many rows on either side are looked at. On 10⁵ points ends were no lower with 3000.
@@ -47,7 +47,7 @@ pub(super) struct Border {
     ids: Vec<u64>,
     /// y, row by row, in order of |y|.
     images: Vec<f64>,
-    /// What is kept now.
+    /// The present state.
     state: State,
 }
 
@@ -106,7 +106,7 @@ impl State {
 
 impl Border {
     /// Of the rows kept in `raw`; nothing where all are kept.
-    pub(super) fn of(data: &mut Survey<'_>, raw: &Raw) -> Result<Option<Border>, Error> {
+    pub(super) fn of(data: &mut PointReader<'_>, raw: &Raw) -> Result<Option<Border>, Error> {
         let dim = data.dim();
         let distances = raw.estimate.distances(data)?;
         let h = raw.kept.iter().filter(|kept| **kept).count();
@@ -138,13 +138,13 @@ impl Border {
         Ok(Some(Border { dim, h, ids, images, state }))
     }
 
-    /// Goes down by C-steps and exchanges, and from `kicks` kicks; the rows kept in the end, where some were changed.
-    pub(super) fn search(mut self, raw: &Raw, kicks: u64) -> Option<Vec<bool>> {
+    /// Goes down by C-steps and exchanges, and from `perturbations` kicks; the rows kept in the end, where some were changed.
+    pub(super) fn search(mut self, raw: &Raw, perturbations: u64) -> Option<Vec<bool>> {
         let first = self.state.clone();
         self.settle();
-        for which in 0..kicks {
+        for which in 0..perturbations {
             let here = self.state.clone();
-            let is_lower = self.kick(which).is_some() && {
+            let is_lower = self.perturb(which).is_some() && {
                 self.settle();
                 self.state.log_det < here.log_det - ROUNDING / self.h as f64
             };
@@ -235,7 +235,7 @@ impl Border {
     }
 
     /// Keeps the rows that are nearest when distances are bent along a row of the border.
-    fn kick(&mut self, which: u64) -> Option<()> {
+    fn perturb(&mut self, which: u64) -> Option<()> {
         let metric = self.state.metric(self.h)?;
         let images = self.seen(&metric);
         let count = self.state.kept.iter().filter(|kept| **kept).count();

@@ -115,7 +115,7 @@ const REWEIGHTED: SmallSample = SmallSample {
     ],
 };
 
-/// What the determinant criterion of n points in dimension d falls short of for h of them kept; α is in [0.5, 1].
+/// Returns what the determinant criterion of n points in dimension d falls short of for h of them kept; α is in [0.5, 1].
 ///
 /// Where n is so small that the formula leaves what it was fitted to, and says less than 0 or more than 50, it is 1.
 fn small_sample(table: &SmallSample, alpha: f64, n: usize, d: usize) -> f64 {

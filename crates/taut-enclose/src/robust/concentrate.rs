@@ -8,12 +8,12 @@
 use taut_certify::RobustMethod;
 use taut_points::{Monitor, Points};
 
-use super::estimate::{Estimate, Look};
+use super::estimate::{Estimate, RankedEstimate};
 use super::flat::{Flat, hull};
 use super::starts::nearest;
 use super::{RobustOptions, enclosing};
 use crate::Error;
-use crate::ellipsoid::survey::Survey;
+use crate::ellipsoid::point_reader::PointReader;
 
 /// The rows kept and their estimate.
 pub(super) struct Raw {
@@ -28,7 +28,7 @@ pub(super) enum Found {
     Flat(Flat),
 }
 
-/// What is to be least.
+/// The quantity to minimize.
 #[derive(Clone, Copy)]
 pub(super) enum Criterion {
     /// The determinant of the covariance.
@@ -58,7 +58,7 @@ impl Criterion {
 /// The metric of the rows kept, found with the help of another that is not too far off.
 pub(super) fn estimate(
     criterion: Criterion,
-    data: &mut Survey<'_>,
+    data: &mut PointReader<'_>,
     metric: &Estimate,
     kept: &[bool],
 ) -> Result<Result<Estimate, Flat>, Error> {
@@ -66,16 +66,16 @@ pub(super) fn estimate(
         return enclosing::estimate(data, kept, epsilon);
     }
     match metric.of_rows(data, kept)? {
-        Look::Full(estimate) => Ok(Ok(estimate)),
-        Look::Noise(estimate) => Ok(hull(data, kept)?.map_or(Ok(estimate), Err)),
-        Look::Singular => hull(data, kept)?.map(Err).ok_or(Error::Overflow),
+        RankedEstimate::Full(estimate) => Ok(Ok(estimate)),
+        RankedEstimate::Noise(estimate) => Ok(hull(data, kept)?.map_or(Ok(estimate), Err)),
+        RankedEstimate::Singular => hull(data, kept)?.map(Err).ok_or(Error::Overflow),
     }
 }
 
 /// C-steps from a metric, `limit` of them at most.
 pub(super) fn concentrate(
     criterion: Criterion,
-    data: &mut Survey<'_>,
+    data: &mut PointReader<'_>,
     start: &Estimate,
     h: usize,
     limit: usize,
@@ -117,7 +117,7 @@ pub(super) fn from_ranking(
 ) -> Result<Found, Error> {
     let points = Points::new(values, dim).expect("rows of the dimension");
     let silent = Monitor::silent();
-    let mut data = Survey::new(&points, &silent)?;
+    let mut data = PointReader::new(&points, &silent)?;
     let half = ranking.len().div_ceil(2);
     for count in [half, h] {
         let kept = nearest(ranking, count);

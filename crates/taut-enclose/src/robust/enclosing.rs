@@ -14,7 +14,7 @@ use taut_points::Points;
 
 use super::estimate::Estimate;
 use super::flat::{Flat, Part};
-use crate::ellipsoid::survey::Survey;
+use crate::ellipsoid::point_reader::PointReader;
 use crate::kernel::vector::dot;
 use crate::{EllipsoidOptions, Error, ellipsoid};
 
@@ -33,7 +33,7 @@ pub(super) struct Around {
 }
 
 fn around(
-    data: &Survey<'_>,
+    data: &PointReader<'_>,
     ids: &[u64],
     epsilon: f64,
 ) -> Result<Solution<taut_certify::Ellipsoid>, Error> {
@@ -44,7 +44,7 @@ fn around(
 
 /// The metric of the smallest ellipsoid around the rows kept, or the subspace they lie in.
 pub(super) fn estimate(
-    data: &Survey<'_>,
+    data: &PointReader<'_>,
     kept: &[bool],
     epsilon: f64,
 ) -> Result<Result<Estimate, Flat>, Error> {
@@ -61,7 +61,7 @@ pub(super) fn estimate(
 
 /// The smallest ellipsoid around rows, and around all that it encloses besides.
 pub(super) fn enclose(
-    data: &mut Survey<'_>,
+    data: &mut PointReader<'_>,
     mut kept: Vec<u64>,
     epsilon: f64,
 ) -> Result<Around, Error> {

@@ -17,11 +17,11 @@ use taut_points::{Monitor, Points};
 
 use super::border::Border;
 use super::concentrate::{Criterion, Found, Raw, concentrate, estimate, from_ranking};
-use super::estimate::{Estimate, Look};
+use super::estimate::{Estimate, RankedEstimate};
 use super::flat::Flat;
 use super::starts::{START_COUNT, Standardized};
 use crate::Error;
-use crate::ellipsoid::survey::Survey;
+use crate::ellipsoid::point_reader::PointReader;
 
 /// Rankings look at this many points; with more than twice as many, a sample of this size stands for them.
 const SAMPLE_SIZE: usize = 2000;
@@ -38,12 +38,12 @@ const CANDIDATES_MAX: usize = 6;
 /// At most this many of them go on to the end.
 const FINALISTS_MAX: usize = 4;
 /// The best of them is given at most this many kicks at the border.
-const KICKS_MAX: u64 = 40;
+const PERTURBATIONS_MAX: u64 = 40;
 
 /// Finds the h rows, or a hyperplane that holds so many.
 pub(super) fn solve(
     criterion: Criterion,
-    data: &mut Survey<'_>,
+    data: &mut PointReader<'_>,
     h: usize,
     steps: &mut u64,
 ) -> Result<Found, Error> {
@@ -87,9 +87,9 @@ pub(super) fn solve(
         candidates.dedup_by(|a, b| a.kept == b.kept);
     }
     if let Criterion::Determinant = criterion {
-        for kicks in [0, KICKS_MAX] {
+        for perturbations in [0, PERTURBATIONS_MAX] {
             for candidate in &mut candidates {
-                if let Some(flat) = polish(data, candidate, h, kicks, steps)? {
+                if let Some(flat) = polish(data, candidate, h, perturbations, steps)? {
                     return Ok(Found::Flat(flat));
                 }
             }
@@ -102,14 +102,14 @@ pub(super) fn solve(
 /// Goes down at the border and by C-steps on all rows, by turns, until neither leads on; a hyperplane, if that ends in
 /// one.
 fn polish(
-    data: &mut Survey<'_>,
+    data: &mut PointReader<'_>,
     raw: &mut Raw,
     h: usize,
-    mut kicks: u64,
+    mut perturbations: u64,
     steps: &mut u64,
 ) -> Result<Option<Flat>, Error> {
     while let Some(border) = Border::of(data, raw)? {
-        let Some(kept) = border.search(raw, kicks) else { break };
+        let Some(kept) = border.search(raw, perturbations) else { break };
         let start = match estimate(Criterion::Determinant, data, &raw.estimate, &kept)? {
             Ok(start) => start,
             Err(flat) => return Ok(Some(flat)),
@@ -123,7 +123,7 @@ fn polish(
         if !leads_on {
             break;
         }
-        (*raw, kicks) = (next, 0);
+        (*raw, perturbations) = (next, 0);
     }
     Ok(None)
 }
@@ -155,7 +155,7 @@ fn ends_on_sample(
                 }
                 Some(simplex) => {
                     let view = Points::new(sample, dim).expect("rows of the dimension");
-                    let mut data = Survey::new(&view, &silent)?;
+                    let mut data = PointReader::new(&view, &silent)?;
                     let start = &simplices[simplex];
                     concentrate(criterion, &mut data, start, part, usize::MAX, &mut steps)?
                 }
@@ -181,13 +181,17 @@ fn best_simplices(sample: &[f64], dim: usize, part: usize) -> Result<Vec<Estimat
     let ends: Vec<Option<Estimate>> = (0..SIMPLEX_COUNT)
         .into_par_iter()
         .map(|which| {
-            let mut data = Survey::new(&view, &silent)?;
+            let mut data = PointReader::new(&view, &silent)?;
             let kept = simplex(which, few, dim);
             let metric = Estimate::rough(&mut data, &kept)?;
-            let Look::Full(mut here) = metric.of_rows(&mut data, &kept)? else { return Ok(None) };
+            let RankedEstimate::Full(mut here) = metric.of_rows(&mut data, &kept)? else {
+                return Ok(None);
+            };
             for _ in 0..2 {
                 let kept = super::starts::nearest(&here.distances(&mut data)?, part);
-                let Look::Full(next) = here.of_rows(&mut data, &kept)? else { return Ok(None) };
+                let RankedEstimate::Full(next) = here.of_rows(&mut data, &kept)? else {
+                    return Ok(None);
+                };
                 here = next;
             }
             Ok(Some(here))
@@ -213,13 +217,13 @@ fn simplex(which: u64, n: usize, dim: usize) -> Vec<bool> {
     marks
 }
 
-/// Whether at least h rows lie on a subspace.
-fn holds(flat: &Flat, data: &mut Survey<'_>, h: usize) -> Result<bool, Error> {
+/// Tests whether at least h rows lie on a subspace.
+fn holds(flat: &Flat, data: &mut PointReader<'_>, h: usize) -> Result<bool, Error> {
     Ok(flat.rows_on(data)?.0.len() >= h)
 }
 
 /// The rows whose bits hash lowest, in that order.
-fn by_hash(data: &mut Survey<'_>, size: usize) -> Result<Vec<u64>, Error> {
+fn by_hash(data: &mut PointReader<'_>, size: usize) -> Result<Vec<u64>, Error> {
     let dim = data.dim();
     let blocks = data.visit(|first, rows| {
         let hashes = rows.chunks_exact(dim).map(hash);

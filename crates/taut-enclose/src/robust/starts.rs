@@ -17,7 +17,7 @@ use super::eigen::eigenvectors;
 use super::scale::{median, qn};
 use crate::kernel::vector::dot;
 
-/// How many there are.
+/// The number of them.
 pub(super) const START_COUNT: usize = 6;
 
 /// This part of the largest scale stands for a scale of 0.

@@ -41,7 +41,7 @@ pub(super) fn thickening(shape: &[f64], dim: usize) -> Option<f64> {
     Some(2.0 * tau)
 }
 
-/// Whether S + (τ − e)D has positive pivots, with an e that is more than factorizing is off by.
+/// Returns true if S + (τ − e)D has positive pivots, with an e that is more than factorizing is off by.
 fn is_definite(rows: &[Vec<f64>], tau: f64) -> bool {
     let n = rows.len();
     let e = 64.0 * ((n + 4) * (n + 4)) as f64 * ROUNDOFF;

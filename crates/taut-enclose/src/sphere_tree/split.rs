@@ -99,7 +99,7 @@ impl Units {
         farthest.0
     }
 
-    /// Whether each point is as near to `first` as to `second`.
+    /// Tests whether each point is as near to `first` as to `second`.
     fn sides<T: Scalar>(self, points: &Points<'_, T>, first: &[f64], second: &[f64]) -> Vec<bool> {
         points.rows().map(|row| self.square(row, first) <= self.square(row, second)).collect()
     }

@@ -28,7 +28,7 @@ fn solve(
     ball(&points, &BallOptions { inputs: items, ..options.clone() }).unwrap()
 }
 
-/// How far the item that reaches farthest reaches, by plain loops.
+/// Returns how far the item that reaches farthest reaches, by plain loops.
 fn reach(values: &[f64], columns: usize, items: Items, ball: &Ball) -> f64 {
     let dim = items.dim(columns);
     let center = |j: usize| ball.center[j] + ball.center_tail.get(j).copied().unwrap_or(0.0);

@@ -105,7 +105,7 @@ impl Sound {
         }
     }
 
-    /// Whether some row that counts is clearly outside.
+    /// Returns true if some row that counts is clearly outside.
     fn is_outside(&self) -> bool {
         let answer = &self.found.answer;
         (0..self.len() as u64).filter(|row| !answer.outliers.contains(row)).any(|row| {
@@ -114,7 +114,7 @@ impl Sound {
         })
     }
 
-    /// Whether k centers smaller than the lower bound are known that hold these rows but z: then nothing can prove it by these rows.
+    /// Returns true if k centers smaller than the lower bound are known that hold these rows but z: then nothing can prove it by these rows.
     fn is_false(&self, core_set: &[u64], k: usize, z: u64) -> bool {
         if core_set.len() as u64 <= z {
             return true;
@@ -396,7 +396,7 @@ fn every_damaged_answer_is_refused() {
 
 fn name_of(proof: &LowerBound) -> &'static str {
     match proof {
-        LowerBound::Apart => "apart",
+        LowerBound::Separated => "apart",
         LowerBound::Branches { .. } => "branches",
     }
 }

@@ -1,7 +1,7 @@
 //! Numbers of all sizes: whatever is answered is confirmed by the checker, and answers to one question agree.
 
 use taut_certify::{Centers, Items, Placement, Solution, Stop};
-use taut_enclose::{CentersMethod, CentersOptions, CoverOptions, Error, centers};
+use taut_enclose::{CentersMethod, CentersOptions, Error, StreamingOptions, centers};
 use taut_points::{Distribution, Points, generate};
 
 /// SplitMix64 (Steele, Lea, Flood, OOPSLA 2014).
@@ -129,12 +129,12 @@ impl Case {
             methods.push(CentersMethod::Thesis);
         }
         if is_plain && self.items == Items::Points && !self.options.assignment {
-            methods.push(CentersMethod::Stream(CoverOptions::DEFAULT));
+            methods.push(CentersMethod::Stream(StreamingOptions::DEFAULT));
         }
         methods
     }
 
-    /// What is wrong with the answers, if anything.
+    /// Returns what is wrong with the answers, if anything.
     fn judge(&self) -> Result<(), String> {
         let points = Points::new(&self.values, self.columns).unwrap();
         let mut bounds = vec![];

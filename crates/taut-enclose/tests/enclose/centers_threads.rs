@@ -2,8 +2,8 @@
 
 use taut_certify::{Items, LowerBound, Placement};
 use taut_enclose::{
-    CentersMethod, CentersOptions, CoverOptions, FarthestFirstOptions, SphereTreeOptions, centers,
-    farthest_first, sphere_tree,
+    CentersMethod, CentersOptions, FarthestFirstOptions, SphereTreeOptions, StreamingOptions,
+    centers, farthest_first, sphere_tree,
 };
 use taut_points::{Blocks, Distribution, Points, generate};
 
@@ -96,7 +96,7 @@ fn traversals_streams_and_trees() {
     });
     same("stream", |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let method = CentersMethod::Stream(CoverOptions::default());
+        let method = CentersMethod::Stream(StreamingOptions::default());
         let cover =
             || centers(&points, 20, &CentersOptions { method, ..Default::default() }).unwrap();
         pool.install(cover).to_json()

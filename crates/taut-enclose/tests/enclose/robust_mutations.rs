@@ -265,7 +265,7 @@ fn rows_that_a_c_step_improves_are_rejected() {
     }
 }
 
-/// What refuses a forgery: something consistent in itself that claims too much.
+/// Returns what refuses a forgery: something consistent in itself that claims too much.
 fn refused(what: &str, forged: &Found, values: &[f64], dim: usize) -> Violation {
     match forged.check(&Points::new(values, dim).unwrap()) {
         Err(CheckError::Rejected(violation)) => violation,

@@ -108,7 +108,7 @@ impl Edges {
         (self.accurate(p, edge) - self.error(p, edge)) * (1.0 - 32.0 * U)
     }
 
-    /// What products of differences may be off by in the checker as well, relative to the length of an edge.
+    /// Returns what products of differences may be off by in the checker as well, relative to the length of an edge.
     fn error(&self, p: [f64; 2], edge: u32) -> f64 {
         let [a, b] = self.ends(&self.scaled, edge);
         let size = |p: [f64; 2], q: [f64; 2]| (p[0] - q[0]).abs() + (p[1] - q[1]).abs();

@@ -32,7 +32,7 @@ const GAP_GROWTH: f64 = 16.0;
 /// Edges up to which weights are sought in cells that are much larger than the circle.
 const LIST_OF_LARGE_CELL_MAX: usize = 64;
 
-/// How many times as much distances change along the shorter side of a cell that is split there.
+/// The factor by which distances change along the shorter side of a cell that is split there.
 const CHANGE_RATIO: f64 = 4.0;
 
 /// Half diagonal of a cell, in radii, above which it is much larger than the circle.
@@ -50,7 +50,7 @@ const CELLS_BETWEEN_LOOKS: u64 = 256;
 /// Denominators of the weights in a certificate, as powers of two; the first that closes the cell is taken.
 const WEIGHT_BITS: [u32; 4] = [6, 16, 32, 50];
 
-/// What a search found.
+/// The result of a search.
 pub(super) struct Found {
     /// The center in coordinates of the input, if there is one.
     pub(super) center: Option<[f64; 2]>,
@@ -134,7 +134,7 @@ struct Search<'a> {
     cells: u64,
 }
 
-/// What is known of a cell.
+/// The known facts about a cell.
 enum Outcome {
     /// No edge meets it, and it is outside.
     Outside,

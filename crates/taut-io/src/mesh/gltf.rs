@@ -25,7 +25,7 @@ const BIN: &[u8; 4] = b"BIN\0";
 const FILE_HEADER: u64 = 12;
 const CHUNK_HEADER: u64 = 8;
 
-/// What the buffer holds, in order.
+/// The contents of the buffer, in order.
 struct Buffer<'a> {
     mesh: &'a MeshView<'a>,
     /// Normals of length 1.
@@ -41,7 +41,7 @@ struct Run {
     component: u32,
     size: usize,
     count: usize,
-    /// What else is said of it.
+    /// Further remarks about it.
     more: String,
 }
 

@@ -3,7 +3,7 @@
 use std::io::BufRead;
 use std::path::Path;
 
-use super::building::Building;
+use super::builder::MeshBuilder;
 use super::{Mesh, obj, off, ply, stl, vtu, xyz};
 use crate::cursor::Cursor;
 use crate::error::shown_path;
@@ -73,7 +73,7 @@ fn read(
     let (_, medium) = medium.decompressed(shown, compression, true)?;
     #[cfg(feature = "arrow")]
     if format == Format::Parquet {
-        let mut mesh = Building::new(shown, format, content, None);
+        let mut mesh = MeshBuilder::new(shown, format, content, None);
         super::parquet::read(&mut mesh, medium)?;
         return mesh.finish();
     }
@@ -90,7 +90,7 @@ pub(crate) fn read_stream(
     shown: &str,
     memory: Option<u64>,
 ) -> Result<Mesh, Error> {
-    let mut mesh = Building::new(shown, format, content, memory);
+    let mut mesh = MeshBuilder::new(shown, format, content, memory);
     match format {
         Format::Ply => ply::read(&mut mesh, Cursor::new(stream, shown))?,
         Format::Obj => obj::read(&mut mesh, stream)?,

@@ -14,12 +14,12 @@ use crate::{Content, Error, Format};
 /// Simplices in one piece of output.
 const PIECE_SIMPLICES: usize = 1 << 14;
 
-/// How to write a mesh. Write `MeshOptions { encoding: Encoding::Text, ..Default::default() }`.
+/// Options to write a mesh. Write `MeshOptions { encoding: Encoding::Text, ..Default::default() }`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MeshOptions {
     /// The format; by default that of the extension.
     pub format: Option<Format>,
-    /// How ply and stl are written, which know both ways. Default [`Encoding::Binary`].
+    /// The way in which ply and stl are written, which know both ways. Default [`Encoding::Binary`].
     pub encoding: Encoding,
 }
 
@@ -33,7 +33,7 @@ pub enum Encoding {
     Text,
 }
 
-/// What every writer is told.
+/// The data that every writer gets.
 pub(super) struct Job<'a> {
     pub(super) mesh: &'a MeshView<'a>,
     pub(super) encoding: Encoding,

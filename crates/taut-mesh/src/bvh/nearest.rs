@@ -80,7 +80,6 @@ pub(crate) fn normal([a, b, c]: &[[f64; 3]; 3]) -> [f64; 3] {
     cross(less(*b, *a), less(*c, *a))
 }
 
-/// The square of the distance of p from a triangle.
 fn square_distance(p: &[f64; 3], triangle: &[[f64; 3]; 3]) -> f64 {
     let n = normal(triangle);
     // As seen from p.
@@ -90,8 +89,8 @@ fn square_distance(p: &[f64; 3], triangle: &[[f64; 3]; 3]) -> f64 {
     let sum = weights[0] + weights[1] + weights[2];
     if sum > 0.0 && weights.iter().all(|&weight| weight >= 0.0) {
         let [u, v, w] = weights.map(|weight| weight / sum);
-        let foot: [f64; 3] = std::array::from_fn(|k| u * a[k] + v * b[k] + w * c[k]);
-        return sides.min(dot(foot, foot));
+        let projection: [f64; 3] = std::array::from_fn(|k| u * a[k] + v * b[k] + w * c[k]);
+        return sides.min(dot(projection, projection));
     }
     sides
 }
@@ -101,8 +100,8 @@ fn side(a: [f64; 3], b: [f64; 3]) -> f64 {
     let along = less(b, a);
     let length = dot(along, along);
     let share = if length > 0.0 { (-dot(a, along) / length).clamp(0.0, 1.0) } else { 0.0 };
-    let foot: [f64; 3] = std::array::from_fn(|k| a[k] + share * along[k]);
-    dot(foot, foot)
+    let projection: [f64; 3] = std::array::from_fn(|k| a[k] + share * along[k]);
+    dot(projection, projection)
 }
 
 #[cfg(test)]

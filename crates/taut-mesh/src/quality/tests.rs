@@ -191,7 +191,7 @@ fn plain_distance(p: [f64; 2], (a, b): Segment) -> f64 {
     if (0.0..=length).contains(&along) { across } else { ends[0].min(ends[1]) }
 }
 
-/// Whether two segments of whole numbers meet, by exact rational intersection.
+/// Returns true if two segments of whole numbers meet, by exact rational intersection.
 fn plain_meet((a, b): Segment, (c, d): Segment) -> bool {
     let int = |p: [f64; 2]| p.map(|v| v as i64);
     let [a, b, c, d] = [a, b, c, d].map(int);

@@ -53,7 +53,7 @@ struct Side<const D: usize> {
     offsets: [f64; D],
 }
 
-/// What a search keeps.
+/// The points that a search keeps.
 trait Found {
     /// The largest squared distance at which a point may still count.
     fn reach(&self) -> f64;
@@ -63,9 +63,9 @@ trait Found {
 }
 
 /// The nearest point so far.
-struct One(Nearest);
+struct NearestOne(Nearest);
 
-impl Found for One {
+impl Found for NearestOne {
     #[inline(always)]
     fn reach(&self) -> f64 {
         self.0.distance2
@@ -102,7 +102,7 @@ impl Found for One {
 }
 
 /// The k nearest points so far, the farthest on top.
-struct Several<F> {
+struct NearestHeap<F> {
     heap: BinaryHeap<Candidate<u64, F>>,
     k: usize,
     ties: F,
@@ -155,7 +155,7 @@ pub(super) fn keep<S: Ord, F: Fn(u32, u32) -> Ordering>(
     }
 }
 
-impl<F: Fn(u32, u32) -> Ordering + Copy> Found for Several<F> {
+impl<F: Fn(u32, u32) -> Ordering + Copy> Found for NearestHeap<F> {
     #[inline(always)]
     fn reach(&self) -> f64 {
         match self.heap.peek() {
@@ -180,14 +180,14 @@ impl<F: Fn(u32, u32) -> Ordering + Copy> Found for Several<F> {
 }
 
 /// The k nearest points so far, where these are few: in order, which costs less than a heap up to [`ORDERED_LIST_MAX`].
-struct Few<F> {
+struct NearestList<F> {
     /// Squared distances as bits, which have their order, and rows.
     found: Vec<(u64, u32)>,
     k: usize,
     ties: F,
 }
 
-impl<F: Fn(u32, u32) -> Ordering + Copy> Found for Few<F> {
+impl<F: Fn(u32, u32) -> Ordering + Copy> Found for NearestList<F> {
     #[inline(always)]
     fn reach(&self) -> f64 {
         self.found.get(self.k - 1).map_or(f64::INFINITY, |&(bits, _)| f64::from_bits(bits))
@@ -249,7 +249,7 @@ impl<const D: usize> KdTree<D> {
         if !(self.plain && is_plain(place)) {
             return self.nearest_wide(place, 1, |a, b| a.cmp(&b), probe).first().copied();
         }
-        let mut found = One(Nearest { row: u32::MAX, distance2: f64::INFINITY });
+        let mut found = NearestOne(Nearest { row: u32::MAX, distance2: f64::INFINITY });
         self.search(Level::best(), place, &mut found, probe);
         (found.0.row != u32::MAX).then_some(found.0)
     }
@@ -304,14 +304,14 @@ impl<const D: usize> KdTree<D> {
             return self.nearest_wide(place, k, ties, probe);
         }
         if k <= ORDERED_LIST_MAX {
-            let mut few = Few { found: Vec::with_capacity(k), k, ties };
+            let mut few = NearestList { found: Vec::with_capacity(k), k, ties };
             self.search(Level::best(), place, &mut few, probe);
             let nearest =
                 |(bits, row): (u64, u32)| Nearest { row, distance2: f64::from_bits(bits) };
             return few.found.into_iter().map(nearest).collect();
         }
         let heap = BinaryHeap::with_capacity(k.min(self.len));
-        let mut found = Several { heap, k, ties };
+        let mut found = NearestHeap { heap, k, ties };
         self.search(Level::best(), place, &mut found, probe);
         let sorted = found.heap.into_sorted_vec().into_iter();
         let nearest =
@@ -506,7 +506,7 @@ fn distances<const D: usize>(
 #[cfg(test)]
 pub(super) fn nearest_by_all<const D: usize>(tree: &KdTree<D>, place: [f64; D]) -> Vec<Nearest> {
     let search = |level| {
-        let mut found = One(Nearest { row: u32::MAX, distance2: f64::INFINITY });
+        let mut found = NearestOne(Nearest { row: u32::MAX, distance2: f64::INFINITY });
         tree.search(level, place, &mut found, &mut NoProbe);
         found.0
     };

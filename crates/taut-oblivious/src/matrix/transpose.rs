@@ -121,7 +121,7 @@ pub fn transpose_instrumented<T: Pod, P: Probe>(
     Ok(())
 }
 
-/// Whether `length` is that of a `rows` × `columns` matrix.
+/// Tests whether `length` is that of a `rows` × `columns` matrix.
 pub(crate) fn check_length(
     name: &'static str,
     length: usize,
@@ -135,7 +135,7 @@ pub(crate) fn check_length(
     Err(Error::Option { name, value, expected: "as many elements as rows times columns" })
 }
 
-/// What all strips of one transposition share.
+/// The shape that all strips of one transposition share.
 struct Shape {
     level: Level,
     rows: usize,
@@ -146,7 +146,7 @@ struct Shape {
     task_columns: usize,
     /// Elements of a line of the cache.
     line: usize,
-    /// Whether the target is written past the caches.
+    /// True if the target is written past the caches.
     past: bool,
 }
 

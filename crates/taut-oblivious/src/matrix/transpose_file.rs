@@ -77,7 +77,7 @@ impl FileMatrix {
     }
 }
 
-/// How to transpose a file. Write `TransposeFileOptions { memory: 64 << 20, ..Default::default() }`.
+/// Options to transpose a file. Write `TransposeFileOptions { memory: 64 << 20, ..Default::default() }`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TransposeFileOptions {
     /// Most bytes of both buffers together, at least two elements; turning a tile takes some 40 KiB a thread besides.
@@ -91,7 +91,7 @@ impl Default for TransposeFileOptions {
     }
 }
 
-/// What a transposition of a file did.
+/// The result of the transposition of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FileTransposition {
     /// Bytes read: those of the matrix.
@@ -186,7 +186,7 @@ fn open(path: &Path, matrix: &FileMatrix) -> Result<File, Error> {
     }
 }
 
-/// What the system said, and of which file.
+/// Returns what the system said, and of which file.
 fn failed(path: &Path) -> impl Fn(std::io::Error) -> Error + use<> {
     let path = PathBuf::from(path);
     move |source| Error::File { path: path.display().to_string(), source }

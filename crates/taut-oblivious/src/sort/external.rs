@@ -40,7 +40,7 @@ pub use layout::{KeyKind, RecordLayout};
 
 use crate::store::Pending;
 
-/// How to sort a file. Write `FileSortOptions { memory: 1 << 30, ..Default::default() }`.
+/// Options to sort a file. Write `FileSortOptions { memory: 1 << 30, ..Default::default() }`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FileSortOptions {
     /// Most bytes of memory for records and what is needed to sort them; the program itself comes on top. At least
@@ -61,7 +61,7 @@ impl Default for FileSortOptions {
     }
 }
 
-/// What proves that two files hold the same records, in whatever order.
+/// A fingerprint that proves that two files hold the same records, in whatever order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Multiset {
     /// Number of records.
@@ -71,7 +71,7 @@ pub struct Multiset {
     pub hash: u128,
 }
 
-/// How a file was sorted: its certificate, and counters.
+/// The way in which a file was sorted: its certificate, and counters.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct FileSort {
     /// The records that were read. If they did not fit, those that came back from the runs for the output were found to be

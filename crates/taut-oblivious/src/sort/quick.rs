@@ -43,7 +43,7 @@ fn compare<P: Probe>(keys: &mut [u64], probe: &mut P) {
     probe.write(keys);
 }
 
-/// What needs the vector kernels.
+/// The parts that need the vector kernels.
 #[cfg(target_arch = "x86_64")]
 mod vector {
     use super::{Avx512, NoProbe, Probe, compare};

@@ -71,7 +71,6 @@ impl Draft {
     }
 }
 
-/// A file with a name of its own.
 fn named(folder: &Path) -> io::Result<(File, TempPath)> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".taut-");

@@ -65,7 +65,7 @@ pub enum Distribution {
     /// Along a spiral of Archimedes in the plane, r = φ / (2π·turns), from the origin to distance 1; r² is uniform,
     /// which is nearly uniform in length.
     Spiral {
-        /// How often it goes around, ≥ 0.
+        /// The number of times that it goes around, ≥ 0.
         turns: f64,
     },
     /// Two parallel segments of the plane: x uniform in [0, 1), y = i mod 2.
@@ -88,7 +88,7 @@ pub enum Distribution {
     },
 }
 
-/// What a distribution may be told when it is called by its name; what is left out has its default.
+/// The parameters of a distribution that is given by its name; what is left out has its default.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Parameters {
     /// Half the thickness of a shell, at least 0. Default 0.1.
@@ -104,7 +104,7 @@ pub struct Parameters {
     pub side: Option<u64>,
     /// Degrees by which a grid is turned. Default 0.
     pub angle: Option<f64>,
-    /// How often a spiral goes around, at least 0. Default 10.
+    /// The number of times that a spiral goes around, at least 0. Default 10.
     pub turns: Option<f64>,
     /// Standard deviation of the noise of a torus, at least 0. Default 1e-4.
     pub noise: Option<f64>,

@@ -50,7 +50,7 @@ impl Polynomial<8> for Nearer {
     }
 }
 
-/// Whether q lies inside (positive), on (zero) or outside the circle with diameter ab, the smallest one through a
+/// Tests whether q lies inside (positive), on (zero) or outside the circle with diameter ab, the smallest one through a
 /// and b. An edge of a Delaunay triangulation with no vertex inside it is a Gabriel edge.
 #[must_use]
 pub fn in_diametral_circle(a: Point, b: Point, q: Point) -> Sign {
@@ -72,7 +72,7 @@ pub fn circumcenter_side(a: Point, b: Point, c: Point, axis: usize, t: f64) -> S
     numerator * orient(a, b, c)
 }
 
-/// Whether the circumcenter of abc is nearer to r (positive) or to s (negative), or as near to one as to the other.
+/// Tests whether the circumcenter of abc is nearer to r (positive) or to s (negative), or as near to one as to the other.
 /// The triangle may turn either way; zero for three points of a line, which have no circumcenter.
 #[must_use]
 pub fn circumcenter_nearer(a: Point, b: Point, c: Point, r: Point, s: Point) -> Sign {

@@ -58,7 +58,7 @@ pub fn circumcenter_side(a: Point, b: Point, c: Point, d: Point, axis: usize, t:
     numerator * orient(a, b, c, d)
 }
 
-/// Whether the circumcenter of abcd is nearer to r (positive) or to s (negative), or as near to one as to the other.
+/// Tests whether the circumcenter of abcd is nearer to r (positive) or to s (negative), or as near to one as to the other.
 /// The tetrahedron may be of either orientation; zero for four points of a plane, which have no circumcenter.
 #[must_use]
 pub fn circumcenter_nearer(a: Point, b: Point, c: Point, d: Point, r: Point, s: Point) -> Sign {

@@ -20,14 +20,14 @@ use super::spheres::Point;
 use super::witness::{located, witnesses};
 use crate::Error;
 
-/// What a method found, in terms of sites.
+/// The facets that a method found, in terms of sites.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Facets {
     /// Delaunay facets, counter-clockwise from outside.
     pub(super) triangles: Vec<[u32; 3]>,
     /// For each of them a cell that has it and its place there, if that is known.
     pub(super) facets: Option<Vec<u32>>,
-    /// Whether closed parts face outwards, or inwards if they are inside others, by construction. Else they are turned.
+    /// True if closed parts face outwards, or inwards if they are inside others, by construction. Else they are turned.
     pub(super) is_outward: bool,
     /// Where that is known, for sites that no triangle has whether they are inside.
     pub(super) inside: Vec<bool>,

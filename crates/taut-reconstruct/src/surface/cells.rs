@@ -76,7 +76,7 @@ impl Cells {
         Self { sites: vertices, beyond }
     }
 
-    /// How many cells there are.
+    /// Returns how many cells there are.
     pub(super) fn len(&self) -> usize {
         self.sites.len()
     }

@@ -1,4 +1,4 @@
-//! How large the circles of triangles are where their vertices were given.
+//! Measures how large the circles of triangles are where their vertices were given.
 //!
 //! *Problem.* The triangles of an alpha shape were found among moved points. Where these were given their circles can be larger than the
 //! radius of the shape. Name the least `f64`, from this radius on, that none exceeds.
@@ -13,7 +13,7 @@ use super::scaled::Scale;
 use super::spheres::Point;
 use super::vector::{circumcenter, dot, minus};
 
-/// What an alpha shape of a radius promises of its triangles in other places: a radius, unless a triangle is flat there or its circle is
+/// Returns what an alpha shape of a radius promises of its triangles in other places: a radius, unless a triangle is flat there or its circle is
 /// larger than all numbers.
 pub(super) fn promise(places: &[Point], triangles: &[[u32; 3]], radius: f64) -> Promise {
     let corners = |triangle: &[u32; 3]| triangle.map(|row| places[row as usize]);

@@ -27,7 +27,6 @@ const OUTLIER_DISTANCE_RATIO: f64 = 3.0;
 pub(super) struct Denoised {
     /// Those that are no outliers, moved.
     pub(super) points: Vec<Point>,
-    /// For each the row that it was.
     pub(super) rows: Vec<u32>,
     /// The rows of the others.
     pub(super) outliers: Vec<u32>,

@@ -15,8 +15,8 @@
 use std::cmp::Reverse;
 
 use super::cells::Cells;
+use super::dual_edges::{CERTAIN_STEPS, DualEdge, DualEdges, normal};
 use super::spheres::{Point, Sphere, circumcircle};
-use super::strengths::{CERTAIN_STEPS, Tie, Ties, normal};
 
 /// A cell is flat if the square of its volume, six times as large as it is, is at most this beside the product of those of the edges
 /// from its first vertex. From 10⁻⁶ down, wedges whose points are off by a thousandth of their spacing get handles; from 10⁻⁴ up, ellipsoids that are close merge.
@@ -27,7 +27,7 @@ const SURE_STRENGTH: i64 = CERTAIN_STEPS / 100 * 95;
 /// A facet of a flat cell over which it may get its sphere; the surest is the greatest.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Offer {
-    strength: i64,
+    weight: i64,
     /// From the cell with the lower number.
     facet: Reverse<u32>,
 }
@@ -35,11 +35,12 @@ struct Offer {
 /// Gives some of the flat cells the sphere of another one, and lists them. The ties are of all cells with spheres of their own.
 pub(super) fn flats(
     flat: &[u32],
-    ties: &Ties,
+    dual_edges: &DualEdges,
     (cells, points): (&Cells, &[Point]),
     spheres: &mut [Sphere],
 ) -> Vec<u32> {
-    let mut flat: Vec<u32> = flat.iter().copied().filter(|&cell| divides(cell, ties)).collect();
+    let mut flat: Vec<u32> =
+        flat.iter().copied().filter(|&cell| divides(cell, dual_edges)).collect();
     if flat.is_empty() {
         return Vec::new();
     }
@@ -50,8 +51,9 @@ pub(super) fn flats(
         NONE => Way::Out(facet),
         other => Way::To(other),
     };
-    let surest =
-        |&cell: &u32| offers(cell, ties, cells).max().map_or(Way::End, |(_, own)| beyond(own));
+    let surest = |&cell: &u32| {
+        offers(cell, dual_edges, cells).max().map_or(Way::End, |(_, own)| beyond(own))
+    };
     let mut groups = ends(&flat.iter().map(surest).collect::<Vec<Way>>());
     // What hangs together with flat cells alone looks beyond itself.
     loop {
@@ -63,7 +65,7 @@ pub(super) fn flats(
         let mut best: Vec<Option<(Offer, Way)>> = vec![None; flat.len()];
         for &k in &alone {
             let Way::To(group) = groups[k as usize] else { continue };
-            for (offer, own) in offers(flat[k as usize], ties, cells) {
+            for (offer, own) in offers(flat[k as usize], dual_edges, cells) {
                 let way = match beyond(own) {
                     Way::To(other) => groups[other as usize],
                     out => out,
@@ -134,23 +136,23 @@ fn ends(ways: &[Way]) -> Vec<Way> {
     ends.into_iter().map(|end| end.unwrap_or(Way::End)).collect()
 }
 
-/// Whether a cell says "same" to all its neighbors, though not surely to one of them.
-fn divides(cell: u32, ties: &Ties) -> bool {
-    let least = ties.of_cell(cell).map(Tie::signed).into_iter().min();
+/// Returns true if a cell says "same" to all its neighbors, though not surely to one of them.
+fn divides(cell: u32, dual_edges: &DualEdges) -> bool {
+    let least = dual_edges.of_cell(cell).map(DualEdge::signed).into_iter().min();
     least.is_some_and(|least| (0..SURE_STRENGTH).contains(&least))
 }
 
-/// What may be taken over the facets of a cell, each with the facet as the cell has it. It counts how flat cells lie in their pencil, which
+/// Returns what may be taken over the facets of a cell, each with the facet as the cell has it. It counts how flat cells lie in their pencil, which
 /// is known from their own spheres: so an offer is the same from both sides.
 fn offers<'a>(
     cell: u32,
-    ties: &'a Ties,
+    dual_edges: &'a DualEdges,
     cells: &'a Cells,
 ) -> impl Iterator<Item = (Offer, u32)> + 'a {
-    (0..).zip(ties.of_cell(cell)).map(move |(i, tie)| {
+    (0..).zip(dual_edges.of_cell(cell)).map(move |(i, dual_edge)| {
         let facet = cell << 2 | i;
         let first = Reverse(facet.min(cells.mirror(facet)));
-        (Offer { strength: tie.signed(), facet: first }, facet)
+        (Offer { weight: dual_edge.signed(), facet: first }, facet)
     })
 }
 

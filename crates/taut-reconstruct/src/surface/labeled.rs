@@ -7,15 +7,15 @@ use super::answer::Facets;
 use super::border::{Face, Links, faces, faces_after, is_cycle, is_fan};
 use super::cells::Cells;
 use super::diagonals::swap;
-use super::flips::{Flipped, flip};
-use super::islands::sink;
+use super::dual_edges::DualEdges;
+use super::merged_labelings::Patch;
 use super::one_sided::OVERRULED;
 use super::orient::orient;
 use super::prune::{without_all_small_fans, without_membranes};
+use super::relabel_parts::{Relabeled, flip};
+use super::relabel_regions::sink;
 use super::repair::repair;
-use super::seam::Patch;
 use super::spheres::Point;
-use super::strengths::Ties;
 use super::tree::{Labels, labels};
 
 /// Labels cells as inside and outside. For closed surfaces all ghosts are outside; else they are cells as others.
@@ -27,20 +27,20 @@ pub(super) fn surface_of_labels(
 ) -> Result<Facets, Cancelled> {
     let is_open = mode == SurfaceMode::Open;
     let root = cells.first_ghost().unwrap_or(0);
-    let ties = Ties::of(cells, points, !is_open);
+    let dual_edges = DualEdges::of(cells, points, !is_open);
     monitor.check()?;
-    let Labels { mut inside, tree } = labels(&ties, cells, root);
+    let Labels { mut inside, tree } = labels(&dual_edges, cells, root);
     monitor.check()?;
-    let Flipped { flips, doubtful } = flip(&ties, &tree, cells, &mut inside);
+    let Relabeled { relabeled, doubtful } = flip(&dual_edges, &tree, cells, &mut inside);
     drop(tree);
-    let overruled = ties.overruled(&doubtful, cells, &inside);
+    let overruled = dual_edges.overruled(&doubtful, cells, &inside);
     drop(doubtful);
     // Only sheets can have one side.
     let patch = if is_open { Patch::of(&overruled, cells) } else { None };
     monitor.check()?;
-    let strength = |cell: u32, i: usize| ties.of_cell(cell)[i].signed();
+    let weight = |cell: u32, i: usize| dual_edges.of_cell(cell)[i].signed();
     let mut found = faces(cells, &inside, points.len());
-    if sink(&found, cells, &mut inside, points.len(), &strength) > 0 {
+    if sink(&found, cells, &mut inside, points.len(), &weight) > 0 {
         found = faces(cells, &inside, points.len());
     }
     let before = inside.clone();
@@ -49,7 +49,7 @@ pub(super) fn surface_of_labels(
         true => Links::of(&without_membranes(&found, points), points.len()).failing(is_fan),
         false => Links::of(&found, points.len()).failing(is_cycle),
     };
-    let repairs = repair(cells, &mut inside, defects, &strength, is_open, monitor)?;
+    let repairs = repair(cells, &mut inside, defects, &weight, is_open, monitor)?;
     let is_empty = !is_open && repairs == 0 && found.is_empty();
     if is_empty {
         // Too few points to tell inside from outside, or points within a body: the hull is the one surface around all.
@@ -60,7 +60,7 @@ pub(super) fn surface_of_labels(
     // A sheet with one side is put together from this surface and another one, both with the diagonals that labels give.
     let mended = patch.and_then(|patch| {
         let found = faces_after(&found, &before, cells, &inside);
-        patch.mended(&sheets(&found), &ties, cells, points)
+        patch.mended(&sheets(&found), &dual_edges, cells, points)
     });
     let swaps = if mended.is_some() || is_empty { 0 } else { swap(cells, points, &mut inside) };
     if repairs > 0 || is_empty || swaps > 0 {
@@ -74,7 +74,7 @@ pub(super) fn surface_of_labels(
     // Many of these are where there is noise, or a sheet with one side, as no labels of its two sides exist.
     let overruled = overruled.len() as u64;
     let counters =
-        [("flips", flips), (OVERRULED, overruled), ("repairs", repairs), ("swaps", swaps)];
+        [("flips", relabeled), (OVERRULED, overruled), ("repairs", repairs), ("swaps", swaps)];
     Ok(Facets {
         facets: Some(found.iter().map(|face| face.facet).collect()),
         triangles: found.iter().map(|face| face.sites).collect(),

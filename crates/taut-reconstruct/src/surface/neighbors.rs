@@ -33,7 +33,7 @@ pub(super) fn of_neighbors<R: Send>(
     Ok(by_row.into_iter().flatten().collect())
 }
 
-/// What the tree refuses, as a surface says it.
+/// Returns what the tree refuses, as a surface says it.
 fn refused(error: taut_oblivious::Error, points: usize) -> Error {
     match error {
         taut_oblivious::Error::NonFinite { row, column, value } => {

@@ -56,7 +56,7 @@ fn length(points: &[Point], a: u32, b: u32) -> f64 {
     dot(off, off).sqrt()
 }
 
-/// How long an edge at a site may be.
+/// Returns how long an edge at a site may be.
 fn limit(site: u32, links: &Links, points: &[Point]) -> f64 {
     let mut lengths = Vec::new();
     let mut add = |from: u32| {

@@ -16,8 +16,8 @@ use taut_points::{Cancelled, Monitor};
 use super::cells::Cells;
 use super::stars::{Star, Stars};
 
-/// What a facet says: s in steps, more than 0 for the same side.
-pub(super) type Strength<'a> = &'a dyn Fn(u32, usize) -> i64;
+/// The signed weight of a facet: s in steps, more than 0 for the same side.
+pub(super) type Weight<'a> = &'a dyn Fn(u32, usize) -> i64;
 
 /// A star is repaired if it has at most this many cells. Samples of surfaces have stars of twenty cells, random ones of
 /// a hundred; a vertex with more is far from all surfaces around it, as the center of a ball is, and its star would
@@ -29,7 +29,7 @@ pub(super) fn repair(
     cells: &Cells,
     inside: &mut [bool],
     defects: Vec<u32>,
-    strength: Strength<'_>,
+    weight: Weight<'_>,
     ghosts_may: bool,
     monitor: &Monitor<'_>,
 ) -> Result<u64, Cancelled> {
@@ -37,7 +37,7 @@ pub(super) fn repair(
         return Ok(0);
     }
     let mut changes = 0;
-    let mut bench = Bench { cells, stars: Stars::of(cells, &defects), strength, ghosts_may };
+    let mut bench = Bench { cells, stars: Stars::of(cells, &defects), weight, ghosts_may };
     let mut waiting = BTreeSet::from_iter(defects);
     let mut stuck = BTreeSet::new();
     while let Some(site) = waiting.pop_first() {
@@ -69,7 +69,7 @@ pub(super) fn repair(
 struct Bench<'a> {
     cells: &'a Cells,
     stars: Stars<'a>,
-    strength: Strength<'a>,
+    weight: Weight<'a>,
     ghosts_may: bool,
 }
 
@@ -163,14 +163,14 @@ impl Bench<'_> {
         changes
     }
 
-    /// Whether one of the cells has a facet with a cell of the other label.
+    /// Returns true if one of the cells has a facet with a cell of the other label.
     fn touches_the_other_side(&self, inside: &[bool], change: &[u32]) -> bool {
         change.iter().any(|&cell| {
             (0..4).any(|i| inside[self.cells.across(cell, i).0 as usize] != inside[cell as usize])
         })
     }
 
-    /// What the facets around a change object to it: by how much less they agree with the labels after it.
+    /// Returns what the facets around a change object to it: by how much less they agree with the labels after it.
     fn objection(&self, inside: &[bool], change: &[u32]) -> i64 {
         let mut sum = 0;
         for &cell in change {
@@ -178,7 +178,7 @@ impl Bench<'_> {
                 let (other, _) = self.cells.across(cell, i);
                 if !change.contains(&other) {
                     let is_alike = inside[other as usize] == inside[cell as usize];
-                    let s = (self.strength)(cell, i);
+                    let s = (self.weight)(cell, i);
                     sum += if is_alike { s } else { -s };
                 }
             }

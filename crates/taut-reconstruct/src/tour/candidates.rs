@@ -119,7 +119,7 @@ impl Candidates {
         self.edges(v).take(CANDIDATES_TRIED)
     }
 
-    /// Whether moves try the edge from the first site to the second.
+    /// Returns true if moves try the edge from the first site to the second.
     pub(super) fn tries(&self, v: u32, u: u32) -> bool {
         self.neighbors(v).iter().take(CANDIDATES_TRIED).any(|&w| w == u)
     }

@@ -58,7 +58,7 @@ impl Cycle {
         if forward { self.next(node) } else { self.prev(node) }
     }
 
-    /// How many steps ahead of `from` a node is.
+    /// Returns how many steps ahead of `from` a node is.
     #[inline(always)]
     pub(super) fn steps(&self, from: u32, node: u32, forward: bool) -> u32 {
         let (a, b) = (self.place[from as usize], self.place[node as usize]);

@@ -13,12 +13,12 @@
 
 mod ascent;
 mod candidates;
+mod cluster_direction;
 mod cycle;
 mod fragments;
-mod kicks;
 mod metric;
-mod moats;
 mod moves;
+mod perturbations;
 mod simple;
 mod start;
 #[cfg(test)]
@@ -34,9 +34,9 @@ use crate::Error;
 use ascent::{Ascent, special_site};
 use candidates::Candidates;
 use cycle::Cycle;
-use kicks::kick;
 use metric::Metric;
 use moves::{Queue, Search};
+use perturbations::perturb;
 use simple::untangle;
 
 /// The ascent has this many steps, a third of them before the kicks, and fewer where sites times steps would be more
@@ -61,15 +61,14 @@ const GAP_RATIO_MAX: f64 = 0.95;
 pub(crate) struct Tour {
     /// The sites in order.
     pub(crate) order: Vec<u32>,
-    /// Whether it returns to the first; false for fewer than three sites and for sites on a line, whatever was asked.
+    /// True if it returns to the first; false for fewer than three sites and for sites on a line, whatever was asked.
     pub(crate) closed: bool,
-    /// Its length.
     pub(crate) length: f64,
-    /// What proves the bound: a number for each site, in the order of the tour.
+    /// The potentials that prove the bound: a number for each site, in the order of the tour.
     pub(crate) potentials: Vec<f64>,
     /// No tour, or path if this is one, is shorter.
     pub(crate) lower: f64,
-    /// What it took.
+    /// The events on the way.
     pub(crate) events: Events,
 }
 
@@ -105,7 +104,7 @@ pub(crate) fn tour(sites: &[[f64; 2]], open: bool, monitor: &Monitor<'_>) -> Res
     if !closed {
         let near = ascent.open_sites();
         let (kicked, climbed) = rayon::join(
-            || kick(search, &mut cycle, &near, KICKS_PER_SITE * near.len(), 0, monitor),
+            || perturb(search, &mut cycle, &near, KICKS_PER_SITE * near.len(), 0, monitor),
             || ascent.climb(length, steps - steps / 3, monitor),
         );
         kicked?;
@@ -168,7 +167,7 @@ fn again(
             break;
         }
         before = gap;
-        kick(search, cycle, &ascent.open_sites(), ROUND_KICKS * n, round as u64, monitor)?;
+        perturb(search, cycle, &ascent.open_sites(), ROUND_KICKS * n, round as u64, monitor)?;
         ascent.restart();
         if ascent.climb(search.metric.length(cycle.order()), ASCENT_STEPS, monitor)? {
             break;

@@ -72,7 +72,7 @@ impl Move {
         }
     }
 
-    /// How long the runs are that it reverses, at most about.
+    /// Returns how long the runs are that it reverses, at most about.
     fn reach(&self, cycle: &Cycle) -> usize {
         let n = cycle.len();
         let span = |a: u32, b: u32| {
@@ -98,7 +98,7 @@ impl Move {
     }
 }
 
-/// What moves are sought with.
+/// The data for the search of moves.
 #[derive(Clone, Copy)]
 pub(super) struct Search<'a> {
     pub(super) metric: &'a Metric,

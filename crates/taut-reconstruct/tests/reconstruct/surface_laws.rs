@@ -1,4 +1,4 @@
-//! What a surface does not depend on, and what is refused.
+//! Tests what a surface does not depend on, and what is refused.
 
 use std::sync::atomic::AtomicBool;
 

@@ -25,7 +25,7 @@ fn sites(space: &Space) -> Vec<Point> {
     (0..space.site_count() as u32).map(|site| space.site(site)).collect()
 }
 
-/// What no input may change: facets of the triangulation, no edge with more than two triangles, one direction each, no triangle
+/// Checks what no input may change: facets of the triangulation, no edge with more than two triangles, one direction each, no triangle
 /// through another.
 fn shape(space: &Space, surface: &ThesisSurface) -> Topology {
     let (points, triangles) = (sites(space), surface.on_sites());
@@ -174,7 +174,7 @@ fn effort(points: &[Point]) -> [f64; 2] {
     let (space, surface) = plain(points);
     let stages = space.counters().stages;
     let exact = stages.calls() - stages.filter;
-    [surface.counters.looks, exact + space.counters().conflict_tests]
+    [surface.counters.examined_edges, exact + space.counters().conflict_tests]
         .map(|count| count as f64 / points.len() as f64)
 }
 

@@ -82,7 +82,7 @@ impl<K: Key, V: Copy + Default> PackedMap<K, V> {
         self.len
     }
 
-    /// Whether there is no entry.
+    /// Returns true if there is no entry.
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }
@@ -174,7 +174,7 @@ impl<K: Key, V: Copy + Default> PackedMap<K, V> {
         Some(&mut self.values[slot])
     }
 
-    /// Whether a key is there. O(log n).
+    /// Returns true if a key is there. O(log n).
     #[inline]
     pub fn contains_key(&self, key: K) -> bool {
         self.slot(key, &mut NoProbe).is_some()
@@ -303,7 +303,6 @@ impl<K: Key, V: Copy + Default> PackedMap<K, V> {
         self.spread(window, &counts, probe);
     }
 
-    /// Entries of some leaves.
     pub(super) fn entries(&self, leaves: &Range<usize>) -> usize {
         self.counts[leaves.clone()].iter().map(|&count| count as usize).sum()
     }

@@ -37,7 +37,7 @@ impl<K: Key> PackedSet<K> {
         self.map.len()
     }
 
-    /// Whether there is no key.
+    /// Returns true if there is no key.
     pub fn is_empty(&self) -> bool {
         self.map.is_empty()
     }
@@ -57,7 +57,7 @@ impl<K: Key> PackedSet<K> {
         self.map.place(probe);
     }
 
-    /// Whether a key is there. O(log n).
+    /// Returns true if a key is there. O(log n).
     #[inline]
     pub fn contains(&self, key: K) -> bool {
         self.map.contains_key(key)

@@ -262,7 +262,7 @@ impl<V: Copy, S: Spill<V>> Core<V, S> {
         Ok(divided)
     }
 
-    /// Whether small neighbors have to be joined.
+    /// Returns true if small neighbors have to be joined.
     fn too_many(&self) -> bool {
         self.buckets.len() > SPARE_BUCKETS + 2 * self.len().max(1).ilog2() as usize
     }

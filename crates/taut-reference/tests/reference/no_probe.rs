@@ -11,7 +11,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-/// What is compiled: each algorithm for one type, which takes its generic parts along.
+/// The program to compile: each algorithm for one type, which takes its generic parts along.
 const ROOT: &str = r#"
 #![crate_type = "lib"]
 #![allow(warnings)]

@@ -193,7 +193,7 @@ fn stack_distances_survive_long_traces() {
         let mut distances = StackDistances::new(BLOCK).expect("a power of two");
         let shapes = [1, 2, 64, 512, 4096].map(|held| CacheShape::lru(held * BLOCK, BLOCK));
         let mut simulator = Simulator::new(&shapes).expect("caches");
-        for probe in [&mut distances as &mut dyn Tell, &mut simulator] {
+        for probe in [&mut distances as &mut dyn DynProbe, &mut simulator] {
             probe.tell(&blocks, spread as usize * BLOCK);
         }
         for (i, shape) in shapes.iter().enumerate() {
@@ -203,11 +203,11 @@ fn stack_distances_survive_long_traces() {
 }
 
 /// Probes have constants, so they make no trait objects; this does.
-trait Tell {
+trait DynProbe {
     fn tell(&mut self, blocks: &Blocks, bytes: usize);
 }
 
-impl<P: Probe> Tell for P {
+impl<P: Probe> DynProbe for P {
     fn tell(&mut self, blocks: &Blocks, bytes: usize) {
         self.place_at(BASE, bytes);
         for &(block, _) in blocks {

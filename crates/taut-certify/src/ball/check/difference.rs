@@ -11,7 +11,7 @@ const LANES: usize = 4;
 /// Numbers of this size and above have squares and products with exact errors; see the head of the arithmetic.
 const EXACT_SIZE_MIN: f64 = f64::from_bits((1023 - 480) << 52);
 
-/// Whether products with this number have exact errors.
+/// Returns true if products with this number have exact errors.
 pub(super) fn is_tame_number(value: f64) -> bool {
     value == 0.0 || value.abs() >= EXACT_SIZE_MIN
 }
@@ -51,7 +51,7 @@ impl Difference {
         }
     }
 
-    /// Whether nothing can have underflowed: nothing was scaled, and no number is below [`EXACT_SIZE_MIN`] but 0.
+    /// Returns true if nothing can have underflowed: nothing was scaled, and no number is below [`EXACT_SIZE_MIN`] but 0.
     pub(super) fn is_tame(&self, scale: Scale) -> bool {
         let all_tame = |values: &[f64]| values.iter().all(|&v| is_tame_number(v));
         !scale.is_needed() && all_tame(&self.high) && all_tame(&self.low)

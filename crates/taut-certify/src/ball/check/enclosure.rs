@@ -1,4 +1,4 @@
-//! Whether every row lies in the ball, decided exactly; and whether the rows are those the certificate speaks of.
+//! Decides whether every row lies in the ball, decided exactly; and whether the rows are those the certificate speaks of.
 //!
 //! *Problem.* |p − c| ≤ ρ with ρ = R − r (R for points), for each of n rows, in one pass.
 //! *Idea.* Three stages, each asked only about what the one before left open.
@@ -159,7 +159,7 @@ impl<'a> Enclosure<'a> {
         sum.sign() == Ordering::Greater
     }
 
-    /// How far row `number` reaches from the center, for people to read.
+    /// Returns how far row `number` reaches from the center, for people to read.
     fn violation<T: Scalar>(
         &self,
         row: u64,

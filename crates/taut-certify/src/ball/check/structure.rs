@@ -1,4 +1,4 @@
-//! What can be refused before any point is read: lengths, ranges, the support and the sum of the multipliers.
+//! Refusals before any point is read: lengths, ranges, the support and the sum of the multipliers.
 
 use taut_points::PointSource;
 

@@ -71,12 +71,12 @@ impl Core {
         self.reaches[item]
     }
 
-    /// Whether a ball of a radius less than ρ holds the item.
+    /// Returns true if a ball of a radius less than ρ holds the item.
     pub(super) fn is_free(&self, item: usize) -> bool {
         self.reaches[item] > 0.0
     }
 
-    /// Whether no ball of a radius less than ρ holds both.
+    /// Tests whether no ball of a radius less than ρ holds both.
     pub(super) fn are_apart(
         &self,
         i: usize,
@@ -111,7 +111,7 @@ impl Core {
         Ok(nearer != Ordering::Less)
     }
 
-    /// Whether no ball of a radius less than ρ with its center at this place holds the item.
+    /// Tests whether no ball of a radius less than ρ with its center at this place holds the item.
     pub(super) fn is_out_of_reach(
         &self,
         item: usize,

@@ -1,4 +1,4 @@
-//! Whether every row that counts lies in one of the balls, decided exactly; and whether the rows are those the certificate
+//! Decides whether every row that counts lies in one of the balls, decided exactly; and whether the rows are those the certificate
 //! speaks of.
 //!
 //! *Problem.* For each of n rows, some center c with w·|p − c| + r ≤ R; in one pass.
@@ -106,7 +106,7 @@ impl<'a> Enclosure<'a> {
         }
     }
 
-    /// Whether a ball holds the item; `held_by` is the one asked first, and becomes the one that does.
+    /// Tests whether a ball holds the item; `held_by` is the one asked first, and becomes the one that does.
     #[inline(always)]
     fn is_held<T: Scalar>(
         &self,
@@ -146,7 +146,7 @@ impl<'a> Enclosure<'a> {
         Ok(false)
     }
 
-    /// Whether some center, of all that are so near and perhaps of others, passes a test; the one that did last is asked
+    /// Returns true if some center, of all that are so near and perhaps of others, passes a test; the one that did last is asked
     /// first.
     #[inline(always)]
     fn find<T: Scalar>(
@@ -200,7 +200,7 @@ impl<'a> Enclosure<'a> {
         })
     }
 
-    /// How far the item reaches from the center next to it, for people to read.
+    /// Returns how far the item reaches from the center next to it, for people to read.
     fn outside<T: Scalar>(&self, row: u64, item: &Item<'_, T>) -> CentersViolation {
         let reach = |center: &Vec<f64>| item.weight * distance(item.position, center) + item.radius;
         let mut nearest = (0, f64::INFINITY);
@@ -238,7 +238,7 @@ mod tests {
     use super::*;
     use crate::{Items, LowerBound, Placement};
 
-    /// Whether rows are held, and how many comparisons took whole numbers.
+    /// Tests whether rows are held, and how many comparisons took whole numbers.
     fn held(
         rows: &[f64],
         dim: usize,
@@ -264,7 +264,7 @@ mod tests {
             k: answer.centers.len() as u64,
             outliers: 0,
             core_set: vec![],
-            proof: LowerBound::Apart,
+            proof: LowerBound::Separated,
             gap: 0.0,
             points_hash: hash_points(&points, &monitor).unwrap(),
         };

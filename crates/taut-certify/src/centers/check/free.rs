@@ -63,7 +63,7 @@ pub(super) struct Free<'a> {
     hull: Hull,
 }
 
-/// What becomes of a group with one item more.
+/// The result for a group with one item more.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Tried {
     Refuted,
@@ -137,14 +137,14 @@ impl Oracle for Free<'_> {
         Ok(Some(before))
     }
 
-    fn shrink(&self, group: &mut Group, before: Option<Fit>) {
+    fn undo(&self, group: &mut Group, before: Option<Fit>) {
         group.members.pop();
         if let Some(fit) = before {
             group.fit = fit;
         }
     }
 
-    fn kept(before: &Option<Fit>) -> usize {
+    fn undo_bytes(before: &Option<Fit>) -> usize {
         let bytes = |fit: &Fit| size_of_val(&fit.center[..]) + size_of_val(&fit.support[..]);
         before.as_ref().map_or(0, bytes)
     }
@@ -270,7 +270,7 @@ struct Hull {
     /// n and |n|².
     rest: Vec<f64>,
     rest_square: f64,
-    /// Whether nothing of n can be told from rounding.
+    /// True if nothing of n can be told from rounding.
     is_flat: bool,
     coefficients: Vec<f64>,
 }
@@ -348,7 +348,7 @@ impl Hull {
     }
 }
 
-/// Whether the multipliers prove that no center exists.
+/// Returns true if the multipliers prove that no center exists.
 ///
 /// With W = Σλᵢ, any c and M = Σλᵢ(pᵢ − c), Σλᵢgᵢ(p̄) = Σλᵢgᵢ(c) − |M|²/W. Of the differences tᵢ = yᵢ − c, where yᵢ is
 /// pᵢ − p₀ rounded, each is off by a vector no longer than u(|tᵢ| + |yᵢ|). So |tᵢ|² is off by at most
@@ -392,7 +392,7 @@ mod tests {
     use super::super::item::Kind;
     use super::*;
 
-    /// Whether a ball of radius less than `bound` is proved not to hold these rows.
+    /// Returns true if a ball of radius less than `bound` is proved not to hold these rows.
     fn refuted(rows: &[f64], columns: usize, kind: Kind, bound: f64) -> bool {
         let core = Core::of(rows, columns, kind, bound);
         let mut meter = Meter::of(&Monitor::silent());

@@ -30,8 +30,8 @@ pub(super) trait Oracle {
     ) -> Result<Option<Self::Undo>, Cancelled>;
 
     /// Takes the item out that the group got last.
-    fn shrink(&self, group: &mut Self::Group, undo: Self::Undo);
+    fn undo(&self, group: &mut Self::Group, undo: Self::Undo);
 
     /// The bytes that are kept to undo.
-    fn kept(undo: &Self::Undo) -> usize;
+    fn undo_bytes(undo: &Self::Undo) -> usize;
 }

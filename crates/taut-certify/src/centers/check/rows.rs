@@ -23,7 +23,7 @@ use crate::hashed_pass::{WantedRows, hashed_pass};
 /// The sets of all places take at most this many bytes.
 const SET_BYTES_MAX: u64 = 1 << 30;
 
-/// How often there is a bit for each place and item: by place, by item, and in the groups and what is kept to undo them, as
+/// The number of times that there is a bit for each place and item: by place, by item, and in the groups and what is kept to undo them, as
 /// each item begins a group or narrows one.
 const SETS_PER_PLACE: u64 = 3;
 
@@ -81,7 +81,7 @@ impl Places {
         Ok(Places { near })
     }
 
-    /// Whether no place is near to both.
+    /// Tests whether no place is near to both.
     pub(super) fn are_apart(
         &self,
         i: usize,
@@ -118,11 +118,11 @@ impl Oracle for &Places {
         Ok(is_held.then(|| std::mem::replace(group, both)))
     }
 
-    fn shrink(&self, group: &mut Bits, before: Bits) {
+    fn undo(&self, group: &mut Bits, before: Bits) {
         *group = before;
     }
 
-    fn kept(before: &Bits) -> usize {
+    fn undo_bytes(before: &Bits) -> usize {
         size_of_val(&before[..])
     }
 }

@@ -1,4 +1,4 @@
-//! What can be refused before any row is read: lengths, ranges, lists, and the gap between the bounds.
+//! Refusals before any row is read: lengths, ranges, lists, and the gap between the bounds.
 
 use taut_points::PointSource;
 
@@ -7,11 +7,11 @@ use super::item::Kind;
 use crate::Violation;
 use crate::arithmetic::U;
 
-/// How much the gap claimed may fall short of the gap found, relatively and in units of 1: a solver forms the quotient in
+/// The amount by which the gap claimed may fall short of the gap found, relatively and in units of 1: a solver forms the quotient in
 /// arithmetic of its own.
 const GAP_SLACK: (f64, f64) = (1e-9, 4e-16);
 
-/// What rows are, and the gap found.
+/// Returns what rows are, and the gap found.
 pub(super) fn check(
     answer: &Centers,
     certificate: &CentersCertificate,

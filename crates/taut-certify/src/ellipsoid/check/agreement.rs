@@ -1,4 +1,4 @@
-//! Whether the numbers of an answer that say the same thing agree: matrix and factor, factor and log-volume.
+//! Decides whether the numbers of an answer that say the same thing agree: matrix and factor, factor and log-volume.
 //!
 //! *Matrix.* Each entry of Q must be that of FᵀF up to 4(r + 4)u times the root of the product of the two diagonal
 //! entries, which is more than multiplying out in `f64` costs; and Q must be symmetric to the bit. What the
@@ -15,7 +15,7 @@ use super::frame::{Frame, power_of_two_below};
 use crate::Violation;
 use crate::arithmetic::{DoubleDouble, Field, Ring, U};
 
-/// What Q and FᵀF differ by, over s², when column j of F is multiplied by `powers[j]`.
+/// The difference of Q and FᵀF, over s², when column j of F is multiplied by `powers[j]`.
 pub(crate) struct Difference {
     entries: Vec<f64>,
     powers: Vec<f64>,

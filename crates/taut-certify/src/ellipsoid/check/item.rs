@@ -48,7 +48,7 @@ impl<'a> Item<'a> {
         }
     }
 
-    /// Whether S = 0.
+    /// Returns true if S = 0.
     pub(crate) fn is_point(&self) -> bool {
         match self {
             Item::Point(_) => true,
@@ -85,7 +85,7 @@ impl<'a> Item<'a> {
         width * scale * (1.0 + 8.0 * U)
     }
 
-    /// How far the item reaches from the center of the frame, by coordinate, times s; rounded up.
+    /// Returns how far the item reaches from the center of the frame, by coordinate, times s; rounded up.
     pub(crate) fn extents(&self, frame: &Frame<'_>) -> Vec<f64> {
         let offset = frame.offset::<f64>(self.center());
         let reach =
@@ -147,7 +147,7 @@ fn thickening(shape: &[f64], dim: usize) -> f64 {
     2.0 * tau
 }
 
-/// Whether the pivots of S + (τ − e)D are positive, for a lower triangle with diagonal entries in [1, 4].
+/// Returns true if the pivots of S + (τ − e)D are positive, for a lower triangle with diagonal entries in [1, 4].
 fn is_semidefinite_by<N: Field>(lower: &[f64], n: usize, tau: f64) -> bool {
     // Twice the bound of `factorize` for a trace of 4n(1 + τ), and what forming the diagonal costs.
     let e = 64.0 * ((n + 4) * (n + 4)) as f64 * N::ROUNDOFF;
@@ -160,7 +160,7 @@ fn is_semidefinite_by<N: Field>(lower: &[f64], n: usize, tau: f64) -> bool {
     factorize(&mut matrix, n)
 }
 
-/// Whether S is positive semidefinite but for rounding: with D the diagonal of S, whether D^−½SD^−½ + τI is, where
+/// Tests whether S is positive semidefinite but for rounding: with D the diagonal of S, whether D^−½SD^−½ + τI is, where
 /// τ = 32(d + 8)²u is more than any rounding of `f64` entries and of the factorization comes to. Entries of `f32` are off by
 /// 2⁻²⁴ of themselves, and so are those of the diagonal: 2d·2⁻²⁴ in norm, and twice that is granted.
 fn is_semidefinite(shape: &[f64], dim: usize, kind: ScalarKind) -> bool {

@@ -1,4 +1,4 @@
-//! How far an ellipsoid {m + v : vvᵀ ⪯ S} reaches in the frame of another: the largest |F(x − c)| over its points x.
+//! Measures how far an ellipsoid {m + v : vvᵀ ⪯ S} reaches in the frame of another: the largest |F(x − c)| over its points x.
 //!
 //! *Formula.* With g = F(m − c) and A = FSFᵀ, the images y = g + w of its points have wwᵀ ⪯ A. For every μ with
 //! μI − A positive definite,

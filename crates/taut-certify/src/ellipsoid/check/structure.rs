@@ -1,4 +1,4 @@
-//! What can be refused before any point is read: lengths, ranges, the lists of rows and the sum of the multipliers.
+//! Refusals before any point is read: lengths, ranges, the lists of rows and the sum of the multipliers.
 
 use taut_points::PointSource;
 
@@ -48,7 +48,7 @@ fn answer(ellipsoid: &Ellipsoid, dim: usize) -> Result<(), Violation> {
     finite(&[ellipsoid.log_volume], |_| "the log-volume".into())
 }
 
-/// Whether the tail of the center, if there is one, is what rounding the center leaves over.
+/// Tests whether the tail of the center, if there is one, is what rounding the center leaves over.
 pub(crate) fn tail(ellipsoid: &Ellipsoid) -> Result<(), Violation> {
     let Ellipsoid { center, center_tail, .. } = ellipsoid;
     if center_tail.is_empty() {

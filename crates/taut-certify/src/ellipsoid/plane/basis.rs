@@ -58,7 +58,6 @@ impl Basis {
         }
     }
 
-    /// The basis of four points.
     fn of_four(points: &[Point]) -> Option<Basis> {
         let three = (0..4).find_map(|i| {
             let (point, others) = without(points, i);

@@ -16,7 +16,7 @@ pub(super) struct Side {
     pub(super) length: DoubleDouble,
     /// s.
     pub(super) slack: DoubleDouble,
-    /// What ã in length and s are off by.
+    /// The errors of ã in length and of s.
     pub(super) normal_error: f64,
     pub(super) slack_error: f64,
 }
@@ -95,7 +95,7 @@ impl Side {
 /// Offsets of half-spaces are brought below 2 to this.
 const OFFSET_EXPONENT_MAX: i32 = 1000;
 
-/// How many times its error a length must be to count as known.
+/// The number of times that its error a length must be to count as known.
 const LEAST_KNOWN: f64 = 1e6;
 
 /// |ã|, whatever its size.

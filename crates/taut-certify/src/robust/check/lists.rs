@@ -1,4 +1,4 @@
-//! What can be refused before any point is read: lengths, ranges, and the lists of rows.
+//! Refusals before any point is read: lengths, ranges, and the lists of rows.
 
 use taut_points::PointSource;
 
@@ -92,7 +92,7 @@ fn flagged(answer: &RobustEllipsoid, certificate: &RobustCertificate) -> Result<
     Err(Violation::Listed { list: "flagged", problem, row, distance: 1.0 })
 }
 
-/// Whether as many rows are kept as is said, and the ellipsoid around them leaves out the same.
+/// Tests whether as many rows are kept as is said, and the ellipsoid around them leaves out the same.
 fn kept(certificate: &RobustCertificate, n: u64) -> Result<(), Violation> {
     let kept = n - certificate.left_out.len() as u64;
     let claimed = certificate.kept as f64;

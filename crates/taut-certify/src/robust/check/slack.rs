@@ -1,4 +1,4 @@
-//! What numbers of a robust answer may be off by.
+//! The tolerances of the numbers of a robust answer.
 //!
 //! A solver works in `f64` from a center that is itself one: x − c is then right to one rounding, whatever c is, and
 //! shapes lose a part κ·2⁻⁵³ of their digits, κ being how thin the points are. Places are off by the rounding of the center

@@ -64,7 +64,7 @@ impl Sums {
         (mean, covariance)
     }
 
-    /// Whether the mean is 0 and the covariance I/border.
+    /// Tests whether the mean is 0 and the covariance I/border.
     pub(super) fn is_standard(
         &self,
         border: f64,
@@ -98,7 +98,7 @@ impl Sums {
 }
 
 impl Sums {
-    /// Whether there is no scatter: points are too few, or span less than they should but for rounding.
+    /// Returns true if there is no scatter: points are too few, or span less than they should but for rounding.
     pub(super) fn is_flat(&self, rank: usize) -> bool {
         if self.count <= rank as u64 {
             return true;

@@ -29,7 +29,7 @@ pub(super) struct Ball {
     weight: f64,
     /// Where the shares are least: N/2O, infinite or NaN for a half-space.
     apex: [f64; 3],
-    /// What the share of x is off by, over |x|² and over |x|.
+    /// The error of the share of x, over |x|² and over |x|.
     square_error: f64,
     line_errors: [f64; 3],
 }
@@ -77,7 +77,7 @@ impl Ball {
         }
     }
 
-    /// Whether all of a box is surely strictly outside. All sizes are below 1.
+    /// Returns true if all of a box is surely strictly outside. All sizes are below 1.
     #[inline(always)]
     pub(super) fn misses(&self, area: &Area) -> bool {
         let (mut least, mut error) = (0.0, UNDERFLOW);

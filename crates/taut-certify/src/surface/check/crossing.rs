@@ -1,4 +1,4 @@
-//! Whether the surface meets itself: empty balls settle nearly all of it, for the rest a tree lists the pairs of triangles that can meet,
+//! Decides whether the surface meets itself: empty balls settle nearly all of it, for the rest a tree lists the pairs of triangles that can meet,
 //! and [`meet`](super::meet) decides.
 //!
 //! *Theorem.* Let S and T be triangles that are not flat, with different vertices, all of them sites; let each have an open ball with its

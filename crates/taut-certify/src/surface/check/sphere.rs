@@ -54,12 +54,12 @@ impl Sphere {
         Sphere { center: [0, 1, 2].map(|k| a[k] + c[k]), far }
     }
 
-    /// Whether the sphere is known well enough to leave anything out.
+    /// Returns true if the sphere is known well enough to leave anything out.
     pub(super) fn is_known(&self) -> bool {
         self.far < f64::INFINITY
     }
 
-    /// Whether all of a box is surely strictly outside. All sizes are below 1.
+    /// Returns true if all of a box is surely strictly outside. All sizes are below 1.
     #[inline(always)]
     pub(super) fn misses(&self, area: &Area) -> bool {
         let mut square = 0.0;

@@ -39,7 +39,7 @@ pub(super) trait Facets<const F: usize> {
     /// vertex; if not, some number and one that is not 0, as perhaps where `number` stands there twice.
     fn beyond(face: &[u32; F], other: &Self, back: &Self, number: u32) -> (u32, u32);
 
-    /// Whether two facets are one, seen from its two sides: whether an odd permutation takes one to the other.
+    /// Tests whether two facets are one, seen from its two sides: whether an odd permutation takes one to the other.
     fn are_opposite(f: &[u32; F], g: &[u32; F]) -> bool;
 
     /// The same facet, from the same side, from a vertex on that only the facet tells.
@@ -109,7 +109,7 @@ impl Facets<3> for [u32; 4] {
     }
 }
 
-/// What the facets of all simplices have to say.
+/// The claims of the facets of all simplices.
 #[derive(Default)]
 pub(super) struct Paired<const F: usize> {
     /// The facets without a neighbor, in the order of the simplices.
@@ -207,7 +207,7 @@ impl<const D: usize, const V: usize> Complex<'_, D, V> {
         Ok(paired)
     }
 
-    /// What is to be said of the orientation of a simplex, exactly.
+    /// Returns what is to be said of the orientation of a simplex, exactly.
     #[inline(never)]
     fn is_positive<G: Geometry<D, V>>(&self, simplex: usize) -> Result<(), MeshViolation> {
         match self.signs.orientation::<G, D, V>(&self.sites.gather(&self.simplices[simplex])) {
@@ -216,7 +216,7 @@ impl<const D: usize, const V: usize> Complex<'_, D, V> {
         }
     }
 
-    /// What is to be said of a facet that [`Batch::test`] left open, unless it is a near tie.
+    /// Returns what is to be said of a facet that [`Batch::test`] left open, unless it is a near tie.
     fn settle<G: Geometry<D, V>, const F: usize>(
         &self,
         first: usize,

@@ -20,7 +20,7 @@ pub(crate) struct Input<'a, const D: usize> {
     signs: Signs,
 }
 
-/// What one block of rows has to say.
+/// The result for one block of rows.
 struct Block {
     hash: BlockHash,
     /// No bit of a coordinate lies below 2^least, none above 2^most.

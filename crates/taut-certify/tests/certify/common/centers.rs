@@ -43,7 +43,7 @@ impl Task {
         &self.values[i * self.columns..(i + 1) * self.columns]
     }
 
-    /// How far an item reaches from a center.
+    /// Returns how far an item reaches from a center.
     pub(crate) fn reach(&self, i: usize, center: &[f64]) -> f64 {
         let (row, dim) = (self.row(i), self.dim());
         let squares: f64 = row[..dim].iter().zip(center).map(|(x, c)| (x - c).powi(2)).sum();

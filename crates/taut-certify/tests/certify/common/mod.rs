@@ -48,7 +48,7 @@ fn root(value: &BigRational) -> BigRational {
     root
 }
 
-/// What is true of a ball and multipliers, by exact fractions.
+/// The true facts about a ball and multipliers, by exact fractions.
 pub(crate) struct Truth {
     /// |p − c|² and r, by row.
     pub(crate) rows: Vec<(BigRational, BigRational)>,
@@ -106,7 +106,7 @@ pub(crate) fn truth(
     Truth { rows, gap }
 }
 
-/// Whether the row with these numbers of [`Truth::rows`] lies in a ball of this radius.
+/// Returns true if the row with these numbers of [`Truth::rows`] lies in a ball of this radius.
 pub(crate) fn is_inside((square, r): &(BigRational, BigRational), radius: f64) -> bool {
     let rho = exact(radius) - r;
     !rho.is_negative() && *square <= &rho * &rho

@@ -104,7 +104,7 @@ impl Sites {
         determinant(&edges(&simplex.iter().map(|&i| &self.points[i]).collect::<Vec<_>>()))
     }
 
-    /// Whether the lift of `q` is above the plane through those of a positively oriented simplex.
+    /// Returns true if the lift of `q` is above the plane through those of a positively oriented simplex.
     fn is_outside(&self, simplex: &[usize], q: usize) -> bool {
         let all: Vec<&Point> = simplex.iter().chain([&q]).map(|&i| &self.lifted[i]).collect();
         let d = determinant(&edges(&all));

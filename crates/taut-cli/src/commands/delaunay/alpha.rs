@@ -1,4 +1,4 @@
-//! What of a triangulation an eraser of a given radius leaves.
+//! The part of a triangulation that an eraser of a given radius leaves.
 
 use std::path::PathBuf;
 

@@ -2,7 +2,7 @@
 
 use taut::Items;
 
-/// What is done with a sample.
+/// The use of a sample.
 #[derive(Clone, Copy)]
 pub(super) enum Tool {
     /// The smallest ball.
@@ -31,7 +31,7 @@ pub(super) struct Station {
     pub(super) bytes: &'static [u8],
     pub(super) tool: Tool,
     pub(super) command: &'static str,
-    /// Whether a wrong answer is shown to the checker as well: a shape a little too small, an edge turned.
+    /// True if a wrong answer is shown to the checker as well: a shape a little too small, an edge turned.
     pub(super) doctored: bool,
 }
 

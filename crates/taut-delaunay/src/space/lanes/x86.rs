@@ -211,7 +211,7 @@ unsafe fn columns8<const J: usize>(sites: &[Site], s: &[&Simplex<4>; 8]) -> [F64
     ]
 }
 
-/// Whether all vertices of these simplices have a row, asked once for all.
+/// Tests whether all vertices of these simplices have a row, asked once for all.
 #[inline]
 #[target_feature(enable = "avx2")]
 fn within<const N: usize>(sites: &[Site], group: &[&Simplex<4>; N]) -> bool {

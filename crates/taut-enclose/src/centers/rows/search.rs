@@ -1,4 +1,4 @@
-//! Whether k balls of less than a radius hold all items: a tree over X, which grows where X is held and something else is not.
+//! Decides whether k balls of less than a radius hold all items: a tree over X, which grows where X is held and something else is not.
 //!
 //! *Idea.* Depth first; a node is [`State`]. Where X is held, each cluster takes one of its rows as center, and all
 //! items are measured: either the radius is enough, or the farthest item joins X and the node is looked at again. What
@@ -7,17 +7,17 @@
 use taut_points::{Monitor, ReadError};
 
 use super::start::{Incumbent, radius};
-use super::state::{Look, State};
+use super::state::{NodeState, State};
 use crate::Error;
 use crate::centers::depth_first::Path;
 
-/// How a search ended.
+/// The way in which a search ended.
 #[derive(Debug, PartialEq)]
 pub(super) enum End {
     /// No k balls of less than the radius hold X.
     Refuted,
     /// The incumbent has less than the radius.
-    Covered,
+    StreamingReport,
     /// X has grown, and the nodes for this try are used up.
     Grown,
     /// All nodes are used up.
@@ -50,12 +50,12 @@ impl Search<'_, '_> {
             }
             *self.nodes += 1;
             let item = loop {
-                match self.state.look() {
-                    Look::Dead(_) => break None,
-                    Look::Branch(item) => break Some(item),
-                    Look::Covered => {
+                match self.state.examine() {
+                    NodeState::Dead(_) => break None,
+                    NodeState::Branch(item) => break Some(item),
+                    NodeState::StreamingReport => {
                         let Some(farthest) = self.measure() else {
-                            return Ok(End::Covered);
+                            return Ok(End::StreamingReport);
                         };
                         self.state.add(farthest);
                     }
@@ -86,9 +86,9 @@ impl Search<'_, '_> {
             let far = (0..reaches.len()).filter(|&site| counts[site]);
             // The first of the farthest.
             let farthest = far.reduce(|a, b| if reaches[b] > reaches[a] { b } else { a });
-            let spare = farthest
+            let outliers_left = farthest
                 .filter(|&far| centers.len() < state.k && reaches[far] > core.sites.own_reach(far));
-            if let Some(center) = spare {
+            if let Some(center) = outliers_left {
                 centers.push(center);
                 core.sites.lower(&mut reaches, center);
                 continue;

@@ -78,12 +78,12 @@ impl Sites {
         &self.positions[site * self.dim..(site + 1) * self.dim]
     }
 
-    /// Whether all items count alike.
+    /// Returns true if all items count alike.
     pub(super) fn are_plain(&self) -> bool {
         self.weights.is_empty() && self.radii.is_empty()
     }
 
-    /// What an item counts at a distance: w·distance + r.
+    /// Returns the reach of an item at a distance: w·distance + r.
     fn reach(&self, site: usize, distance: f64) -> f64 {
         let weight = self.weights.get(site).copied().unwrap_or(1.0);
         weight * distance + self.radii.get(site).copied().unwrap_or(0.0)
@@ -96,7 +96,7 @@ impl Sites {
         distance[0]
     }
 
-    /// Whether a distance has all its digits.
+    /// Returns true if a distance has all its digits.
     pub(super) fn is_even(&self, site: usize, center: usize) -> bool {
         site == center || EXACT_DISTANCES.contains(&self.distance(site, center))
     }

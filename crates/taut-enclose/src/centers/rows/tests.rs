@@ -185,8 +185,8 @@ fn sizes_at_the_ends_of_the_range_are_solved_or_refused() {
         let scaled: Vec<f64> = values.iter().map(|v| v * scale).collect();
         assert_same(solved(&points(&scaled, 2, 3, 0)).answer.radius, first * scale);
     }
-    let apart = [f64::MAX, -f64::MAX];
-    let problem = points(&apart, 1, 1, 0);
+    let ends = [f64::MAX, -f64::MAX];
+    let problem = points(&ends, 1, 1, 0);
     let refused = ask(&problem, &exact(&problem));
     assert!(matches!(refused, Err(Error::Overflow)));
 }
@@ -236,7 +236,7 @@ fn a_search_cut_short_still_gives_bounds_that_hold() {
         before = found.certificate.gap;
         if max_nodes < 30 {
             assert_eq!(found.trace.stop, Stop::NodeBudget);
-            assert!(matches!(found.certificate.proof, LowerBound::Apart));
+            assert!(matches!(found.certificate.proof, LowerBound::Separated));
         }
     }
 }

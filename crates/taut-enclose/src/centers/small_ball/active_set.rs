@@ -124,7 +124,7 @@ impl ActiveSet {
         about.chain([self.height]).collect()
     }
 
-    /// What a place is along the basis, what is left of it, of length 1, and how long that was; 0 where it depends on the support.
+    /// Returns what a place is along the basis, what is left of it, of length 1, and how long that was; 0 where it depends on the support.
     fn split(&self, place: &[f64]) -> (Vec<f64>, Vec<f64>, f64) {
         let mut rest = place.to_vec();
         let mut column = vec![0.0; self.basis.len()];

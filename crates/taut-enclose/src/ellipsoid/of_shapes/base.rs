@@ -82,7 +82,7 @@ impl Base {
     }
 }
 
-/// How far items lie from a hull at most, rounded up.
+/// Returns how far items lie from a hull at most, rounded up.
 fn distance(shapes: &Shapes, center: &Center, basis: &[Vec<f64>]) -> f64 {
     let dim = shapes.dim();
     let off = |x: &mut [f64]| {

@@ -57,7 +57,9 @@ impl Base {
         let mut support: Vec<(usize, Vec<f64>, f64)> = best
             .support
             .into_iter()
-            .map(|(touch, u)| (touch.item, self.direction(&touch.direction), u))
+            .map(|(support_point, u)| {
+                (support_point.item, self.direction(&support_point.direction), u)
+            })
             .collect();
         support.sort_by_key(|entry| entry.0);
         let images: Vec<f64> =

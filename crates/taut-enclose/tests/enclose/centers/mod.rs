@@ -1,11 +1,11 @@
-//! What the tests of centers share: smallest balls by the ellipsoid method, a brute force over all colorings, and a
+//! Tests what the tests of centers share: smallest balls by the ellipsoid method, a brute force over all colorings, and a
 //! judge that measures every row and replays every proof with code of its own.
 #![allow(dead_code, unreachable_pub)] // each test binary uses a part
 
 use taut_certify::{Centers, Items, LowerBound, Solution};
 use taut_enclose::CentersOptions;
 
-/// How far a row reaches from a center.
+/// Returns how far a row reaches from a center.
 pub fn reach(row: &[f64], center: &[f64], items: Items, weights: bool) -> f64 {
     let d = row.iter().zip(center).map(|(x, c)| (x - c) * (x - c)).sum::<f64>().sqrt();
     match items {
@@ -181,7 +181,7 @@ pub fn judge(
         given: vec![false; certificate.core_set.len()],
     };
     match &certificate.proof {
-        LowerBound::Apart => {
+        LowerBound::Separated => {
             let n = certificate.core_set.len();
             if n as u64 <= k as u64 + options.outliers {
                 return Err(format!("{n} items apart are too few"));

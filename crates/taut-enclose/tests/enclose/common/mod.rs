@@ -1,4 +1,4 @@
-//! What the tests of the ball share: a judge of its own, a brute force, and point families.
+//! Tests what the tests of the ball share: a judge of its own, a brute force, and point families.
 //!
 //! The judge is written apart from the solver and from `taut-certify`, so that an error would have to be made three
 //! times to go unseen; [`judge`] also asks the checker and wants the two to agree.
@@ -66,7 +66,7 @@ impl From<f64> for Twofold {
     }
 }
 
-/// What the judge found.
+/// The findings of the judge.
 #[derive(Clone, Copy, Debug)]
 pub struct Proof {
     /// radius / lower − 1, at least 0.

@@ -1,4 +1,4 @@
-//! What the tests of centers share: the optimum by brute force, and distances by plain sums.
+//! Tests what the tests of centers share: the optimum by brute force, and distances by plain sums.
 #![allow(dead_code, unreachable_pub)] // each test binary uses a part
 
 use taut_certify::{Centers, LowerBound, Solution};
@@ -93,7 +93,7 @@ pub fn judge(found: &Solution<Centers>, values: &[f64], dim: usize) {
     for (center, &row) in centers.iter().zip(rows) {
         assert_eq!(center, &values[row as usize * dim..][..dim]);
     }
-    assert_eq!(certificate.proof, LowerBound::Apart);
+    assert_eq!(certificate.proof, LowerBound::Separated);
     if *lower_bound > 0.0 {
         assert!(certificate.core_set.len() as u64 > certificate.k);
         assert!(least_distance(values, dim, &certificate.core_set) >= 2.0 * lower_bound);

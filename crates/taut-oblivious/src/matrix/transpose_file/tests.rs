@@ -19,7 +19,7 @@ fn plain(from: &[u8], rows: usize, columns: usize, width: usize) -> Vec<u8> {
         .collect()
 }
 
-/// What goes wrong in a [`Faulty`] file, and when.
+/// The faults of a [`Faulty`] file, and their times.
 #[derive(Clone, Copy, Default)]
 struct Faults {
     /// Only part of what was asked for is read or written.
@@ -44,7 +44,7 @@ impl Faulty {
         Self { bytes: RefCell::new(bytes), faults, calls: Cell::new(0) }
     }
 
-    /// How much of `n` bytes this call handles.
+    /// Returns how much of `n` bytes this call handles.
     fn part(&self, n: usize) -> io::Result<usize> {
         self.calls.set(self.calls.get() + 1);
         if self.faults.interrupted && self.calls.get() % 2 == 1 {

@@ -163,7 +163,7 @@ struct Maker<'a> {
     beside: Beside,
 }
 
-/// What sorting takes beside the records.
+/// The memory that sorting takes beside the records.
 enum Beside {
     /// Where they are dealt in their own place.
     Stage(Stage),
@@ -184,13 +184,12 @@ impl<'a> Maker<'a> {
         Ok(Self { plan, records, beside })
     }
 
-    /// Records of run number `run`.
     fn records_of(&self, run: u64) -> usize {
         let chunk = self.plan.chunk as u64;
         chunk.min(self.plan.records - run * chunk) as usize
     }
 
-    /// What was last read, which is run number `run`.
+    /// Returns what was last read, which is run number `run`.
     fn read_of(&self, run: u64) -> &[u8] {
         &self.records.words()[..self.records_of(run) * self.plan.layout.width]
     }

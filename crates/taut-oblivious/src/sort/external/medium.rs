@@ -11,9 +11,9 @@ pub(super) struct Medium<S> {
     path: String,
     pub(super) bytes_read: u64,
     pub(super) bytes_written: u64,
-    /// Whether whole pages are to go past the cache.
+    /// True if whole pages are to go past the cache.
     past_cache: bool,
-    /// Whether the file is set to that just now.
+    /// True if the file is set to that just now.
     is_past: bool,
 }
 

@@ -1,4 +1,4 @@
-//! How the memory is used, and which runs are merged when.
+//! Defines how the memory is used, and which runs are merged when.
 
 use super::chunk::{self, stage_bytes};
 use super::layout::RecordLayout;
@@ -24,7 +24,7 @@ const WINDOW_MIN: usize = 32;
 /// Rather than with smaller blocks, runs are merged in several steps.
 const BLOCK_MIN: usize = 256 << 10;
 
-/// How the memory is used.
+/// The way in which the memory is used.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Plan {
     pub(super) layout: RecordLayout,
@@ -34,11 +34,11 @@ pub(super) struct Plan {
     pub(super) chunk: usize,
     /// Bytes that are written at once.
     pub(super) write_block: usize,
-    /// Whether runs and blocks are whole pages but for the last one, and large.
+    /// True if runs and blocks are whole pages but for the last one, and large.
     pub(super) past_cache: bool,
     /// On how many threads records are sorted in their own place; 0 if they are sorted by words.
     pub(super) in_place: usize,
-    /// What blocks are multiples of.
+    /// The unit of which blocks are multiples.
     pub(super) unit: usize,
     memory: usize,
 }
@@ -79,7 +79,7 @@ impl Plan {
         Ok(plan)
     }
 
-    /// Whether the records fit into memory.
+    /// Returns true if the records fit into memory.
     pub(super) fn fits(&self) -> bool {
         self.records <= self.chunk as u64
     }

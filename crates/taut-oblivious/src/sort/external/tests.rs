@@ -296,7 +296,7 @@ fn stopped_anywhere_nothing_is_left() {
     }
 }
 
-/// How many open files of this process are, or were, in a folder.
+/// Returns how many open files of this process are, or were, in a folder.
 fn files_open(folder: &std::path::Path) -> usize {
     let Ok(open) = fs::read_dir("/proc/self/fd") else { return 0 };
     open.filter_map(|entry| fs::read_link(entry.ok()?.path()).ok())

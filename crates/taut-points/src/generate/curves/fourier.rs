@@ -14,7 +14,7 @@ pub(super) struct Wave {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Piece {
     center: [f64; 2],
-    /// What is added for each unit of t.
+    /// The vector that is added for each unit of t.
     drift: [f64; 2],
     waves: Vec<Wave>,
     range: [f64; 2],

@@ -17,7 +17,6 @@ pub(super) const NONE: u32 = u32::MAX;
 
 /// Candidates T_c, in the order of their sites.
 pub(super) struct Candidates {
-    /// One side of each.
     pub(super) sides: Vec<Side>,
     /// The sites of each, in order.
     pub(super) sites: Vec<[u32; 3]>,
@@ -85,7 +84,7 @@ impl Candidates {
         self.at_site.run(site)
     }
 
-    /// What makes the one candidate attractive from the other: the less, the more. Infinite where `f64` cannot tell.
+    /// Returns what makes the one candidate attractive from the other: the less, the more. Infinite where `f64` cannot tell.
     pub(super) fn measure(&self, from: u32, to: u32) -> f64 {
         if let Some(&size) = self.sizes.get(to as usize) {
             return size;

@@ -26,14 +26,14 @@ struct Kept {
     third: u32,
     /// The normal of its half-plane.
     normal: Vector,
-    /// What makes it attractive.
+    /// The measure that makes it attractive.
     measure: f64,
 }
 
 /// A continuation: what the queue sorts by, and the side to add.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Choice {
-    /// Whether slivers are on it, then the measure of the candidate next to the triangle.
+    /// States whether slivers are on it, then the measure of the candidate next to the triangle.
     pub(super) key: (bool, f64),
     pub(super) side: Side,
 }

@@ -10,7 +10,7 @@ use taut_reconstruct::{
 /// Most points: small sets are the degenerate ones, and fast.
 const POINTS_MAX: usize = 40;
 
-/// What a byte means as a coordinate: mostly small integers, so that points coincide and lie on common planes and spheres; nearly a
+/// Returns what a byte means as a coordinate: mostly small integers, so that points coincide and lie on common planes and spheres; nearly a
 /// sphere; and the ends of what a double holds.
 fn point(bytes: [u8; 3], style: u8, place: usize) -> [f64; 3] {
     let small = |byte: u8| f64::from(byte % 4);

@@ -1,4 +1,4 @@
-//! What must hold of any surface that is found through points.
+//! Tests what must hold of any surface that is found through points.
 
 use taut_certify::{Solution, Surface};
 use taut_mesh::{Topology, TriangleMesh, self_intersections, topology};
@@ -21,7 +21,7 @@ impl Found {
         !self.triangles.is_empty() && self.topology.is_manifold() && self.topology.is_closed()
     }
 
-    /// Whether each point but copies of others is a vertex.
+    /// Returns true if each point but copies of others is a vertex.
     pub(crate) fn is_through_all(&self) -> bool {
         let unused = &self.solution.answer.unused;
         let rows = [&unused.outliers, &unused.interior, &unused.unreferenced];

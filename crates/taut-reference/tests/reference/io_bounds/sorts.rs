@@ -44,7 +44,7 @@ const OPTIMAL_SORTS: [(&str, Sort); 4] = [
 ];
 /// Sizes at which all sorts are counted.
 const COUNTED_SIZES: [usize; 6] = [1 << 16, 1 << 18, 300_000, 1 << 20, 1 << 21, 1 << 22];
-/// What these are allowed.
+/// The factors that these are allowed.
 const ALLOWED_FACTORS: [f64; 4] = [6.0, 6.0, 8.0, 8.0];
 
 fn optimal_sorts_keep(allowed: [f64; 4], grid: &[Shape], sizes: &[usize]) {

@@ -1,4 +1,4 @@
-//! What is said about a circle in a polygon.
+//! The report about a circle in a polygon.
 
 use taut::Solution;
 use taut::certify::{InscribedCircle, Stop};

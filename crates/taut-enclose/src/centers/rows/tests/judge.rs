@@ -126,7 +126,7 @@ impl<'a> Replay<'a> {
     #[track_caller]
     fn follow(&mut self) {
         match self.proof {
-            LowerBound::Apart => {
+            LowerBound::Separated => {
                 assert!(self.near.len() > self.k + self.outliers);
                 for a in 0..self.near.len() {
                     assert!((0..a).all(|b| !self.is_feasible(&[a, b])));

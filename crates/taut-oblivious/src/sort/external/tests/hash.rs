@@ -20,7 +20,7 @@ fn lanes(words: &[u64; 3]) -> [u64; 2] {
     [hash as u64, (hash >> 64) as u64]
 }
 
-/// Whether the two records differ in each half of the hash.
+/// Tests whether the two records differ in each half of the hash.
 fn differ(a: [u64; 2], b: [u64; 2]) -> bool {
     a[0] != b[0] && a[1] != b[1]
 }

@@ -33,7 +33,7 @@ pub(super) struct Scene {
     outliers: Outliers,
 }
 
-/// What is known of the gaps of each curve.
+/// The known facts about the gaps of each curve.
 pub(super) struct Gaps {
     /// Half of each over φ: the least and the most that may be told.
     pub(super) ratios: Vec<Vec<[f64; 2]>>,
@@ -106,7 +106,7 @@ impl Scene {
         }
     }
 
-    /// Whether a doubt told is so; or, without one, whether none is so.
+    /// Tests whether a doubt told is so; or, without one, whether none is so.
     pub(super) fn judge(&self, doubt: Option<CurveDoubt>, gaps: &Gaps) -> Judged {
         let is_near = |told: f64, found: f64| (told - found).abs() <= ROUNDING * found.abs();
         let Some(doubt) = doubt else { return self.has_none(gaps) };

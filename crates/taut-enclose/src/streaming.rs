@@ -1,21 +1,21 @@
 //! Centers of points that come by once, and centers of points that are in many places.
 //!
 //! *Problem.* Few centers near all points, and a bound on how much nearer others could be, when the points are read once, a
-//! block at a time ([`Cover`]), or each part of them where it lies ([`Summary`]).
+//! block at a time ([`StreamingCenters`]), or each part of them where it lies ([`CoreSetSummary`]).
 //! *Idea of the stream.* An instance guesses a radius r and keeps points that are more than 2r apart; what is nearer to one of them
 //! is counted as its own. When there are more than k, no k balls of radius r hold them: the guess grows by a factor α, and of
 //! the points kept those go that are now too near to others. m instances, with guesses between each other, share the stream.
 //! *Guarantee.* Whatever is dropped is within 2r + 2r/α + 2r/α² + … < 2rα/(α − 1) of a point kept, and of all instances
 //! the one with the smallest guess is at most a factor α^(1/m) above a guess that failed: at most 2α^(1+1/m)/(α − 1)
 //! times the optimum, which α = m + 1 makes smallest. One instance is the doubling algorithm and has 8.
-//! *Trap.* What is counted as covered was never measured against the center it now has; the radius of a [`Cover`] is a sum of
+//! *Trap.* What is counted as covered was never measured against the center it now has; the radius of a [`StreamingCenters`] is a sum of
 //! distances, an upper bound. One more pass measures it.
 //! *Reference.* Charikar, Chekuri, Feder and Motwani, SIAM J. Comput. 33(6), 2004 (doubling); McCutchen and Khuller, APPROX 2008,
 //! and Guha, ICDT 2009 (instances in parallel).
 
+mod core_set_summary;
 mod instance;
 mod measure;
-mod summary;
 
 use rayon::prelude::*;
 use taut_certify::{Centers, Placement, Solution, Stop, Trace};
@@ -23,31 +23,31 @@ use taut_points::{
     Blocks, InputError, Monitor, PointSource, Points, ReadError, Rows, Scalar, Scratch,
 };
 
-use crate::apart::{Apart, rounded_up};
+use crate::separated_set::{SeparatedSet, rounded_up};
 use crate::{CentersMethod, Error};
+pub use core_set_summary::CoreSetSummary;
 use instance::{Instance, distance, least_distance};
 use measure::measure;
-pub use summary::Summary;
 
-/// How to cover a stream. Write `CoverOptions { instances: 1 }`.
+/// Options to cover a stream. Write `StreamingOptions { instances: 1 }`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct CoverOptions {
+pub struct StreamingOptions {
     /// Guesses of the radius that are kept at a time, m. Memory and time are proportional to it, and the factor falls from
     /// 8 with one to 2.96 with eight, 2.54 with 16, 2.17 with 64. From 1 to 1000, default 8.
     pub instances: usize,
 }
 
-impl Default for CoverOptions {
+impl Default for StreamingOptions {
     fn default() -> Self {
-        CoverOptions::DEFAULT
+        StreamingOptions::DEFAULT
     }
 }
 
-impl CoverOptions {
-    /// What [`Default`] says.
-    pub const DEFAULT: Self = CoverOptions { instances: 8 };
+impl StreamingOptions {
+    /// The value of [`Default`].
+    pub const DEFAULT: Self = StreamingOptions { instances: 8 };
 
-    /// The factor that is proved beforehand, 2(m + 1)^(1 + 1/m)/m: the radius of a [`Cover`] is never more than this times its
+    /// The factor that is proved beforehand, 2(m + 1)^(1 + 1/m)/m: the radius of a [`StreamingCenters`] is never more than this times its
     /// lower bound, to rounding.
     pub fn factor(&self) -> f64 {
         let m = self.instances as f64;
@@ -55,9 +55,9 @@ impl CoverOptions {
     }
 }
 
-/// What is known of a stream so far.
+/// The report about a stream so far.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Covered {
+pub struct StreamingReport {
     /// At most k points of the stream.
     pub centers: Vec<Vec<f64>>,
     /// Their rows.
@@ -67,7 +67,7 @@ pub struct Covered {
     /// No k balls of a smaller radius hold the points that came by.
     pub lower_bound: f64,
     /// The rows that prove it: k + 1 of which no two are nearer than twice the bound. None where the bound is 0.
-    pub apart: Vec<u64>,
+    pub separated: Vec<u64>,
 }
 
 /// k centers of a stream of points, at any moment, in memory for m(k + 1) points.
@@ -75,40 +75,40 @@ pub struct Covered {
 /// The blocks may be of any size: the same rows in the same order give the same answer.
 ///
 /// ```
-/// use taut_enclose::{Cover, CoverOptions};
+/// use taut_enclose::{StreamingCenters, StreamingOptions};
 /// use taut_points::Points;
 ///
-/// let options = CoverOptions::default();
-/// let mut cover = Cover::new(2, 3, &options)?;
+/// let options = StreamingOptions::default();
+/// let mut cover = StreamingCenters::new(2, 3, &options)?;
 /// for step in 0..1000 {
 ///     let angle = f64::from(step);
 ///     cover.add(&Points::new(&[angle.cos(), angle.sin()], 2)?)?;
 /// }
 /// let found = cover.covered();
-/// assert!(found.centers.len() <= 3 && found.apart.len() == 4);
+/// assert!(found.centers.len() <= 3 && found.separated.len() == 4);
 /// assert!(found.radius <= options.factor() * found.lower_bound * (1.0 + 1e-9));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct Cover {
+pub struct StreamingCenters {
     dim: usize,
     k: usize,
-    options: CoverOptions,
+    options: StreamingOptions,
     seen: u64,
     /// The first points that differ, up to k of them; empty once there are instances.
     first: Vec<f64>,
     first_rows: Vec<u64>,
     instances: Vec<Instance>,
     /// The best proof so far.
-    apart: Apart,
+    separated: SeparatedSet,
 }
 
-impl Cover {
+impl StreamingCenters {
     /// Nothing seen yet.
     ///
     /// # Errors
     /// [`Error::Input`] when `dim`, `k` or an option is out of range.
-    pub fn new(dim: usize, k: usize, options: &CoverOptions) -> Result<Self, Error> {
+    pub fn new(dim: usize, k: usize, options: &StreamingOptions) -> Result<Self, Error> {
         let wrong = |name, value: usize, expected| {
             Err(Error::Input(InputError::Option { name, value: value.to_string(), expected }))
         };
@@ -121,7 +121,7 @@ impl Cover {
         if !(1..=1000).contains(&options.instances) {
             return wrong("instances", options.instances, "from 1 to 1000");
         }
-        Ok(Cover {
+        Ok(StreamingCenters {
             dim,
             k,
             options: *options,
@@ -129,16 +129,16 @@ impl Cover {
             first: vec![],
             first_rows: vec![],
             instances: vec![],
-            apart: Apart::default(),
+            separated: SeparatedSet::default(),
         })
     }
 
-    /// How many points came by.
+    /// Returns how many points came by.
     pub fn len(&self) -> u64 {
         self.seen
     }
 
-    /// Whether none has.
+    /// Returns true if none has.
     pub fn is_empty(&self) -> bool {
         self.seen == 0
     }
@@ -186,8 +186,8 @@ impl Cover {
             .par_iter_mut()
             .map(|instance| instance.add(first_row, &rest, monitor))
             .collect::<Vec<_>>();
-        for apart in failed {
-            self.take(apart?);
+        for separated in failed {
+            self.take(separated?);
         }
         self.seen += rest.len() as u64;
         Ok(())
@@ -211,7 +211,7 @@ impl Cover {
         if !(f64::MIN_POSITIVE * 4.0..).contains(&least) {
             return Err(Error::Overflow);
         }
-        self.take(Apart { rows: rows.clone(), distance: least });
+        self.take(SeparatedSet { rows: rows.clone(), distance: least });
         let m = self.options.instances;
         let ratio = m as f64 + 1.0;
         for i in 1..=m {
@@ -224,25 +224,25 @@ impl Cover {
     }
 
     /// Keeps the better proof, the earlier of two that are equal.
-    fn take(&mut self, apart: Apart) {
-        if apart.distance > self.apart.distance {
-            self.apart = apart;
+    fn take(&mut self, separated: SeparatedSet) {
+        if separated.distance > self.separated.distance {
+            self.separated = separated;
         }
     }
 
     /// The best centers for the points that came by so far.
-    pub fn covered(&self) -> Covered {
+    pub fn covered(&self) -> StreamingReport {
         let best = self.instances.iter().reduce(|a, b| if b.radius() < a.radius() { b } else { a });
         let (flat, rows, radius) = match best {
             Some(best) => (best.centers(), best.rows(), best.radius()),
             None => (&self.first[..], &self.first_rows[..], 0.0),
         };
-        Covered {
+        StreamingReport {
             centers: flat.chunks_exact(self.dim).map(<[f64]>::to_vec).collect(),
             rows: rows.to_vec(),
             radius,
-            lower_bound: self.apart.bound(self.dim),
-            apart: self.apart.rows.clone(),
+            lower_bound: self.separated.bound(self.dim),
+            separated: self.separated.rows.clone(),
         }
     }
 
@@ -272,7 +272,7 @@ impl Cover {
             stop: Stop::Converged,
             passes: 1 + measured.passes,
             iterations: 0,
-            core_set: found.apart.len() as u64,
+            core_set: found.separated.len() as u64,
             history: vec![],
             counters: [("instances".to_owned(), self.options.instances as u64)].into(),
         };
@@ -285,19 +285,19 @@ impl Cover {
             assignment: vec![],
         };
         let k = self.k as u64;
-        self.apart.clone().prove(answer, k, placement, measured.points_hash, trace)
+        self.separated.clone().prove(answer, k, placement, measured.points_hash, trace)
     }
 }
 
-/// k centers of a source in two passes: one for a [`Cover`], one to measure its radius.
-pub(crate) fn cover_in_two_passes(
+/// k centers of a source in two passes: one for a [`StreamingCenters`], one to measure its radius.
+pub(crate) fn centers_in_two_passes(
     source: &dyn PointSource,
     k: usize,
     placement: Placement,
-    options: &CoverOptions,
+    options: &StreamingOptions,
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Centers>, Error> {
-    let mut cover = Cover::new(source.dim(), k, options)?;
+    let mut cover = StreamingCenters::new(source.dim(), k, options)?;
     let (blocks, mut scratch) = (Blocks::of(source), Scratch::new());
     monitor.pass(1, source.len());
     for block in 0..blocks.count() {

@@ -7,7 +7,8 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
 use taut_certify::{Centers, Placement, Solution};
 use taut_enclose::{
-    CentersMethod, CentersOptions, Cover, CoverOptions, Covered, Error, Summary, centers,
+    CentersMethod, CentersOptions, CoreSetSummary, Error, StreamingCenters, StreamingOptions,
+    StreamingReport, centers,
 };
 use taut_points::{Distribution, InputError, Monitor, Points, generate, hash_points};
 
@@ -19,12 +20,18 @@ fn seeded(cases: u32) -> Config {
 }
 
 /// Centers by one pass and a measuring one.
-fn streamed(options: CoverOptions) -> CentersOptions<'static> {
+fn streamed(options: StreamingOptions) -> CentersOptions<'static> {
     CentersOptions { method: CentersMethod::Stream(options), ..Default::default() }
 }
 
-/// What holds at every moment, whatever the optimum is.
-fn sound(found: &Covered, values: &[f64], dim: usize, k: usize, options: &CoverOptions) {
+/// Checks what holds at every moment, whatever the optimum is.
+fn sound(
+    found: &StreamingReport,
+    values: &[f64],
+    dim: usize,
+    k: usize,
+    options: &StreamingOptions,
+) {
     assert!(found.centers.len() <= k && found.centers.len() == found.rows.len());
     for (center, &row) in found.centers.iter().zip(&found.rows) {
         assert_eq!(center, &values[row as usize * dim..][..dim]);
@@ -33,8 +40,8 @@ fn sound(found: &Covered, values: &[f64], dim: usize, k: usize, options: &CoverO
     let factor = options.factor() * (1.0 + 1e-9);
     assert!(found.radius <= factor * found.lower_bound, "{} / {}", found.radius, found.lower_bound);
     if found.lower_bound > 0.0 {
-        assert_eq!(found.apart.len(), k + 1);
-        assert!(least_distance(values, dim, &found.apart) >= 2.0 * found.lower_bound);
+        assert_eq!(found.separated.len(), k + 1);
+        assert!(least_distance(values, dim, &found.separated) >= 2.0 * found.lower_bound);
     }
 }
 
@@ -55,9 +62,9 @@ proptest! {
         k in 1usize..4,
         instances in prop::sample::select(&INSTANCES[..]),
     ) {
-        let options = CoverOptions { instances };
+        let options = StreamingOptions { instances };
         let n = (values.len() / dim).min(8);
-        let mut cover = Cover::new(dim, k, &options).unwrap();
+        let mut cover = StreamingCenters::new(dim, k, &options).unwrap();
         for i in 0..n {
             cover.add(&Points::new(&values[i * dim..(i + 1) * dim], dim).unwrap()).unwrap();
             let seen = &values[..(i + 1) * dim];
@@ -104,8 +111,8 @@ fn the_factor_holds_on_hard_orders() {
     for (name, values) in hard_orders(&mut random) {
         for k in [1, 3, 10] {
             for instances in INSTANCES {
-                let options = CoverOptions { instances };
-                let mut cover = Cover::new(1, k, &options).unwrap();
+                let options = StreamingOptions { instances };
+                let mut cover = StreamingCenters::new(1, k, &options).unwrap();
                 for (i, part) in values.chunks(37).enumerate() {
                     cover.add(&Points::new(part, 1).unwrap()).unwrap();
                     let seen = &values[..(37 * (i + 1)).min(values.len())];
@@ -128,7 +135,7 @@ fn the_factor_holds_on_hard_orders() {
 /// The factors that are promised, by their closed form.
 #[test]
 fn the_factors() {
-    let factor = |instances| CoverOptions { instances }.factor();
+    let factor = |instances| StreamingOptions { instances }.factor();
     assert_eq!(factor(1), 8.0);
     assert!((factor(8) - 2.961).abs() < 1e-3 && (factor(64) - 2.168).abs() < 1e-3);
     assert!((1..1000).all(|m| factor(m + 1) < factor(m) && factor(m) > 2.0));
@@ -139,11 +146,11 @@ fn blocks_media_and_threads_change_nothing() {
     let values: Vec<f64> =
         generate(Distribution::Clusters { count: 9, spread: 0.02 }, 30_000, 3, 5).unwrap();
     let points = Points::new(&values, 3).unwrap();
-    let options = CoverOptions::default();
-    let mut wanted = Cover::new(3, 6, &options).unwrap();
+    let options = StreamingOptions::default();
+    let mut wanted = StreamingCenters::new(3, 6, &options).unwrap();
     wanted.add(&points).unwrap();
     for rows in [1, 7, 1000] {
-        let mut cover = Cover::new(3, 6, &options).unwrap();
+        let mut cover = StreamingCenters::new(3, 6, &options).unwrap();
         for part in values.chunks(3 * rows) {
             cover.add(&Points::new(part, 3).unwrap()).unwrap();
         }
@@ -164,8 +171,8 @@ fn blocks_media_and_threads_change_nothing() {
 fn sizes_of_all_kinds() {
     for size in [1e-300, 1e-160, 1.0, 1e160, 1e300] {
         let values: Vec<f64> = (0..300).map(|i| size * f64::from(i * i % 101)).collect();
-        let options = CoverOptions { instances: 4 };
-        let mut cover = Cover::new(2, 5, &options).unwrap();
+        let options = StreamingOptions { instances: 4 };
+        let mut cover = StreamingCenters::new(2, 5, &options).unwrap();
         cover.add(&Points::new(&values, 2).unwrap()).unwrap();
         let found = cover.covered();
         assert!(found.radius <= options.factor() * found.lower_bound * (1.0 + 1e-9), "{size}");
@@ -184,7 +191,7 @@ fn scaled(rows: &[Vec<f64>], by: f64) -> Vec<Vec<f64>> {
 
 #[test]
 fn few_different_points_are_all_centers() {
-    let mut cover = Cover::new(1, 3, &CoverOptions::default()).unwrap();
+    let mut cover = StreamingCenters::new(1, 3, &StreamingOptions::default()).unwrap();
     assert!(cover.is_empty());
     for value in [4.0, 4.0, 1.0, -0.0, 0.0, 4.0, 1.0] {
         cover.add(&Points::new(&[value], 1).unwrap()).unwrap();
@@ -199,16 +206,16 @@ fn few_different_points_are_all_centers() {
 
 #[test]
 fn what_is_no_input_is_named() {
-    let options = CoverOptions::default();
+    let options = StreamingOptions::default();
     for (dim, k, instances, wrong) in
         [(0, 1, 1, "dim"), (1, 0, 1, "k"), (1, 1, 0, "instances"), (1, 1, 1001, "instances")]
     {
-        let found = Cover::new(dim, k, &CoverOptions { instances });
+        let found = StreamingCenters::new(dim, k, &StreamingOptions { instances });
         assert!(
             matches!(found, Err(Error::Input(InputError::Option { name, .. })) if name == wrong)
         );
     }
-    let mut cover = Cover::new(2, 1, &options).unwrap();
+    let mut cover = StreamingCenters::new(2, 1, &options).unwrap();
     cover.add(&Points::new(&[0.0; 6], 2).unwrap()).unwrap();
     let wrong = cover.add(&Points::new(&[1.0, 2.0, 3.0, f64::NAN], 2).unwrap());
     assert!(matches!(wrong, Err(Error::Input(InputError::NonFinite { row: 4, column: 1, .. }))));
@@ -229,17 +236,17 @@ fn what_is_no_input_is_named() {
 }
 
 /// Summaries of parts of `values`, cut at the given rows.
-fn summaries(values: &[f64], dim: usize, cuts: &[usize], size: u64) -> Vec<Summary> {
+fn summaries(values: &[f64], dim: usize, cuts: &[usize], size: u64) -> Vec<CoreSetSummary> {
     cuts.windows(2)
         .map(|cut| {
             let part = Points::new(&values[cut[0] * dim..cut[1] * dim], dim).unwrap();
-            Summary::of(&part, cut[0] as u64, size).unwrap()
+            CoreSetSummary::of(&part, cut[0] as u64, size).unwrap()
         })
         .collect()
 }
 
-fn merged(summaries: impl IntoIterator<Item = Summary>) -> Summary {
-    summaries.into_iter().fold(Summary::default(), |all, one| all.merge(one).unwrap())
+fn merged(summaries: impl IntoIterator<Item = CoreSetSummary>) -> CoreSetSummary {
+    summaries.into_iter().fold(CoreSetSummary::default(), |all, one| all.merge(one).unwrap())
 }
 
 proptest! {
@@ -295,8 +302,8 @@ fn summaries_may_come_in_any_order() {
 
 #[test]
 fn summaries_that_do_not_belong_together_are_refused() {
-    let one = Summary::of(&Points::new(&[1.0, 2.0], 1).unwrap(), 0, 5).unwrap();
-    let two = Summary::of(&Points::new(&[1.0, 2.0], 2).unwrap(), 9, 5).unwrap();
+    let one = CoreSetSummary::of(&Points::new(&[1.0, 2.0], 1).unwrap(), 0, 5).unwrap();
+    let two = CoreSetSummary::of(&Points::new(&[1.0, 2.0], 2).unwrap(), 9, 5).unwrap();
     assert!(matches!(
         one.clone().merge(two),
         Err(Error::Input(InputError::Option { name: "other", .. }))
@@ -305,7 +312,7 @@ fn summaries_that_do_not_belong_together_are_refused() {
         one.clone().merge(one.clone()),
         Err(Error::Input(InputError::Option { name: "other", .. }))
     ));
-    let nothing = Summary::default();
+    let nothing = CoreSetSummary::default();
     assert!(nothing.is_empty() && matches!(nothing.points(), Err(Error::Empty)));
     let points = Points::new(&[1.0, 2.0], 1).unwrap();
     let silent = &Monitor::silent();
@@ -326,7 +333,7 @@ fn summaries_that_do_not_belong_together_are_refused() {
     ));
     // Of 0 and 2 alone no row is nearer than 2 to both; of 0, 1 and 2 there is one.
     let points = Points::new(&[0.0, 2.0, 1.0], 1).unwrap();
-    let ends = Summary::of(&Points::new(&[0.0, 2.0], 1).unwrap(), 0, 2).unwrap();
+    let ends = CoreSetSummary::of(&Points::new(&[0.0, 2.0], 1).unwrap(), 0, 2).unwrap();
     let options = CentersOptions { placement: Placement::Rows, ..Default::default() };
     let found = centers(&ends.points().unwrap(), 1, &options).unwrap();
     assert!(found.answer.lower_bound > 1.9);
@@ -336,16 +343,18 @@ fn summaries_that_do_not_belong_together_are_refused() {
     ));
     // Two points of three, and two centers: nothing is proved of the third.
     let points = Points::new(&[1.0, 2.0, 4.0], 1).unwrap();
-    let one = Summary::of(&points, 0, 2).unwrap();
+    let one = CoreSetSummary::of(&points, 0, 2).unwrap();
     let wrong = one.solve(2, Placement::Free, &points, silent);
     assert!(matches!(wrong, Err(Error::Input(InputError::Option { name: "found", .. }))));
-    let all =
-        Summary::of(&points, 0, 3).unwrap().solve(2, Placement::Free, &points, silent).unwrap();
+    let all = CoreSetSummary::of(&points, 0, 3)
+        .unwrap()
+        .solve(2, Placement::Free, &points, silent)
+        .unwrap();
     judge(&all, points.values(), 1);
 }
 
 fn lift(
-    summary: &Summary,
+    summary: &CoreSetSummary,
     found: Solution<Centers>,
     points: &Points<'_, f64>,
 ) -> Result<Solution<Centers>, Error> {

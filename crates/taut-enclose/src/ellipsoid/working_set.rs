@@ -7,7 +7,7 @@ use crate::kernel::triangle::POINTS;
 
 /// Points relative to an origin, in the order the kernels want, and their multipliers u.
 #[derive(Clone, Debug)]
-pub(super) struct Pool {
+pub(super) struct WorkingSet {
     dim: usize,
     ids: Vec<u64>,
     positions: HashMap<u64, usize, BuildHasherDefault<IdHasher>>,
@@ -17,19 +17,25 @@ pub(super) struct Pool {
     weights: Vec<f64>,
 }
 
-impl Pool {
+impl WorkingSet {
     pub(super) fn new(dim: usize) -> Self {
-        Pool { dim, ids: vec![], positions: HashMap::default(), blocks: vec![], weights: vec![] }
+        WorkingSet {
+            dim,
+            ids: vec![],
+            positions: HashMap::default(),
+            blocks: vec![],
+            weights: vec![],
+        }
     }
 
     /// The same with room for a number of points.
     pub(super) fn with_room(dim: usize, points: usize) -> Self {
-        let mut pool = Pool::new(dim);
-        pool.positions.reserve(points);
-        pool.ids.reserve(points);
-        pool.blocks.reserve(points.next_multiple_of(POINTS) * dim);
-        pool.weights.reserve(points.next_multiple_of(POINTS));
-        pool
+        let mut working_set = WorkingSet::new(dim);
+        working_set.positions.reserve(points);
+        working_set.ids.reserve(points);
+        working_set.blocks.reserve(points.next_multiple_of(POINTS) * dim);
+        working_set.weights.reserve(points.next_multiple_of(POINTS));
+        working_set
     }
 
     pub(super) fn dim(&self) -> usize {
@@ -106,7 +112,7 @@ impl Pool {
 
     /// The same points but for those that `keep` says no to.
     pub(super) fn retain(&mut self, keep: impl Fn(usize) -> bool) {
-        let mut kept = Pool::new(self.dim);
+        let mut kept = WorkingSet::new(self.dim);
         let mut row = vec![0.0; self.dim];
         for i in (0..self.len()).filter(|&i| keep(i)) {
             self.copy_row(i, &mut row);

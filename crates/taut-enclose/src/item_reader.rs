@@ -6,7 +6,7 @@
 //! *Scale.* Squares overflow beyond 1e154 and vanish below 1e-162. When the first pass finds itself near either end,
 //! all later reads multiply by an exact power of two that brings distances to about 1, after taking away a fixed
 //! point where coordinates are so large beside their differences that they would overflow. Centers, reaches
-//! and rows that leave this module are in those units; [`Scan::scale`] says which, and [`Scan::outside`] leads back.
+//! and rows that leave this module are in those units; [`ItemReader::scale`] says which, and [`ItemReader::outside`] leads back.
 
 mod pass;
 
@@ -23,20 +23,19 @@ const SAMPLE_ROWS: u64 = 256;
 /// Squared distances between 2⁻⁴⁰⁰ and 2⁴⁰⁰ leave room for every product the solvers form.
 const SAFE_EXPONENT: i32 = 400;
 
-/// What a pass is to look for.
+/// The question that a pass answers.
 pub(crate) struct Query<'c> {
     /// From where.
     pub(crate) center: &'c Center,
     /// Only items with a squared reach above this are listed.
     pub(crate) above: f64,
-    /// How many of them at most.
+    /// The largest number of them.
     pub(crate) keep: usize,
     /// List at most two items per face of the cube around the center, too, of those with a squared reach above this.
     pub(crate) by_face_above: Option<f64>,
 }
 
-/// What a pass found.
-pub(crate) struct Found {
+pub(crate) struct PassResult {
     /// The item that reaches farthest, listed or not.
     pub(crate) farthest: Far,
     /// The items above the threshold, farthest first.
@@ -48,20 +47,20 @@ pub(crate) struct Found {
 }
 
 /// The items of a source, as seen by a solver.
-pub(crate) struct Scan<'a> {
+pub(crate) struct ItemReader<'a> {
     source: &'a dyn PointSource,
     items: Items,
     monitor: &'a Monitor<'a>,
     dim: usize,
     scale: f64,
-    /// What is taken from coordinates before they are scaled, if anything.
+    /// The vector that is subtracted from coordinates before they are scaled, if anything.
     shift: Vec<f64>,
     passes: u64,
     hash: Option<PointsHash>,
     largest: Option<Far>,
 }
 
-impl<'a> Scan<'a> {
+impl<'a> ItemReader<'a> {
     /// Looks at the shape of the source; reads nothing yet.
     pub(crate) fn new(
         source: &'a dyn PointSource,
@@ -86,7 +85,7 @@ impl<'a> Scan<'a> {
             return Err(Error::Empty);
         }
         let dim = items.dim(source.dim());
-        Ok(Scan {
+        Ok(ItemReader {
             source,
             items,
             monitor,
@@ -140,7 +139,7 @@ impl<'a> Scan<'a> {
     }
 
     /// The first pass: from the mean of a sample, after settling the scale. Returns the mean, too.
-    pub(crate) fn first(&mut self, keep: usize) -> Result<(Center, Found), Error> {
+    pub(crate) fn first(&mut self, keep: usize) -> Result<(Center, PassResult), Error> {
         let center = self.sample_mean()?;
         self.begin_pass();
         let report =
@@ -159,8 +158,7 @@ impl<'a> Scan<'a> {
         Ok((center, found))
     }
 
-    /// One pass.
-    pub(crate) fn farthest(&mut self, query: Query<'_>) -> Result<Found, Error> {
+    pub(crate) fn farthest(&mut self, query: Query<'_>) -> Result<PassResult, Error> {
         self.begin_pass();
         Pass::new(self, query).run()
     }

@@ -8,7 +8,7 @@ use taut_points::{
     BlockHash, InputError, Points, PointsHash, Rows, Scalar, hash_block, map_blocks,
 };
 
-use super::{Found, Query, Scan};
+use super::{ItemReader, PassResult, Query};
 use crate::Error;
 use crate::kernel::extremes::{all_finite, largest};
 use crate::kernel::{Center, squared_distances};
@@ -21,7 +21,7 @@ const GROUP_SIZE: usize = 64;
 
 /// A pass under way, shared by all threads.
 pub(super) struct Pass<'p> {
-    scan: &'p Scan<'p>,
+    reader: &'p ItemReader<'p>,
     query: Query<'p>,
     lists: Mutex<(Top, TopByFace)>,
     /// The bits of a squared reach below which nothing can be listed any more. It only saves work: what is listed in
@@ -29,24 +29,24 @@ pub(super) struct Pass<'p> {
     bound: AtomicU64,
 }
 
-/// What the first pass finds beside the farthest items.
+/// The facts that the first pass finds beside the farthest items.
 pub(super) struct FirstReport {
-    pub(super) found: Found,
+    pub(super) found: PassResult,
     pub(super) hash: PointsHash,
     /// The largest radius, in the place of a reach; balls only.
     pub(super) largest: Option<Far>,
-    /// Whether a square exceeded the largest `f64`.
+    /// True if a square exceeded the largest `f64`.
     pub(super) overflow: bool,
 }
 
-/// What measuring a block shows.
+/// The result of measuring a block.
 struct Measured {
     farthest: Far,
-    /// Whether every reach is a number.
+    /// True if every reach is a number.
     finite: bool,
 }
 
-/// What one block adds to the first pass.
+/// The contribution of one block to the first pass.
 struct BlockReport {
     farthest: Far,
     hash: BlockHash,
@@ -55,14 +55,14 @@ struct BlockReport {
 }
 
 impl<'p> Pass<'p> {
-    pub(super) fn new(scan: &'p Scan<'p>, query: Query<'p>) -> Self {
+    pub(super) fn new(reader: &'p ItemReader<'p>, query: Query<'p>) -> Self {
         let lists = Mutex::new((Top::new(query.keep), TopByFace::default()));
         let bound = AtomicU64::new(query.above.to_bits());
-        Pass { scan, query, lists, bound }
+        Pass { reader, query, lists, bound }
     }
 
-    pub(super) fn run(self) -> Result<Found, Error> {
-        let farthest = map_blocks(self.scan.source, self.scan.monitor, |row, rows| {
+    pub(super) fn run(self) -> Result<PassResult, Error> {
+        let farthest = map_blocks(self.reader.source, self.reader.monitor, |row, rows| {
             Ok::<_, Error>(match rows {
                 Rows::F32(points) => self.block(row, &points).farthest,
                 Rows::F64(points) => self.block(row, &points).farthest,
@@ -72,27 +72,28 @@ impl<'p> Pass<'p> {
     }
 
     pub(super) fn first(self) -> Result<FirstReport, Error> {
-        let reports = map_blocks(self.scan.source, self.scan.monitor, |row, rows| match rows {
-            Rows::F32(points) => self.first_block(row, &points),
-            Rows::F64(points) => self.first_block(row, &points),
-        })?;
+        let reports =
+            map_blocks(self.reader.source, self.reader.monitor, |row, rows| match rows {
+                Rows::F32(points) => self.first_block(row, &points),
+                Rows::F64(points) => self.first_block(row, &points),
+            })?;
         let hashes = reports.iter().map(|report| report.hash);
         Ok(FirstReport {
-            hash: PointsHash::of_blocks(self.scan.len(), self.scan.source.dim(), hashes),
+            hash: PointsHash::of_blocks(self.reader.len(), self.reader.source.dim(), hashes),
             largest: reports.iter().filter_map(|report| report.largest).reduce(farther),
             overflow: reports.iter().any(|report| report.overflow),
             found: self.found(reports.iter().map(|report| report.farthest)),
         })
     }
 
-    fn found(self, farthest: impl Iterator<Item = Far>) -> Found {
+    fn found(self, farthest: impl Iterator<Item = Far>) -> PassResult {
         let (top, by_face) = self.lists.into_inner().unwrap_or_else(PoisonError::into_inner);
         let far = top.into_sorted();
         let listed_above = match far.last() {
             Some(last) if far.len() == self.query.keep => last.reach2,
             _ => self.query.above,
         };
-        Found {
+        PassResult {
             farthest: farthest.reduce(farther).expect("a source that is not empty has a block"),
             far,
             listed_above,
@@ -116,7 +117,7 @@ impl<'p> Pass<'p> {
                 value,
             }));
         }
-        let largest = match self.scan.items {
+        let largest = match self.reader.items {
             Items::Balls => Some(largest_radius(first_row, points)?),
             Items::Points | Items::Ellipsoids => None,
         };
@@ -125,12 +126,12 @@ impl<'p> Pass<'p> {
 
     /// Measures a block; its far items are merged with those of the pass.
     fn block<T: Scalar>(&self, first_row: u64, points: &Points<'_, T>) -> Measured {
-        if self.scan.scale == 1.0 {
+        if self.reader.scale == 1.0 {
             return self.measure(first_row, points);
         }
         // Rare and not worth a kernel of its own: scale the block, then go on as usual.
         let mut scaled: Vec<f64> = points.values().iter().map(|&v| v.into()).collect();
-        self.scan.scale_rows(&mut scaled);
+        self.reader.scale_rows(&mut scaled);
         let scaled = Points::new(&scaled, points.dim()).expect("the shape is that of the block");
         self.measure(first_row, &scaled)
     }
@@ -147,7 +148,7 @@ impl<'p> Pass<'p> {
             let part = points.slice(start..points.len().min(start + ROWS_AT_ONCE));
             let reaches = &mut reaches[..part.len()];
             squared_distances(part.values(), part.dim(), query.center, reaches);
-            if self.scan.items == Items::Balls {
+            if self.reader.items == Items::Balls {
                 add_radii(&part, reaches);
             }
             finite &= all_finite(reaches);
@@ -172,7 +173,7 @@ impl<'p> Pass<'p> {
                         top.offer(far);
                     }
                     if reach2 > face_above {
-                        let row = &part.row(group * GROUP_SIZE + at)[..self.scan.dim];
+                        let row = &part.row(group * GROUP_SIZE + at)[..self.reader.dim];
                         by_face.offer(face(row, query.center), far);
                     }
                 }

@@ -2,7 +2,7 @@
 //!
 //! *Problem.* A few flat cells can end up on the wrong side together, as a bubble beside the surface or within it.
 //! *Idea.* The border of a true body says "opposite" with nearly all its facets; a bubble's facets say it with no more than a quarter of
-//! their strength. Such a region of at most [`ISLAND_CELLS_MAX`] cells is turned over; its points are then found unused, and repaired as such.
+//! their strength. Such a region of at most [`REGION_CELLS_MAX`] cells is turned over; its points are then found unused, and repaired as such.
 //! *Guarantee.* O(border). What is an island depends on the labels and the points alone.
 
 use std::collections::BTreeSet;
@@ -13,7 +13,7 @@ use super::border::{Face, parts};
 use super::cells::Cells;
 
 /// The largest island has this many cells, and at most twice as many facets.
-const ISLAND_CELLS_MAX: usize = 24;
+const REGION_CELLS_MAX: usize = 24;
 
 /// Turns islands over, and says how many.
 pub(super) fn sink(
@@ -21,15 +21,15 @@ pub(super) fn sink(
     cells: &Cells,
     inside: &mut [bool],
     sites: usize,
-    strength: &dyn Fn(u32, usize) -> i64,
+    weight: &dyn Fn(u32, usize) -> i64,
 ) -> u64 {
     let part = parts(faces, sites);
     let mut count = vec![0u32; sites];
     faces.iter().for_each(|face| count[part[face.sites[0] as usize] as usize] += 1);
     let is_small = |face: &&Face| {
-        count[part[face.sites[0] as usize] as usize] as usize <= 2 * ISLAND_CELLS_MAX
+        count[part[face.sites[0] as usize] as usize] as usize <= 2 * REGION_CELLS_MAX
     };
-    let mut sunk = 0;
+    let mut relabeled = 0;
     let mut seen = BTreeSet::new();
     for face in faces.iter().filter(is_small) {
         let (cell, i) = decode(face.facet);
@@ -44,18 +44,18 @@ pub(super) fn sink(
                 for i in (0..4)
                     .filter(|&i| inside[cells.across(cell, i).0 as usize] != inside[start as usize])
                 {
-                    apart -= strength(cell, i);
+                    apart -= weight(cell, i);
                     facets += 1;
                 }
             }
-            if 4 * apart < facets * super::strengths::CERTAIN_STEPS {
+            if 4 * apart < facets * super::dual_edges::CERTAIN_STEPS {
                 region.iter().for_each(|&cell| inside[cell as usize] = !inside[cell as usize]);
-                sunk += 1;
+                relabeled += 1;
                 break;
             }
         }
     }
-    sunk
+    relabeled
 }
 
 /// The cells of one label that hang together with one, if they are few and none is a ghost.
@@ -63,7 +63,7 @@ fn region(cells: &Cells, inside: &[bool], start: u32) -> Option<Vec<u32>> {
     let mut region = vec![start];
     let mut next = 0;
     while let Some(&cell) = region.get(next) {
-        if cells.is_ghost(cell) || region.len() > ISLAND_CELLS_MAX {
+        if cells.is_ghost(cell) || region.len() > REGION_CELLS_MAX {
             return None;
         }
         next += 1;

@@ -1,12 +1,12 @@
 //! Parts that are joined one by one, with a sign: union-find with parity.
 
 /// Nodes in parts, and whether each is opposite to the root of its part.
-pub(super) struct Media {
+pub(super) struct ParityUnionFind {
     /// Parent, and whether opposite to it in the lowest bit.
     link: Vec<u32>,
 }
 
-impl Media {
+impl ParityUnionFind {
     pub(super) fn new(count: usize) -> Self {
         Self { link: (0..count as u32).map(|node| node << 1).collect() }
     }
@@ -64,10 +64,10 @@ mod tests {
 
     #[test]
     fn opposites_of_opposites_are_alike() {
-        let mut media = Media::new(6);
-        assert!(media.join(4, 5, true) && media.join(3, 4, true) && media.join(0, 1, false));
-        assert!(!media.join(3, 5, true), "joined already");
-        assert!(media.join(1, 5, true));
-        assert_eq!(media.numbered(), (vec![0, 0, 2, 1, 0, 1], 2));
+        let mut parity = ParityUnionFind::new(6);
+        assert!(parity.join(4, 5, true) && parity.join(3, 4, true) && parity.join(0, 1, false));
+        assert!(!parity.join(3, 5, true), "joined already");
+        assert!(parity.join(1, 5, true));
+        assert_eq!(parity.numbered(), (vec![0, 0, 2, 1, 0, 1], 2));
     }
 }

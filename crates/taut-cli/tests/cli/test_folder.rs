@@ -6,20 +6,20 @@ use assert_cmd::cargo::cargo_bin_cmd;
 use tempfile::TempDir;
 
 /// A folder to work in; gone after the test.
-pub(crate) struct Desk {
+pub(crate) struct TestFolder {
     folder: TempDir,
 }
 
-/// How a run ended and what it said.
+/// The way in which a run ended and what it said.
 pub(crate) struct Run {
     pub(crate) code: i32,
     pub(crate) out: String,
     pub(crate) err: String,
 }
 
-impl Desk {
+impl TestFolder {
     pub(crate) fn new() -> Self {
-        Desk { folder: TempDir::new().unwrap() }
+        TestFolder { folder: TempDir::new().unwrap() }
     }
 
     pub(crate) fn path(&self, name: &str) -> PathBuf {
@@ -114,7 +114,7 @@ impl Run {
     }
 }
 
-/// What a failed assertion shows: enough to see what happened.
+/// The output of a failed assertion: enough to see what happened.
 impl std::fmt::Debug for Run {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let some = |text: &str| text.chars().take(2000).collect::<String>();

@@ -23,12 +23,12 @@ pub(crate) const BORDER_TOLERANCE: f64 = 1e-3;
 /// Beyond this part of the way an item counts as outside: rounding explains less.
 const OUTSIDE_TOLERANCE: f64 = 1e-9;
 
-/// What a read of all items found.
+/// The result of one read of all items.
 #[derive(Clone)]
-pub(crate) struct Survey {
+pub(crate) struct ItemPass {
     /// Items to draw, ascending.
     pub(crate) ids: Vec<u64>,
-    /// How many of them were taken because they reach far.
+    /// The number of items taken because they reach far.
     pub(crate) far: u64,
     /// Items by the part of the way to the border they reach, in steps of 1/HISTOGRAM_STEPS.
     fine: Vec<u64>,
@@ -38,7 +38,6 @@ pub(crate) struct Survey {
     pub(crate) outside: u64,
 }
 
-/// What one item is called.
 pub(crate) fn noun(items: Items) -> &'static str {
     match items {
         Items::Points => "point",
@@ -55,7 +54,7 @@ pub(crate) trait Measure {
     /// The vector from the center to an item's place, in some unit.
     fn offset(&self, row: &[f64]) -> Vec<f64>;
 
-    /// How far an item reaches from the center, as a part of the way to the border.
+    /// Returns how far an item reaches from the center, as a part of the way to the border.
     fn part(&self, row: &[f64], items: Items) -> f64;
 }
 
@@ -76,7 +75,7 @@ impl Scaled {
         Scaled { unit, center, radius: ball.radius / unit }
     }
 
-    /// How far an item reaches from the center, in units.
+    /// Returns how far an item reaches from the center, in units.
     pub(crate) fn reach(&self, row: &[f64], items: Items) -> f64 {
         let square: f64 = self.offset(row).iter().map(|v| v * v).sum();
         let own = match items {
@@ -131,8 +130,8 @@ pub(crate) fn spread(id: u64) -> u64 {
     z ^ (z >> 31)
 }
 
-/// What a survey is asked to look at.
-pub(crate) struct Question<'a> {
+/// The question that a pass over all items answers.
+pub(crate) struct PassQuery<'a> {
     pub(crate) items: Items,
     /// Rows that are drawn in any case.
     pub(crate) support: &'a [u64],
@@ -143,11 +142,11 @@ pub(crate) struct Question<'a> {
 }
 
 /// Reads all items once.
-pub(crate) fn survey(
+pub(crate) fn item_pass(
     shape: &dyn Measure,
-    question: &Question<'_>,
+    question: &PassQuery<'_>,
     source: &dyn PointSource,
-) -> Result<Survey, Error> {
+) -> Result<ItemPass, Error> {
     let n = source.len();
     let all = n <= question.most as u64;
     let support: BTreeSet<u64> = question.support.iter().copied().collect();
@@ -159,7 +158,7 @@ pub(crate) fn survey(
     // Parts are at least 0, so their bits order as they do; ties go to the lower number.
     let mut far: BinaryHeap<Reverse<(u64, Reverse<u64>)>> = BinaryHeap::new();
     let mut sample: BinaryHeap<(u64, u64)> = BinaryHeap::new();
-    let mut found = Survey {
+    let mut found = ItemPass {
         ids: Vec::new(),
         far: 0,
         fine: vec![0; HISTOGRAM_STEPS + 1],
@@ -245,7 +244,7 @@ fn keep<T: Ord>(heap: &mut BinaryHeap<T>, item: T, room: usize) {
     }
 }
 
-impl Survey {
+impl ItemPass {
     /// The histogram from the smallest distance to the border in about `wanted` bins: (from, to, items), ends as parts
     /// of the way.
     pub(crate) fn bins(&self, wanted: usize) -> Vec<(f64, f64, u64)> {

@@ -12,7 +12,7 @@ use super::distance;
 /// Rows that are measured together.
 const CHUNK: usize = 512;
 
-/// What the pass finds.
+/// The result of the pass.
 pub(super) struct Measured {
     /// The largest distance of a point to the center next to it, as evaluated.
     pub(super) radius: f64,
@@ -32,13 +32,13 @@ pub(super) fn measure(
 ) -> Result<Measured, Error> {
     let centers: Vec<Center> =
         centers.iter().map(|c| Center { high: c.clone(), low: vec![] }).collect();
-    let (survey, blocks) = survey_and(source, monitor, |rows| match rows {
+    let (frame_pass, blocks) = survey_and(source, monitor, |rows| match rows {
         Rows::F32(points) => farthest(points, &centers),
         Rows::F64(points) => farthest(points, &centers),
     })?;
     let square = blocks.into_iter().fold(0.0, f64::max);
     if (SQUARE_MIN..f64::INFINITY).contains(&square) {
-        return Ok(Measured { radius: square.sqrt(), points_hash: survey.hash, passes: 1 });
+        return Ok(Measured { radius: square.sqrt(), points_hash: frame_pass.hash, passes: 1 });
     }
     let blocks = map_blocks(source, monitor, |_, rows| {
         let (mut row, mut radius) = (vec![0.0; source.dim()], 0.0f64);
@@ -54,7 +54,7 @@ pub(super) fn measure(
         if radius.is_finite() { Ok(radius) } else { Err(Error::Overflow) }
     })?;
     let radius = blocks.into_iter().fold(0.0, f64::max);
-    Ok(Measured { radius, points_hash: survey.hash, passes: 2 })
+    Ok(Measured { radius, points_hash: frame_pass.hash, passes: 2 })
 }
 
 /// The largest squared distance of a point to the nearest center; not finite or tiny where squares leave the range.

@@ -1,4 +1,4 @@
-//! What one place says about its points to those who put the answers of all places together.
+//! A composable core-set: the summary of the points of one place, for those who combine the answers of all places.
 //!
 //! *Idea.* The first points of a farthest-first traversal, and how far all others are from them. Put together, such summaries are
 //! again some points and a distance within which all others are. Centers of these few are centers of all, the distance being
@@ -14,14 +14,14 @@ use taut_certify::{Centers, CentersCertificate, Items, LowerBound, Placement, So
 use taut_points::{InputError, Monitor, PointSource, Points, Scalar, hash_points};
 
 use super::measure::measure;
-use crate::apart::{gap, rounded_up};
+use crate::separated_set::{gap, rounded_up};
 use crate::{Error, FarthestFirst, FarthestFirstOptions, farthest_first};
 
 /// A few rows of a point set, and how far all others are from them.
 ///
 /// ```
 /// use taut_certify::Placement;
-/// use taut_enclose::Summary;
+/// use taut_enclose::CoreSetSummary;
 /// use taut_points::{Distribution, Monitor, Points, generate};
 ///
 /// let all: Vec<f64> = generate(Distribution::Uniform, 3000, 2, 7)?;
@@ -31,7 +31,7 @@ use crate::{Error, FarthestFirst, FarthestFirstOptions, farthest_first};
 ///     Summary::of(&part(first..first + 1000).unwrap(), first as u64, 50)
 /// });
 /// // In one place:
-/// let mut root = Summary::default();
+/// let mut root = CoreSetSummary::default();
 /// for summary in summaries {
 ///     root = root.merge(summary?)?;
 /// }
@@ -42,7 +42,7 @@ use crate::{Error, FarthestFirst, FarthestFirstOptions, farthest_first};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Summary {
+pub struct CoreSetSummary {
     dim: usize,
     /// Ascending.
     rows: Vec<u64>,
@@ -52,7 +52,7 @@ pub struct Summary {
     len: u64,
 }
 
-impl Summary {
+impl CoreSetSummary {
     /// The first `size` points of `points` in farthest-first order from the first row on; `first_row` is the number that row has
     /// in the whole.
     ///
@@ -62,7 +62,7 @@ impl Summary {
         let found = farthest_first(points, size, &FarthestFirstOptions::default())?;
         let mut order: Vec<usize> = found.order.iter().map(|&row| row as usize).collect();
         order.sort_unstable();
-        Ok(Summary {
+        Ok(CoreSetSummary {
             dim: points.dim(),
             rows: order.iter().map(|&row| first_row + row as u64).collect(),
             coordinates: order
@@ -98,7 +98,7 @@ impl Summary {
         self.len
     }
 
-    /// Whether it stands for none, as [`Summary::default`] does.
+    /// Returns true if it stands for none, as [`CoreSetSummary::default`] does.
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }
@@ -108,7 +108,7 @@ impl Summary {
     ///
     /// # Errors
     /// [`Error::Input`] when the points are of different dimensions, or a row is in both.
-    pub fn merge(self, other: Summary) -> Result<Self, Error> {
+    pub fn merge(self, other: CoreSetSummary) -> Result<Self, Error> {
         if self.is_empty() {
             return Ok(other);
         }
@@ -134,7 +134,7 @@ impl Summary {
                 expected: "a summary of other rows than those of the first",
             }));
         }
-        Ok(Summary {
+        Ok(CoreSetSummary {
             dim,
             rows: all.iter().map(|&(row, _)| row).collect(),
             coordinates: all.iter().flat_map(|&(_, x)| x).copied().collect(),
@@ -151,7 +151,7 @@ impl Summary {
         if self.rows.len() as u64 <= size {
             return Ok(self);
         }
-        let mut reduced = Summary::of(&self.points()?, 0, size)?;
+        let mut reduced = CoreSetSummary::of(&self.points()?, 0, size)?;
         reduced.rows.iter_mut().for_each(|row| *row = self.rows[*row as usize]);
         reduced.radius = rounded_up(reduced.radius + self.radius, self.dim);
         reduced.len = self.len;
@@ -161,7 +161,7 @@ impl Summary {
     /// k centers for the points of `source`, found among these rows by farthest-first traversal and measured by one pass.
     ///
     /// # Errors
-    /// As [`farthest_first()`] and [`Summary::lift`].
+    /// As [`farthest_first()`] and [`CoreSetSummary::lift`].
     pub fn solve(
         &self,
         k: u64,
@@ -174,11 +174,11 @@ impl Summary {
         self.lift(found.solution(k, placement, &points)?, source, monitor)
     }
 
-    /// Centers of [`Summary::points`], by whatever solver, as centers of the points of `source`: row numbers become those of
+    /// Centers of [`CoreSetSummary::points`], by whatever solver, as centers of the points of `source`: row numbers become those of
     /// the whole, the lower bound and its proof hold as they are, and the radius is measured by one pass.
     ///
     /// What is proved of centers among these rows need not hold among all rows, of which some may lie better. So centers
-    /// among the rows are taken only with a proof that speaks of centers anywhere, by points apart, as [`Summary::solve`] and
+    /// among the rows are taken only with a proof that speaks of centers anywhere, by points apart, as [`CoreSetSummary::solve`] and
     /// [`farthest_first()`] give it.
     ///
     /// # Errors
@@ -232,8 +232,8 @@ impl Summary {
     }
 }
 
-impl Summary {
-    /// Whether the lower bound is that no two of the core-set fit in one ball, wherever its center is.
+impl CoreSetSummary {
+    /// Returns true if the lower bound is that no two of the core-set fit in one ball, wherever its center is.
     fn are_apart_anywhere(&self, answer: &Centers, certificate: &CentersCertificate) -> bool {
         let rows = &certificate.core_set;
         let place = |row: u64| {
@@ -248,7 +248,7 @@ impl Summary {
             // The bound of a traversal leaves more room than this rounds.
             square.sqrt() >= 2.0 * answer.lower_bound
         };
-        certificate.proof == LowerBound::Apart
+        certificate.proof == LowerBound::Separated
             && (0..places.len()).all(|i| (0..i).all(|j| is_apart(places[i], places[j])))
     }
 }

@@ -19,7 +19,7 @@ use super::union::Union;
 const WIDTH_MIN: f64 = 1e-30;
 
 /// The clusters of single linkage.
-pub(super) struct Moats {
+pub(super) struct ClusterDirection {
     /// The two parts of cluster n + k.
     parts: Vec<[u32; 2]>,
     /// Squared widths, of sites and then of clusters; the cluster of all sites has none.
@@ -27,7 +27,7 @@ pub(super) struct Moats {
     slopes: Vec<f64>,
 }
 
-impl Moats {
+impl ClusterDirection {
     pub(super) fn of(candidates: &Candidates, n: usize) -> Self {
         let mut edges = Vec::with_capacity(n);
         let zero = vec![0.0; n];

@@ -35,12 +35,12 @@ pub(super) trait Proving: State + Clone + Send + Sync {
     fn chain(&mut self) -> Vec<u32>;
 
     /// The places of an item that are not refuted at once, in the order of the log; `bounds` takes what refutes the others.
-    fn open_places(&mut self, item: u32, bounds: &mut Log) -> Vec<Place>;
+    fn open_places(&mut self, item: u32, bounds: &mut ProofLog) -> Vec<Place>;
 }
 
 /// A tree written down.
 #[derive(Debug, PartialEq)]
-pub(super) struct Log {
+pub(super) struct ProofLog {
     /// The item of each node, in preorder.
     pub(super) items: Vec<u32>,
     /// The least of the bounds by which children were refuted.
@@ -49,28 +49,28 @@ pub(super) struct Log {
     pub(super) open: f64,
 }
 
-impl Log {
+impl ProofLog {
     fn empty() -> Self {
-        Log { items: vec![], lower: f64::INFINITY, open: 0.0 }
+        ProofLog { items: vec![], lower: f64::INFINITY, open: 0.0 }
     }
 }
 
 /// A part of a log.
 struct Piece {
-    log: Log,
+    log: ProofLog,
     /// `Ok` if the part is complete; else why it stopped.
     end: Result<(), Stop>,
 }
 
 impl Piece {
     fn node(item: u32) -> Self {
-        let log = Log { items: vec![item], ..Log::empty() };
+        let log = ProofLog { items: vec![item], ..ProofLog::empty() };
         Piece { log, end: Ok(()) }
     }
 }
 
 /// The tree that is asked for.
-pub(super) struct PlainTree<'a, S> {
+pub(super) struct ProofTree<'a, S> {
     /// The state before any decision.
     root: S,
     /// Most nodes.
@@ -91,20 +91,20 @@ enum Part<S> {
     },
 }
 
-impl<'a, S: Proving> PlainTree<'a, S> {
+impl<'a, S: Proving> ProofTree<'a, S> {
     pub(super) fn new(root: S, budget: u64, monitor: &'a Monitor<'a>) -> Self {
-        PlainTree { root, budget, monitor, nodes: AtomicU64::new(0) }
+        ProofTree { root, budget, monitor, nodes: AtomicU64::new(0) }
     }
 
     /// The whole tree, or why there is none: [`Stop::ProofBudget`], or [`Stop::Rounding`] where balls below the threshold hold the
     /// core-set.
-    pub(super) fn log(&self) -> Result<Result<Log, Stop>, Error> {
+    pub(super) fn log(&self) -> Result<Result<ProofLog, Stop>, Error> {
         let small = self.below(self.root.clone(), vec![], WHOLE_TREE_NODES_MAX.min(self.budget))?;
         if small.end != Err(Stop::ProofBudget) || self.budget <= WHOLE_TREE_NODES_MAX {
             return Ok(small.end.map(|()| small.log));
         }
         self.nodes.store(0, Ordering::Relaxed);
-        let mut log = Log::empty();
+        let mut log = ProofLog::empty();
         let Some(parts) = self.open(&mut log)? else { return Ok(Err(Stop::Rounding)) };
         let pieces: Vec<Piece> = parts
             .into_par_iter()
@@ -130,7 +130,7 @@ impl<'a, S: Proving> PlainTree<'a, S> {
     }
 
     /// The tree opened from its root on, nodes nearest to it first; `bounds` takes what its children are refuted by.
-    fn open(&self, bounds: &mut Log) -> Result<Option<Vec<Part<S>>>, Error> {
+    fn open(&self, bounds: &mut ProofLog) -> Result<Option<Vec<Part<S>>>, Error> {
         let mut parts =
             vec![Part::Below { state: Box::new(self.root.clone()), depth: 0, chain: vec![] }];
         let mut unknown = 1;
@@ -158,7 +158,7 @@ impl<'a, S: Proving> PlainTree<'a, S> {
 
     /// All from the node in this state on, but no more than `most` nodes, and no more once all parts together exceed the budget.
     fn below(&self, mut state: S, chain: Vec<u32>, most: u64) -> Result<Piece, Error> {
-        let mut piece = Piece { log: Log::empty(), end: Err(Stop::ProofBudget) };
+        let mut piece = Piece { log: ProofLog::empty(), end: Err(Stop::ProofBudget) };
         let log = &mut piece.log;
         let mut path = Path::new();
         loop {

@@ -14,7 +14,7 @@ use std::sync::Arc;
 use taut_points::{Monitor, ReadError};
 
 use super::cloud::Cloud;
-use super::clusters::{Clusters, Survey, Undo, large_clique};
+use super::clusters::{Clusters, NodeState, Undo, large_clique};
 use super::conflict::Levels;
 use super::depth_first::{Place, State};
 use super::items::Position;
@@ -28,7 +28,7 @@ const NODE_COORDINATES: usize = 20_000;
 /// The work of this many nodes goes by before it is asked whether to go on.
 const NODES_BETWEEN_ASKS: u64 = 256;
 
-/// What all walks of a search share.
+/// The data that all subsearches share.
 pub(super) struct Task<'c, P> {
     pub(super) cloud: &'c Cloud<P>,
     pub(super) monitor: &'c Monitor<'c>,
@@ -41,7 +41,7 @@ type Decision = (u32, Place);
 
 /// A walk under way.
 #[derive(Clone)]
-pub(super) struct Walk<'c, P> {
+pub(super) struct Subsearch<'c, P> {
     task: &'c Task<'c, P>,
     state: Clusters<P>,
     /// Items by their number in the cloud, in the order of the state's.
@@ -64,17 +64,17 @@ struct Frame<P> {
     undo: Option<Undo<P>>,
     /// Clusters that the item was put into.
     tried: Vec<usize>,
-    /// What its children that failed rest on, but for its own level.
+    /// The levels that its failed children rest on, but for its own level.
     conflict: Levels,
-    /// Whether other walks have some of its children.
+    /// True if other walks have some of its children.
     is_shared: bool,
 }
 
-/// How a part of a walk ended.
+/// The way in which a part of a walk ended.
 pub(super) enum End {
     /// All that the path leads to is refuted, by decisions at these levels of it.
     Refuted(Levels),
-    /// What was left to this walk is refuted.
+    /// The rest of this subsearch is refuted.
     Done,
     /// There is more to do.
     Open,
@@ -82,7 +82,7 @@ pub(super) enum End {
     Grown,
 }
 
-impl<'c, P: Position> Walk<'c, P> {
+impl<'c, P: Position> Subsearch<'c, P> {
     /// At the root. None where the core-set holds more items that need a ball each than there may be.
     pub(super) fn new(
         task: &'c Task<'c, P>,
@@ -93,10 +93,10 @@ impl<'c, P: Position> Walk<'c, P> {
         let items = Arc::new(task.cloud.items.some(core_set));
         let threshold = best.radius / (1.0 + gap);
         let mut state = Clusters::new(items, task.k, task.z as u64, threshold);
-        let room = task.k.saturating_add(task.z);
+        let capacity = task.k.saturating_add(task.z);
         let all: Vec<u32> = (0..core_set.len() as u32).collect();
-        let clique = large_clique(&state.items, &all, state.threshold, room);
-        if clique.len() > room {
+        let clique = large_clique(&state.items, &all, state.threshold, capacity);
+        if clique.len() > capacity {
             return Ok(None);
         }
         // Where items may be left out, these may be so.
@@ -104,7 +104,7 @@ impl<'c, P: Position> Walk<'c, P> {
             task.monitor.check().map_err(ReadError::from)?;
             state.put(item, Place::Open);
         }
-        Ok(Some(Walk {
+        Ok(Some(Subsearch {
             task,
             state,
             core_set: core_set.to_vec(),
@@ -183,7 +183,7 @@ impl<'c, P: Position> Walk<'c, P> {
                 if frame.is_shared {
                     return Some(End::Done);
                 }
-                failed = Some(self.blame_untried(frame));
+                failed = Some(self.add_untried(frame));
                 continue;
             };
             frame.next += 1;
@@ -198,24 +198,24 @@ impl<'c, P: Position> Walk<'c, P> {
         }
     }
 
-    /// What a node rests on whose children are all refuted: also why its item fits in none of the clusters that were not tried.
-    fn blame_untried(&mut self, frame: Frame<P>) -> Levels {
+    /// Returns what a node rests on whose children are all refuted: also why its item fits in none of the clusters that were not tried.
+    fn add_untried(&mut self, frame: Frame<P>) -> Levels {
         let Frame { item, tried, mut conflict, .. } = frame;
         for at in (0..self.state.clusters.len()).filter(|at| !tried.contains(at)) {
-            self.state.blame(item, at, &mut conflict);
+            self.state.add_conflict(item, at, &mut conflict);
         }
-        self.state.blame_left_out(&mut conflict);
+        self.state.add_left_out(&mut conflict);
         conflict
     }
 
     /// The item to branch on, after as many looks at all items as it takes; in a dead end, what that rests on.
     fn examine(&mut self) -> Result<Result<u32, Levels>, Error> {
         loop {
-            match self.state.survey(false) {
-                Survey::Stuck => return Ok(Err(self.state.conflict())),
-                Survey::Branch(item) => return Ok(Ok(item)),
-                Survey::Covered => {
-                    if !self.look()? {
+            match self.state.examine(false) {
+                NodeState::Stuck => return Ok(Err(self.state.conflict())),
+                NodeState::Branch(item) => return Ok(Ok(item)),
+                NodeState::StreamingReport => {
+                    if !self.read_all_items()? {
                         return Ok(Err(self.state.everything()));
                     }
                 }
@@ -224,7 +224,7 @@ impl<'c, P: Position> Walk<'c, P> {
     }
 
     /// All items, seen from the centers of clusters that hold the core-set. False where that ends the branch.
-    fn look(&mut self) -> Result<bool, Error> {
+    fn read_all_items(&mut self) -> Result<bool, Error> {
         let Task { cloud, monitor, k, z } = *self.task;
         monitor.check().map_err(ReadError::from)?;
         let centers: Vec<P> =
@@ -241,7 +241,7 @@ impl<'c, P: Position> Walk<'c, P> {
             // The next survey tells.
             return Ok(true);
         }
-        let wanted = self.state.spare().saturating_add(1) as usize;
+        let wanted = self.state.outliers_left().saturating_add(1) as usize;
         let far = far.iter().map(|far| far.item);
         let new: Vec<u32> = far.filter(|item| !self.is_known.contains(item)).take(wanted).collect();
         self.learn(&new);
@@ -268,12 +268,12 @@ impl<'c, P: Position> Walk<'c, P> {
         }
     }
 
-    /// What balls have to stay below.
+    /// Returns the radius below which balls have to stay.
     pub(super) fn threshold(&self) -> f64 {
         self.best.radius / (1.0 + self.gap)
     }
 
-    /// Whether the first decisions of this walk are these.
+    /// Returns true if the first decisions of this walk are these.
     pub(super) fn begins_with(&self, decisions: &[Decision]) -> bool {
         self.path.starts_with(decisions)
     }

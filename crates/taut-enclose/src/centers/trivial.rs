@@ -14,7 +14,7 @@ use super::item_rows::ItemRows;
 use super::nearest::nearest;
 
 /// A center for each place, but for places that are left out with all their rows.
-pub(super) struct Few {
+pub(super) struct TrivialCenters {
     centers: Vec<Vec<f64>>,
     /// The first row at each.
     rows: Vec<u64>,
@@ -22,7 +22,7 @@ pub(super) struct Few {
     assignment: Vec<u32>,
 }
 
-impl Few {
+impl TrivialCenters {
     /// Of points; none where k centers leave more than z of them out.
     pub(super) fn of(points: &ItemRows, k: usize, z: usize) -> Option<Self> {
         if !points.are_points() {
@@ -64,7 +64,7 @@ impl Few {
         let nearest = |place: usize| {
             center_of[place].unwrap_or_else(|| nearest(position(places[place].0), &centers))
         };
-        Some(Few {
+        Some(TrivialCenters {
             assignment: place_of.iter().map(|&place| nearest(place)).collect(),
             rows: kept.iter().map(|place| first(place) as u64).collect(),
             centers,
@@ -98,7 +98,7 @@ impl Few {
                 outliers: options.outliers,
                 gap: 0.0,
                 core_set: vec![],
-                proof: LowerBound::Apart,
+                proof: LowerBound::Separated,
                 points_hash,
             },
             trace: Trace {

@@ -22,7 +22,7 @@ const ROWS_AT_ONCE: usize = 256;
 /// One comparison disposes of this many leverages, where some of those at once are large.
 const GROUP_SIZE: usize = 32;
 
-/// What a pass is to look for.
+/// The question that a pass answers.
 #[derive(Clone, Copy)]
 pub(super) struct Query<'q> {
     /// M, lower triangular by rows.
@@ -31,12 +31,11 @@ pub(super) struct Query<'q> {
     pub(super) center: &'q Center,
     /// Only points with |M(x − c)|² above this are listed.
     pub(super) above: f64,
-    /// How many of them at most.
+    /// The largest number of them.
     pub(super) keep: usize,
 }
 
-/// What a pass found.
-pub(super) struct Found {
+pub(super) struct PassResult {
     /// The largest |M(x − c)|²; infinite where a square is no `f64`.
     pub(super) largest: f64,
     /// Points above the threshold, the farthest first.
@@ -46,7 +45,7 @@ pub(super) struct Found {
 }
 
 /// The points of a source, as a solver sees them.
-pub(crate) struct Survey<'a> {
+pub(crate) struct PointReader<'a> {
     source: &'a dyn PointSource,
     monitor: &'a Monitor<'a>,
     passes: u64,
@@ -59,7 +58,7 @@ struct BlockReport {
     hash: Option<BlockHash>,
 }
 
-impl<'a> Survey<'a> {
+impl<'a> PointReader<'a> {
     pub(crate) fn new(
         source: &'a dyn PointSource,
         monitor: &'a Monitor<'a>,
@@ -67,7 +66,7 @@ impl<'a> Survey<'a> {
         if source.is_empty() {
             return Err(Error::Empty);
         }
-        Ok(Survey { source, monitor, passes: 0, hash: None })
+        Ok(PointReader { source, monitor, passes: 0, hash: None })
     }
 
     pub(crate) fn dim(&self) -> usize {
@@ -154,8 +153,7 @@ impl<'a> Survey<'a> {
         Ok(reports.into_iter().map(|report| report.0).collect())
     }
 
-    /// One pass.
-    pub(super) fn pass(&mut self, query: Query<'_>) -> Result<Found, Error> {
+    pub(super) fn pass(&mut self, query: Query<'_>) -> Result<PassResult, Error> {
         self.begin_pass();
         let first = self.hash.is_none();
         let (found, reports) = measure(self.source, self.monitor, query, first)?;
@@ -200,8 +198,8 @@ pub(super) struct Taken {
     pub(super) above: f64,
 }
 
-/// What a pass over some rows finds.
-pub(super) fn pass_over(points: &Points<'_, f64>, query: Query<'_>) -> Result<Found, Error> {
+/// Returns what a pass over some rows finds.
+pub(super) fn pass_over(points: &Points<'_, f64>, query: Query<'_>) -> Result<PassResult, Error> {
     Ok(measure(points, &Monitor::silent(), query, false)?.0)
 }
 
@@ -211,7 +209,7 @@ fn measure(
     monitor: &Monitor<'_>,
     query: Query<'_>,
     first: bool,
-) -> Result<(Found, Vec<BlockReport>), Error> {
+) -> Result<(PassResult, Vec<BlockReport>), Error> {
     let list = Mutex::new(Top::new(query.keep));
     // It only saves work: what is listed in the end does not depend on when threads see it.
     let bound = AtomicU64::new(query.above.to_bits());
@@ -226,7 +224,8 @@ fn measure(
     };
     let finite = reports.iter().all(|report| report.finite);
     let largest = reports.iter().map(|report| report.largest).fold(0.0, f64::max);
-    let found = Found { largest: if finite { largest } else { f64::INFINITY }, far, listed_above };
+    let found =
+        PassResult { largest: if finite { largest } else { f64::INFINITY }, far, listed_above };
     Ok((found, reports))
 }
 

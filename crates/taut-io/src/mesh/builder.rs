@@ -5,9 +5,9 @@ use std::io::BufRead;
 use super::Mesh;
 use super::colors::Colors;
 use crate::limits;
-use crate::number::{self, Misread, UNDERFLOW};
+use crate::number::{self, NumberError, UNDERFLOW};
 use crate::words::Lines;
-use crate::{Content, Error, Format, MeshPlace};
+use crate::{Content, Error, FilePlace, Format};
 
 /// Most triangles of a surface, so that the number of a corner fits into 32 bits: the same as of a mesh in memory.
 const TRIANGLES_MAX: usize = (u32::MAX / 3) as usize;
@@ -16,7 +16,7 @@ const TRIANGLES_MAX: usize = (u32::MAX / 3) as usize;
 const VERTEX_BYTES: u64 = size_of::<[f64; 3]>() as u64;
 const ID_BYTES: u64 = size_of::<u32>() as u64;
 
-pub(crate) struct Building<'a> {
+pub(crate) struct MeshBuilder<'a> {
     pub(super) path: &'a str,
     format: Format,
     content: Content,
@@ -31,14 +31,14 @@ pub(crate) struct Building<'a> {
     pub(super) colors: Colors,
 }
 
-impl<'a> Building<'a> {
+impl<'a> MeshBuilder<'a> {
     pub(super) fn new(
         path: &'a str,
         format: Format,
         content: Content,
         memory: Option<u64>,
     ) -> Self {
-        Building {
+        MeshBuilder {
             path,
             format,
             content,
@@ -62,13 +62,12 @@ impl<'a> Building<'a> {
         limits::longest_line(self.memory)
     }
 
-    /// The error of a file that is damaged at `place`.
-    pub(crate) fn damaged(&self, place: MeshPlace, problem: impl Into<String>) -> Error {
+    pub(crate) fn damaged(&self, place: FilePlace, problem: impl Into<String>) -> Error {
         let (path, format) = (self.path.to_owned(), self.format);
         Error::Damaged { path, format, place, problem: problem.into() }
     }
 
-    /// Whether simplices of any one dimension are wanted, rather than a surface.
+    /// Returns true if simplices of any one dimension are wanted, rather than a surface.
     pub(super) fn is_triangulation(&self) -> bool {
         self.content == Content::Triangulation
     }
@@ -85,7 +84,7 @@ impl<'a> Building<'a> {
     }
 
     /// Adds a vertex.
-    pub(super) fn vertex(&mut self, place: MeshPlace, at: [f64; 3]) -> Result<(), Error> {
+    pub(super) fn vertex(&mut self, place: FilePlace, at: [f64; 3]) -> Result<(), Error> {
         let at = self.finite(place, "coordinate", at)?;
         if self.vertices.len() >= u32::MAX as usize {
             return Err(self.damaged(place, "there are more vertices than ids of 32 bits"));
@@ -95,7 +94,7 @@ impl<'a> Building<'a> {
     }
 
     /// Adds a normal.
-    pub(super) fn normal(&mut self, place: MeshPlace, normal: [f64; 3]) -> Result<(), Error> {
+    pub(super) fn normal(&mut self, place: FilePlace, normal: [f64; 3]) -> Result<(), Error> {
         let normal = self.finite(place, "normal", normal)?;
         self.normals.push(normal);
         Ok(())
@@ -104,7 +103,7 @@ impl<'a> Building<'a> {
     /// Adds red, green and blue; `fraction` says that they were written so that 1 is full.
     pub(super) fn color(
         &mut self,
-        place: MeshPlace,
+        place: FilePlace,
         color: [f64; 3],
         fraction: bool,
     ) -> Result<(), Error> {
@@ -119,7 +118,7 @@ impl<'a> Building<'a> {
     /// corner, to a triangulation a triangle.
     pub(super) fn polygon(
         &mut self,
-        place: MeshPlace,
+        place: FilePlace,
         corners: &[i64],
         known: u64,
     ) -> Result<(), Error> {
@@ -143,7 +142,7 @@ impl<'a> Building<'a> {
     /// Adds a simplex of `width` vertices, which are among the first `known` ones.
     pub(super) fn simplex(
         &mut self,
-        place: MeshPlace,
+        place: FilePlace,
         ids: &[i64],
         width: usize,
         known: u64,
@@ -165,7 +164,7 @@ impl<'a> Building<'a> {
         self.check_memory()
     }
 
-    fn check_corners(&self, place: MeshPlace, ids: &[i64], known: u64) -> Result<(), Error> {
+    fn check_corners(&self, place: FilePlace, ids: &[i64], known: u64) -> Result<(), Error> {
         let Some(&id) = ids.iter().find(|&&id| id < 0 || id as u64 >= known) else {
             return Ok(());
         };
@@ -198,13 +197,13 @@ impl<'a> Building<'a> {
             true => Ok(()),
             false => {
                 let problem = format!("it promises {promised} {what}, but has {found}");
-                Err(self.damaged(MeshPlace::File, problem))
+                Err(self.damaged(FilePlace::File, problem))
             }
         }
     }
 
     /// The error of a file that is not damaged, but of a kind that is not read.
-    pub(super) fn unsupported(&self, place: MeshPlace, problem: impl Into<String>) -> Error {
+    pub(super) fn unsupported(&self, place: FilePlace, problem: impl Into<String>) -> Error {
         let remedy = match (self.content, self.format) {
             (_, Format::Vtu) => "as vtu with uncompressed raw appended data",
             (Content::Triangulation, Format::Off) => "as text, with simplices of one dimension",
@@ -236,12 +235,11 @@ impl<'a> Building<'a> {
         })
     }
 
-    /// A word as a number.
-    pub(super) fn number(&self, place: MeshPlace, word: &[u8]) -> Result<f64, Error> {
+    pub(super) fn number(&self, place: FilePlace, word: &[u8]) -> Result<f64, Error> {
         number::parse(word).map_err(|misread| {
             let problem = match misread {
-                Misread::Underflow => UNDERFLOW,
-                Misread::NotANumber => "is no number",
+                NumberError::Underflow => UNDERFLOW,
+                NumberError::NotANumber => "is no number",
             };
             self.damaged(place, format!("`{}` {problem}", printable(word)))
         })
@@ -250,7 +248,7 @@ impl<'a> Building<'a> {
     /// The values, unless one is not finite.
     pub(super) fn finite(
         &self,
-        place: MeshPlace,
+        place: FilePlace,
         what: &str,
         values: [f64; 3],
     ) -> Result<[f64; 3], Error> {

@@ -1,4 +1,4 @@
-//! How strongly each facet says that the cells on both sides are of one medium, or that a surface is between them.
+//! Measures how strongly each facet says that the cells on both sides are of one medium, or that a surface is between them.
 //!
 //! *Idea.* s = (r² + q² − d²)/(2rq) for spheres of radii r and q whose centers are d apart is the cosine of the angle between them, but
 //! for its sign: near 1 they are nearly one, which cells deep within a body or deep outside are; near −1 they barely meet, which they
@@ -22,25 +22,25 @@ use super::spheres::{Point, Sphere, circumcircle, cross, dot, minus};
 /// Cells of one task.
 const TASK: usize = 1 << 12;
 /// There are so many steps of |s| between 0 and 1 that roundings of s can be told from nothing.
-const STRENGTH_STEPS: f64 = (1u32 << 30) as f64;
+const WEIGHT_STEPS: f64 = (1u32 << 30) as f64;
 /// A facet that is certain has as many steps.
-pub(super) const CERTAIN_STEPS: i64 = STRENGTH_STEPS as i64;
+pub(super) const CERTAIN_STEPS: i64 = WEIGHT_STEPS as i64;
 
-/// What the facet between two ghosts has that are one: more than any other.
-const ONE: Tie = Tie { key: ((1 << 30) + 1) << 1 };
+/// The edge between two ghosts that are one: more than any other.
+const ONE: DualEdge = DualEdge { key: ((1 << 30) + 1) << 1 };
 
-/// What a facet says.
+/// The sign and weight of a facet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Tie {
+pub(super) struct DualEdge {
     /// |s| in steps; the sign in the lowest bit, 1 for opposite.
     pub(super) key: u32,
 }
 
-impl Tie {
+impl DualEdge {
     fn new(s: f64) -> Self {
         // What is not a number says nothing.
         let s = if s.is_nan() { 0.0 } else { s.clamp(-1.0, 1.0) };
-        Self { key: ((s.abs() * STRENGTH_STEPS + 0.5) as u32) << 1 | u32::from(s < 0.0) }
+        Self { key: ((s.abs() * WEIGHT_STEPS + 0.5) as u32) << 1 | u32::from(s < 0.0) }
     }
 
     pub(super) fn is_opposite(self) -> bool {
@@ -48,69 +48,71 @@ impl Tie {
     }
 
     /// |s| in steps.
-    pub(super) fn strength(self) -> u32 {
+    pub(super) fn weight(self) -> u32 {
         self.key >> 1
     }
 
     /// s in steps. Sums of it are exact, and so the same in any order.
     pub(super) fn signed(self) -> i64 {
-        let strength = i64::from(self.strength());
-        if self.is_opposite() { -strength } else { strength }
+        let weight = i64::from(self.weight());
+        if self.is_opposite() { -weight } else { weight }
     }
 }
 
-/// What all facets say, each twice: at either of its cells.
-pub(super) struct Ties {
+/// The signs and weights of all facets, each twice: at either of its cells.
+pub(super) struct DualEdges {
     /// Keys by cell and place. Each is written by whoever has the facet's first cell, so tasks write beside each other.
     all: Vec<[AtomicU32; 4]>,
 }
 
-impl Ties {
+impl DualEdges {
     /// The ties between cells. Where ghosts are one, nothing is stronger than what they are joined by.
     pub(super) fn of(cells: &Cells, points: &[Point], ghosts_are_one: bool) -> Self {
         let (mut spheres, flat) = spheres(cells, points);
         let geometry = Geometry { cells, points, spheres: &spheres, ghosts_are_one };
         let every = (0..cells.len() as u32).into_par_iter().with_min_len(TASK);
-        let ties = Self { all: every.map(|_| Default::default()).collect() };
+        let dual_edges = Self { all: every.map(|_| Default::default()).collect() };
         let begins: Vec<usize> = (0..cells.len()).step_by(TASK).collect();
         begins.into_par_iter().for_each_init(Vec::new, |facets, begin| {
             firsts(begin as u32..cells.len().min(begin + TASK) as u32, cells, facets);
-            facets.iter().for_each(|&facet| ties.set(cells, facet, geometry.tie(facet)));
+            facets
+                .iter()
+                .for_each(|&facet| dual_edges.set(cells, facet, geometry.dual_edge(facet)));
         });
-        let taken = flats(&flat, &ties, (cells, points), &mut spheres);
+        let taken = flats(&flat, &dual_edges, (cells, points), &mut spheres);
         let geometry = Geometry { cells, points, spheres: &spheres, ghosts_are_one };
         for facet in taken.iter().flat_map(|cell| (0..4).map(move |i| cell << 2 | i)) {
-            ties.set(cells, facet, geometry.tie(facet));
+            dual_edges.set(cells, facet, geometry.dual_edge(facet));
         }
-        ties
+        dual_edges
     }
 
     /// Writes that of a facet at both its cells.
     #[inline]
-    fn set(&self, cells: &Cells, facet: u32, tie: Tie) {
+    fn set(&self, cells: &Cells, facet: u32, dual_edge: DualEdge) {
         for (cell, i) in [facet, cells.mirror(facet)].map(decode) {
-            self.all[cell as usize][i].store(tie.key, Relaxed);
+            self.all[cell as usize][i].store(dual_edge.key, Relaxed);
         }
     }
 
     /// That of a facet, `cell << 2 | place`.
-    pub(super) fn at(&self, facet: u32) -> Tie {
+    pub(super) fn at(&self, facet: u32) -> DualEdge {
         let (cell, i) = decode(facet);
-        Tie { key: self.all[cell as usize][i].load(Relaxed) }
+        DualEdge { key: self.all[cell as usize][i].load(Relaxed) }
     }
 
     /// Those of the facets of a cell.
-    pub(super) fn of_cell(&self, cell: u32) -> [Tie; 4] {
+    pub(super) fn of_cell(&self, cell: u32) -> [DualEdge; 4] {
         let [a, b, c, d] = &self.all[cell as usize];
-        let tie = |key: &AtomicU32| Tie { key: key.load(Relaxed) };
-        [tie(a), tie(b), tie(c), tie(d)]
+        let dual_edge = |key: &AtomicU32| DualEdge { key: key.load(Relaxed) };
+        [dual_edge(a), dual_edge(b), dual_edge(c), dual_edge(d)]
     }
 
     /// The facets of some cells that say "opposite" with at least half of what is certain, between cells of one label.
     pub(super) fn overruled(&self, some: &[u32], cells: &Cells, inside: &[bool]) -> Vec<u32> {
         let is_sure = |facet: &u32| {
-            let tie = self.at(*facet);
-            tie.is_opposite() && 2 * i64::from(tie.strength()) >= CERTAIN_STEPS
+            let dual_edge = self.at(*facet);
+            dual_edge.is_opposite() && 2 * i64::from(dual_edge.weight()) >= CERTAIN_STEPS
         };
         let is_within = |facet: &u32| {
             inside[(facet >> 2) as usize] == inside[(cells.mirror(*facet) >> 2) as usize]
@@ -148,7 +150,7 @@ fn spheres(cells: &Cells, points: &[Point]) -> (Vec<Sphere>, Vec<u32>) {
     (spheres, flats.concat())
 }
 
-/// What strengths are made from.
+/// The spheres and normals that weights are made from.
 struct Geometry<'a> {
     cells: &'a Cells,
     points: &'a [Point],
@@ -158,25 +160,25 @@ struct Geometry<'a> {
 }
 
 impl Geometry<'_> {
-    /// What a facet says.
+    /// Returns what a facet says.
     #[inline(always)]
-    fn tie(&self, facet: u32) -> Tie {
+    fn dual_edge(&self, facet: u32) -> DualEdge {
         let (cell, i) = decode(facet);
         let (other, k) = self.cells.across(cell, i);
         let (one, two) = (self.spheres[cell as usize], self.spheres[other as usize]);
         if one.is_like(two) {
-            return Tie::new(near(one, two));
+            return DualEdge::new(near(one, two));
         }
         self.unlike([cell, other], [i, k])
     }
 
     /// The same where the spheres are not alike, as that of a ghost is not like any.
     #[cold]
-    fn unlike(&self, cells: [u32; 2], places: [usize; 2]) -> Tie {
+    fn unlike(&self, cells: [u32; 2], places: [usize; 2]) -> DualEdge {
         let [facet, back] = [0, 1].map(|k| self.cells.facet(cells[k], places[k]));
         let [one, two] = cells.map(|cell| self.spheres[cell as usize]);
         let points = self.points;
-        Tie::new(match cells.map(|cell| self.cells.is_ghost(cell)) {
+        DualEdge::new(match cells.map(|cell| self.cells.is_ghost(cell)) {
             [false, false] => far(one, two, corners(facet, points)),
             [false, true] => on_hull(one, facet, points),
             [true, false] => on_hull(two, back, points),
@@ -196,7 +198,7 @@ fn corners(mut facet: [u32; 3], points: &[Point]) -> [Point; 3] {
 }
 
 impl Sphere {
-    /// Whether two radii are so much alike that differences of squares are not lost to rounding.
+    /// Returns true if two radii are so much alike that differences of squares are not lost to rounding.
     fn is_like(self, other: Sphere) -> bool {
         const RADII_RATIO_MAX: f64 = 1e3;
         let (r, q) = (self.radius, other.radius);
@@ -285,7 +287,7 @@ mod tests {
 
     #[test]
     fn what_is_not_a_number_says_nothing() {
-        assert_eq!(Tie::new(f64::NAN).signed(), 0);
-        assert_eq!(Tie::new(-7.0).signed(), -CERTAIN_STEPS);
+        assert_eq!(DualEdge::new(f64::NAN).signed(), 0);
+        assert_eq!(DualEdge::new(-7.0).signed(), -CERTAIN_STEPS);
     }
 }

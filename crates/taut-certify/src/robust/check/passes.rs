@@ -15,18 +15,18 @@ use crate::ellipsoid::check::hull::{HullTest, length};
 use crate::hashed_pass::{WantedRows, all_finite, hashed_pass};
 use crate::{CheckError, Violation};
 
-/// What the checker of ellipsoids grants at a border, from both sides.
+/// The tolerance of the checker of ellipsoids at a border, from both sides.
 const BORDER_TOLERANCE: f64 = 2e-12;
 
-/// What is to be read.
-pub(super) struct Scan<'a> {
+/// The objects that the passes read for.
+pub(super) struct Passes<'a> {
     pub(super) answer: &'a RobustEllipsoid,
     pub(super) certificate: &'a RobustCertificate,
     pub(super) frame: &'a Frame<'a>,
     pub(super) hull: Option<&'a HullTest<'a>>,
 }
 
-/// What the first pass finds.
+/// The result of the first pass.
 pub(super) struct Moments {
     pub(super) kept: Sums,
     pub(super) weighed: Sums,
@@ -37,14 +37,14 @@ pub(super) struct Moments {
 }
 
 /// The metric of the rows kept.
-pub(super) enum Around<'a> {
+pub(super) enum KeptMetric<'a> {
     /// That of the ellipsoid around them, and up to which distance rows lie strictly inside.
     Ellipsoid { frame: &'a Frame<'a>, inside: f64 },
     /// That of their mean and covariance.
     Moments(&'a Metric),
 }
 
-/// What the pass over distances finds.
+/// The result of the pass over distances.
 struct Distances {
     /// The squared distance of the farthest row kept and the nearest row left out, and which they are.
     far: (f64, u64),
@@ -55,7 +55,7 @@ struct Distances {
     within: Sums,
 }
 
-impl Scan<'_> {
+impl Passes<'_> {
     /// Reads all rows once, and makes sure that they are those the certificate speaks of.
     fn pass<T: Send>(
         &self,
@@ -140,7 +140,7 @@ impl Scan<'_> {
         self.hull.is_none_or(|hull| hull.is_within(row, self.frame))
     }
 
-    /// Whether the rows flagged are those outside the ellipsoid or off the hull, as a user would find in `f64`. Returns by
+    /// Tests whether the rows flagged are those outside the ellipsoid or off the hull, as a user would find in `f64`. Returns by
     /// how much at most a row is on the wrong side of the border.
     pub(super) fn flags(
         &self,
@@ -199,7 +199,7 @@ impl Scan<'_> {
         &self,
         source: &dyn PointSource,
         monitor: &Monitor<'_>,
-        around: &Around<'_>,
+        around: &KeptMetric<'_>,
         slack: &Slack,
     ) -> Result<(), CheckError> {
         let slack = slack.of_places;
@@ -208,8 +208,8 @@ impl Scan<'_> {
         let reweighted = self.certificate.unweighted.is_none();
         let rank = self.frame.rank;
         let inside = match around {
-            Around::Ellipsoid { inside, .. } => *inside,
-            Around::Moments(_) => f64::NEG_INFINITY,
+            KeptMetric::Ellipsoid { inside, .. } => *inside,
+            KeptMetric::Moments(_) => f64::NEG_INFINITY,
         };
         let blocks = self.pass(source, monitor, |first, rows| {
             let mut left_out = Cursor::from(&self.certificate.left_out, first);
@@ -225,11 +225,11 @@ impl Scan<'_> {
                 }
                 let y = || self.frame.image(&self.frame.offset::<DoubleDouble>(&row));
                 let square = match around {
-                    Around::Ellipsoid { frame, .. } => {
+                    KeptMetric::Ellipsoid { frame, .. } => {
                         let norm = length(&frame.image(&frame.offset::<f64>(&row)));
                         if norm < FAR_OUT { norm * norm } else { far_out(frame, &row) }
                     }
-                    Around::Moments(metric) => match metric.square(&y()) {
+                    KeptMetric::Moments(metric) => match metric.square(&y()) {
                         square if square.is_nan() => far_out(self.frame, &row),
                         square => square,
                     },

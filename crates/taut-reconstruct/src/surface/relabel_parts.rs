@@ -17,7 +17,7 @@ use rayon::prelude::*;
 use taut_delaunay::decode;
 
 use super::cells::Cells;
-use super::strengths::{CERTAIN_STEPS, Tie, Ties};
+use super::dual_edges::{CERTAIN_STEPS, DualEdge, DualEdges};
 
 /// The largest part has this many cells.
 const PART_CELLS_MAX: u8 = 100;
@@ -70,7 +70,7 @@ impl<'a> Peeling<'a> {
         Self { cells, tree, up, order }
     }
 
-    /// What a peeled cell hung on.
+    /// Returns what a peeled cell hung on.
     fn parent(&self, cell: u32) -> u32 {
         self.up[cell as usize] >> 2
     }
@@ -88,23 +88,29 @@ impl<'a> Peeling<'a> {
         all
     }
 
-    /// Whether so much is said against the part that hangs by a peeled cell that it could be turned over.
-    fn is_outweighed(&self, cell: u32, against: i64, ties: &Ties, inside: &[bool]) -> bool {
+    /// Returns true if so much is said against the part that hangs by a peeled cell that it could be turned over.
+    fn is_outweighed(
+        &self,
+        cell: u32,
+        against: i64,
+        dual_edges: &DualEdges,
+        inside: &[bool],
+    ) -> bool {
         if against <= DISAGREEMENT_MIN {
             return false;
         }
         if self.tree[cell as usize].is_power_of_two() {
             // The cell is all of the part.
-            return agreement(cell, ties, self.cells, inside) < -DISAGREEMENT_MIN;
+            return agreement(cell, dual_edges, self.cells, inside) < -DISAGREEMENT_MIN;
         }
         // What the part hangs by was obeyed, and agrees.
-        against > DISAGREEMENT_MIN + i64::from(ties.at(self.up[cell as usize]).strength())
+        against > DISAGREEMENT_MIN + i64::from(dual_edges.at(self.up[cell as usize]).weight())
     }
 }
 
 /// Parts that the facets which disagree could outweigh, each after those around it.
 struct Suspects<'a> {
-    ties: &'a Ties,
+    dual_edges: &'a DualEdges,
     peeling: &'a Peeling<'a>,
     parts: Vec<Part>,
     /// By cell the innermost part that it is in, counted from one, so that nothing is written for cells that are in none.
@@ -113,7 +119,7 @@ struct Suspects<'a> {
     turned: Vec<u32>,
 }
 
-/// What hangs by a cell, the cell included.
+/// The subtree below a cell, the cell included.
 #[derive(Clone, Copy)]
 struct Part {
     cell: u32,
@@ -135,17 +141,18 @@ struct Between {
 impl<'a> Suspects<'a> {
     fn of(
         objections: &[(u32, i64)],
-        ties: &'a Ties,
+        dual_edges: &'a DualEdges,
         peeling: &'a Peeling<'a>,
         inside: &[bool],
     ) -> Self {
         let against = against(objections, peeling);
         let home = vec![0u32; peeling.cells.len()];
-        let mut suspects = Self { ties, peeling, parts: Vec::new(), home, turned: Vec::new() };
+        let mut suspects =
+            Self { dual_edges, peeling, parts: Vec::new(), home, turned: Vec::new() };
         for &cell in peeling.order.iter().rev() {
             let around = suspects.home[peeling.parent(cell) as usize];
             suspects.home[cell as usize] = around;
-            if peeling.is_outweighed(cell, against[cell as usize], ties, inside) {
+            if peeling.is_outweighed(cell, against[cell as usize], dual_edges, inside) {
                 let part = suspects.parts.len() as u32;
                 let top = suspects.parts.get(around.wrapping_sub(1) as usize);
                 suspects.begin(cell, top.map_or(part, |part| part.top));
@@ -203,10 +210,10 @@ impl<'a> Suspects<'a> {
         for &cell in cells {
             let part = self.part(cell);
             let mut sum = 0;
-            for (i, tie) in (0..).zip(self.ties.of_cell(cell)) {
+            for (i, dual_edge) in (0..).zip(self.dual_edges.of_cell(cell)) {
                 let (other, _) = self.peeling.cells.across(cell, i);
                 let beyond = self.part(other);
-                let agrees = agrees(tie, [cell, other], inside);
+                let agrees = agrees(dual_edge, [cell, other], inside);
                 // What is within a part is within all around it. Nothing here can be guessed, so nothing is asked.
                 let is_between = beyond != part;
                 sum += agrees * i64::from(is_between);
@@ -216,10 +223,10 @@ impl<'a> Suspects<'a> {
             }
             self.parts[part as usize].sum += sum;
         }
-        for tie in &between[..count] {
-            let meet = self.meet(tie.parts);
+        for dual_edge in &between[..count] {
+            let meet = self.meet(dual_edge.parts);
             if meet != NONE {
-                self.parts[meet as usize].sum -= 2 * tie.agrees;
+                self.parts[meet as usize].sum -= 2 * dual_edge.agrees;
             }
         }
     }
@@ -255,10 +262,10 @@ impl<'a> Suspects<'a> {
         let (mut more, mut tops) = (0, Vec::new());
         let is_turned: HashSet<u32> = turned.iter().copied().collect();
         for &cell in &turned {
-            for (i, tie) in (0..).zip(self.ties.of_cell(cell)) {
+            for (i, dual_edge) in (0..).zip(self.dual_edges.of_cell(cell)) {
                 let (other, _) = self.peeling.cells.across(cell, i);
                 if !is_turned.contains(&other) {
-                    more += 2 * agrees(tie, [cell, other], inside);
+                    more += 2 * agrees(dual_edge, [cell, other], inside);
                     let parts = [cell, other].map(|cell| self.parts.get(self.part(cell) as usize));
                     tops.extend(parts.into_iter().flatten().map(|part| part.top));
                 }
@@ -291,7 +298,7 @@ impl<'a> Suspects<'a> {
     }
 }
 
-/// What is said against the parts that hang by peeled cells. Within a part a tie counts twice here, as where ways meet is not known yet.
+/// Returns what is said against the parts that hang by peeled cells. Within a part a tie counts twice here, as where ways meet is not known yet.
 fn against(objections: &[(u32, i64)], peeling: &Peeling<'_>) -> Vec<i64> {
     let mut against = vec![0i64; peeling.cells.len()];
     for &(cell, objection) in objections {
@@ -307,15 +314,15 @@ fn against(objections: &[(u32, i64)], peeling: &Peeling<'_>) -> Vec<i64> {
 }
 
 /// By how much the facets of a cell agree with the labels.
-fn agreement(cell: u32, ties: &Ties, cells: &Cells, inside: &[bool]) -> i64 {
-    let own = ties.of_cell(cell);
+fn agreement(cell: u32, dual_edges: &DualEdges, cells: &Cells, inside: &[bool]) -> i64 {
+    let own = dual_edges.of_cell(cell);
     (0..4).map(|i| agrees(own[i], [cell, cells.across(cell, i).0], inside)).sum()
 }
 
 /// The cells at facets that disagree with the labels, and the strength of these facets.
-fn objections(ties: &Ties, cells: &Cells, inside: &[bool]) -> Vec<(u32, i64)> {
+fn objections(dual_edges: &DualEdges, cells: &Cells, inside: &[bool]) -> Vec<(u32, i64)> {
     let of_cell = |cell: u32| {
-        let own = ties.of_cell(cell);
+        let own = dual_edges.of_cell(cell);
         let says = |i: usize| agrees(own[i], [cell, cells.across(cell, i).0], inside);
         let objection: i64 = (0..4).map(says).filter(|&agrees| agrees < 0).sum();
         (objection < 0).then_some((cell, -objection))
@@ -324,34 +331,38 @@ fn objections(ties: &Ties, cells: &Cells, inside: &[bool]) -> Vec<(u32, i64)> {
     all.filter_map(of_cell).collect()
 }
 
-/// What turning parts over came to.
-pub(super) struct Flipped {
-    /// How many were.
-    pub(super) flips: u64,
+/// The result of relabeling parts.
+pub(super) struct Relabeled {
+    pub(super) relabeled: u64,
     /// Of each facet that disagrees with the labels one cell at least is among these.
     pub(super) doubtful: Vec<u32>,
 }
 
 /// Turns parts over.
-pub(super) fn flip(ties: &Ties, tree: &[u8], cells: &Cells, inside: &mut [bool]) -> Flipped {
+pub(super) fn flip(
+    dual_edges: &DualEdges,
+    tree: &[u8],
+    cells: &Cells,
+    inside: &mut [bool],
+) -> Relabeled {
     let labels = &*inside;
     let (peeling, objections) =
-        rayon::join(|| Peeling::of(tree, cells), || objections(ties, cells, labels));
-    let mut suspects = Suspects::of(&objections, ties, &peeling, inside);
-    let mut flips = 0;
+        rayon::join(|| Peeling::of(tree, cells), || objections(dual_edges, cells, labels));
+    let mut suspects = Suspects::of(&objections, dual_edges, &peeling, inside);
+    let mut relabeled = 0;
     for _ in 0..ROUNDS_MAX {
         match suspects.turn(inside) {
             0 => break,
-            found => flips += found,
+            found => relabeled += found,
         }
     }
     let mut doubtful = suspects.turned;
     doubtful.extend(objections.iter().map(|(cell, _)| cell));
-    Flipped { flips, doubtful }
+    Relabeled { relabeled, doubtful }
 }
 
-/// What a tie between two cells adds to the agreement with the labels.
-fn agrees(tie: Tie, cells: [u32; 2], inside: &[bool]) -> i64 {
+/// Returns what a tie between two cells adds to the agreement with the labels.
+fn agrees(dual_edge: DualEdge, cells: [u32; 2], inside: &[bool]) -> i64 {
     let [a, b] = cells.map(|cell| inside[cell as usize]);
-    if a == b { tie.signed() } else { -tie.signed() }
+    if a == b { dual_edge.signed() } else { -dual_edge.signed() }
 }

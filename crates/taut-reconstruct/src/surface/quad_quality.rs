@@ -1,4 +1,4 @@
-//! What is seen of many quadrangles at a time.
+//! Measures many quadrangles at a time.
 //!
 //! *Problem.* Each asks for four areas and four circumcircles, and there are nearly as many quadrangles as triangles.
 //! *Idea.* They lie in the lanes of a vector, the ends of the diagonal first. All four normals look to the same side of the cell,
@@ -20,9 +20,9 @@ const ROUNDING_SHARE: f64 = 1e-9;
 /// (cos 1/5)², rounded up: angles of no more than a fifth of what takes a swap are small.
 const SMALL_COS_SQUARE: f64 = 0.960531;
 
-/// What is seen of a quadrangle alone.
+/// The quality of a quadrangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Look {
+pub(super) struct QuadQuality {
     /// The other two triangles have smaller circumcircles: in sum, or the larger one if that is much the same.
     pub(super) is_rounder: bool,
     /// Some of its four triangles turn so much against each other that a swap could make the surface flatter.
@@ -30,31 +30,39 @@ pub(super) struct Look {
 }
 
 /// Looks at quadrangles.
-pub(super) fn looks(quadrangles: &[Quadrangle], cells: &Cells, points: &[Point]) -> Vec<Look> {
-    Arch::new().dispatch(Looks { quadrangles, cells, points })
+pub(super) fn quad_qualities(
+    quadrangles: &[Quadrangle],
+    cells: &Cells,
+    points: &[Point],
+) -> Vec<QuadQuality> {
+    Arch::new().dispatch(QuadQualityKernel { quadrangles, cells, points })
 }
 
 /// Looks at one.
-pub(super) fn look(quadrangle: &Quadrangle, cells: &Cells, points: &[Point]) -> Look {
+pub(super) fn quad_quality(
+    quadrangle: &Quadrangle,
+    cells: &Cells,
+    points: &[Point],
+) -> QuadQuality {
     let mut block = Block::default();
     block.set(0, quadrangle, cells, points);
     block.margins(Scalar::new(), 1);
-    block.look(0)
+    block.quad_quality(0)
 }
 
-struct Looks<'a> {
+struct QuadQualityKernel<'a> {
     quadrangles: &'a [Quadrangle],
     cells: &'a Cells,
     points: &'a [Point],
 }
 
-impl WithSimd for Looks<'_> {
-    type Output = Vec<Look>;
+impl WithSimd for QuadQualityKernel<'_> {
+    type Output = Vec<QuadQuality>;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Vec<Look> {
+    fn with_simd<S: Simd>(self, simd: S) -> Vec<QuadQuality> {
         let Self { quadrangles, cells, points } = self;
-        let mut looks = Vec::with_capacity(quadrangles.len());
+        let mut quad_qualities = Vec::with_capacity(quadrangles.len());
         let mut block = Block::default();
         for some in quadrangles.chunks(MOST_LANES) {
             for (lane, quadrangle) in some.iter().enumerate() {
@@ -62,10 +70,10 @@ impl WithSimd for Looks<'_> {
             }
             block.margins(simd, some.len());
             for lane in 0..some.len() {
-                looks.push(block.look(lane));
+                quad_qualities.push(block.quad_quality(lane));
             }
         }
-        looks
+        quad_qualities
     }
 }
 
@@ -94,8 +102,8 @@ impl Block {
     }
 
     #[inline(always)]
-    fn look(&self, lane: usize) -> Look {
-        Look { is_rounder: self.rounder[lane] > 0.0, is_bent: self.straighter[lane] <= 0.0 }
+    fn quad_quality(&self, lane: usize) -> QuadQuality {
+        QuadQuality { is_rounder: self.rounder[lane] > 0.0, is_bent: self.straighter[lane] <= 0.0 }
     }
 
     /// Finds the margins of the first few lanes.
@@ -184,12 +192,15 @@ mod tests {
         let inside: Vec<bool> = (0..cells.len() as u32).map(mix).collect();
         let all = 0..cells.len() as u32;
         let all: Vec<_> = all.filter_map(|cell| Quadrangle::of(cell, &cells, &inside)).collect();
-        let many = looks(&all, &cells, &points);
-        let alone: Vec<Look> = all.iter().map(|one| look(one, &cells, &points)).collect();
+        let many = quad_qualities(&all, &cells, &points);
+        let alone: Vec<QuadQuality> =
+            all.iter().map(|one| quad_quality(one, &cells, &points)).collect();
         assert_eq!(many, alone);
-        let count = |is: fn(&Look) -> bool| many.iter().filter(|&look| is(look)).count();
-        assert!(all.len() > 300 && count(|look| look.is_rounder) > 50);
-        assert!(count(|look| look.is_bent) > 50);
+        let count = |is: fn(&QuadQuality) -> bool| {
+            many.iter().filter(|&quad_quality| is(quad_quality)).count()
+        };
+        assert!(all.len() > 300 && count(|quad_quality| quad_quality.is_rounder) > 50);
+        assert!(count(|quad_quality| quad_quality.is_bent) > 50);
     }
 
     #[test]
@@ -205,8 +216,8 @@ mod tests {
                 .collect::<Vec<_>>()
         };
         let [along, across] = [place(0.0), place(2.0)].map(|ends| [ends[0], ends[1]]);
-        let seen = |ends, others| look(&Quadrangle { cell, ends, others }, &cells, &points);
-        assert_eq!(seen(along, across), Look { is_rounder: true, is_bent: false });
-        assert_eq!(seen(across, along), Look { is_rounder: false, is_bent: false });
+        let seen = |ends, others| quad_quality(&Quadrangle { cell, ends, others }, &cells, &points);
+        assert_eq!(seen(along, across), QuadQuality { is_rounder: true, is_bent: false });
+        assert_eq!(seen(across, along), QuadQuality { is_rounder: false, is_bent: false });
     }
 }

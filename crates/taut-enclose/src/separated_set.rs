@@ -20,7 +20,7 @@ pub(crate) fn claimed(bound: f64, weight: f64) -> f64 {
 
 /// Points of which no two are nearer than some distance.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Apart {
+pub(crate) struct SeparatedSet {
     pub(crate) rows: Vec<u64>,
     /// The least distance of two, as evaluated.
     pub(crate) distance: f64,
@@ -33,7 +33,7 @@ pub(crate) fn rounded_up(distance: f64, dim: usize) -> f64 {
     if up > 0.0 && up < 2.0 * f64::MIN_POSITIVE { up.next_up() } else { up }
 }
 
-impl Apart {
+impl SeparatedSet {
     /// No ball of a smaller radius holds two of the points: half the least distance, rounded down.
     pub(crate) fn bound(&self, dim: usize) -> f64 {
         claimed(self.distance / 2.0 * (1.0 - 1e-12 - dim as f64 * U), 1.0)
@@ -62,7 +62,7 @@ impl Apart {
             outliers: 0,
             gap: gap(answer.radius, answer.lower_bound)?,
             core_set: self.rows,
-            proof: LowerBound::Apart,
+            proof: LowerBound::Separated,
             points_hash,
         };
         Ok(Solution { answer, certificate, trace })

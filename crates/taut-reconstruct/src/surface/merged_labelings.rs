@@ -19,15 +19,15 @@ use taut_delaunay::GHOST;
 
 use super::border::{Face, Links, faces, is_fan};
 use super::cells::Cells;
-use super::media::Media;
+use super::dual_edges::DualEdges;
 use super::orient::has_one_side;
+use super::parity::ParityUnionFind;
 use super::prune::{without_all_small_fans, without_membranes};
 use super::spheres::Point;
-use super::strengths::Ties;
 
 /// The smallest patch has this many facets that hang together.
 const PATCH_FACETS_MIN: usize = 5;
-/// How many rings around the patch are tried: few may not reach beyond what the patch has spoilt, many may reach around the sheet.
+/// The numbers of rings around the patch that are tried: few may not reach beyond what the patch has spoilt, many may reach around the sheet.
 const RING_RANGE: std::ops::RangeInclusive<usize> = 2..=6;
 
 /// Where labels contradict what facets surely say.
@@ -44,14 +44,14 @@ impl Patch {
         let mut facets: Vec<[u32; 3]> = overruled.iter().map(|&facet| cells.name(facet)).collect();
         facets.retain(|name| name[2] != GHOST);
         facets.sort_unstable();
-        let mut media = Media::new(facets.len());
+        let mut parity = ParityUnionFind::new(facets.len());
         let mut at: Vec<(u32, u32)> =
             (0..).zip(&facets).flat_map(|(k, name)| name.map(|site| (site, k))).collect();
         at.sort_unstable();
         for pair in at.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
-            media.join(pair[0].1, pair[1].1, false);
+            parity.join(pair[0].1, pair[1].1, false);
         }
-        let (part, parts) = media.numbered();
+        let (part, parts) = parity.numbered();
         let mut size = vec![0; parts];
         part.iter().for_each(|part| size[(part >> 1) as usize] += 1);
         let is_large =
@@ -84,7 +84,7 @@ impl Patch {
     pub(super) fn mended(
         &self,
         first: &[Face],
-        ties: &Ties,
+        dual_edges: &DualEdges,
         cells: &Cells,
         points: &[Point],
     ) -> Option<Vec<Face>> {
@@ -93,7 +93,7 @@ impl Patch {
         let limit = defects(first);
         let all = RING_RANGE.map(|count| {
             let around = Region::of(&self.rings(&edges, count), points.len());
-            let second = without_membranes(&around.surface(ties, cells), points);
+            let second = without_membranes(&around.surface(dual_edges, cells), points);
             without_all_small_fans(self.joined(first, &second, &around), points.len())
         });
         let may = |faces: &Vec<Face>| defects(faces) <= limit && has_one_side(faces);
@@ -148,13 +148,13 @@ impl Region {
         Self { has }
     }
 
-    /// Whether one of some sites is among them.
+    /// Returns true if one of some sites is among them.
     fn meets(&self, sites: &[u32]) -> bool {
         sites.iter().any(|&site| self.has.get(site as usize) == Some(&true))
     }
 
     /// The surface at these points, as the cells at them have it.
-    fn surface(&self, ties: &Ties, cells: &Cells) -> Vec<Face> {
+    fn surface(&self, dual_edges: &DualEdges, cells: &Cells) -> Vec<Face> {
         let mut is_at = vec![false; cells.len()];
         let at: Vec<u32> =
             (0..cells.len() as u32).filter(|&cell| self.meets(&cells.sites(cell))).collect();
@@ -165,12 +165,12 @@ impl Region {
             *facet < across && is_at[(across >> 2) as usize]
         };
         let mut kept: Vec<u32> = facets.filter(is_between).collect();
-        kept.sort_unstable_by_key(|&facet| (Reverse(ties.at(facet).strength()), facet));
-        let mut media = Media::new(cells.len());
+        kept.sort_unstable_by_key(|&facet| (Reverse(dual_edges.at(facet).weight()), facet));
+        let mut parity = ParityUnionFind::new(cells.len());
         for facet in kept {
-            media.join(facet >> 2, cells.mirror(facet) >> 2, ties.at(facet).is_opposite());
+            parity.join(facet >> 2, cells.mirror(facet) >> 2, dual_edges.at(facet).is_opposite());
         }
-        let (sides, _) = media.numbered();
+        let (sides, _) = parity.numbered();
         let inside: Vec<bool> = sides.iter().map(|side| side & 1 == 1).collect();
         let mut found = faces(cells, &inside, self.has.len());
         found.retain(|face| self.meets(&face.sites));

@@ -13,17 +13,17 @@ use super::moves::{Queue, Search};
 use crate::Error;
 
 /// A kick moves a run of at most this many sites.
-const KICKED_RUN_MAX: u64 = 30;
+const MOVED_RUN_MAX: u64 = 30;
 /// Moves reverse a run of at most this many sites after a kick: without a limit, rare long ones would take most of the
 /// time.
 const REVERSED_RUN_MAX: usize = 1000;
 
 /// Kicks near each of these nodes, again and again, so many times in all; each round has random numbers of its own. Returns by how much the tour got shorter.
-pub(super) fn kick(
+pub(super) fn perturb(
     search: Search<'_>,
     cycle: &mut Cycle,
     near: &[u32],
-    kicks: usize,
+    perturbations: usize,
     round: u64,
     monitor: &Monitor<'_>,
 ) -> Result<f64, Error> {
@@ -32,11 +32,11 @@ pub(super) fn kick(
     if n < 8 || near.is_empty() {
         return Ok(0.0);
     }
-    let longest = KICKED_RUN_MAX.min((n as u64 - 2) / 3);
+    let longest = MOVED_RUN_MAX.min((n as u64 - 2) / 3);
     let mut random = SplitMix { state: n as u64 + (round << 32) };
     let mut queue = Queue::of(n);
     let mut total = 0.0;
-    for turn in 0..kicks {
+    for turn in 0..perturbations {
         if turn % 256 == 0 {
             monitor.check()?;
         }

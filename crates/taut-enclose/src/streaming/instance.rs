@@ -2,7 +2,7 @@
 
 use taut_points::{Monitor, Points, ReadError, Scalar};
 
-use super::{Apart, rounded_up};
+use super::{SeparatedSet, rounded_up};
 use crate::Error;
 use crate::frame::{SQUARE_MIN, exponent};
 use crate::kernel::{Center, squared_distances};
@@ -21,7 +21,7 @@ pub(super) struct Instance {
     /// The points kept, row-major.
     centers: Vec<f64>,
     rows: Vec<u64>,
-    /// How far from each of them the points are that count as its own, at most.
+    /// The largest distance from each of them to the points that count as its own.
     reaches: Vec<f64>,
 }
 
@@ -62,8 +62,8 @@ impl Instance {
         first_row: u64,
         points: &Points<'_, T>,
         monitor: &Monitor<'_>,
-    ) -> Result<Apart, Error> {
-        let mut apart = Apart::default();
+    ) -> Result<SeparatedSet, Error> {
+        let mut separated = SeparatedSet::default();
         let mut center = Center { high: vec![0.0; self.dim], low: vec![] };
         let mut values = vec![];
         for (number, row) in (first_row..).zip(points.rows()) {
@@ -81,10 +81,10 @@ impl Instance {
             self.rows.push(number);
             self.reaches.push(0.0);
             if self.rows.len() > self.k {
-                apart = self.grow(monitor)?;
+                separated = self.grow(monitor)?;
             }
         }
-        if self.radius().is_finite() { Ok(apart) } else { Err(Error::Overflow) }
+        if self.radius().is_finite() { Ok(separated) } else { Err(Error::Overflow) }
     }
 
     /// The point kept that is next to `center`, the first of several, and its distance.
@@ -107,14 +107,14 @@ impl Instance {
     }
 
     /// There are k + 1 points more than 2r apart: a larger guess, under which at least two of them are one.
-    fn grow(&mut self, monitor: &Monitor<'_>) -> Result<Apart, Error> {
+    fn grow(&mut self, monitor: &Monitor<'_>) -> Result<SeparatedSet, Error> {
         let least = least_distance(&self.centers, self.dim, monitor)?;
-        let apart = Apart { rows: self.rows.clone(), distance: least };
+        let separated = SeparatedSet { rows: self.rows.clone(), distance: least };
         while 2.0 * self.guess < least {
             self.guess *= self.ratio;
         }
         self.merge(monitor)?;
-        Ok(apart)
+        Ok(separated)
     }
 
     /// Of points that are at most 2r apart only the first stays, and takes over what was the other's.

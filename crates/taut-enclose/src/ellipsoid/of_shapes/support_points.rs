@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
-use crate::ellipsoid::pool::Pool;
 use crate::ellipsoid::sample::Sample;
+use crate::ellipsoid::working_set::WorkingSet;
 use crate::kernel::vector::dot;
 use crate::shapes::eigen::eigen;
 use crate::shapes::frame::Framed;
@@ -15,30 +15,32 @@ const SAMPLE_SIZE: usize = 200;
 
 /// A point of an item by its direction in the base.
 #[derive(Clone)]
-pub(super) struct Touch {
+pub(super) struct SupportPoint {
     pub(super) item: usize,
     pub(super) direction: Vec<f64>,
 }
 
 /// The points of a pool by their numbers.
-pub(super) struct Touches {
-    pub(super) list: Vec<Touch>,
+pub(super) struct SupportPoints {
+    pub(super) list: Vec<SupportPoint>,
 }
 
-impl Touches {
+impl SupportPoints {
     /// The directions of the points with a multiplier, by item.
-    pub(super) fn seeds(&self, pool: &Pool, items: usize) -> Vec<Vec<&[f64]>> {
+    pub(super) fn seeds(&self, working_set: &WorkingSet, items: usize) -> Vec<Vec<&[f64]>> {
         let mut seeds = vec![vec![]; items];
-        let weighted = pool.ids().iter().zip(pool.weights()).filter(|(_, u)| **u > 0.0);
-        for touch in weighted.map(|(&id, _)| &self.list[id as usize]) {
-            seeds[touch.item].push(&touch.direction[..]);
+        let weighted =
+            working_set.ids().iter().zip(working_set.weights()).filter(|(_, u)| **u > 0.0);
+        for support_point in weighted.map(|(&id, _)| &self.list[id as usize]) {
+            seeds[support_point.item].push(&support_point.direction[..]);
         }
         seeds
     }
 
     /// The points with a multiplier.
-    pub(super) fn support(&self, pool: &Pool) -> Vec<(Touch, f64)> {
-        let weighted = pool.ids().iter().zip(pool.weights()).filter(|(_, u)| **u > 0.0);
+    pub(super) fn support(&self, working_set: &WorkingSet) -> Vec<(SupportPoint, f64)> {
+        let weighted =
+            working_set.ids().iter().zip(working_set.weights()).filter(|(_, u)| **u > 0.0);
         weighted.map(|(&id, &u)| (self.list[id as usize].clone(), u)).collect()
     }
 }
@@ -66,7 +68,7 @@ pub(super) fn axes(framed: &Framed) -> Vec<Axes> {
 }
 
 /// Equal weights on ends of axes that lie far out, on an affine basis, and on what is extreme in a sample.
-pub(super) fn first_pool(framed: &Framed, axes: Vec<Axes>) -> (Pool, Touches) {
+pub(super) fn first_working_set(framed: &Framed, axes: Vec<Axes>) -> (WorkingSet, SupportPoints) {
     let rank = framed.rank;
     let mut list = vec![];
     let mut points = vec![];
@@ -75,12 +77,12 @@ pub(super) fn first_pool(framed: &Framed, axes: Vec<Axes>) -> (Pool, Touches) {
         for (&square, v) in axes.squares.iter().zip(axes.directions.chunks_exact(rank)) {
             // An axis that rounding may have made is none.
             if square > 1e-14 {
-                list.push(Touch { item: i, direction: v.to_vec() });
-                list.push(Touch { item: i, direction: v.iter().map(|v| -v).collect() });
+                list.push(SupportPoint { item: i, direction: v.to_vec() });
+                list.push(SupportPoint { item: i, direction: v.iter().map(|v| -v).collect() });
             }
         }
         if list.len() == before {
-            list.push(Touch { item: i, direction: vec![0.0; rank] });
+            list.push(SupportPoint { item: i, direction: vec![0.0; rank] });
         }
         points.extend(list[before..].iter().map(|t| framed.touching(t.item, &t.direction)));
     }
@@ -90,18 +92,18 @@ pub(super) fn first_pool(framed: &Framed, axes: Vec<Axes>) -> (Pool, Touches) {
     let size = FIRST_POOL_FACTOR * (rank + 1) * (rank + 2) / 2;
     let mut chosen: Vec<usize> = order.iter().take(size).copied().collect();
     let step = framed.len().div_ceil(SAMPLE_SIZE);
-    let mut sample = Sample { origin: vec![0.0; rank], pool: Pool::new(rank) };
-    for (at, touch) in list.iter().enumerate() {
-        if touch.item.is_multiple_of(step) {
-            sample.pool.push(at as u64, &points[at], 1.0);
+    let mut sample = Sample { origin: vec![0.0; rank], working_set: WorkingSet::new(rank) };
+    for (at, support_point) in list.iter().enumerate() {
+        if support_point.item.is_multiple_of(step) {
+            sample.working_set.push(at as u64, &points[at], 1.0);
         }
     }
-    let spread = sample.spread(sample.pool.blocks());
-    chosen.extend(spread.into_iter().map(|i| sample.pool.ids()[i] as usize));
-    let mut pool = Pool::new(rank);
+    let spread = sample.spread(sample.working_set.blocks());
+    chosen.extend(spread.into_iter().map(|i| sample.working_set.ids()[i] as usize));
+    let mut working_set = WorkingSet::new(rank);
     for at in chosen {
-        pool.push(at as u64, &points[at], 1.0);
+        working_set.push(at as u64, &points[at], 1.0);
     }
-    pool.normalize();
-    (pool, Touches { list })
+    working_set.normalize();
+    (working_set, SupportPoints { list })
 }
