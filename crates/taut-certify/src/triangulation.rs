@@ -75,7 +75,7 @@ impl Triangulation {
     }
 }
 
-/// The data that make the check of a [`Triangulation`] one linear pass, and ties it to its points.
+/// The data that make the check of a [`Triangulation`] one linear pass, and tie it to its points.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(try_from = "json::CertificateDocument")]
 pub struct TriangulationCertificate {
@@ -87,7 +87,7 @@ pub struct TriangulationCertificate {
     pub fingerprint: Fingerprint,
     /// The hash of the rows this was made for.
     pub points_hash: PointsHash,
-    /// The number of there that are of what.
+    /// The counts of the triangulation.
     pub counts: TriangulationCounts,
 }
 
@@ -109,7 +109,7 @@ pub struct TriangulationCounts {
 /// The proved facts about a triangulation: it is the Delaunay triangulation of these points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct TriangulationVerdict {
-    /// The number of there that are of what.
+    /// The counts of the triangulation.
     pub counts: TriangulationCounts,
     /// The fingerprint of the simplices.
     pub fingerprint: Fingerprint,

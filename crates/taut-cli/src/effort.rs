@@ -1,4 +1,4 @@
-//! Measures how much of the machine is used and how much is said on the way, the same for every subcommand.
+//! Options for the use of the machine and for messages, the same for every subcommand.
 
 use anyhow::{anyhow, bail};
 use taut::points::{THREADS_MAX, check_threads};

@@ -21,7 +21,7 @@ use super::{FileAnswer, FileCheckError, FileVerdict, FileViolation, Files, Which
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a sample: an object with of and drawn")]
 pub struct DrawnSample {
-    /// The number of numbers there that were to choose from: 0 to `of` − 1.
+    /// The number of numbers to choose from: 0 to `of` − 1.
     pub of: u64,
     /// The number of draws.
     pub drawn: u64,

@@ -55,7 +55,7 @@ pub(crate) struct Args {
     /// Angle by which a grid is turned in the plane of the first two axes [default: 0]
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
     angle: Option<f64>,
-    /// The number of times that a spiral goes around, at least 0 [default: 10]
+    /// The number of turns of a spiral, at least 0 [default: 10]
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     turns: Option<f64>,
     /// Standard deviation of the noise of a torus, at least 0 [default: 0.0001]; of a curve the largest shift off it, in units of

@@ -65,7 +65,7 @@ pub enum Distribution {
     /// Along a spiral of Archimedes in the plane, r = φ / (2π·turns), from the origin to distance 1; r² is uniform,
     /// which is nearly uniform in length.
     Spiral {
-        /// The number of times that it goes around, ≥ 0.
+        /// The number of turns, ≥ 0.
         turns: f64,
     },
     /// Two parallel segments of the plane: x uniform in [0, 1), y = i mod 2.
@@ -104,7 +104,7 @@ pub struct Parameters {
     pub side: Option<u64>,
     /// Degrees by which a grid is turned. Default 0.
     pub angle: Option<f64>,
-    /// The number of times that a spiral goes around, at least 0. Default 10.
+    /// The number of turns of a spiral, at least 0. Default 10.
     pub turns: Option<f64>,
     /// Standard deviation of the noise of a torus, at least 0. Default 1e-4.
     pub noise: Option<f64>,

@@ -95,7 +95,7 @@ impl Side {
 /// Offsets of half-spaces are brought below 2 to this.
 const OFFSET_EXPONENT_MAX: i32 = 1000;
 
-/// The number of times that its error a length must be to count as known.
+/// The ratio of a length to its error above which the length counts as known.
 const LEAST_KNOWN: f64 = 1e6;
 
 /// |ã|, whatever its size.

@@ -21,7 +21,7 @@ Exit: 0 done · 1 the check failed · 2 bad input or usage
 Example: taut memory sample -n 1000000000 -k 1000 --seed 7 -o rows.txt --certificate rows.json
          taut verify rows.json rows.txt")]
 pub(super) struct Args {
-    /// The number of there that are to choose from
+    /// The number of items to choose from
     #[arg(short, long = "of", value_name = "N")]
     n: u64,
     /// The number of draws, at most N
