@@ -29,7 +29,7 @@ def curve(
     points: ArrayLike,
     *,
     method: CurveMethod = "auto",
-    open: bool = False,  # noqa: A002, the name at the door
+    open: bool = False,  # noqa: A002, the public name
     rho: float = 4.0,
     omega: float = 0.1,
     feature: float | None = None,

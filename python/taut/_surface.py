@@ -18,7 +18,7 @@ def surface(
     points: ArrayLike,
     *,
     method: SurfaceMethod = "tree",
-    open: bool = False,  # noqa: A002, the name at the door
+    open: bool = False,  # noqa: A002, the public name
     denoise: bool = False,
     neighbors: int = 24,
     iterations: int = 2,

@@ -47,7 +47,7 @@ pub struct Centers {
     pub assignment: Vec<u32>,
 }
 
-/// The way in which the lower bound is to be confirmed: that no k balls of a radius less than it hold all of a core-set but so many of
+/// The way in which the lower bound is to be confirmed: that no k balls of a radius less than it hold all of a core-set except z of
 /// its items.
 ///
 /// A ball of a radius less than ρ holds items just when its center is less than ρᵢ from each of them, with ρᵢ = ρ for points,

@@ -103,7 +103,7 @@ pub struct RobustCertificate {
     /// Rows weighed out, ascending: those beyond `cutoff` in the metric of the points kept.
     pub weighed_out: Vec<u64>,
     /// Why center and scatter are those of the points kept, if they are: then no others are weighed, and `weighed_out`
-    /// repeats `left_out`. Absent where points are weighed anew.
+    /// repeats `left_out`. Absent where points are weighed again.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unweighted: Option<Unweighted>,
     /// By `mve` and `trim`, the ellipsoid around the points kept, and the proof that it is the smallest.
@@ -114,7 +114,7 @@ pub struct RobustCertificate {
     pub points_hash: PointsHash,
 }
 
-/// Why points are not weighed anew.
+/// Why points are not weighed again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Unweighted {

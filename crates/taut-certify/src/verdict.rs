@@ -310,7 +310,7 @@ pub enum Violation {
         most: f64,
     },
     /// A robust estimate says that nothing was weighed out for a reason that does not hold.
-    #[error("points are said not to be weighed anew because {reason}, which is not so")]
+    #[error("points are said not to be weighed again because {reason}, which is not so")]
     Reweighting {
         /// The reason given.
         reason: &'static str,

@@ -38,7 +38,7 @@ pub(crate) fn code(end: anyhow::Result<Outcome>) -> ExitCode {
 /// Says why there is no command to run: help and the version on standard output, or what is wrong with the words given.
 pub(crate) fn unparsed(unparsed: &clap::Error) -> ExitCode {
     if unparsed.use_stderr() {
-        // Whether anybody hears it changes nothing.
+        // The result is the same if nobody reads it.
         unparsed.print().ok();
         return ExitCode::from(FAILURE_CODE);
     }

@@ -83,23 +83,23 @@ pub(crate) struct Field {
     pub(crate) value: String,
     pub(crate) remark: Option<String>,
     /// The strength of the evidence for it; `None` for what is only told.
-    pub(crate) standing: Option<Standing>,
+    pub(crate) standing: Option<EvidenceKind>,
 }
 
 /// The strength of the evidence for a claim: `docs/certificates.md` says for each why.
 #[derive(Clone, Copy, PartialEq)]
-pub(crate) enum Standing {
+pub(crate) enum EvidenceKind {
     /// Derived from the input and the certificate alone.
     Proved,
     /// Found in the data by a test that can be wrong.
     Evidence,
 }
 
-impl Standing {
+impl EvidenceKind {
     fn word(self) -> &'static str {
         match self {
-            Standing::Proved => "proved",
-            Standing::Evidence => "evidence",
+            EvidenceKind::Proved => "proved",
+            EvidenceKind::Evidence => "evidence",
         }
     }
 }
@@ -111,12 +111,12 @@ impl Field {
 
     /// A claim that the checker derived.
     pub(crate) fn proved(name: &'static str, value: impl Into<String>) -> Self {
-        Field { standing: Some(Standing::Proved), ..Field::new(name, value) }
+        Field { standing: Some(EvidenceKind::Proved), ..Field::new(name, value) }
     }
 
     /// A claim that a test found likely.
     pub(crate) fn evidence(name: &'static str, value: impl Into<String>) -> Self {
-        Field { standing: Some(Standing::Evidence), ..Field::new(name, value) }
+        Field { standing: Some(EvidenceKind::Evidence), ..Field::new(name, value) }
     }
 
     pub(crate) fn remark(mut self, remark: impl Into<String>) -> Self {

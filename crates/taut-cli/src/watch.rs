@@ -71,7 +71,7 @@ impl Watch {
         }
     }
 
-    /// Does one step of work with a monitor that shows it as `what` and hears interrupts.
+    /// Does one step of work with a monitor that shows it as `what` and handles interrupts.
     pub(crate) fn during<R>(&self, what: &str, work: impl FnOnce(&Monitor<'_>) -> R) -> R {
         let lines = self.how == Progress::Always && !self.terminal;
         let bars = self.how != Progress::Never && self.terminal;

@@ -77,7 +77,7 @@ impl<const V: usize> Slots<V> {
         self.parts.iter().flatten()
     }
 
-    /// The live simplices in one array, numbered anew in the same order.
+    /// The live simplices in one array, numbered again in the same order.
     pub(crate) fn compact(&self) -> Vec<Simplex<V>> {
         let numbers: Vec<u32> = self
             .iter()

@@ -253,7 +253,7 @@ fn finish<P: Position>(
     found: SearchResult<P>,
     proof: Proof,
     (given_up, why): (u64, Option<Stop>),
-    answered: answer::Answered,
+    answered: answer::ItemReport,
 ) -> Result<Solution<Centers>, Error> {
     let unit = table.scale * table.weight_scale;
     if !(unit > 0.0 && unit.is_finite()) {

@@ -72,7 +72,7 @@ pub enum Error {
         "rounding leaves open whether the polytope has an interior: its sides are nearly parallel, or of very different lengths"
     )]
     Undecided,
-    /// Half-spaces that go on for ever.
+    /// A polytope that is unbounded.
     #[error(
         "the polytope is unbounded in the direction {direction:?}: an inscribed ellipsoid needs an end"
     )]

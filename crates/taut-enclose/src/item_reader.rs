@@ -218,7 +218,7 @@ impl<'a> ItemReader<'a> {
         Ok(true)
     }
 
-    /// The rows with the given numbers, in the units of this scan: n × d, or n × (d + 1) with the radius.
+    /// The rows with the given numbers, in the units of this reader: n × d, or n × (d + 1) with the radius.
     pub(crate) fn rows(&self, ids: &[u64]) -> Result<Vec<f64>, Error> {
         let mut rows = self.rows_as_given(ids)?;
         self.scale_rows(&mut rows);
@@ -230,7 +230,7 @@ impl<'a> ItemReader<'a> {
         Ok(gather(self.source, ids)?)
     }
 
-    /// Brings rows to the units of this scan.
+    /// Brings rows to the units of this reader.
     fn scale_rows(&self, rows: &mut [f64]) {
         if self.scale == 1.0 {
             return;
@@ -241,7 +241,7 @@ impl<'a> ItemReader<'a> {
         }
     }
 
-    /// A center in the units of this scan as one or two terms in those of the source.
+    /// A center in the units of this reader as one or two terms in those of the source.
     pub(crate) fn outside(&self, center: &Center) -> Center {
         if self.scale == 1.0 {
             return center.clone();
@@ -260,7 +260,7 @@ impl<'a> ItemReader<'a> {
         outside
     }
 
-    /// A center in the units of the source, brought to those of this scan; the inverse of [`outside`](Self::outside).
+    /// A center in the units of the source, brought to those of this reader; the inverse of [`outside`](Self::outside).
     pub(crate) fn inside(&self, center: &Center) -> Center {
         if self.scale == 1.0 {
             return center.clone();

@@ -37,11 +37,11 @@ pub use options::RobustOptions;
 /// nearly half of the points are, the answer stays bounded, though a denser cluster may win. Points far out in the
 /// metric of the h are then weighed out, and center and scatter taken of the rest.
 ///
-/// *What is proved.* The certificate names the h points; the checker takes their mean and covariance anew, all factors,
+/// *What is proved.* The certificate names the h points; the checker takes their mean and covariance again, all factors,
 /// weights and flags, and that no C-step leads on from them. That no other h points have a lower determinant is *not*
 /// proved: the problem is NP-hard, and like all programs for it this one ends in a local optimum, the best of those
 /// that six rankings and, up to d = 20, 500 simplices lead to. By `mcd`, exchanges of a point kept for one left out,
-/// and small kicks, lead lower still; no C-step and no such exchange of points near the border is left. For `mve` and
+/// and small perturbations, lead lower still; no C-step and no such exchange of points near the border is left. For `mve` and
 /// `trim` it is proved besides that no smaller ellipsoid holds the points kept.
 ///
 /// *Equivariance.* What is minimized is affine equivariant, and so is the answer wherever the starts lead to the same

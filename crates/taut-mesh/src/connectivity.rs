@@ -4,7 +4,7 @@
 //! it without turning back: the places of its vertices, as shares of the length of the true curve, rise or fall all the way.
 //! *Guarantee.* A closed curve runs around exactly once; one with ends covers more than half of the true one. Places may fall back
 //! by a thousandth of the length in all, not at each step: vertices near the center of a bend have places that jitter.
-//! *Trap.* This sees vertices, not edges: what edges cross is seen by [`crossings`](crate::crossings), how far they stray by the
+//! *Trap.* This sees vertices, not edges: what edges cross is seen by [`crossings`](crate::crossings), how far they deviate by the
 //! Hausdorff distance.
 
 /// At most this share of the length may be lost on the way.

@@ -1,4 +1,4 @@
-//! Triangle meshes of space, checked once at the door.
+//! Triangle meshes of space, checked once on construction.
 
 use crate::Error;
 

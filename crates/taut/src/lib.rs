@@ -1,4 +1,4 @@
-//! Tight shapes around, through and inside point sets, with proof: every tool behind one door.
+//! Tight shapes around, through and inside point sets, with proof: every tool in one crate.
 //!
 //! | you want | call | promise | more |
 //! |---|---|---|---|
@@ -105,7 +105,7 @@
 //! ```
 //!
 //! Nothing but names lives here, and in [`files`] what joins two crates that do not know each other; each crate behind the
-//! door can be used on its own. Files are read and written by `taut-io`, pictures drawn by `taut-draw`, and the command `taut`
+//! façade can be used on its own. Files are read and written by `taut-io`, pictures drawn by `taut-draw`, and the command `taut`
 //! is the crate `taut-cli`.
 //!
 //! Two cargo features, both on by default, switch areas off: `reconstruct` (curves and surfaces) and `conic` (inscribed

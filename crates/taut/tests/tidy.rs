@@ -1,6 +1,6 @@
-//! The rules of the house that a machine can check: who may import whom, what a file may hold.
+//! The rules of the architecture that a machine can check: who may import whom, what a file may hold.
 //!
-//! `ARCHITECTURE.md` draws the floors; the table below is the same picture for `cargo metadata`.
+//! `ARCHITECTURE.md` draws the layers; the table below is the same picture for `cargo metadata`.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -9,8 +9,8 @@ use std::process::Command;
 
 use serde_json::Value;
 
-/// The floor of each package, the threshold below the ground: an arrow may only go to a lower one.
-const FLOORS: [(&str, i32); 16] = [
+/// The layer of each package: an arrow may only go to a lower one.
+const LAYERS: [(&str, i32); 16] = [
     ("taut-points", -1),
     ("taut-certify", 0),
     ("taut-io", 0),
@@ -29,11 +29,11 @@ const FLOORS: [(&str, i32); 16] = [
     ("taut-python", 4),
 ];
 
-/// The arrows that stay on one floor.
-const LEVEL: [(&str, &str); 3] =
+/// The arrows that stay in one layer.
+const SAME_LAYER: [(&str, &str); 3] =
     [("taut-mesh", "taut-predicates"), ("taut-io", "taut-mesh"), ("taut-certify", "taut-mesh")];
 
-/// Tools beside the house, which nothing imports: they may import everything.
+/// Tools beside the layers, which nothing imports: they may import everything.
 const TOOLS: [&str; 2] = ["bench", "fuzz"];
 
 /// The crates with named kernels, where `unsafe` is denied but can be allowed with a reason.
@@ -59,7 +59,7 @@ const BARE_WORDS: [&str; 86] = [
     "USEFUL", "VAIN", "WIDE", "WIDER", "WIDEST", "WITHIN", "WORTH",
 ];
 
-/// Functions at the root of the façade, at most: one for each noun, and room for those to come.
+/// Functions at the root of the façade, at most: one for each noun, and some for those to come.
 const FACADE_FUNCTIONS_MAX: usize = 14;
 
 /// Names at the root of the façade, at most; all others are in the modules.
@@ -78,7 +78,7 @@ struct Package {
     name: String,
     /// Roots of its library and its programs.
     roots: Vec<PathBuf>,
-    /// The packages that it is built from; what only its tests use is left out, as a test may call upstairs.
+    /// The packages that it is built from; what only its tests use is left out, as a test may call a higher layer.
     imports: Vec<String>,
     /// All it names from outside the workspace, tests included.
     outside: Vec<String>,
@@ -121,9 +121,9 @@ fn packages() -> Vec<Package> {
 
 #[test]
 fn arrows_only_go_down() {
-    let floors = BTreeMap::from(FLOORS);
-    let floor = |name: &str| {
-        *floors.get(name).unwrap_or_else(|| panic!("{name} has no floor: give it one above"))
+    let layers = BTreeMap::from(LAYERS);
+    let layer = |name: &str| {
+        *layers.get(name).unwrap_or_else(|| panic!("{name} has no layer: give it one above"))
     };
     let packages = packages();
     assert!(packages.len() >= 9, "cargo metadata shows the whole workspace");
@@ -134,10 +134,10 @@ fn arrows_only_go_down() {
         for import in &package.imports {
             let (from, to) = (package.name.as_str(), import.as_str());
             assert!(
-                floor(from) > floor(to) || LEVEL.contains(&(from, to)),
-                "{from} (floor {}) imports {to} (floor {}): move the type downstairs",
-                floor(from),
-                floor(to)
+                layer(from) > layer(to) || SAME_LAYER.contains(&(from, to)),
+                "{from} (layer {}) imports {to} (layer {}): move the type to a lower layer",
+                layer(from),
+                layer(to)
             );
         }
     }

@@ -1,9 +1,9 @@
 //! The checker of centers, in arithmetic of its own.
 //!
 //! *Problem.* Given rows, at most k centers, a radius R, rows left out, a core-set X and a bound L, prove L ≤ R* ≤ R, where R*
-//! is the least radius of k equal balls, with their centers anywhere or at rows, that hold all rows but so many.
+//! is the least radius of k equal balls, with their centers anywhere or at rows, that hold all rows except z.
 //! *Upper bound.* Each row that counts is at most R from a center, decided exactly: [`enclosure`].
-//! *Lower bound.* No k balls of a radius less than L hold all of X but so many of its rows. Balls that held all rows but z
+//! *Lower bound.* No k balls of a radius less than L hold all of X except z of its rows. Balls that held all rows but z
 //! would; so R* ≥ L. There are two proofs: a separated set, more than k + z rows no two of which fit in one ball, and the
 //! log of a branch and bound search, which is replayed ([`replay`]). An [`oracle`] refutes balls: with bounds on all that is
 //! rounded where centers are free ([`free`]), exactly where they are rows ([`rows`]).
@@ -13,11 +13,11 @@
 //! *Tolerances.* The balls have none. The gap claimed may differ from that of the two bounds as quotients differ by
 //! rounding. An assignment may name any of centers that are equally near but for rounding.
 
+mod center_tree;
 mod core;
 mod distance;
 mod enclosure;
 mod free;
-mod halves;
 mod item;
 mod meter;
 mod oracle;

@@ -145,7 +145,7 @@ pub(super) fn check(
     })
 }
 
-/// Tests whether the reason why points are not weighed anew, if one is given, may be true; and then the lists and factors are
+/// Tests whether the reason why points are not weighed again, if one is given, may be true; and then the lists and factors are
 /// those of the points kept.
 fn reweighting(
     certificate: &RobustCertificate,

@@ -1,4 +1,4 @@
-//! `taut centers`: k equal balls around all points but so many, as small as can be.
+//! `taut centers`: k equal balls around all points except z, as small as can be.
 
 use anyhow::bail;
 use taut::certify::Centers;

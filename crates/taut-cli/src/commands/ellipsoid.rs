@@ -91,9 +91,9 @@ impl Find for Enclosing<'_> {
 }
 
 /// The ellipsoid of most of the points.
-struct OfMost<'a>(&'a Args, RobustOptions<'static>);
+struct RobustSolver<'a>(&'a Args, RobustOptions<'static>);
 
-impl Find for OfMost<'_> {
+impl Find for RobustSolver<'_> {
     type Answer = RobustEllipsoid;
     type Extra = ();
 
@@ -128,7 +128,7 @@ impl Find for OfMost<'_> {
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
         match self.robust()? {
-            Some(options) => pipeline::run(&OfMost(self, options)),
+            Some(options) => pipeline::run(&RobustSolver(self, options)),
             None => pipeline::run(&Enclosing(self)),
         }
     }

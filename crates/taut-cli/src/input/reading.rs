@@ -196,7 +196,7 @@ impl Opened {
                 self.row(row)
             ),
             SolveError::Unbounded { direction } => anyhow!(
-                "{}: the polytope goes on for ever in the direction {}, so no ellipsoid in it is the largest: add \
+                "{}: the polytope is unbounded in the direction {}, so no ellipsoid in it is the largest: add \
                  half-spaces that end it",
                 self.name(),
                 coordinates(&direction, 1.0)

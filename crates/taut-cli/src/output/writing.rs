@@ -179,7 +179,7 @@ pub(crate) fn print_error(words: &str) {
     print_line(&format!("taut: {}", printable(words)));
 }
 
-/// Says a line on standard error, if anybody can hear it: nothing depends on that.
+/// Writes a line to standard error; nothing depends on whether anybody reads it.
 pub(crate) fn print_line(line: &str) {
     writeln!(std::io::stderr(), "{line}").ok();
 }

@@ -11,7 +11,7 @@ fn refused(folder: &TestFolder, file: &str, parts: &[&str]) {
     folder.put("ball.svg", "earlier picture");
     let before = folder.files();
     let run =
-        folder.taut(&format!("ball {file} -o ball.json --draw ball.svg")).ends(2).complains(parts);
+        folder.taut(&format!("ball {file} -o ball.json --draw ball.svg")).ends(2).stderr_has(parts);
     assert_eq!(run.out, "");
     assert_eq!(folder.text("ball.json"), "earlier answer");
     assert_eq!(folder.text("ball.svg"), "earlier picture");
@@ -78,7 +78,7 @@ fn an_empty_file() {
     refused(&folder, "empty.csv", &["empty.csv", "empty"]);
     folder.put("header.csv", "x,y\n");
     refused(&folder, "header.csv", &["header.csv", "no point"]);
-    folder.pipe("", "ball -").ends(2).complains(&["standard input"]);
+    folder.pipe("", "ball -").ends(2).stderr_has(&["standard input"]);
 }
 
 #[test]
@@ -119,8 +119,8 @@ fn a_folder() {
     std::fs::create_dir(folder.path("folder.csv")).unwrap();
     refused(&folder, "folder.csv", &["folder.csv", "folder"]);
     folder.put("points.csv", GOOD_CSV);
-    folder.taut("ball points.csv -o folder.csv").ends(2).complains(&["folder.csv"]);
-    folder.taut("ball points.csv -o nowhere/ball.json").ends(2).complains(&["nowhere/ball.json"]);
+    folder.taut("ball points.csv -o folder.csv").ends(2).stderr_has(&["folder.csv"]);
+    folder.taut("ball points.csv -o nowhere/ball.json").ends(2).stderr_has(&["nowhere/ball.json"]);
 }
 
 #[test]
@@ -153,7 +153,7 @@ fn a_full_disk() {
         "generate normal -n 10 -d 2 --format csv -o /dev/full",
         "tour -o /dev/full --quiet",
     ] {
-        let run = folder.taut(line).ends(2).complains(&["/dev/full", "No space left"]);
+        let run = folder.taut(line).ends(2).stderr_has(&["/dev/full", "No space left"]);
         assert!(!run.out.contains('{'), "{line} printed an answer that was not written");
     }
     folder.shell("taut ball missing.csv 2> /dev/full").ends(2);
@@ -165,7 +165,7 @@ fn a_full_disk() {
         "taut ball points.csv -o ball.json > /dev/full",
         "taut ball points.csv --json -o ball.json --draw ball.svg > /dev/full",
     ] {
-        folder.shell(line).ends(2).complains(&["standard output", "No space left"]);
+        folder.shell(line).ends(2).stderr_has(&["standard output", "No space left"]);
     }
     folder.taut("ball points.csv -o ball.json --draw nowhere/ball.svg").ends(2);
     assert_eq!(folder.text("ball.json"), "earlier answer");
@@ -185,11 +185,11 @@ fn a_write_that_fails_halfway_leaves_the_earlier_file() {
         folder
             .shell(&format!("{limit} ball points.npy --quiet --epsilon 0.1 -o ball.json"))
             .ends(2)
-            .complains(&["ball.json", "File too large"]);
+            .stderr_has(&["ball.json", "File too large"]);
         folder
             .shell(&format!("{limit} generate normal -n 9999 -d 9 -o ball.json --format csv"))
             .ends(2)
-            .complains(&["ball.json", "File too large"]);
+            .stderr_has(&["ball.json", "File too large"]);
     }
     assert_eq!(folder.text("ball.json"), "earlier answer");
     assert_eq!(folder.files(), before);
@@ -215,7 +215,10 @@ fn an_output_that_is_an_input_is_refused() {
         lines.push(("ball points.csv -o twin.csv", "twin.csv"));
     }
     for (line, file) in lines {
-        folder.taut(line).ends(2).complains(&[&format!("{file}` is the input: name another file")]);
+        folder
+            .taut(line)
+            .ends(2)
+            .stderr_has(&[&format!("{file}` is the input: name another file")]);
     }
     assert_eq!(folder.text("points.csv"), GOOD_CSV);
     assert_eq!(folder.text("picture.svg"), GOOD_CSV);
@@ -231,7 +234,7 @@ fn one_file_for_two_outputs_is_refused() {
         "delaunay points.csv -o same.ply --hull ./same.ply",
         "delaunay points.csv -o - --voronoi -",
     ] {
-        folder.taut(line).ends(2).complains(&["is named for two outputs"]);
+        folder.taut(line).ends(2).stderr_has(&["is named for two outputs"]);
     }
     assert!(!folder.path("same.json").exists() && !folder.path("same.ply").exists());
 }
@@ -241,7 +244,7 @@ fn one_file_for_two_outputs_is_refused() {
 fn an_output_that_is_standard_input_is_refused() {
     let folder = TestFolder::new();
     folder.put("points.csv", GOOD_CSV);
-    folder.shell("taut ball - -o points.csv < points.csv").ends(2).complains(&["is the input"]);
+    folder.shell("taut ball - -o points.csv < points.csv").ends(2).stderr_has(&["is the input"]);
     assert_eq!(folder.text("points.csv"), GOOD_CSV);
 }
 

@@ -9,7 +9,7 @@ const TRIANGLE: &str = "x,y\n0,0\n2,0\n1,0.5\n";
 fn the_summary_names_every_number() {
     let folder = TestFolder::new();
     folder.put("points.csv", TRIANGLE);
-    let run = folder.taut("ball points.csv").ends(0).says(&[
+    let run = folder.taut("ball points.csv").ends(0).stdout_has(&[
         "Smallest ball around 3 points in 2 dimensions\n",
         "\n  radius    1",
         "\n  center    (1, 0)\n",
@@ -33,7 +33,7 @@ fn many_coordinates_are_cut_short_on_the_terminal_and_whole_in_the_file() {
     folder
         .taut("ball points.npy -o ball.json")
         .ends(0)
-        .says(&[", …) 20 in all; the JSON holds them (-o FILE)\n", "s; reading "]);
+        .stdout_has(&[", …) 20 in all; the JSON holds them (-o FILE)\n", "s; reading "]);
     let written: serde_json::Value = serde_json::from_str(&folder.text("ball.json")).unwrap();
     assert_eq!(written["answer"]["center"].as_array().unwrap().len(), 20);
 }
@@ -77,7 +77,8 @@ fn quiet_says_nothing_and_still_writes() {
 fn without_the_check_nothing_is_called_verified() {
     let folder = TestFolder::new();
     folder.put("points.csv", TRIANGLE);
-    let run = folder.taut("ball points.csv --no-verify").ends(0).says(&["verified  not checked\n"]);
+    let run =
+        folder.taut("ball points.csv --no-verify").ends(0).stdout_has(&["verified  not checked\n"]);
     assert!(!run.out.contains("yes"), "{}", run.out);
 }
 
@@ -85,7 +86,7 @@ fn without_the_check_nothing_is_called_verified() {
 fn balls_are_centers_and_a_radius() {
     let folder = TestFolder::new();
     folder.put("discs.csv", "x,y,r\n0,0,1\n5,0,2\n");
-    folder.taut("ball discs.csv --balls --epsilon 0 -o ball.json").ends(0).says(&[
+    folder.taut("ball discs.csv --balls --epsilon 0 -o ball.json").ends(0).stdout_has(&[
         "around 2 balls in 2 dimensions",
         "\n  radius    4\n",
         "\n  center    (3, 0)\n",
@@ -101,7 +102,7 @@ fn columns_are_chosen_by_name_number_and_range() {
         folder
             .taut(&format!("ball points.csv --columns {columns} --epsilon 0"))
             .ends(0)
-            .says(&["\n  center    (1, 0)\n"]);
+            .stdout_has(&["\n  center    (1, 0)\n"]);
     }
 }
 
@@ -113,14 +114,14 @@ fn raw_files_are_read_with_their_layout() {
     folder
         .taut("ball points.bin --raw-dim 2 --raw-type f32 --raw-offset 4 --epsilon 0")
         .ends(0)
-        .says(&["3 points in 2 dimensions", "\n  center    (1, 0)\n"]);
-    folder.taut("ball points.bin --raw-dim 2").ends(2).complains(&["--raw-type"]);
+        .stdout_has(&["3 points in 2 dimensions", "\n  center    (1, 0)\n"]);
+    folder.taut("ball points.bin --raw-dim 2").ends(2).stderr_has(&["--raw-type"]);
 }
 
 #[test]
 fn standard_input_is_a_dash() {
     let folder = TestFolder::new();
-    folder.pipe(TRIANGLE, "ball -").ends(0).says(&["3 points in 2 dimensions"]);
+    folder.pipe(TRIANGLE, "ball -").ends(0).stdout_has(&["3 points in 2 dimensions"]);
 }
 
 #[cfg(unix)]
@@ -130,7 +131,7 @@ fn generate_pipes_into_ball() {
     folder
         .shell("taut generate sphere -n 500 -d 3 | taut ball -")
         .ends(0)
-        .says(&["500 points in 3 dimensions", "verified  yes"]);
+        .stdout_has(&["500 points in 3 dimensions", "verified  yes"]);
 }
 
 #[cfg(unix)]
@@ -161,7 +162,7 @@ fn a_stop_by_budget_stays_one_when_nobody_listens() {
 fn the_center_shown_lies_in_its_ball() {
     let folder = TestFolder::new();
     folder.put("far.csv", "1000000000000.5,7\n1000000000001.5,7\n");
-    folder.taut("ball far.csv").ends(0).says(&["\n  center    (1000000000001, 7)\n"]);
+    folder.taut("ball far.csv").ends(0).stdout_has(&["\n  center    (1000000000001, 7)\n"]);
 }
 
 #[test]
@@ -171,7 +172,11 @@ fn a_budget_ends_the_work_with_its_gap_and_code_3() {
     folder
         .taut("ball points.npy --batch 1 --max-passes 3 --epsilon 0 -o ball.json")
         .ends(3)
-        .says(&["stopped early by the budget of passes", "verified  yes", "\n  passes    3;"]);
+        .stdout_has(&[
+            "stopped early by the budget of passes",
+            "verified  yes",
+            "\n  passes    3;",
+        ]);
     // What was reached is still an answer with its proof.
     folder.taut("verify ball.json points.npy").ends(0);
 }
@@ -180,7 +185,10 @@ fn a_budget_ends_the_work_with_its_gap_and_code_3() {
 fn a_gap_below_rounding_is_not_claimed() {
     let folder = TestFolder::new();
     folder.taut("generate normal -n 300 -d 5 -o points.npy").ends(0);
-    folder.taut("ball points.npy --epsilon 1e-300").ends(3).says(&["rounding", "verified  yes"]);
+    folder
+        .taut("ball points.npy --epsilon 1e-300")
+        .ends(3)
+        .stdout_has(&["rounding", "verified  yes"]);
     folder.taut("ball points.npy --epsilon 0").ends(0);
 }
 

@@ -18,7 +18,7 @@ fn close(value: &serde_json::Value, wanted: f64) {
 
 #[test]
 fn the_summary_names_every_number() {
-    let run = folder().taut("centers towns.csv -k 2 --epsilon 1e-6").ends(0).says(&[
+    let run = folder().taut("centers towns.csv -k 2 --epsilon 1e-6").ends(0).stdout_has(&[
         "6 points in 2 dimensions: 2 centers\n",
         "\n  centers     (",
         "(0, 1)\n",
@@ -68,7 +68,7 @@ fn the_json_is_one_document_with_the_names_at_the_door() {
 fn answers_are_verified_and_lies_rejected() {
     let folder = folder();
     folder.taut("centers towns.csv -k 2 --epsilon 1e-6 -o centers.json").ends(0);
-    folder.taut("verify centers.json towns.csv --epsilon 1e-6").ends(0).says(&[
+    folder.taut("verify centers.json towns.csv --epsilon 1e-6").ends(0).stdout_has(&[
         "Verified within a gap of ",
         ": centers, k = 2, anywhere, of radius 1",
         ", around 6 points in 2 dimensions\n",
@@ -77,13 +77,13 @@ fn answers_are_verified_and_lies_rejected() {
         " ≤ least radius ≤ ",
         "\n  branches ",
     ]);
-    folder.taut("verify centers.json towns.csv --epsilon 1e-30").ends(1).says(&["Rejected"]);
+    folder.taut("verify centers.json towns.csv --epsilon 1e-30").ends(1).stdout_has(&["Rejected"]);
     let sound: serde_json::Value = serde_json::from_str(&folder.text("centers.json")).unwrap();
     let lie = |change: &dyn Fn(&mut serde_json::Value)| {
         let mut document = sound.clone();
         change(&mut document);
         folder.put("lie.json", document.to_string());
-        folder.taut("verify lie.json towns.csv").ends(1).says(&["Rejected: "]).out
+        folder.taut("verify lie.json towns.csv").ends(1).stdout_has(&["Rejected: "]).out
     };
     let smaller = lie(&|found| {
         for key in ["radius", "lower_bound"] {
@@ -103,9 +103,15 @@ fn answers_are_verified_and_lies_rejected() {
     lie(&|found| found["certificate"]["core_set"] = serde_json::json!([0]));
     lie(&|found| found["certificate"]["k"] = 1.into());
     folder.put("other.csv", TOWNS.replace("9,1", "9,1.25"));
-    folder.taut("verify centers.json other.csv").ends(1).says(&["Rejected: other.csv", "hash"]);
+    folder
+        .taut("verify centers.json other.csv")
+        .ends(1)
+        .stdout_has(&["Rejected: other.csv", "hash"]);
     folder.put("short.csv", "0\n1\n");
-    folder.taut("verify centers.json short.csv").ends(1).says(&["short.csv does not belong to"]);
+    folder
+        .taut("verify centers.json short.csv")
+        .ends(1)
+        .stdout_has(&["short.csv does not belong to"]);
 }
 
 #[test]
@@ -114,7 +120,7 @@ fn centers_among_the_points_are_named_by_their_rows() {
     folder
         .taut("centers towns.csv -k 2 --discrete --epsilon 0 --assignment -o centers.json")
         .ends(0)
-        .says(&["2 centers among them\n", "(0, 1); row 5, next to 3 points\n", "(9, "]);
+        .stdout_has(&["2 centers among them\n", "(0, 1); row 5, next to 3 points\n", "(9, "]);
     let found: serde_json::Value = serde_json::from_str(&folder.text("centers.json")).unwrap();
     // Of the places around (9, 0.5) each is near enough to the others.
     let mut rows: Vec<u64> =
@@ -125,44 +131,42 @@ fn centers_among_the_points_are_named_by_their_rows() {
     folder
         .taut("verify centers.json towns.csv")
         .ends(0)
-        .says(&["\n  centers   2, among the points; proved: of at most 2\n"]);
+        .stdout_has(&["\n  centers   2, among the points; proved: of at most 2\n"]);
 }
 
 #[test]
 fn outliers_weights_and_balls_are_asked_for() {
     let folder = folder();
     folder.put("far.csv", format!("{TOWNS}500,0\n"));
-    folder.taut("centers far.csv -k 2 --outliers 1 --epsilon 1e-6 -o out.json").ends(0).says(&[
-        "\n  left out    1; row 7\n",
-        "no point that counts is farther",
-        "\n  radius      1",
-    ]);
+    folder.taut("centers far.csv -k 2 --outliers 1 --epsilon 1e-6 -o out.json").ends(0).stdout_has(
+        &["\n  left out    1; row 7\n", "no point that counts is farther", "\n  radius      1"],
+    );
     folder
         .taut("verify out.json far.csv")
         .ends(0)
-        .says(&["\n  left out  1 (14 %); proved: of at most 1 point\n"]);
+        .stdout_has(&["\n  left out  1 (14 %); proved: of at most 1 point\n"]);
     folder.put("heavy.csv", "x,w\n0,2\n3,1\n");
     folder
         .taut("centers heavy.csv -k 1 --weights --epsilon 1e-9 -o heavy.json")
         .ends(0)
-        .says(&["2 points with weights in 1 dimension: 1 center\n", "\n  center      (1"]);
+        .stdout_has(&["2 points with weights in 1 dimension: 1 center\n", "\n  center      (1"]);
     let found: serde_json::Value = serde_json::from_str(&folder.text("heavy.json")).unwrap();
     close(&found["answer"]["radius"], 2.0);
     folder
         .taut("verify heavy.json heavy.csv")
         .ends(0)
-        .says(&[", around 2 points with weights in 1 dimension\n"]);
+        .stdout_has(&[", around 2 points with weights in 1 dimension\n"]);
     folder.put("discs.csv", "x,y,r\n0,0,1\n4,0,2\n100,0,3\n");
     folder
         .taut("centers discs.csv -k 2 --balls --epsilon 1e-9 -o discs.json")
         .ends(0)
-        .says(&["3 balls in 2 dimensions: 2 centers\n", "every ball is in a ball"]);
+        .stdout_has(&["3 balls in 2 dimensions: 2 centers\n", "every ball is in a ball"]);
     let found: serde_json::Value = serde_json::from_str(&folder.text("discs.json")).unwrap();
     close(&found["answer"]["radius"], 3.5);
     folder
         .taut("verify discs.json discs.csv")
         .ends(0)
-        .says(&[", around 3 balls in 2 dimensions\n"]);
+        .stdout_has(&[", around 3 balls in 2 dimensions\n"]);
 }
 
 #[test]
@@ -178,7 +182,7 @@ fn all_methods_end_in_a_proof() {
         folder
             .taut(&format!("centers points.npy -k 4 --method {method} -o found.json"))
             .ends(0)
-            .says(&[&format!("\n  method      {method}; converged\n"), "verified    yes"]);
+            .stdout_has(&[&format!("\n  method      {method}; converged\n"), "verified    yes"]);
         folder.taut(&format!("verify found.json points.npy --epsilon {most}")).ends(0);
     }
 }
@@ -191,7 +195,7 @@ fn a_stream_is_read_twice() {
     folder
         .taut("centers points.npy -k 7 --method stream --discrete -o found.json")
         .ends(0)
-        .says(&["\n  passes      2\n", "; row ", "verified    yes"]);
+        .stdout_has(&["\n  passes      2\n", "; row ", "verified    yes"]);
     folder.taut("verify found.json points.npy --epsilon 1.97").ends(0);
 }
 
@@ -202,10 +206,10 @@ fn a_stop_by_the_budget_of_nodes_tells_the_gap_it_reached() {
     folder
         .taut("centers points.npy -k 9 --epsilon 1e-6 --max-nodes 3 -o found.json")
         .ends(3)
-        .says(&["stopped early by the budget of nodes", "verified    yes"]);
+        .stdout_has(&["stopped early by the budget of nodes", "verified    yes"]);
     folder.taut("verify found.json points.npy").ends(0);
     let quick = "centers points.npy --elbow 8..9 --epsilon 1e-6 --max-nodes 3";
-    folder.taut(quick).ends(3).says(&["stopped early"]);
+    folder.taut(quick).ends(3).stdout_has(&["stopped early"]);
 }
 
 #[test]
@@ -214,7 +218,7 @@ fn the_elbow_is_a_table_a_file_and_a_plot() {
     folder
         .taut("centers towns.csv --elbow 1..6 --epsilon 1e-6 -o elbow.csv --draw elbow.svg")
         .ends(0)
-        .says(&[
+        .stdout_has(&[
             "Radius by number of centers of 6 points\n",
             "\n  k  radius",
             "\n  2  1 ",
@@ -249,7 +253,7 @@ fn the_elbow_ends_where_the_radius_does_and_says_how_far_it_is() {
     let run = folder
         .taut("centers towns.csv --elbow 4..900 --epsilon 1e-6 -o elbow.csv --progress always")
         .ends(0)
-        .says(&["\n  ended     at k = 6; the radius is 0, and is for every larger k\n"]);
+        .stdout_has(&["\n  ended     at k = 6; the radius is 0, and is for every larger k\n"]);
     assert_eq!(folder.text("elbow.csv").lines().count(), 4);
     for part in ["k = 4: radius 0.", "k = 5: radius 0.", "k = 6: radius 0, gap 0; converged"] {
         assert!(run.err.contains(part), "{part} in {}", run.err);
@@ -293,7 +297,7 @@ fn centers_are_drawn_with_their_circles_and_what_is_left_out() {
     folder.taut("draw found.json far.csv -o again.svg").ends(0);
     assert_eq!(folder.text("again.svg"), picture);
     folder.put("other.csv", TOWNS);
-    folder.taut("draw found.json other.csv -o other.svg").ends(1).complains(&["other.csv"]);
+    folder.taut("draw found.json other.csv -o other.svg").ends(1).stderr_has(&["other.csv"]);
     folder.taut("generate normal -n 200 -d 3 -o space.npy").ends(0);
     folder.taut("centers space.npy -k 3 --epsilon 0.1 --draw space.html").ends(0);
     assert!(folder.text("space.html").contains("the 3 spheres"));

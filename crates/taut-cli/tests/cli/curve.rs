@@ -39,7 +39,7 @@ fn document(text: &str) -> Value {
 
 #[test]
 fn the_summary_names_every_number() {
-    let run = folder().taut("curve islands.csv --method hnn-crust").ends(0).says(&[
+    let run = folder().taut("curve islands.csv --method hnn-crust").ends(0).stdout_has(&[
         "490 points in the plane: 5 curves\n",
         "\n  curves    5; 5 closed, 0 open\n",
         "\n  vertices  490; each is a point of the input\n",
@@ -86,7 +86,7 @@ fn the_json_is_one_document_with_the_names_at_the_door() {
 fn answers_are_verified_and_lies_rejected() {
     let folder = folder();
     folder.taut("curve islands.csv --method nn-crust -o curve.json").ends(0);
-    folder.taut("verify curve.json islands.csv").ends(0).says(&[
+    folder.taut("verify curve.json islands.csv").ends(0).stdout_has(&[
         "Verified: 5 curves through ",
         "\n  band      0; proved: no point is farther off\n",
         "\n  simple    yes; proved: no two edges meet, by exact predicates\n",
@@ -97,7 +97,7 @@ fn answers_are_verified_and_lies_rejected() {
         let mut found = sound.clone();
         change(&mut found);
         folder.put("lie.json", found.to_string());
-        folder.taut("verify lie.json islands.csv").ends(1).says(&["Rejected: "]);
+        folder.taut("verify lie.json islands.csv").ends(1).stdout_has(&["Rejected: "]);
     };
     lie(&|found| found["answer"]["curves"][0]["vertices"][0][0] = 0.25.into());
     lie(&|found| {
@@ -117,11 +117,14 @@ fn answers_are_verified_and_lies_rejected() {
     folder
         .taut("verify lie.json islands.csv")
         .ends(1)
-        .says(&["Rejected: lie.json: the sampling ratio"]);
+        .stdout_has(&["Rejected: lie.json: the sampling ratio"]);
     folder.put("other.csv", islands() + "9,9\n");
-    folder.taut("verify curve.json other.csv").ends(1).says(&["Rejected: other.csv", "hash"]);
+    folder.taut("verify curve.json other.csv").ends(1).stdout_has(&["Rejected: other.csv", "hash"]);
     folder.put("space.csv", "0,0,0\n1,1,1\n");
-    folder.taut("verify curve.json space.csv").ends(1).says(&["space.csv does not belong to"]);
+    folder
+        .taut("verify curve.json space.csv")
+        .ends(1)
+        .stdout_has(&["space.csv does not belong to"]);
 }
 
 /// Half a circle has ends, so nothing can be certified, which is no failure.
@@ -135,23 +138,24 @@ fn what_is_not_certified_says_why() {
     }
     folder.put("half.csv", half);
     for ends in ["", " --open"] {
-        folder.taut(&format!("curve half.csv --method nn-crust{ends} -o half.json")).ends(0).says(
-            &[
+        folder
+            .taut(&format!("curve half.csv --method nn-crust{ends} -o half.json"))
+            .ends(0)
+            .stdout_has(&[
                 "\n  curves    1; open\n",
                 "\n  certified no; evidence: curve 0 has ends, which may be those of a gap\n",
-            ],
-        );
+            ]);
         folder
             .taut("verify half.json half.csv")
             .ends(0)
-            .says(&["certified no; evidence: curve 0 has ends"]);
+            .stdout_has(&["certified no; evidence: curve 0 has ends"]);
     }
 }
 
 #[test]
 fn tours_come_with_a_bound() {
     let folder = folder();
-    folder.taut("curve islands.csv --method tour -o tour.json").ends(0).says(&[
+    folder.taut("curve islands.csv --method tour -o tour.json").ends(0).stdout_has(&[
         "490 points in the plane: a tour\n",
         "\n  tour gap  ",
         "length over its lower bound, less 1\n",
@@ -159,9 +163,12 @@ fn tours_come_with_a_bound() {
     folder
         .taut("verify tour.json islands.csv --epsilon 0.1")
         .ends(0)
-        .says(&[": a tour through 490 points in the plane\n"]);
-    folder.taut("verify tour.json islands.csv --epsilon 1e-9").ends(1).says(&["a gap of "]);
-    folder.taut("curve islands.csv --method tour --open").ends(0).says(&["in the plane: a path\n"]);
+        .stdout_has(&[": a tour through 490 points in the plane\n"]);
+    folder.taut("verify tour.json islands.csv --epsilon 1e-9").ends(1).stdout_has(&["a gap of "]);
+    folder
+        .taut("curve islands.csv --method tour --open")
+        .ends(0)
+        .stdout_has(&["in the plane: a path\n"]);
 }
 
 #[test]
@@ -306,7 +313,7 @@ fn what_is_wrong_is_named() {
         ("curve islands.csv -o nowhere/a.json", &["nowhere/a.json"]),
     ] {
         let before = folder.files();
-        folder.taut(line).ends(2).complains(parts);
+        folder.taut(line).ends(2).stderr_has(parts);
         assert_eq!(folder.files(), before, "{line}");
     }
     let run = folder.taut("curve islands.csv --method splines").ends(2);
@@ -340,12 +347,12 @@ fn threads_and_the_order_of_rows_change_nothing() {
 fn the_sample_has_four_curves() {
     let folder = TestFolder::new();
     folder.put("loops.csv", include_bytes!("../../samples/loops.csv"));
-    folder.taut("curve loops.csv -o loops.json --draw loops.html").ends(0).says(&[
+    folder.taut("curve loops.csv -o loops.json --draw loops.html").ends(0).stdout_has(&[
         "1068 points in the plane: 4 curves\n",
         "\n  curves    4; 3 closed, 1 open\n",
         "half the width of its band, as estimated\n",
     ]);
-    folder.taut("verify loops.json loops.csv").ends(0).says(&["Verified: 4 curves through "]);
+    folder.taut("verify loops.json loops.csv").ends(0).stdout_has(&["Verified: 4 curves through "]);
     folder.taut("curve loops.csv -o loops.geojson").ends(0);
     let found = document(&folder.text("loops.geojson"));
     let kinds: Vec<(&str, usize)> = found["features"]

@@ -14,7 +14,7 @@ fn folder() -> TestFolder {
 #[test]
 fn the_summary_names_every_number() {
     let folder = folder();
-    let run = folder.taut("delaunay points.csv").ends(0).says(&[
+    let run = folder.taut("delaunay points.csv").ends(0).stdout_has(&[
         "Delaunay triangulation of 6 points in the plane\n",
         "\n  sites     5; 1 point equals an earlier one\n",
         "\n  simplices 4 triangles\n",
@@ -30,7 +30,7 @@ fn the_summary_names_every_number() {
     assert_eq!(folder.files(), ["points.csv"]);
     let quiet = folder.taut("delaunay points.csv -q").ends(0);
     assert_eq!((quiet.out.as_str(), quiet.err.as_str()), ("", ""));
-    folder.taut("delaunay points.csv --no-verify").ends(0).says(&["verified  not checked\n"]);
+    folder.taut("delaunay points.csv --no-verify").ends(0).stdout_has(&["verified  not checked\n"]);
 }
 
 #[test]
@@ -45,7 +45,7 @@ fn the_json_has_the_names_at_the_door() {
     assert_eq!(answer["hull"].as_array().unwrap().len(), 4);
     assert_eq!(folder.text("mesh.json"), run.out);
     assert_eq!(folder.taut("delaunay points.csv -o -").ends(0).out, run.out);
-    folder.taut("verify mesh.json points.csv").ends(0).says(&[
+    folder.taut("verify mesh.json points.csv").ends(0).stdout_has(&[
         "Verified: the Delaunay triangulation of 6 points in the plane\n",
         "\n  sites     5; proved: distinct points\n",
     ]);
@@ -66,25 +66,25 @@ fn every_format_of_meshes_is_written_and_verified() {
             folder
                 .taut(&format!("verify mesh.{name} points.csv"))
                 .ends(0)
-                .says(&["Verified", "5; proved: distinct"]);
+                .stdout_has(&["Verified", "5; proved: distinct"]);
         }
     }
     for name in ["ply", "vtu", "parquet"] {
         if built(name) {
             folder.taut(&format!("delaunay space.npy -o mesh.{name} --hull hull.obj")).ends(0);
-            folder.taut(&format!("verify mesh.{name} space.npy")).ends(0).says(&["in space"]);
+            folder.taut(&format!("verify mesh.{name} space.npy")).ends(0).stdout_has(&["in space"]);
         }
     }
     assert!(folder.text("hull.obj").starts_with("# 300 vertices, "));
-    folder.taut("delaunay space.npy -o mesh.off").ends(2).complains(&[
+    folder.taut("delaunay space.npy -o mesh.off").ends(2).stderr_has(&[
         "mesh.off",
         "hold no tetrahedra",
         "ply, vtu",
     ]);
-    folder.taut("delaunay points.csv -o mesh.svg").ends(2).complains(&["--draw mesh.svg"]);
-    folder.taut("delaunay points.csv -o mesh.stl").ends(2).complains(&["mesh.stl", ".ply"]);
-    folder.taut("delaunay points.csv --hull hull.json").ends(2).complains(&["hull.json"]);
-    folder.taut("delaunay points.csv --voronoi cells.ply").ends(2).complains(&[".geojson"]);
+    folder.taut("delaunay points.csv -o mesh.svg").ends(2).stderr_has(&["--draw mesh.svg"]);
+    folder.taut("delaunay points.csv -o mesh.stl").ends(2).stderr_has(&["mesh.stl", ".ply"]);
+    folder.taut("delaunay points.csv --hull hull.json").ends(2).stderr_has(&["hull.json"]);
+    folder.taut("delaunay points.csv --voronoi cells.ply").ends(2).stderr_has(&[".geojson"]);
 }
 
 #[test]
@@ -95,21 +95,24 @@ fn wrong_meshes_are_rejected_and_broken_ones_refused() {
     // Both diagonals of the square go through its center, so a triangle of three corners covers it.
     let last = mesh.lines().last().unwrap();
     folder.put("wrong.off", mesh.replace(last, "3 0 1 2"));
-    folder.taut("verify wrong.off points.csv").ends(1).says(&["Rejected: wrong.off: "]);
+    folder.taut("verify wrong.off points.csv").ends(1).stdout_has(&["Rejected: wrong.off: "]);
     folder.put("moved.csv", SQUARE.replace("1,1", "1,1.5"));
-    folder.taut("verify mesh.off moved.csv").ends(1).says(&[
+    folder.taut("verify mesh.off moved.csv").ends(1).stdout_has(&[
         "Rejected: moved.csv does not belong to mesh.off: vertex 4 is another than point 4",
     ]);
     folder.put("fewer.csv", "0,0\n2,0\n2,2\n");
-    folder.taut("verify mesh.off fewer.csv").ends(1).says(&["there are 3 points, but 6 vertices"]);
+    folder
+        .taut("verify mesh.off fewer.csv")
+        .ends(1)
+        .stdout_has(&["there are 3 points, but 6 vertices"]);
     folder.put("cut.off", &mesh[..mesh.len() - 3]);
-    folder.taut("verify cut.off points.csv").ends(2).complains(&["cut.off", "line "]);
+    folder.taut("verify cut.off points.csv").ends(2).stderr_has(&["cut.off", "line "]);
     folder.put("nan.csv", SQUARE.replace("1,1", "1,NaN"));
-    folder.taut("verify mesh.off nan.csv").ends(2).complains(&["nan.csv", "row 5", "NaN"]);
+    folder.taut("verify mesh.off nan.csv").ends(2).stderr_has(&["nan.csv", "row 5", "NaN"]);
     folder
         .taut("verify missing.ply points.csv")
         .ends(2)
-        .complains(&["missing.ply", "no such file"]);
+        .stderr_has(&["missing.ply", "no such file"]);
 }
 
 #[test]
@@ -138,7 +141,7 @@ fn doctored_json_is_rejected() {
     folder
         .taut("verify mesh.json changed.csv")
         .ends(1)
-        .says(&["does not belong to mesh.json", "hash"]);
+        .stdout_has(&["does not belong to mesh.json", "hash"]);
 }
 
 #[test]
@@ -159,46 +162,53 @@ fn flat_points_are_an_answer() {
         folder
             .taut("delaunay flat.csv -o flat.json --draw flat.svg")
             .ends(0)
-            .says(&said)
-            .says(&["verified  yes"]);
+            .stdout_has(&said)
+            .stdout_has(&["verified  yes"]);
         folder.taut("verify flat.json flat.csv").ends(0);
         for mesh in ["flat.vtu", "flat.ply", "flat.obj", "flat.off"] {
             folder.taut(&format!("delaunay flat.csv -o {mesh}")).ends(0);
-            folder.taut(&format!("verify {mesh} flat.csv")).ends(0).says(&["Verified", &sites]);
+            folder
+                .taut(&format!("verify {mesh} flat.csv"))
+                .ends(0)
+                .stdout_has(&["Verified", &sites]);
         }
     }
     folder.put("line.csv", "0,0\n2,2\n1,1\n");
     folder.put("over.off", "OFF\n3 2 0\n0 0 0\n2 2 0\n1 1 0\n2 0 1\n2 2 1\n");
-    folder.taut("verify over.off line.csv").ends(1).says(&["Rejected: over.off: "]);
+    folder.taut("verify over.off line.csv").ends(1).stdout_has(&["Rejected: over.off: "]);
     folder.put("flat.csv", "1,1\n1,1\n");
-    folder.taut("delaunay flat.csv --hull hull.ply").ends(2).complains(&["all points are equal"]);
+    folder.taut("delaunay flat.csv --hull hull.ply").ends(2).stderr_has(&["all points are equal"]);
 }
 
 #[test]
 fn bad_input_is_named() {
     let folder = TestFolder::new();
     folder.put("nan.csv", "x,y\n0,0\n1,inf\n");
-    folder.taut("delaunay nan.csv").ends(2).complains(&["nan.csv", "row 2", "`y`", "inf"]);
+    folder.taut("delaunay nan.csv").ends(2).stderr_has(&["nan.csv", "row 2", "`y`", "inf"]);
     folder.put("nan.f64", [0.0, 1.0, 2.0, f64::NAN].map(f64::to_le_bytes).concat());
-    folder.taut("delaunay nan.f64 --raw-dim 2 --raw-type f64").ends(2).complains(&[
+    folder.taut("delaunay nan.f64 --raw-dim 2 --raw-type f64").ends(2).stderr_has(&[
         "nan.f64",
         "row 2",
         "column 1",
         "--columns",
     ]);
     folder.taut("generate normal -n 10 -d 4 -o four.csv").ends(0);
-    folder.taut("delaunay four.csv").ends(2).complains(&["four.csv", "4 coordinates", "--columns"]);
+    folder.taut("delaunay four.csv").ends(2).stderr_has(&[
+        "four.csv",
+        "4 coordinates",
+        "--columns",
+    ]);
     folder.taut("delaunay four.csv --columns 0,2").ends(0);
     folder.put("line.csv", "0\n1\n");
     folder
         .taut("delaunay line.csv")
         .ends(2)
-        .complains(&["1 coordinate: expected 2, the plane, or 3, space"]);
+        .stderr_has(&["1 coordinate: expected 2, the plane, or 3, space"]);
     folder.put("empty.csv", "");
-    folder.taut("delaunay empty.csv -o mesh.json").ends(2).complains(&["empty.csv is empty"]);
+    folder.taut("delaunay empty.csv -o mesh.json").ends(2).stderr_has(&["empty.csv is empty"]);
     folder.put("points.csv", SQUARE);
     folder.taut("delaunay points.csv -o points.csv.json --order none").ends(2);
-    folder.taut("delaunay points.csv -o points.csv").ends(2).complains(&["points.csv"]);
+    folder.taut("delaunay points.csv -o points.csv").ends(2).stderr_has(&["points.csv"]);
     for alpha in ["-1", "NaN", "much"] {
         folder.taut(&format!("delaunay points.csv --alpha {alpha}")).ends(2);
     }
@@ -257,7 +267,7 @@ fn voronoi_cells_fill_the_box() {
 #[test]
 fn the_alpha_complex_is_counted_and_written() {
     let folder = folder();
-    folder.taut("delaunay points.csv --alpha 1 --alpha-out a.off --alpha-boundary b.obj").ends(0).says(&[
+    folder.taut("delaunay points.csv --alpha 1 --alpha-out a.off --alpha-boundary b.obj").ends(0).stdout_has(&[
         "\n  alpha     4 triangles of radius at most 1; 4 facets on their boundary, 0 more on their own\n",
     ]);
     folder.taut("verify a.off points.csv").ends(0);
@@ -266,7 +276,7 @@ fn the_alpha_complex_is_counted_and_written() {
     folder
         .taut("delaunay points.csv --alpha 0.8")
         .ends(0)
-        .says(&["\n  alpha     0 triangles", "4 more on their own"]);
+        .stdout_has(&["\n  alpha     0 triangles", "4 more on their own"]);
 }
 
 #[test]
@@ -282,5 +292,5 @@ fn draw_draws_what_delaunay_draws() {
     folder
         .taut("draw mesh.json changed.csv -o no.svg")
         .ends(1)
-        .complains(&["rejected, so not drawn"]);
+        .stderr_has(&["rejected, so not drawn"]);
 }

@@ -44,7 +44,7 @@ fn folder(change: impl FnOnce(&mut Solution<Ellipsoid>)) -> TestFolder {
 
 #[test]
 fn a_true_ellipsoid_is_proved_with_its_bracket() {
-    folder(|_| {}).taut("verify ellipsoid.json points.csv").ends(0).says(&[
+    folder(|_| {}).taut("verify ellipsoid.json points.csv").ends(0).stdout_has(&[
         "Verified within a gap of ",
         ": ellipsoid of log-volume 2.53102424",
         "\n  bracket   2.53102424",
@@ -63,16 +63,16 @@ fn what_is_wrong_is_said_of_the_point_or_of_the_answer() {
     small
         .taut("verify ellipsoid.json points.csv")
         .ends(1)
-        .says(&["Rejected: points.csv, row 1: point 0 reaches to |F(x − c)| = 1.0000005"]);
+        .stdout_has(&["Rejected: points.csv, row 1: point 0 reaches to |F(x − c)| = 1.0000005"]);
     let flat = folder(|found| found.answer.hull = Some(Hull { basis: vec![], distance: 0.0 }));
     flat.taut("verify ellipsoid.json points.csv")
         .ends(1)
-        .says(&["Rejected: ellipsoid.json: a hull is given, but"]);
+        .stdout_has(&["Rejected: ellipsoid.json: a hull is given, but"]);
     let loose = folder(|found| found.certificate.multipliers = vec![0.125, 0.375, 0.375, 0.125]);
     loose
         .taut("verify ellipsoid.json points.csv")
         .ends(1)
-        .says(&["Rejected: ellipsoid.json: the multipliers prove a gap of 1.438"]);
+        .stdout_has(&["Rejected: ellipsoid.json: the multipliers prove a gap of 1.438"]);
 }
 
 #[test]
@@ -81,11 +81,14 @@ fn epsilon_bounds_the_gap_that_is_proved() {
         found.certificate.multipliers = vec![0.125, 0.375, 0.375, 0.125];
         found.certificate.gap = 0.5;
     });
-    loose.taut("verify ellipsoid.json points.csv").ends(0).says(&["Verified within a gap of"]);
+    loose
+        .taut("verify ellipsoid.json points.csv")
+        .ends(0)
+        .stdout_has(&["Verified within a gap of"]);
     loose
         .taut("verify ellipsoid.json points.csv --epsilon 0.1")
         .ends(1)
-        .says(&["Rejected: ellipsoid.json: a gap of 1.438", "larger than --epsilon 1e-1"]);
+        .stdout_has(&["Rejected: ellipsoid.json: a gap of 1.438", "larger than --epsilon 1e-1"]);
 }
 
 #[test]
@@ -106,7 +109,7 @@ const CORNERS: &str = "x,y\n0,0\n4,0\n4,2\n0,2\n1,1\n";
 fn the_summary_names_every_number() {
     let folder = TestFolder::new();
     folder.put("points.csv", CORNERS);
-    let run = folder.taut("ellipsoid points.csv").ends(0).says(&[
+    let run = folder.taut("ellipsoid points.csv").ends(0).stdout_has(&[
         "Smallest ellipsoid around 5 points in 2 dimensions\n",
         "\n  log-volume 2.53102424",
         "\n  center     (2, 1)\n",
@@ -120,8 +123,10 @@ fn the_summary_names_every_number() {
     ]);
     assert_eq!(run.err, "");
     assert_eq!(folder.files(), ["points.csv"]);
-    let run =
-        folder.taut("ellipsoid points.csv --no-verify").ends(0).says(&["verified   not checked\n"]);
+    let run = folder
+        .taut("ellipsoid points.csv --no-verify")
+        .ends(0)
+        .stdout_has(&["verified   not checked\n"]);
     assert!(!run.out.contains("yes"), "{}", run.out);
     let run = folder.taut("ellipsoid points.csv --quiet --progress always").ends(0);
     assert_eq!((run.out.as_str(), run.err.as_str()), ("", ""));
@@ -169,12 +174,13 @@ fn the_json_is_one_document_wherever_it_goes() {
 fn the_irises_of_the_tour_are_enclosed_verified_and_drawn() {
     let folder = TestFolder::new();
     folder.put("iris.csv", include_bytes!("../../samples/iris.csv"));
-    folder.taut("ellipsoid iris.csv --epsilon 0 -o iris.json --draw iris.html").ends(0).says(&[
-        "around 150 points in 4 dimensions",
-        "\n  log-volume 3.032297190189",
-        "verified   yes",
-    ]);
-    folder.taut("verify iris.json iris.csv --epsilon 1e-12").ends(0).says(&["Verified within"]);
+    folder.taut("ellipsoid iris.csv --epsilon 0 -o iris.json --draw iris.html").ends(0).stdout_has(
+        &["around 150 points in 4 dimensions", "\n  log-volume 3.032297190189", "verified   yes"],
+    );
+    folder
+        .taut("verify iris.json iris.csv --epsilon 1e-12")
+        .ends(0)
+        .stdout_has(&["Verified within"]);
     let page = folder.text("iris.html");
     assert!(page.contains("sepal length") && page.contains("petal width"), "axes have no names");
     folder.taut("draw iris.json iris.csv -o iris.svg").ends(0);
@@ -183,8 +189,8 @@ fn the_irises_of_the_tour_are_enclosed_verified_and_drawn() {
 
     let other = folder.text("iris.csv").replacen("5.1", "5.2", 1);
     folder.put("changed.csv", other);
-    folder.taut("verify iris.json changed.csv").ends(1).says(&["the data changed"]);
-    folder.taut("draw iris.json changed.csv -o iris.svg").ends(1).complains(&["changed.csv"]);
+    folder.taut("verify iris.json changed.csv").ends(1).stdout_has(&["the data changed"]);
+    folder.taut("draw iris.json changed.csv -o iris.svg").ends(1).stderr_has(&["changed.csv"]);
 }
 
 #[test]
@@ -202,7 +208,7 @@ fn flat_sets_are_solved_in_their_flat_and_it_is_said() {
         folder
             .taut("ellipsoid points.csv -o ellipsoid.json --draw e.svg")
             .ends(0)
-            .says(&[said, "verified   yes"]);
+            .stdout_has(&[said, "verified   yes"]);
         let written: serde_json::Value =
             serde_json::from_str(&folder.text("ellipsoid.json")).unwrap();
         assert_eq!(written["answer"]["factor"].as_array().unwrap().len(), rank, "{rows}");
@@ -224,7 +230,10 @@ fn every_method_ends_in_a_certificate() {
         ("away-steps", 0),
     ] {
         let line = format!("ellipsoid points.npy --method {method} --epsilon 0.05 -o found.json");
-        folder.taut(&line).ends(code).says(&["verified   yes", &format!("method     {method};")]);
+        folder
+            .taut(&line)
+            .ends(code)
+            .stdout_has(&["verified   yes", &format!("method     {method};")]);
         let written: serde_json::Value = serde_json::from_str(&folder.text("found.json")).unwrap();
         let (volume, gap) = (&written["answer"]["log_volume"], &written["certificate"]["gap"]);
         let (volume, gap) = (volume.as_f64().unwrap(), gap.as_f64().unwrap());
@@ -237,7 +246,7 @@ fn every_method_ends_in_a_certificate() {
     folder
         .taut("ellipsoid points.npy --method thesis-initial")
         .ends(3)
-        .says(&["method     thesis-initial; done, as it does not search"]);
+        .stdout_has(&["method     thesis-initial; done, as it does not search"]);
     // The directions of Algorithm 3 are drawn from the seed.
     let start = |seed| {
         folder
@@ -256,14 +265,18 @@ fn a_budget_ends_the_work_with_its_gap_and_code_3() {
     folder
         .taut("ellipsoid points.npy --max-passes 2 --epsilon 0 -o ellipsoid.json")
         .ends(3)
-        .says(&["stopped early by the budget of passes", "verified   yes", "\n  passes     2;"]);
+        .stdout_has(&[
+            "stopped early by the budget of passes",
+            "verified   yes",
+            "\n  passes     2;",
+        ]);
     // What was reached is still an answer with its proof.
     folder.taut("verify ellipsoid.json points.npy").ends(0);
     folder.taut("verify ellipsoid.json points.npy --epsilon 1e-9").ends(1);
     folder
         .taut("ellipsoid points.npy --epsilon 1e-300")
         .ends(3)
-        .says(&["rounding", "verified   yes"]);
+        .stdout_has(&["rounding", "verified   yes"]);
 }
 
 #[test]
@@ -281,7 +294,7 @@ fn refused(folder: &TestFolder, line: &str, parts: &[&str]) {
     folder.put("e.svg", "earlier picture");
     let before = folder.files();
     let run =
-        folder.taut(&format!("ellipsoid {line} -o e.json --draw e.svg")).ends(2).complains(parts);
+        folder.taut(&format!("ellipsoid {line} -o e.json --draw e.svg")).ends(2).stderr_has(parts);
     assert_eq!(run.out, "");
     assert_eq!(folder.text("e.json"), "earlier answer");
     assert_eq!(folder.text("e.svg"), "earlier picture");

@@ -44,12 +44,12 @@ fn parameters_reach_their_distribution() {
     folder
         .taut("generate normal -n 2 -d 2 --thickness 1")
         .ends(2)
-        .complains(&["--thickness", "shell"]);
+        .stderr_has(&["--thickness", "shell"]);
     folder
         .taut("generate shell -n 2 -d 2 --thickness -1")
         .ends(2)
-        .complains(&["--thickness` is -1"]);
-    folder.taut("generate normal -n 2 -d 0").ends(2).complains(&["dimension"]);
+        .stderr_has(&["--thickness` is -1"]);
+    folder.taut("generate normal -n 2 -d 0").ends(2).stderr_has(&["dimension"]);
     folder.taut("generate weibull -n 2 -d 2").ends(2);
 }
 
@@ -75,7 +75,7 @@ fn curves_are_drawn_with_their_noise() {
         ("curve --shape circle -n 2 -d 2 --turns 2", "--turns"),
         ("normal --shape circle -n 2 -d 2", "--shape belongs to curve"),
     ] {
-        folder.taut(&format!("generate {wrong}")).ends(2).complains(&[said]);
+        folder.taut(&format!("generate {wrong}")).ends(2).stderr_has(&[said]);
     }
     folder.taut("generate curve --shape knot -n 2 -d 2").ends(2);
 }
@@ -107,8 +107,8 @@ fn what_is_written_is_read_back_whatever_the_format() {
     for (file, hash, answer) in &answers {
         assert_eq!((hash, answer), (&answers[0].1, &answers[0].2), "{file}");
     }
-    folder.taut("generate uniform -n 2 -d 2 -o p.xls").ends(2).complains(&["p.xls"]);
-    folder.taut("generate uniform -n 2 -d 2 -o p.tsp").ends(2).complains(&["p.tsp"]);
+    folder.taut("generate uniform -n 2 -d 2 -o p.xls").ends(2).stderr_has(&["p.xls"]);
+    folder.taut("generate uniform -n 2 -d 2 -o p.tsp").ends(2).stderr_has(&["p.tsp"]);
 }
 
 #[test]
@@ -122,24 +122,24 @@ fn radii_make_balls() {
     folder
         .taut("ball balls.csv --balls")
         .ends(0)
-        .says(&["300 balls in 2 dimensions", "verified  yes"]);
+        .stdout_has(&["300 balls in 2 dimensions", "verified  yes"]);
     folder.taut("generate normal -n 3 -d 2 --radii big").ends(2);
 }
 
 #[test]
 fn sizes_that_cannot_be_are_refused() {
     let folder = TestFolder::new();
-    folder.taut("generate normal -n 0 -d 2").ends(2).complains(&["at least 1 point"]);
+    folder.taut("generate normal -n 0 -d 2").ends(2).stderr_has(&["at least 1 point"]);
     for d in ["18446744073709551615", "2305843009213693953", "1152921504606846976"] {
         for more in ["", " --radii equal:1", " -o p.npy", " --type f32 -o p.csv"] {
             let run = format!("generate normal -n 1 -d {d}{more}");
-            folder.taut(&run).ends(2).complains(&["`--dim` is"]);
+            folder.taut(&run).ends(2).stderr_has(&["`--dim` is"]);
         }
     }
     folder
         .taut("generate normal -n 18446744073709551615 -d 3")
         .ends(2)
-        .complains(&["is 18446744073709551615"]);
+        .stderr_has(&["is 18446744073709551615"]);
 }
 
 #[test]
@@ -150,9 +150,9 @@ fn a_value_that_single_precision_cannot_hold_is_named() {
     folder
         .taut(&format!("{beyond} --type f32"))
         .ends(2)
-        .complains(&["coordinate 0 of point 0", "f32"]);
+        .stderr_has(&["coordinate 0 of point 0", "f32"]);
     folder
         .taut("generate normal -n 3 -d 2 --radii equal:1e300 --type f32")
         .ends(2)
-        .complains(&["coordinate 2 of point 0"]);
+        .stderr_has(&["coordinate 2 of point 0"]);
 }

@@ -14,7 +14,7 @@ fn folder() -> TestFolder {
 #[test]
 fn the_largest_circle_in_an_l_touches_its_corner() {
     let folder = folder();
-    folder.taut("inscribe circle ring.csv -o circle.json --draw circle.svg").ends(0).says(&[
+    folder.taut("inscribe circle ring.csv -o circle.json --draw circle.svg").ends(0).stdout_has(&[
         "Largest circle in a polygon of 6 points\n",
         "\n  radius",
         "1.17157287",
@@ -31,7 +31,7 @@ fn the_largest_circle_in_an_l_touches_its_corner() {
     for part in ["polygon of 6 points", "largest circle", "touching edges"] {
         assert!(picture.contains(part), "{part}");
     }
-    folder.taut("verify circle.json ring.csv --epsilon 1.1e-9").ends(0).says(&[
+    folder.taut("verify circle.json ring.csv --epsilon 1.1e-9").ends(0).stdout_has(&[
         ": inscribed circle of radius 1.17157287",
         "≤ largest radius ≤",
         "proved: of circles with their center inside by the even-odd rule",
@@ -49,15 +49,15 @@ fn geojson_and_other_points_are_read_alike() {
         "ring.geojson",
         format!("{{\"type\": \"Feature\", \"properties\": {{}}, \"geometry\": {polygon}}}"),
     );
-    folder.taut("inscribe circle ring.geojson -o circle.json").ends(0).says(&["1.17157287"]);
+    folder.taut("inscribe circle ring.geojson -o circle.json").ends(0).stdout_has(&["1.17157287"]);
     folder.taut("verify circle.json ring.geojson").ends(0);
     // The closing vertex is a row of its own.
-    folder.taut("verify circle.json ring.csv").ends(1).says(&["the data changed"]);
+    folder.taut("verify circle.json ring.csv").ends(1).stdout_has(&["the data changed"]);
     folder.put("holes.geojson", polygon.replace("]]]", "]], [[1,1],[1.5,1],[1,1.5],[1,1]]]"));
     folder
         .taut("inscribe circle holes.geojson")
         .ends(2)
-        .complains(&["holes.geojson", "has a hole"]);
+        .stderr_has(&["holes.geojson", "has a hole"]);
     let all = folder.taut("inscribe circle ring.csv --json").ends(0).out;
     assert_eq!(folder.pipe(L, "inscribe circle - --json").ends(0).out, all);
     assert_eq!(folder.taut("inscribe circle ring.csv -o - --threads 1").ends(0).out, all);
@@ -74,38 +74,38 @@ fn a_changed_answer_is_rejected_with_its_row() {
     folder
         .taut("verify larger.json ring.csv")
         .ends(1)
-        .says(&["Rejected: ", "less than the radius"]);
+        .stdout_has(&["Rejected: ", "less than the radius"]);
     found["answer"]["radius"] = 1.0.into();
     folder.put("smaller.json", found.to_string());
-    folder.taut("verify smaller.json ring.csv").ends(1).says(&["Rejected: smaller.json"]);
+    folder.taut("verify smaller.json ring.csv").ends(1).stdout_has(&["Rejected: smaller.json"]);
 }
 
 #[test]
 fn rings_that_are_no_polygon_are_refused() {
     let folder = TestFolder::new();
     folder.put("bow.csv", "0,0\n2,2\n2,0\n0,2\n");
-    folder.taut("inscribe circle bow.csv -o circle.json").ends(2).complains(&[
+    folder.taut("inscribe circle bow.csv -o circle.json").ends(2).stderr_has(&[
         "bow.csv: the edge from point 0 to point 1 meets the edge from point 2 to point 3",
     ]);
     assert_eq!(folder.files(), ["bow.csv"]);
     folder.put("two.csv", "0,0\n2,2\n0,0\n");
-    folder.taut("inscribe circle two.csv").ends(2).complains(&["has 2 distinct vertices"]);
+    folder.taut("inscribe circle two.csv").ends(2).stderr_has(&["has 2 distinct vertices"]);
     folder.put("space.csv", "0,0,1\n2,2,1\n0,1,0\n");
     folder
         .taut("inscribe circle space.csv")
         .ends(2)
-        .complains(&["points have 3 coordinates", "--columns"]);
+        .stderr_has(&["points have 3 coordinates", "--columns"]);
     folder.put("ring.csv", L);
     folder
         .taut("inscribe circle ring.csv --epsilon 0")
         .ends(2)
-        .complains(&["option `--epsilon` is 0"]);
+        .stderr_has(&["option `--epsilon` is 0"]);
     folder
         .taut("inscribe circle ring.csv --max-cells 0")
         .ends(2)
-        .complains(&["`--max-cells` is 0"]);
+        .stderr_has(&["`--max-cells` is 0"]);
     folder
         .taut("inscribe circle ring.csv --max-cells 1")
         .ends(3)
-        .says(&["within the budget of cells"]);
+        .stdout_has(&["within the budget of cells"]);
 }

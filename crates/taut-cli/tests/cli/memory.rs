@@ -30,7 +30,7 @@ fn records_are_sorted_checked_and_accounted_for() {
         folder
             .taut(&format!("memory sort records.bin --width 16 --memory {memory} -o sorted.bin"))
             .ends(0)
-            .says(&["20000 records of 16 bytes", said, "read again: in order"]);
+            .stdout_has(&["20000 records of 16 bytes", said, "read again: in order"]);
         assert!(folder.bytes("sorted.bin") == sorted, "{memory}");
     }
     folder.taut("memory sort records.bin --width 16 --key 8:16 --quiet -o again.bin").ends(0);
@@ -50,18 +50,18 @@ fn what_cannot_be_sorted_is_named_and_nothing_is_written() {
         ("records.bin --width 10 --memory 1K", &["memory", "1024"]),
         ("missing.bin --width 10", &["missing.bin: no such file or folder"]),
     ] {
-        folder.taut(&format!("memory sort {options} -o sorted.bin")).ends(2).complains(said);
+        folder.taut(&format!("memory sort {options} -o sorted.bin")).ends(2).stderr_has(said);
         assert_eq!(folder.text("sorted.bin"), "before");
     }
-    folder.taut("memory sort records.bin --width 10 -o -").ends(2).complains(&["name a file"]);
+    folder.taut("memory sort records.bin --width 10 -o -").ends(2).stderr_has(&["name a file"]);
     folder
         .taut("memory transpose - --rows 1 --columns 1 -o columns.bin")
         .ends(2)
-        .complains(&["name a file"]);
+        .stderr_has(&["name a file"]);
     folder
         .taut("memory sort records.bin --width 10 -o records.bin")
         .ends(2)
-        .complains(&["records.bin"]);
+        .stderr_has(&["records.bin"]);
 }
 
 #[test]
@@ -73,20 +73,20 @@ fn matrices_are_transposed_and_compared() {
         "memory transpose rows.bin --rows 300 --columns 100 --offset 4 --memory 4K -o columns.bin",
     )
     .ends(0)
-    .says(&["100 × 300 elements of 8 bytes", "compared        all elements"]);
+    .stdout_has(&["100 × 300 elements of 8 bytes", "compared        all elements"]);
     folder
         .taut("memory transpose columns.bin --rows 100 --columns 300 --samples 50 -o back.bin")
         .ends(0)
-        .says(&["50 elements"]);
+        .stdout_has(&["50 elements"]);
     assert!(folder.bytes("back.bin") == matrix);
     folder
         .taut("memory transpose rows.bin --rows 300 --columns 101 -o columns.bin")
         .ends(2)
-        .complains(&["rows.bin", "240004", "242400"]);
+        .stderr_has(&["rows.bin", "240004", "242400"]);
     folder
         .taut("memory transpose columns.bin --rows 100 --columns 300 --width 0 -o back.bin")
         .ends(2)
-        .complains(&["at least one byte"]);
+        .stderr_has(&["at least one byte"]);
     assert!(folder.bytes("back.bin") == matrix);
 }
 
@@ -104,8 +104,8 @@ fn samples_depend_on_the_seed_alone() {
     let rows: Vec<u64> = drawn("1").lines().map(|line| line.parse().unwrap()).collect();
     assert!(rows.len() == 5000 && rows.is_sorted_by(|a, b| a < b) && rows[4999] < 1_000_000);
     assert_eq!(drawn("1"), drawn("4"));
-    folder.taut("memory sample -n 4 -k 4").ends(0).says(&["0\n1\n2\n3\n"]);
-    folder.taut("memory sample -n 4 -k 5").ends(2).complains(&["k", "5"]);
+    folder.taut("memory sample -n 4 -k 4").ends(0).stdout_has(&["0\n1\n2\n3\n"]);
+    folder.taut("memory sample -n 4 -k 5").ends(2).stderr_has(&["k", "5"]);
 }
 
 /// A folder that takes no new files, a certificate that cannot be written, a check that fails: what was there stays.
@@ -125,12 +125,12 @@ fn outputs_stay_as_they_were_unless_all_can_be_written() {
         folder
             .taut(&format!("memory {command}"))
             .ends(2)
-            .complains(&["/proc/x.json", "its folder takes no new files"]);
+            .stderr_has(&["/proc/x.json", "its folder takes no new files"]);
     }
     folder
         .taut("memory sort records.bin --width 16 -o /proc/x.bin")
         .ends(2)
-        .complains(&["/proc/x.bin", "its folder takes no new files"]);
+        .stderr_has(&["/proc/x.bin", "its folder takes no new files"]);
     for name in ["out.bin", "out.csv"] {
         assert_eq!(folder.text(name), "before");
     }
@@ -153,12 +153,12 @@ fn pipes_are_refused_at_once() {
         let taut = assert_cmd::cargo::cargo_bin!("taut").display().to_string();
         let run =
             folder.shell(&format!("mkfifo pipe pipe.npy 2>/dev/null; timeout 20 {taut} {command}"));
-        run.ends(2).complains(&["not a regular file"]);
+        run.ends(2).stderr_has(&["not a regular file"]);
     }
     folder
         .taut("memory transpose . --rows 2 --columns 2 -o x.bin")
         .ends(2)
-        .complains(&["not a regular file"]);
+        .stderr_has(&["not a regular file"]);
     assert!(!folder.files().contains(&"x.bin".to_owned()));
 }
 
@@ -176,7 +176,7 @@ fn runs_of_another_input_are_refused() {
                 "memory sort records.bin --width 16 --memory {memory} -o sorted.bin --resume runs"
             ))
             .ends(2)
-            .complains(&["`resume`", "runs", "same sort"]);
+            .stderr_has(&["`resume`", "runs", "same sort"]);
     }
     assert_eq!(folder.text("sorted.bin"), "before");
     assert_eq!(folder.text("runs"), "of something else");

@@ -49,8 +49,8 @@ fn further_figures_and_the_dark_are_a_choice() {
     folder
         .taut("draw ball.json points.csv -o 99.svg --figure 99")
         .ends(2)
-        .complains(&["--figure", "99"]);
-    folder.taut("draw ball.json points.csv -o thin.svg --width 1").ends(2).complains(&["--width"]);
+        .stderr_has(&["--figure", "99"]);
+    folder.taut("draw ball.json points.csv -o thin.svg --width 1").ends(2).stderr_has(&["--width"]);
 }
 
 #[test]
@@ -61,16 +61,17 @@ fn what_does_not_fit_its_points_is_not_drawn() {
     folder
         .taut("draw ball.json changed.csv -o ball.svg")
         .ends(1)
-        .complains(&["changed.csv", "hash"]);
+        .stderr_has(&["changed.csv", "hash"]);
     assert_eq!(folder.text("ball.svg"), "earlier picture");
     folder.taut("draw ball.json changed.csv -o ball.svg --no-verify").ends(0);
-    folder.taut("draw ball.json points.csv -o ball.gif").ends(2).complains(&["ball.gif", ".svg"]);
+    folder.taut("draw ball.json points.csv -o ball.gif").ends(2).stderr_has(&["ball.gif", ".svg"]);
 }
 
 #[test]
 fn the_tour_shows_and_verifies_every_tool() {
     let folder = TestFolder::new();
-    let run = folder.taut("tour --samples samples").ends(0).says(&["verified yes", "tour.html"]);
+    let run =
+        folder.taut("tour --samples samples").ends(0).stdout_has(&["verified yes", "tour.html"]);
     let stations = run.out.lines().filter(|line| line.contains(" verified yes ")).count();
     assert_eq!(stations, 15, "{}", run.out);
     assert_eq!(folder.files(), ["samples", "tour.html"]);

@@ -31,25 +31,25 @@ fn outliers_are_named_and_all_is_verified() {
         ),
     ] {
         let line = format!("ellipsoid points.csv --robust {line} -o robust.json");
-        folder.taut(&line).ends(0).says(&[
+        folder.taut(&line).ends(0).stdout_has(&[
             "Robust ellipsoid of 31 points in 2 dimensions\n",
             "\n  center     (2, 2)\n",
             "\n  log-det    ",
             "\n  verified   yes; ",
             "checking ",
         ]);
-        folder.taut(&line).ends(0).says(&parts);
+        folder.taut(&line).ends(0).stdout_has(&parts);
         let found: serde_json::Value = serde_json::from_str(&folder.text("robust.json")).unwrap();
         assert_eq!(found["kind"], "robust-ellipsoid");
         assert_eq!(found["answer"]["flagged"], serde_json::json!([25, 26, 27, 28, 29, 30]));
-        folder.taut("verify robust.json points.csv").ends(0).says(&[
+        folder.taut("verify robust.json points.csv").ends(0).stdout_has(&[
             "Verified",
             ": robust ellipsoid by ",
             "of 31 points in 2 dimensions\n",
             " 6; proved: exactly the points outside",
         ]);
         folder.put("other.csv", grid().replacen("0,0\n", "0,0.5\n", 1));
-        folder.taut("verify robust.json other.csv").ends(1).says(&["Rejected: other.csv"]);
+        folder.taut("verify robust.json other.csv").ends(1).stdout_has(&["Rejected: other.csv"]);
     }
 }
 
@@ -96,7 +96,7 @@ fn outliers_are_drawn_apart_beside_the_ellipsoid() {
         folder.taut("draw robust.json points.csv -o far.svg --figure 4").ends(2);
     }
     folder.put("other.csv", grid().replacen("0,0\n", "0,0.5\n", 1));
-    folder.taut("draw robust.json other.csv -o other.svg").ends(1).complains(&["other.csv"]);
+    folder.taut("draw robust.json other.csv -o other.svg").ends(1).stderr_has(&["other.csv"]);
     assert!(!folder.files().contains(&"other.svg".to_owned()));
 }
 
@@ -110,7 +110,7 @@ fn a_lie_about_the_outliers_is_found() {
     folder
         .taut("verify lie.json points.csv")
         .ends(1)
-        .says(&["Rejected: points.csv, row 31: ", "point 30"]);
+        .stdout_has(&["Rejected: points.csv, row 31: ", "point 30"]);
 }
 
 #[test]
@@ -124,7 +124,7 @@ fn the_level_moves_the_border_and_the_coverage_the_count() {
     folder
         .taut("ellipsoid points.csv --robust mcd --coverage 1")
         .ends(0)
-        .says(&["\n  kept       31 of 31 points\n"]);
+        .stdout_has(&["\n  kept       31 of 31 points\n"]);
 }
 
 #[test]
@@ -132,11 +132,14 @@ fn exact_fits_are_reported() {
     let folder = TestFolder::new();
     let line: String = (0..20).map(|i| format!("{i},{i}\n")).collect();
     folder.put("line.csv", line + "0,7\n3,100\n");
-    folder.taut("ellipsoid line.csv --robust mcd -o robust.json").ends(0).says(&[
+    folder.taut("ellipsoid line.csv --robust mcd -o robust.json").ends(0).stdout_has(&[
         "\n  exact fit  20 of 22 points in a flat of dimension 1; ",
         "\n  outliers   2; rows 21, 22\n",
     ]);
-    folder.taut("verify robust.json line.csv").ends(0).says(&["\n  dimension     1; proved\n"]);
+    folder
+        .taut("verify robust.json line.csv")
+        .ends(0)
+        .stdout_has(&["\n  dimension     1; proved\n"]);
 }
 
 #[test]

@@ -12,7 +12,7 @@ const BALLS: &str = "x,y,r\n-1,0,1\n1,0,1\n";
 fn the_smallest_ball_around_ellipsoids() {
     let folder = TestFolder::new();
     folder.put("discs.csv", DISCS);
-    folder.taut("ball discs.csv --ellipsoids -o ball.json").ends(0).says(&[
+    folder.taut("ball discs.csv --ellipsoids -o ball.json").ends(0).stdout_has(&[
         "Smallest ball around 2 ellipsoids in 2 dimensions\n",
         "\n  center    (0, 0)\n",
         "verified  yes; every ellipsoid is inside",
@@ -23,11 +23,11 @@ fn the_smallest_ball_around_ellipsoids() {
     folder
         .taut("verify ball.json discs.csv --epsilon 1e-8")
         .ends(0)
-        .says(&["Verified within a gap of ", ": ball of radius 2"]);
+        .stdout_has(&["Verified within a gap of ", ": ball of radius 2"]);
     folder
         .taut("draw ball.json discs.csv -o ball.svg")
         .ends(2)
-        .complains(&["ball.json", "no pictures of balls around ellipsoids"]);
+        .stderr_has(&["ball.json", "no pictures of balls around ellipsoids"]);
     assert_eq!(folder.files(), ["ball.json", "discs.csv"]);
 }
 
@@ -61,7 +61,7 @@ fn the_ellipsoid_of_least_volume_around_balls_and_ellipsoids() {
         folder
             .taut(&format!("ellipsoid {file} {option} -o found.json --draw found.svg"))
             .ends(0)
-            .says(&[
+            .stdout_has(&[
                 &format!("Smallest ellipsoid around 2 {noun}s in 2 dimensions\n"),
                 "\n  center     (0, 0)\n",
                 &format!("verified   yes; every {noun} is inside"),
@@ -75,7 +75,7 @@ fn the_ellipsoid_of_least_volume_around_balls_and_ellipsoids() {
         folder.taut(&format!("draw found.json {file} -o again.svg")).ends(0);
     }
     folder.put("changed.csv", DISCS.replace("-1,0,1,0,1", "-1,0,1,0,1.5"));
-    folder.taut("verify found.json changed.csv").ends(1).says(&["changed.csv"]);
+    folder.taut("verify found.json changed.csv").ends(1).stdout_has(&["changed.csv"]);
 }
 
 #[test]
@@ -117,7 +117,7 @@ fn an_inscribed_ellipsoid_is_proved_or_rejected() {
     let mut found = inscribed_ellipsoid(&sides, &InscribedOptions::default()).unwrap();
     folder.put("sides.csv", "a,b,most\n1,0,4\n-1,0,0\n0,1,2\n0,-1,0\n");
     folder.put("inside.json", found.to_json());
-    folder.taut("verify inside.json sides.csv --epsilon 1e-8").ends(0).says(&[
+    folder.taut("verify inside.json sides.csv --epsilon 1e-8").ends(0).stdout_has(&[
         "Verified within a gap of ",
         ": inscribed ellipsoid of log-volume 1.837877",
         " ≤ largest log-volume ≤ 1.837877",
@@ -125,11 +125,11 @@ fn an_inscribed_ellipsoid_is_proved_or_rejected() {
     folder
         .taut("verify inside.json sides.csv --epsilon 1e-18")
         .ends(1)
-        .says(&["larger than --epsilon"]);
+        .stdout_has(&["larger than --epsilon"]);
     found.answer.center[1] += 0.001;
     folder.put("moved.json", found.to_json());
     folder
         .taut("verify moved.json sides.csv")
         .ends(1)
-        .says(&["Rejected: sides.csv, row 3: the ellipsoid reaches beyond half-space 2"]);
+        .stdout_has(&["Rejected: sides.csv, row 3: the ellipsoid reaches beyond half-space 2"]);
 }

@@ -36,7 +36,7 @@ fn document(text: &str) -> Value {
 
 #[test]
 fn the_summary_names_every_number() {
-    let run = folder().taut("surface torus.csv").ends(0).says(&[
+    let run = folder().taut("surface torus.csv").ends(0).stdout_has(&[
         "800 points in space: a closed surface with 1 handle\n",
         "triangles",
         "1600\n",
@@ -55,7 +55,7 @@ fn the_summary_names_every_number() {
     both.extend(torus([9.0, 0.0, 0.0], 40));
     both.push(both[7]);
     folder.put("both.csv", csv(&both));
-    folder.taut("surface both.csv").ends(0).says(&[
+    folder.taut("surface both.csv").ends(0).stdout_has(&[
         "1601 points in space: 2 surfaces\n",
         "2; all closed\n",
         "duplicates",
@@ -87,7 +87,7 @@ fn the_json_is_one_document_with_the_names_at_the_door() {
 fn answers_are_verified_and_lies_rejected() {
     let folder = folder();
     folder.taut("surface torus.csv -o surface.json").ends(0);
-    folder.taut("verify surface.json torus.csv").ends(0).says(&[
+    folder.taut("verify surface.json torus.csv").ends(0).stdout_has(&[
         "Verified: a closed surface with 1 handle through ",
         "yes; proved: it meets itself nowhere\n",
         "yes; proved: each triangle has an empty ball\n",
@@ -97,7 +97,7 @@ fn answers_are_verified_and_lies_rejected() {
         let mut found = sound.clone();
         change(&mut found);
         folder.put("lie.json", found.to_string());
-        folder.taut("verify lie.json torus.csv").ends(1).says(&["Rejected: "]);
+        folder.taut("verify lie.json torus.csv").ends(1).stdout_has(&["Rejected: "]);
     };
     lie(&|found| {
         found["answer"]["triangles"].as_array_mut().unwrap().pop();
@@ -108,7 +108,7 @@ fn answers_are_verified_and_lies_rejected() {
     lie(&|found| found["certificate"]["apexes"][10] = 400.into());
     lie(&|found| found["certificate"]["outward"] = false.into());
     folder.put("other.csv", csv(&torus([1.0, 0.0, 0.0], 40)));
-    folder.taut("verify surface.json other.csv").ends(1).says(&["Rejected: "]);
+    folder.taut("verify surface.json other.csv").ends(1).stdout_has(&["Rejected: "]);
 }
 
 #[test]
@@ -125,8 +125,8 @@ fn meshes_are_written_in_every_format_and_points_read_from_them() {
     }
     let text = "x,y,z\n1,0,0\n0,1,0\n0,0,1\n0,0,0\n";
     folder.put("corners.csv", text);
-    folder.taut("surface corners.csv -o corners.stl").ends(0).says(&["4 points in space"]);
-    folder.taut("surface corners.stl").ends(0).says(&["a closed surface\n"]);
+    folder.taut("surface corners.csv -o corners.stl").ends(0).stdout_has(&["4 points in space"]);
+    folder.taut("surface corners.stl").ends(0).stdout_has(&["a closed surface\n"]);
 }
 
 #[test]
@@ -146,10 +146,10 @@ fn normals_and_colors_go_with_their_points() {
 #[test]
 fn other_methods_and_open_sheets() {
     let folder = folder();
-    folder.taut("surface torus.csv --method thesis").ends(0).says(&["thesis\n", "verified"]);
-    folder.taut("surface torus.csv --method alpha").ends(0).says(&["alpha\n", "verified"]);
-    folder.taut("surface torus.csv --method alpha --alpha 0.4").ends(0).says(&["verified"]);
-    folder.taut("surface torus.csv --method hull").ends(0).says(&["hull\n", "verified"]);
+    folder.taut("surface torus.csv --method thesis").ends(0).stdout_has(&["thesis\n", "verified"]);
+    folder.taut("surface torus.csv --method alpha").ends(0).stdout_has(&["alpha\n", "verified"]);
+    folder.taut("surface torus.csv --method alpha --alpha 0.4").ends(0).stdout_has(&["verified"]);
+    folder.taut("surface torus.csv --method hull").ends(0).stdout_has(&["hull\n", "verified"]);
     let sheet: Vec<[f64; 3]> = (0..400)
         .map(|i| {
             let (x, y) = (f64::from(i % 20) / 10.0 - 1.0, f64::from(i / 20) / 10.0 - 1.0);
@@ -157,12 +157,12 @@ fn other_methods_and_open_sheets() {
         })
         .collect();
     folder.put("sheet.csv", csv(&sheet));
-    folder.taut("surface sheet.csv --open").ends(0).says(&[
+    folder.taut("surface sheet.csv --open").ends(0).stdout_has(&[
         "400 points in space: a surface\n",
         "1; with a boundary\n",
         "boundary loops",
     ]);
-    folder.taut("surface sheet.csv").ends(0).says(&["1; closed\n"]);
+    folder.taut("surface sheet.csv").ends(0).stdout_has(&["1; closed\n"]);
 }
 
 #[test]
@@ -175,7 +175,7 @@ fn options_of_other_methods_are_refused() {
         ("--method alpha --open", "--open is of --method tree, not of alpha"),
         ("--method thesis --closed", "--closed is of --method tree, not of thesis"),
     ] {
-        folder.taut(&format!("surface torus.csv {options}")).ends(2).complains(&[said]);
+        folder.taut(&format!("surface torus.csv {options}")).ends(2).stderr_has(&[said]);
     }
 }
 
@@ -185,7 +185,7 @@ fn bad_input_is_named_and_leaves_files_as_they_were() {
     folder.put("mesh.ply", "before");
     let refuse = |name: &str, text: &str, said: &[&str]| {
         folder.put(name, text);
-        folder.taut(&format!("surface {name} -o mesh.ply")).ends(2).complains(said);
+        folder.taut(&format!("surface {name} -o mesh.ply")).ends(2).stderr_has(said);
         assert_eq!(folder.text("mesh.ply"), "before");
     };
     refuse("nan.csv", "x,y,z\n0,0,0\n1,0,nan\n0,1,0\n", &["nan.csv", "row 2", "nan"]);
@@ -193,14 +193,14 @@ fn bad_input_is_named_and_leaves_files_as_they_were() {
     refuse("flat.csv", "x,y,z\n0,0,1\n1,0,1\n0,1,1\n1,1,1\n", &["flat.csv", "plane"]);
     refuse("one.csv", "x,y,z\n0,0,1\n", &["one.csv", "there is one point"]);
     refuse("mesh.glb", "glTF", &["mesh.glb", "glb files are written, not read"]);
-    folder.taut("surface torus.csv -o mesh.xyz").ends(2).complains(&["mesh.xyz", ".ply"]);
-    folder.taut("surface torus.csv -o mesh.png").ends(2).complains(&["--draw"]);
+    folder.taut("surface torus.csv -o mesh.xyz").ends(2).stderr_has(&["mesh.xyz", ".ply"]);
+    folder.taut("surface torus.csv -o mesh.png").ends(2).stderr_has(&["--draw"]);
     folder
         .taut("surface torus.csv --method thesis --epsilon 1")
         .ends(2)
-        .complains(&["epsilon", "1"]);
-    folder.taut("surface torus.csv --method alpha --alpha -1").ends(2).complains(&["alpha", "-1"]);
-    folder.taut("surface missing.csv").ends(2).complains(&["missing.csv"]);
+        .stderr_has(&["epsilon", "1"]);
+    folder.taut("surface torus.csv --method alpha --alpha -1").ends(2).stderr_has(&["alpha", "-1"]);
+    folder.taut("surface missing.csv").ends(2).stderr_has(&["missing.csv"]);
 }
 
 /// Rows that are left out as outliers are no part of what is certified, and the verdict says how many they are.
@@ -220,7 +220,7 @@ fn a_verdict_names_the_share_of_rows_left_out() {
     forged["certificate"]["points_hash"] =
         document(&folder.text("both.json"))["certificate"]["points_hash"].clone();
     folder.put("forged.json", forged.to_string());
-    folder.taut("verify forged.json both.csv").ends(0).says(&[
+    folder.taut("verify forged.json both.csv").ends(0).stdout_has(&[
         "through 800 of 1600 points in space; 800 (50 %) left out as outliers\n",
         "800 (50 %); proved: left out: nothing is claimed of them\n",
         "yes, of 800 of 1600 points; proved: ",

@@ -92,7 +92,7 @@ impl Run {
 
     /// Asserts that standard output holds each of `parts`.
     #[track_caller]
-    pub(crate) fn says(self, parts: &[&str]) -> Self {
+    pub(crate) fn stdout_has(self, parts: &[&str]) -> Self {
         for part in parts {
             assert!(self.out.contains(part), "no `{part}` in {self:#?}");
         }
@@ -101,7 +101,7 @@ impl Run {
 
     /// Asserts that there is one line of error that holds each of `parts`.
     #[track_caller]
-    pub(crate) fn complains(self, parts: &[&str]) -> Self {
+    pub(crate) fn stderr_has(self, parts: &[&str]) -> Self {
         assert!(self.err.starts_with("taut: ") && self.err.lines().count() == 1, "{self:#?}");
         for part in parts {
             assert!(self.err.contains(part), "no `{part}` in {self:#?}");

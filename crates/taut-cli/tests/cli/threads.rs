@@ -35,7 +35,7 @@ fn the_environment_sets_the_threads() {
     folder.shell("TAUT_THREADS=2 taut ball points.csv").ends(0);
     folder.shell("TAUT_THREADS= taut ball points.csv").ends(0);
     for wrong in ["none", "0", "1025"] {
-        folder.shell(&format!("TAUT_THREADS={wrong} taut ball points.csv")).ends(2).complains(&[
+        folder.shell(&format!("TAUT_THREADS={wrong} taut ball points.csv")).ends(2).stderr_has(&[
             "TAUT_THREADS",
             wrong,
             "from 1 to 1024",

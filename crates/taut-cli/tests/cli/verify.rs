@@ -21,7 +21,7 @@ fn doctor(folder: &TestFolder, change: impl Fn(&mut serde_json::Value)) {
 #[test]
 fn a_true_answer_is_proved_with_its_bracket() {
     let folder = solved();
-    let run = folder.taut("verify ball.json points.csv").ends(0).says(&[
+    let run = folder.taut("verify ball.json points.csv").ends(0).stdout_has(&[
         "Verified within a gap of ",
         ": ball of radius 1.41421356",
         " points in 2 dimensions\n",
@@ -38,16 +38,16 @@ fn a_true_answer_is_proved_with_its_bracket() {
 #[test]
 fn either_input_may_be_standard_input_but_not_both() {
     let folder = solved();
-    folder.pipe(folder.text("ball.json"), "verify - points.csv").ends(0).says(&["Verified"]);
-    folder.pipe(SQUARE, "verify ball.json -").ends(0).says(&["Verified"]);
-    folder.pipe("", "verify - -").ends(2).complains(&["only one"]);
+    folder.pipe(folder.text("ball.json"), "verify - points.csv").ends(0).stdout_has(&["Verified"]);
+    folder.pipe(SQUARE, "verify ball.json -").ends(0).stdout_has(&["Verified"]);
+    folder.pipe("", "verify - -").ends(2).stderr_has(&["only one"]);
 }
 
 #[test]
 fn changed_data_is_known_by_its_hash() {
     let folder = solved();
     folder.put("changed.csv", SQUARE.replace("1.5", "1.25"));
-    folder.taut("verify ball.json changed.csv").ends(1).says(&[
+    folder.taut("verify ball.json changed.csv").ends(1).stdout_has(&[
         "Rejected: changed.csv does not belong to ball.json",
         "hash",
         "data changed",
@@ -64,7 +64,7 @@ fn a_smaller_radius_leaves_a_point_outside() {
     let run = folder
         .taut("verify doctored.json points.csv")
         .ends(1)
-        .says(&["Rejected: points.csv, row 1: point 0 lies ", "outside"]);
+        .stdout_has(&["Rejected: points.csv, row 1: point 0 lies ", "outside"]);
     assert!(run.err.is_empty());
     assert_eq!(folder.taut("verify doctored.json points.csv -q").ends(1).out, "");
 }
@@ -76,14 +76,14 @@ fn a_larger_radius_breaks_the_gap_claimed() {
         let radius = &mut ball["answer"]["radius"];
         *radius = (radius.as_f64().unwrap() * 1.001).into();
     });
-    folder.taut("verify doctored.json points.csv").ends(1).says(&["Rejected", "gap"]);
+    folder.taut("verify doctored.json points.csv").ends(1).stdout_has(&["Rejected", "gap"]);
 }
 
 #[test]
 fn another_dimension_is_rejected() {
     let folder = solved();
     folder.put("space.csv", "0,0,0\n1,1,1\n");
-    folder.taut("verify ball.json space.csv").ends(1).says(&[
+    folder.taut("verify ball.json space.csv").ends(1).stdout_has(&[
         "Rejected: space.csv does not belong to ball.json: the center has 2 numbers, but the points have dimension 3",
     ]);
 }
@@ -92,22 +92,21 @@ fn another_dimension_is_rejected() {
 fn faults_of_the_answer_name_its_file() {
     let folder = solved();
     doctor(&folder, |ball| ball["certificate"]["multipliers"] = serde_json::json!([1.0]));
-    folder
-        .taut("verify doctored.json points.csv")
-        .ends(1)
-        .says(&["Rejected: doctored.json: the list of multipliers has 1 number, expected 2\n"]);
+    folder.taut("verify doctored.json points.csv").ends(1).stdout_has(&[
+        "Rejected: doctored.json: the list of multipliers has 1 number, expected 2\n",
+    ]);
     doctor(&folder, |ball| ball["answer"]["radius"] = (-1e-200).into());
     folder
         .taut("verify doctored.json points.csv")
         .ends(1)
-        .says(&["Rejected: doctored.json: the radius is -1e-200: "]);
+        .stdout_has(&["Rejected: doctored.json: the radius is -1e-200: "]);
 }
 
 #[test]
 fn points_that_are_no_numbers_are_bad_input_in_any_format() {
     let folder = solved();
     folder.put("nan.csv", SQUARE.replace("1.5", "NaN"));
-    folder.taut("verify ball.json nan.csv").ends(2).complains(&["nan.csv", "row 5", "`y`", "NaN"]);
+    folder.taut("verify ball.json nan.csv").ends(2).stderr_has(&["nan.csv", "row 5", "`y`", "NaN"]);
     folder.put(
         "nan.f64",
         [0.0, 1.0, 2.0, f64::NAN, 3.0, 3.0, 4.0, 4.0].map(f64::to_le_bytes).concat(),
@@ -115,11 +114,11 @@ fn points_that_are_no_numbers_are_bad_input_in_any_format() {
     folder
         .taut("verify ball.json nan.f64 --raw-dim 2 --raw-type f64")
         .ends(2)
-        .complains(&["nan.f64", "row 2", "column 1", "NaN"]);
+        .stderr_has(&["nan.f64", "row 2", "column 1", "NaN"]);
     folder.put("discs.csv", "x,y,r\n0,0,1\n5,0,2\n");
     folder.taut("ball discs.csv --balls -o discs.json").ends(0);
     folder.put("discs.csv", "x,y,r\n0,0,1\n5,0,-2\n");
-    folder.taut("verify discs.json discs.csv").ends(2).complains(&["row 2", "`r`", "-2"]);
+    folder.taut("verify discs.json discs.csv").ends(2).stderr_has(&["row 2", "`r`", "-2"]);
 }
 
 #[test]
@@ -128,14 +127,16 @@ fn a_loose_certificate_is_true_but_not_tight() {
     folder.taut("generate normal -n 200 -d 4 -o points.csv").ends(0);
     folder.taut("ball points.csv -o ball.json").ends(0);
     folder.taut("ball points.csv --epsilon 0.5 --method badoiu-clarkson -o loose.json").ends(0);
-    let gap =
-        folder.taut("verify loose.json points.csv").ends(0).says(&["Verified within a gap of "]);
+    let gap = folder
+        .taut("verify loose.json points.csv")
+        .ends(0)
+        .stdout_has(&["Verified within a gap of "]);
     assert!(!gap.out.contains("within a gap of 0"), "{gap:?}");
     folder.taut("verify loose.json points.csv --epsilon 0.9").ends(0);
     folder
         .taut("verify loose.json points.csv --epsilon 1e-9")
         .ends(1)
-        .says(&["Rejected: loose.json: a gap of ", "--epsilon 1e-9"]);
+        .stdout_has(&["Rejected: loose.json: a gap of ", "--epsilon 1e-9"]);
     folder.taut("verify ball.json points.csv --epsilon 1e-9").ends(0);
     for epsilon in ["-1", "NaN", "tiny"] {
         let run = folder.taut(&format!("verify ball.json points.csv --epsilon {epsilon}")).ends(2);
@@ -166,50 +167,53 @@ fn a_byte_order_mark_is_no_fault_and_a_second_form_is_one() {
         folder
             .taut("verify doctored.json points.csv")
             .ends(2)
-            .complains(&["doctored.json", "`note`"]);
+            .stderr_has(&["doctored.json", "`note`"]);
     }
     doctor(&folder, |ball| {
         let hash = &mut ball["certificate"]["points_hash"];
         *hash = format!("+{}", &hash.as_str().unwrap()[1..]).into();
     });
-    folder.taut("verify doctored.json points.csv").ends(2).complains(&["16 digits"]);
+    folder.taut("verify doctored.json points.csv").ends(2).stderr_has(&["16 digits"]);
 }
 
 #[test]
 fn no_file_commands_the_terminal() {
     let folder = solved();
     folder.put("other.json", "{\"schema\": 1, \"kind\": \"\\u001b[31mred\"}");
-    let run = folder.taut("verify other.json points.csv").ends(2).complains(&["[31mred"]);
+    let run = folder.taut("verify other.json points.csv").ends(2).stderr_has(&["[31mred"]);
     assert!(!run.err.contains('\u{1b}'));
     folder.put("named.csv", "x,\u{1b}[31my\n0,0\n1,NaN\n");
-    let run = folder.taut("ball named.csv").ends(2).complains(&["[31my"]);
+    let run = folder.taut("ball named.csv").ends(2).stderr_has(&["[31my"]);
     assert!(!run.err.contains('\u{1b}'));
 }
 
 #[test]
 fn what_is_no_answer_is_named() {
     let folder = solved();
-    folder.taut("verify points.csv ball.json").ends(2).complains(&[
+    folder.taut("verify points.csv ball.json").ends(2).stderr_has(&[
         "points.csv: not an answer of taut: it is no JSON object",
         "the answer comes first",
     ]);
     folder.put("bare.csv", "0,0\n1,1\n");
-    folder.taut("verify bare.csv ball.json").ends(2).complains(&["the answer comes first"]);
+    folder.taut("verify bare.csv ball.json").ends(2).stderr_has(&["the answer comes first"]);
     std::fs::create_dir(folder.path("folder")).unwrap();
-    folder.taut("verify folder points.csv").ends(2).complains(&["folder is a folder"]);
+    folder.taut("verify folder points.csv").ends(2).stderr_has(&["folder is a folder"]);
     folder.put("list.json", "[]");
     folder.put("word.json", "\"ball\"");
     folder.put("half.json", &folder.text("ball.json")[..40]);
     for file in ["list.json", "word.json", "half.json"] {
-        let run = folder.taut(&format!("verify {file} points.csv")).ends(2).complains(&[file]);
+        let run = folder.taut(&format!("verify {file} points.csv")).ends(2).stderr_has(&[file]);
         assert!(!run.err.contains("struct"), "{run:?}");
     }
     folder.put("other.json", "{\"schema\": 1, \"kind\": \"torus\"}");
-    folder.taut("verify other.json points.csv").ends(2).complains(&["other.json", "torus"]);
-    folder.taut("verify points.csv points.csv").ends(2).complains(&["points.csv", "not an answer"]);
-    folder.taut("verify missing.json points.csv").ends(2).complains(&["missing.json"]);
+    folder.taut("verify other.json points.csv").ends(2).stderr_has(&["other.json", "torus"]);
+    folder
+        .taut("verify points.csv points.csv")
+        .ends(2)
+        .stderr_has(&["points.csv", "not an answer"]);
+    folder.taut("verify missing.json points.csv").ends(2).stderr_has(&["missing.json"]);
     folder.put("binary.json", [0xff, 0xfe, 0x00]);
-    folder.taut("verify binary.json points.csv").ends(2).complains(&["binary.json"]);
+    folder.taut("verify binary.json points.csv").ends(2).stderr_has(&["binary.json"]);
 }
 
 /// One file read as points and as balls has two answers, both true: the report says of which inputs each is.

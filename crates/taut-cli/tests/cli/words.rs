@@ -23,21 +23,21 @@ const COMMANDS: [&str; 15] = [
 #[test]
 fn help_explains_every_command_with_an_example() {
     let folder = TestFolder::new();
-    let top = folder.taut("--help").ends(0).says(&["Exit: 0"]).out;
+    let top = folder.taut("--help").ends(0).stdout_has(&["Exit: 0"]).out;
     for command in COMMANDS {
         assert!(top.contains(&format!("  {command} ")), "{command}");
-        folder.taut(&format!("{command} --help")).ends(0).says(&[
+        folder.taut(&format!("{command} --help")).ends(0).stdout_has(&[
             "Usage: taut ",
             "Example: ",
             &format!("taut {command}"),
         ]);
     }
-    folder.taut("ball --help").ends(0).says(&[
+    folder.taut("ball --help").ends(0).stdout_has(&[
         "[default: 1e-9]",
         "TAUT_THREADS",
         "Exit: 0 reached",
     ]);
-    folder.taut("--version").ends(0).says(&[concat!("taut ", env!("CARGO_PKG_VERSION"))]);
+    folder.taut("--version").ends(0).stdout_has(&[concat!("taut ", env!("CARGO_PKG_VERSION"))]);
 }
 
 #[test]
@@ -62,7 +62,7 @@ fn formats_lists_what_is_read_and_written() {
 fn shells_complete_and_the_manual_has_a_page_for_each_command() {
     let folder = TestFolder::new();
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
-        folder.taut(&format!("completions {shell}")).ends(0).says(&[
+        folder.taut(&format!("completions {shell}")).ends(0).stdout_has(&[
             "taut",
             "epsilon",
             "max-passes",

@@ -53,7 +53,7 @@ const QUESTIONS_EACH: u64 = 24;
 const HALO_EACH: usize = 4 * LEAF_SIZE;
 
 /// The data that all cells share.
-pub(crate) struct Whole<'a, const D: usize, const V: usize> {
+pub(crate) struct SharedData<'a, const D: usize, const V: usize> {
     pub(crate) sites: &'a [[f64; D]],
     pub(crate) index: &'a Index<D>,
     /// Affinely independent sites.
@@ -99,7 +99,7 @@ impl SiteSet {
     }
 }
 
-impl<const D: usize, const V: usize> Whole<'_, D, V> {
+impl<const D: usize, const V: usize> SharedData<'_, D, V> {
     /// Triangulates the cell of the sites `own`, which begin and end at leaves of the index. `None` if this or another
     /// cell gave up, as it depends on most of the other sites.
     pub(crate) fn triangulate<G: Geometry<D, V>>(
@@ -258,7 +258,7 @@ fn directions<const D: usize>() -> impl Iterator<Item = [f64; D]> {
 
 /// A cell while its simplices are being shown to be empty.
 struct Certifying<'a, const D: usize, const V: usize, G: Geometry<D, V>> {
-    whole: &'a Whole<'a, D, V>,
+    whole: &'a SharedData<'a, D, V>,
     own: Range<u32>,
     here: SiteSet,
     sites: Vec<u32>,

@@ -221,7 +221,7 @@ impl<'a> Constraining<'a> {
     }
 
     /// The way from one site to the other, or the way back and `true`: looks around both at once, so that a site of
-    /// many neighbors is not looked around in vain.
+    /// many neighbors is not searched without result.
     fn leave(&self, from: u32, to: u32) -> (Exit, bool) {
         let mut here = self.around[from as usize];
         let mut there = self.around[to as usize];

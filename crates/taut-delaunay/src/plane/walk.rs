@@ -8,7 +8,7 @@
 
 use taut_predicates::{Exact, MulAdd};
 
-use super::seen::{Seen, View, minor};
+use super::seen::{PointOffset, View, minor};
 use crate::kernel::Counters;
 use crate::simplex::{GHOST, Simplex, decode};
 
@@ -17,9 +17,9 @@ use crate::simplex::{GHOST, Simplex, decode};
 pub(super) struct Found {
     pub(super) triangle: u32,
     pub(super) facet: usize,
-    pub(super) a: Seen,
-    pub(super) b: Seen,
-    pub(super) d: Seen,
+    pub(super) a: PointOffset,
+    pub(super) b: PointOffset,
+    pub(super) d: PointOffset,
     pub(super) ba: f64,
     pub(super) ad: f64,
     pub(super) db: f64,
@@ -79,8 +79,8 @@ pub(super) const LAST_FACET: [usize; 4] = [2, 0, 1, 0];
 #[inline(always)]
 fn strictly_right<M: MulAdd>(
     view: &View<'_>,
-    u: (u32, Seen),
-    v: (u32, Seen),
+    u: (u32, PointOffset),
+    v: (u32, PointOffset),
     uv: f64,
     exact: &mut Exact,
 ) -> bool {

@@ -17,7 +17,7 @@ pub(super) struct Canvas {
     /// True if images are written into the body; else they are kept beside it, to be laid over what was written before the first.
     pub(super) embeds: bool,
     /// Images with their places.
-    pub(super) images: Vec<Laid>,
+    pub(super) images: Vec<PlacedImage>,
     /// Length of the body before the first image.
     cut: usize,
     /// Width and height of the document, pixels.
@@ -30,7 +30,7 @@ pub(super) struct Canvas {
 
 /// An image and where it lies.
 #[cfg_attr(not(feature = "png"), expect(dead_code, reason = "only PNG lays images itself"))]
-pub(crate) struct Laid {
+pub(crate) struct PlacedImage {
     pub(crate) image: Image,
     /// Its upper left corner, and its width and height, in units of the picture.
     pub(crate) at: [f64; 2],
@@ -166,7 +166,7 @@ impl Canvas {
             if self.images.is_empty() {
                 self.cut = self.body.len();
             }
-            self.images.push(Laid { image, at, size });
+            self.images.push(PlacedImage { image, at, size });
         }
     }
 

@@ -18,7 +18,7 @@ use crate::{Figure, Style};
 pub(crate) use camera::{EYE_DISTANCE, V3, add, cross, dot};
 use canvas::Canvas;
 #[cfg(feature = "png")]
-pub(crate) use canvas::Laid;
+pub(crate) use canvas::PlacedImage;
 pub(crate) use frame::Chrome;
 pub(crate) use space::{WIRED_SPHERES_MAX, legend};
 pub(crate) use stage::{Stage, finite, stage};
@@ -52,7 +52,7 @@ pub(crate) fn draw(figure: &Figure, chrome: Chrome) -> (String, [f64; 2], Vec<Ho
 #[cfg(feature = "png")]
 pub(crate) struct Layers {
     pub(crate) under: String,
-    pub(crate) images: Vec<Laid>,
+    pub(crate) images: Vec<PlacedImage>,
     pub(crate) over: String,
 }
 

@@ -49,14 +49,14 @@ pub(super) fn draw(plot: &Plot, chrome: Chrome, canvas: &mut Canvas) {
             Level::AtX { x, .. } => Some(*x),
             Level::AtY { .. } => None,
         }));
-    let mut y = Ruler::new(plot.y_scale, y_values, [room.bottom, room.top]);
+    let mut y = AxisScale::new(plot.y_scale, y_values, [room.bottom, room.top]);
     // Bars stand on the axis.
     if !plot.bars.is_empty() && plot.y_scale == Scale::Linear {
         y.span.low = y.span.low.max(0.0);
     }
     let y_ticks = y.ticks(ticks_along(room.bottom - room.top, 50.0));
     room.left += frame::width_left(&plot.y, &y_ticks);
-    let x = Ruler::new(plot.x_scale, x_values, [room.left, room.right]);
+    let x = AxisScale::new(plot.x_scale, x_values, [room.left, room.right]);
     let x_ticks = x.ticks(ticks_along(room.right - room.left, 85.0));
     frame::axes(canvas, room, [&plot.x, &plot.y], [&x.span, &y.span], [&x_ticks, &y_ticks]);
 
@@ -148,14 +148,14 @@ fn hover(name: String, value: &[f64; 2], at: [f64; 2]) -> Hover {
 }
 
 /// An axis of either scale.
-struct Ruler {
+struct AxisScale {
     scale: Scale,
     span: Span,
     /// True if all values are whole numbers: then so are the ticks, as half a pass says nothing.
     whole: bool,
 }
 
-impl Ruler {
+impl AxisScale {
     fn new(scale: Scale, values: impl Iterator<Item = f64> + Clone, pixels: [f64; 2]) -> Self {
         let whole = values.clone().all(|v| v.fract() == 0.0);
         let (unit, [low, high]) = match scale {
@@ -177,7 +177,7 @@ impl Ruler {
                 (1.0, padded(low, high, 0.03))
             }
         };
-        Ruler { scale, span: Span { unit, low, high, pixels }, whole }
+        AxisScale { scale, span: Span { unit, low, high, pixels }, whole }
     }
 
     /// The pixel of a number; none for what is not finite.

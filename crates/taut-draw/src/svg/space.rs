@@ -38,7 +38,7 @@ const RIMS_MAX: usize = 50;
 const HIDDEN_GROUP: u8 = 5;
 
 /// Something to paint, and where it is.
-struct Placed {
+struct PaintItem {
     depth: f64,
     tone: Tone,
     hidden: bool,
@@ -46,7 +46,7 @@ struct Placed {
 }
 
 /// A scene as an eye sees it.
-struct Seen<'a> {
+struct ViewedScene<'a> {
     scene: &'a Scene3,
     stage: &'a Stage,
     camera: &'a Camera,
@@ -136,7 +136,8 @@ fn panels(scene: &Scene3, panels: &[Panel], chrome: Chrome, canvas: &mut Canvas)
     for (panel, cover) in panels.iter().zip(&covers) {
         let mut pieces = Vec::new();
         for layer in &scene.layers {
-            let view = Seen { scene, stage: &stage, camera: &panel.camera, cover: cover.as_ref() };
+            let view =
+                ViewedScene { scene, stage: &stage, camera: &panel.camera, cover: cover.as_ref() };
             collect(layer, &view, &mut pieces, &mut canvas.hovers);
         }
         paint_all(canvas, pieces, cover.is_some());
@@ -145,7 +146,7 @@ fn panels(scene: &Scene3, panels: &[Panel], chrome: Chrome, canvas: &mut Canvas)
 }
 
 /// From back to front.
-fn paint_all(canvas: &mut Canvas, mut pieces: Vec<Placed>, on_surface: bool) {
+fn paint_all(canvas: &mut Canvas, mut pieces: Vec<PaintItem>, on_surface: bool) {
     // A stable sort: equal depths keep the order of the layers, so the bytes are the same each time.
     pieces.sort_by(|a, b| a.depth.total_cmp(&b.depth));
     let many = pieces.len() > 2000;
@@ -153,7 +154,7 @@ fn paint_all(canvas: &mut Canvas, mut pieces: Vec<Placed>, on_surface: bool) {
     let discs = pieces.iter().filter(|p| matches!(p.piece, Piece::Disc { .. })).count();
     let rimless = on_surface && discs > RIMS_MAX;
     let mut group: Option<(Tone, u8)> = None;
-    for Placed { depth, tone, hidden, piece } in &pieces {
+    for PaintItem { depth, tone, hidden, piece } in &pieces {
         let bucket =
             if *hidden { HIDDEN_GROUP } else { ((depth + 1.0) / 2.0 * 5.0).clamp(0.0, 4.0) as u8 };
         if group != Some((*tone, bucket)) {
@@ -289,12 +290,12 @@ fn draw_spheres(
 
 fn collect(
     layer: &Layer3,
-    &Seen { scene, stage, camera, cover }: &Seen<'_>,
-    pieces: &mut Vec<Placed>,
+    &ViewedScene { scene, stage, camera, cover }: &ViewedScene<'_>,
+    pieces: &mut Vec<PaintItem>,
     hovers: &mut Vec<Hover>,
 ) {
     let mut push = |depth, hidden, piece| {
-        pieces.push(Placed { depth, tone: layer.tone, hidden, piece });
+        pieces.push(PaintItem { depth, tone: layer.tone, hidden, piece });
     };
     let hidden = |v: V3| cover.is_some_and(|cover| cover.hides(camera, v));
     let turned = |p: &V3| camera.turn(stage.place(p));

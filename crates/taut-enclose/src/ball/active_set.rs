@@ -8,8 +8,8 @@
 //! negative multiplier on the way. An item that depends on the support is exchanged: weight moves along the null
 //! direction until a multiplier is zero.
 //! *Guarantee.* The value never falls. Pivots are about |S| and a few on ordinary data.
-//! *Trap.* On near-copies of points, rounding can make pairs swap for ever. When the value has not risen since the
-//! last entry, the factor is rebuilt; when that does not help, items that keep entering in vain are barred until it
+//! *Trap.* On near-copies of points, rounding can make pairs swap endlessly. When the value has not risen since the
+//! last entry, the factor is rebuilt; when that does not help, items that keep entering without progress are barred until it
 //! rises again. Choosing the least index instead (Bland's rule) takes eight times the pivots on cube vertices.
 //! *Balls.* For a fixed R, minimizing maxᵢ |c − cᵢ|² + 2Rrᵢ − rᵢ² is the same problem with another b; see
 //! [`super::core_set`] for the steps in R.

@@ -16,7 +16,7 @@ pub(super) struct Candidate {
     pub(super) found: PassResult,
 }
 
-/// The result of a method, in the units of its scan.
+/// The result of a method, in the units of its reader.
 pub(super) struct Outcome {
     best: Option<(f64, Candidate)>,
     pub(super) stop: Option<Stop>,

@@ -82,7 +82,7 @@ fn unscale_up(value: f64, scale: f64) -> f64 {
 }
 
 /// The center as it will be returned, in the units of the source. Where it is not the one the pass was made from, as
-/// subnormal coordinates and points far from the origin of a scaled scan round it, one more pass is made from it.
+/// subnormal coordinates and points far from the origin of a scaled reader round it, one more pass is made from it.
 fn settle_center(reader: &mut ItemReader<'_>, best: &mut Candidate) -> Result<Center, Error> {
     let outside = reader.outside(&best.center);
     let inside = reader.inside(&outside);
@@ -111,7 +111,7 @@ fn sort_by_id(best: &mut Candidate) {
 /// Rows that are measured together: fixed, so that sums do not depend on threads.
 const ROWS_AT_ONCE: usize = 16;
 
-/// Items measured from the returned center in double-double; in the units of the scan.
+/// Items measured from the returned center in double-double; in the units of the reader.
 struct Measurement {
     items: Vec<Measured>,
     /// Σ wᵢ(cᵢ − c), coordinate by coordinate.

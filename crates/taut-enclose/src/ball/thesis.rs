@@ -12,7 +12,7 @@
 //! c = Σ λᵢcᵢ, with as radius what holds X from there, and the stop asks for the proved gap, too. For balls the
 //! farthest is the one with the largest |c − cᵢ| + rᵢ. Clarabel stands in for SDPT3.
 //! *Trap.* A conic solver ends some way above rounding, here at gaps of 1e-13 to 1e-11. What it cannot tell apart must
-//! not be added one item a pass for ever: when everything reaches as far as X does, up to the solver's own gap on X, it
+//! not be added one item a pass endlessly: when everything reaches as far as X does, up to the solver's own gap on X, it
 //! is asked for all it can give, and then the method stops with [`Stop::Rounding`].
 //! *Evidence.* The thesis names Bădoiu and Clarkson for the steps of the fast variant, not its own Algorithm 10. With
 //! the start and the lengths of Algorithm 10 they meet 29 or 30 points in 85 steps on the USPS data, as the thesis

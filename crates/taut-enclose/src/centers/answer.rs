@@ -17,7 +17,7 @@ const MEASURED_ITEMS_MAX: usize = 64;
 const SQUARE_MIN: f64 = 1e-140;
 
 /// The statements about the items.
-pub(super) struct Answered {
+pub(super) struct ItemReport {
     pub(super) centers: Vec<Vec<f64>>,
     /// The upper bound, not below any reach, exactly or in plain `f64`.
     pub(super) radius: f64,
@@ -32,7 +32,7 @@ pub(super) fn answer<P: Position>(
     centers: &[P],
     z: usize,
     assignment: bool,
-) -> Result<Answered, Error> {
+) -> Result<ItemReport, Error> {
     let mut is_used = vec![false; centers.len()];
     cloud.assign(centers, |_, center, _| is_used[center] = true);
     let used =
@@ -83,7 +83,7 @@ pub(super) fn answer<P: Position>(
         numbers.resize(cloud.len(), 0);
         cloud.assign(&inside, |item, center, _| numbers[cloud.rows[item] as usize] = center as u32);
     }
-    Ok(Answered { centers: outside, radius, outliers, assignment: numbers })
+    Ok(ItemReport { centers: outside, radius, outliers, assignment: numbers })
 }
 
 /// Returns how far an item reaches from the nearest center, in the units of the rows: the larger of what is exact, rounded up, and what

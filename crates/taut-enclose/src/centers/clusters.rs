@@ -1,10 +1,10 @@
 //! A part of a coloring: items of the core-set in k clusters, and what each further item would do to each of them.
 //!
-//! *State.* The core-set X; clusters 1…used, each with its items, their exact ball, and its guests: the items of X that fit into
+//! *State.* The core-set X; clusters 1…used, each with its items, their exact ball, and its feasible items: those of X that fit into
 //! it, with the radius of the ball with each, which is below the threshold; which items are left out.
-//! *Guests, cheapest first.* An item inside leaves the radius as it is. One too far from the new item, or for which
+//! *Feasible items, cheapest first.* An item inside leaves the radius as it is. One too far from the new item, or for which
 //! (D² + r²)/2D, a lower bound on the radius of a ball that holds the old one's points and one at distance D > r, is too large,
-//! is pruned: it is no guest of the cluster nor of any larger one. For the others the ball is made.
+//! is pruned: it is infeasible for the cluster and for any larger one. For the others the ball is made.
 //! *Choice.* The item that fits in the fewest clusters; of equals, the one that makes them grow most. Items that fit in none
 //! need an empty cluster each, if no two of them fit in one: a clique.
 
@@ -276,7 +276,7 @@ impl<P: Position> Clusters<P> {
         }
     }
 
-    /// A clique of homeless items, the largest of some greedy ones; the search ends with one of more than `capacity` items.
+    /// A clique of items that fit in no cluster, the largest of some greedy ones; the search ends with one of more than `capacity` items.
     fn find_clique(&mut self, capacity: usize) {
         let mut clique = std::mem::take(&mut self.clique);
         clique.clear();
@@ -293,7 +293,7 @@ impl<P: Position> Clusters<P> {
         self.clique = clique;
     }
 
-    /// Where no ball below the threshold holds all homeless items, blames some of which that is true.
+    /// Where no ball below the threshold holds all items that fit in no cluster, adds some of which that is true to the conflict.
     fn refute_last_cluster(&mut self) {
         let mut ball = Ball::of_one(&self.items, self.unplaced[0]);
         for at in 1..self.unplaced.len() {
@@ -308,7 +308,7 @@ impl<P: Position> Clusters<P> {
         }
     }
 
-    /// The levels of decisions on which the dead end that the last survey found rests.
+    /// The levels of decisions on which the dead end that the last call of `examine` found rests.
     pub(super) fn conflict(&mut self) -> Levels {
         let mut levels = Levels::default();
         if self.conflicting.is_empty() {

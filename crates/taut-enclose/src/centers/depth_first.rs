@@ -2,7 +2,7 @@
 //!
 //! *Idea.* A [`State`] is an oracle that knows what fits where: for free balls ([`super::clusters`]) or for balls with their
 //! centers at rows ([`super::rows`]). A [`Path`] holds the nodes above the present one. [`super::subsearch`] has a path of its own,
-//! because it jumps back over decisions and can be cut into several walks.
+//! because it jumps back over decisions and can be cut into several subsearches.
 
 /// Where an item may go.
 #[derive(Clone, Copy, Debug, PartialEq)]

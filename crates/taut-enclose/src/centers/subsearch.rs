@@ -1,11 +1,11 @@
-//! A depth-first walk through a tree of decisions over a core-set that grows, and how it is cut into several.
+//! A depth-first search through a tree of decisions over a core-set that grows, and how it is cut into several.
 //!
 //! *State.* The decisions that stay (the path), those that are to be undone (frames, with what else could be decided there), and
 //! the clusters that all of them make ([`super::clusters`]).
 //! *Backjumps.* A dead end rests on some of the decisions that led to it: those about the items that leave no room for others.
 //! Where one is not among these, its other choices would end the same way and are not tried.
-//! *Cut.* At the first frame that has choices left, each becomes a walk of its own; what was decided up to there stays for good.
-//! *Guarantee.* When a walk has ended, no balls below its threshold hold its core-set with the decisions of its path that the
+//! *Cut.* At the first frame that has choices left, each becomes a subsearch of its own; what was decided up to there stays for good.
+//! *Guarantee.* When a subsearch has ended, no balls below its threshold hold its core-set with the decisions of its path that the
 //! dead end rests on. A larger core-set and a smaller threshold do not change that.
 
 use std::collections::HashSet;
@@ -39,7 +39,7 @@ pub(super) struct Task<'c, P> {
 /// A decision that stays: an item of the cloud and where it is.
 type Decision = (u32, Place);
 
-/// A walk under way.
+/// A subsearch in progress.
 #[derive(Clone)]
 pub(super) struct Subsearch<'c, P> {
     task: &'c Task<'c, P>,
@@ -66,11 +66,11 @@ struct Frame<P> {
     tried: Vec<usize>,
     /// The levels that its failed children rest on, but for its own level.
     conflict: Levels,
-    /// True if other walks have some of its children.
+    /// True if other subsearches have some of its children.
     is_shared: bool,
 }
 
-/// The way in which a part of a walk ended.
+/// The way in which a part of a subsearch ended.
 pub(super) enum End {
     /// All that the path leads to is refuted, by decisions at these levels of it.
     Refuted(Levels),
@@ -78,7 +78,7 @@ pub(super) enum End {
     Done,
     /// There is more to do.
     Open,
-    /// The core-set has grown, and it is time to start anew.
+    /// The core-set has grown, and it is time to start again.
     Grown,
 }
 
@@ -238,7 +238,7 @@ impl<'c, P: Position> Subsearch<'c, P> {
         let seen = Incumbent { centers, radius };
         self.offer(&if is_near { improve(cloud, seen, k, z, monitor)? } else { seen });
         if self.state.is_too_large() {
-            // The next survey tells.
+            // The next call of `examine` decides.
             return Ok(true);
         }
         let wanted = self.state.outliers_left().saturating_add(1) as usize;
@@ -273,7 +273,7 @@ impl<'c, P: Position> Subsearch<'c, P> {
         self.best.radius / (1.0 + self.gap)
     }
 
-    /// Returns true if the first decisions of this walk are these.
+    /// Returns true if the first decisions of this subsearch are these.
     pub(super) fn begins_with(&self, decisions: &[Decision]) -> bool {
         self.path.starts_with(decisions)
     }
@@ -291,7 +291,7 @@ impl<'c, P: Position> Subsearch<'c, P> {
         Some(self.path.len() + self.frames.iter().position(has_choices)?)
     }
 
-    /// Gives up the choices left at the first decision that has any, to a walk of its own.
+    /// Gives up the choices left at the first decision that has any, to a subsearch of its own.
     pub(super) fn cut(&mut self) -> Option<Self> {
         let above = self.first_choice()? - self.path.len();
         let mut other = self.clone();

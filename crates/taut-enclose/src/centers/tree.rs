@@ -5,9 +5,9 @@
 //! radius so far. Where that is impossible, τ is a lower bound. Where it succeeds, the balls are looked at from all items: σ may
 //! get smaller, and the farthest item joins X. The item with the fewest colors left is colored next ([`super::clusters`]).
 //! ε comes down in steps, 0.1, 0.05, …: each step that ends has proved a gap, and leaves a better σ and X to the next.
-//! *Restarts.* An early choice on a small X may be a poor one: while X grows, the tree starts anew after 200 nodes, then 400, ….
-//! *Threads.* A tree that is not small is cut into up to [`SUBSEARCH_COUNT`] walks ([`super::subsearch`]), which go on side by side for [`NODES_PER_ROUND`] nodes
-//! each, knowing nothing of one another; then all learn what each has found, in the order of the walks, those that a dead
+//! *Restarts.* An early choice on a small X may be a poor one: while X grows, the tree starts again after 200 nodes, then 400, ….
+//! *Threads.* A tree that is not small is cut into up to [`SUBSEARCH_COUNT`] subsearches ([`super::subsearch`]), which go on side by side for [`NODES_PER_ROUND`] nodes
+//! each, knowing nothing of one another; then all learn what each has found, in the order of the subsearches, those that a dead
 //! end of another one refutes are dropped, and others are cut in their place. None of this knows how many threads there are.
 //! *Guarantee.* σ ≤ (1 + ε)·σ*, unless the nodes run out; then the gap of the last step that ended. The same on every run and for
 //! any number of threads.
@@ -40,11 +40,11 @@ const LAST_BUT_ONE: f64 = 0.03;
 const FIRST_RUN: u64 = 200;
 /// A tree with more nodes is cut.
 const UNCUT_NODES_MAX: u64 = 4000;
-/// This many walks go side by side, enough to keep the cores of a large machine busy. On 11 to 15 centers of cities 16
+/// This many subsearches go side by side, enough to keep the cores of a large machine busy. On 11 to 15 centers of cities 16
 /// to 32 of them, and 500 to 1000 nodes of each, serve equally well: a tree has about as many nodes as without cuts,
 /// and no fewer with shorter rounds.
 const SUBSEARCH_COUNT: usize = 24;
-/// A walk goes through this many nodes until all learn from one another.
+/// A subsearch visits this many nodes until all learn from one another.
 const NODES_PER_ROUND: u64 = 1000;
 
 pub(super) struct SearchResult<P> {
@@ -186,7 +186,7 @@ impl<P: Position> Search<'_, P> {
                 return Err(Halt::Budget);
             }
             let nodes_each = nodes.min(left);
-            // Only a tree that is not cut can tell at each node that it is time to start anew.
+            // Only a tree that is not cut can tell at each node that it is time to start again.
             let run_each = if subsearches.len() == 1 { run } else { u64::MAX };
             let ends: Vec<End> = subsearches
                 .par_iter_mut()
@@ -237,7 +237,7 @@ impl<P: Position> Search<'_, P> {
     }
 }
 
-/// Cuts walks where they have choices nearest to the root, until there are enough.
+/// Cuts subsearches where they have choices nearest to the root, until there are enough.
 fn cut<P: Position>(subsearches: &mut Vec<Subsearch<'_, P>>) {
     while subsearches.len() < SUBSEARCH_COUNT {
         let choices = subsearches.iter().enumerate();

@@ -29,7 +29,7 @@ use super::working_set::WorkingSet;
 use super::{EllipsoidMethod, EllipsoidOptions};
 use crate::Error;
 
-/// The whitener is made anew from the weights after this many steps: updates add up their rounding.
+/// The whitener is made again from the weights after this many steps: updates add up their rounding.
 const STEPS_PER_REFRESH: u64 = 64;
 /// A pass lists at most this many points near the border for the proof.
 const LISTED_POINTS_MAX: usize = 1024;

@@ -1,4 +1,4 @@
-//! The ellipsoid of a pool by an interior-point method: for pools of which a model would need thousands of exchanges.
+//! The ellipsoid of a working set by an interior-point method: for working sets of which a model would need thousands of exchanges.
 //!
 //! *Problem.* Points wᵢ = (yᵢ, 1) that lie on an ellipsoid but for rounding: every set of p = m(m + 1)/2 of them is
 //! nearly optimal, and an active set walks through a great many.
@@ -36,7 +36,7 @@ const STEP_FRACTION: f64 = 0.98;
 /// One task multiplies this many columns of the normal matrix: fixed, so that the result does not depend on threads.
 const TILE_COLUMNS: usize = 64;
 
-/// Replaces the multipliers of a pool by nearly optimal ones, p − 1 at most; a gap of `tolerance` is good enough.
+/// Replaces the multipliers of a working set by nearly optimal ones, p − 1 at most; a gap of `tolerance` is good enough.
 pub(super) fn solve(
     working_set: &mut WorkingSet,
     whitener: &mut Whitener,

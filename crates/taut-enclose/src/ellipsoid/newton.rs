@@ -1,11 +1,11 @@
-//! The ellipsoid of a pool of points: Newton's method on the dual, each quadratic model solved exactly.
+//! The ellipsoid of a working set of points: Newton's method on the dual, each quadratic model solved exactly.
 //!
 //! *Problem.* Points p₁…p_k, m = d + 1: multipliers u ≥ 0 that maximize f(u) = ln det Σ uᵢqᵢqᵢ′ − m·Σuᵢ, qᵢ = (pᵢ, 1).
 //! Its maximizer sums to 1 by itself, and is that of the D-optimal design, the dual of the ellipsoid.
 //! *Idea.* In coordinates in which Σ uᵢwᵢwᵢ′ = 1 the second-order model of f is a non-negative least squares ([`nnls`]),
 //! solved from the points in use; then a step towards its solution, as long as f rises.
 //! *Guarantee.* f never falls. Near the optimum the number of right digits doubles with each step, degenerate or not:
-//! five to seven steps from uniform multipliers, one to three from those of a smaller pool.
+//! five to seven steps from uniform multipliers, one to three from those of a smaller working set.
 //! *Trap.* The largest leverage does not fall with every step: the best multipliers are kept.
 //! *Reference.* Sun and Freund, Operations Research 52(5), 2004, and Bowman and Heath, Math. Prog. Comp. 15, 2023, take
 //! Newton steps on the face of the points in use and drop one point at a time; here the face is part of each model.
@@ -26,7 +26,7 @@ pub(super) const REBASE_TOLERANCE: f64 = 0.1;
 const GRADIENT_RATIO_MIN: f64 = 0.02;
 /// Where N is nearer to 1 than this, the whole step is taken without a line search.
 const WHOLE_STEP: f64 = 0.2;
-/// After this many steps rounding is what is left; hard pools have needed thirty.
+/// After this many steps rounding is what is left; hard working sets have needed thirty.
 const STEPS_MAX: usize = 200;
 /// Of smaller gaps than [`SMALL_GAP`], this many steps that do not improve the best leverage show that it is the best.
 const STEPS_WITHOUT_PROGRESS_MAX: usize = 3;
@@ -53,9 +53,9 @@ impl Tolerance {
     pub(super) const NONE: Self = Tolerance { easy: 0.0, hard: 0.0 };
 }
 
-/// Improves the multipliers of a pool until its gap is at most the tolerance, or rounding is in the way.
+/// Improves the multipliers of a working set until its gap is at most the tolerance, or rounding is in the way.
 ///
-/// Ends with the whitener of the multipliers, and says by what factor each |y|² may exceed d in the pool.
+/// Ends with the whitener of the multipliers, and says by what factor each |y|² may exceed d in the working set.
 pub(super) fn solve(
     working_set: &mut WorkingSet,
     whitener: &mut Whitener,

@@ -6,7 +6,7 @@
 //! *Idea.* Lawson and Hanson's active set with a triangular factor of H over the points in use. The gradient is
 //! gᵢ = bᵢ − wᵢ′Nwᵢ with the m × m matrix N = Σ vⱼwⱼwⱼ′: one sweep prices thousands of points without a row of H. Each
 //! sweep gives a batch, whose members are priced again, exactly, when their turn comes.
-//! *Guarantee.* The model rises with every step. At the end no point of the pool has a gradient above the tolerance.
+//! *Guarantee.* The model rises with every step. At the end no point of the working set has a gradient above the tolerance.
 //! *Trap.* A point whose column depends on those in use (a copy, or one of more than m(m + 1)/2) has no pivot. It enters
 //! by an exact exchange: weight moves to it along the dependence, on which the model is linear, until another leaves.
 //! *Trap.* The answer of a model may need thousands of exchanges where points lie on an ellipsoid up to rounding:
@@ -40,7 +40,7 @@ const GUESSED_START_MIN: usize = 300;
 pub(super) enum Outcome {
     /// Solved: the step to take.
     Solved(Step),
-    /// More steps than a model of this size should need: the caller has another solver for such pools.
+    /// More steps than a model of this size should need: the caller has another solver for such working sets.
     Stuck,
 }
 
@@ -52,7 +52,7 @@ pub(super) struct Step {
     pub(super) matrix: Vec<f64>,
 }
 
-/// Solves the model over the pool `whitened`, from the multipliers `u`, until no gradient exceeds `tolerance`; gives up
+/// Solves the model over the working set `whitened`, from the multipliers `u`, until no gradient exceeds `tolerance`; gives up
 /// after as many exchanges and pivots as `patience` says.
 pub(super) fn solve(
     dim: usize,
@@ -311,7 +311,7 @@ impl<'a> ActiveSet<'a> {
         moments(self.dim, &blocks, &weights)
     }
 
-    /// gᵢ = bᵢ − wᵢ′Nwᵢ for all points of the pool.
+    /// gᵢ = bᵢ − wᵢ′Nwᵢ for all points of the working set.
     fn price(&self, matrix: &[f64]) -> Vec<f64> {
         let (dim, m) = (self.dim, self.dim + 1);
         // With N = [[A, n], [n′, ν]]: w′Nw = y′(Ty + 2n) + ν, T the lower triangle of A, doubled beside the diagonal.

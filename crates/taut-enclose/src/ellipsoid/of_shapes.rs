@@ -1,10 +1,10 @@
-//! The minimum volume enclosing ellipsoid of balls or ellipsoids: pools of touching points.
+//! The minimum volume enclosing ellipsoid of balls or ellipsoids: working sets of touching points.
 //!
 //! *Problem.* Items {m + v : vv′ ⪯ S}: the ellipsoid of least volume that encloses them all.
 //! *Idea.* It is that of the points of all items, of which there is no end; but the methods for points only ask who lies
-//! outside. So the pool holds points of items, each known by its item and a direction; its ellipsoid is found as for
-//! points ([`newton`](super::newton)), a pass asks every item for its farthest point ([`pass`]), those outside join the pool, and so
-//! on until none is outside by more than the wanted gap. The multipliers of the pool prove the bound.
+//! outside. So the working set holds points of items, each known by its item and a direction; its ellipsoid is found as for
+//! points ([`newton`](super::newton)), a pass asks every item for its farthest point ([`pass`]), those outside join the working set, and so
+//! on until none is outside by more than the wanted gap. The multipliers of the working set prove the bound.
 //! *Guarantee.* Lower bounds never fall. All items are brought once to a frame in which a sample of them is round, with
 //! twice the digits; there, neither units nor the ratio of axes matter.
 //! *Cost.* O(r³) for an item that may reach outside, O(r²) for any other, in each of a dozen passes or two.

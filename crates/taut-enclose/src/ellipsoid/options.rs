@@ -9,7 +9,7 @@ use crate::Error;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum EllipsoidMethod {
-    /// Pools of far points, and Newton's method on the dual of each: the best, and the default.
+    /// Working sets of far points, and Newton's method on the dual of each: the best, and the default.
     #[default]
     Newton,
     /// Algorithm 3 of the thesis: at most 2d points of which the ellipsoid is no more than d²ᵈ times too small.

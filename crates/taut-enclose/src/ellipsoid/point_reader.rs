@@ -166,7 +166,11 @@ impl<'a> PointReader<'a> {
 
     /// One pass that takes the rows with it whose |M(x − c)|² is above a threshold: of each block at most a share of its
     /// rows and a few, the farthest. `None` where a square is no `f64`.
-    pub(super) fn take(&mut self, query: Query<'_>, share: f64) -> Result<Option<Taken>, Error> {
+    pub(super) fn take(
+        &mut self,
+        query: Query<'_>,
+        share: f64,
+    ) -> Result<Option<TakenRows>, Error> {
         self.begin_pass();
         let first = self.hash.is_none();
         let reports = map_blocks(self.source, self.monitor, |row, rows| match rows {
@@ -177,7 +181,7 @@ impl<'a> PointReader<'a> {
             let hashes = reports.iter().filter_map(|report| report.1);
             self.hash = Some(PointsHash::of_blocks(self.len(), self.dim(), hashes));
         }
-        let mut all = Taken { ids: vec![], rows: vec![], above: query.above };
+        let mut all = TakenRows { ids: vec![], rows: vec![], above: query.above };
         for (taken, _) in reports {
             let Some(taken) = taken else { return Ok(None) };
             all.ids.extend(taken.ids);
@@ -189,7 +193,7 @@ impl<'a> PointReader<'a> {
 }
 
 /// Rows that a pass took with it.
-pub(super) struct Taken {
+pub(super) struct TakenRows {
     /// Row numbers, ascending.
     pub(super) ids: Vec<u64>,
     /// The coordinates as they are in the source.
@@ -239,7 +243,7 @@ fn take_block<T: Scalar>(
     first_row: u64,
     points: &Points<'_, T>,
     first: bool,
-) -> Result<(Option<Taken>, Option<BlockHash>), Error> {
+) -> Result<(Option<TakenRows>, Option<BlockHash>), Error> {
     let (mut scratch, mut values) = (vec![], [0.0; ROWS_AT_ONCE]);
     let mut bits = [0; ROWS_AT_ONCE / POINTS];
     let mut finite = true;
@@ -286,7 +290,7 @@ fn take_block<T: Scalar>(
         far.sort_unstable_by_key(|(i, _)| *i);
     }
     let dim = points.dim();
-    let mut taken = Taken {
+    let mut taken = TakenRows {
         ids: Vec::with_capacity(far.len()),
         rows: Vec::with_capacity(far.len() * dim),
         above: none_above,

@@ -1,12 +1,12 @@
-//! Pools of far points: a few passes over all points, and Newton's method on what they find.
+//! Working sets of far points: a few passes over all points, and Newton's method on what they find.
 //!
-//! *Idea.* A sample gives a whitener, a pass with it the points of largest leverage: the first pool. Its ellipsoid is
-//! found ([`newton`]), a pass lists the points outside, some of them join the pool, and so on until none is outside by
-//! more than the wanted gap. The pool's multipliers prove a lower bound for all points at any moment.
+//! *Idea.* A sample gives a whitener, a pass with it the points of largest leverage: the first working set. Its ellipsoid is
+//! found ([`newton`]), a pass lists the points outside, some of them join the working set, and so on until none is outside by
+//! more than the wanted gap. The working set's multipliers prove a lower bound for all points at any moment.
 //! Of many points in few dimensions the rounds are over the sample first, and then over the few points that a pass with
 //! its ellipsoid lists, as long as that list is known to hold every point outside ([`shortlist`]).
 //! *Guarantee.* Lower bounds never fall. One pass or two with a list; without, three to five on ordinary data and about a
-//! dozen where all points lie near one ellipsoid. The points in memory are those of the pool and of the list.
+//! dozen where all points lie near one ellipsoid. The points in memory are those of the working set and of the list.
 //! *Trap.* The points farthest outside are often near-copies of each other, so each sector around the center may only
 //! give a few: a sector is a coordinate of the image and its sign.
 //! *Trap.* A point that lies very far outside gets weight at once: models are made at multipliers, and one of leverage
@@ -33,7 +33,7 @@ use crate::top::Far;
 pub(super) const LISTED_TOLERANCE: f64 = 1e-6;
 /// A point this many times d beyond gets weight before the next step.
 const WEIGHTED_EXCESS_MIN: f64 = 100.0;
-/// A point of the pool with no multiplier whose |y|² is below this part of d is of no use any more.
+/// A point of the working set with no multiplier whose |y|² is below this part of d is of no use any more.
 const LEVERAGE_RATIO_MIN: f64 = 0.9;
 
 /// Where points lie on an ellipsoid up to rounding, none is useless by that measure, and each step of the interior-point
@@ -45,7 +45,7 @@ const STALE_PASSES_MAX: u32 = 3;
 /// Below this gap, rounding may be what keeps passes from improving it.
 const SMALL_GAP: f64 = 1e-6;
 
-/// Points of the first pool, and points that may join after a pass.
+/// Points of the first working set, and points that may join after a pass.
 fn sizes(dim: usize, n: u64) -> (usize, usize) {
     let p = (dim + 1) * (dim + 2) / 2;
     let first = match dim {
@@ -54,13 +54,13 @@ fn sizes(dim: usize, n: u64) -> (usize, usize) {
         21..=50 => p,
         _ => 1326.max(12 * dim),
     };
-    // Of many points a larger pool costs nothing beside a pass, and saves one.
+    // Of many points a larger working set costs nothing beside a pass, and saves one.
     let many = if n >= 100_000 { 1000 } else { 64 };
     let later = if dim <= 50 { p.min(600) } else { 6 * dim };
     (first.max(many), later.max(64))
 }
 
-/// The ellipsoid of the points of a survey that do not lie in a hyperplane.
+/// The ellipsoid of the points of a source that do not lie in a hyperplane.
 pub(super) fn solve(
     reader: &mut PointReader<'_>,
     sample: &Sample,
@@ -80,7 +80,7 @@ pub(super) fn solve(
         None => first_working_set(reader, sample, &mut whitener, first)?,
     };
     let mut later = later;
-    // With all points in the pool there is nothing to come.
+    // With all points in the working set there is nothing to come.
     let first = if working_set.len() as u64 == reader.len() { 0.6 * wanted } else { 1e-2 };
     let mut tolerance = Tolerance { easy: first, hard: first };
     let mut last = f64::INFINITY;
@@ -154,13 +154,13 @@ pub(super) fn solve(
             stale = if progress.best_gap() < best { 0 } else { stale + 1 };
             best = progress.best_gap();
         }
-        // Rounds of a pool may pass without a better gap as long as that is large.
+        // Rounds of a working set may pass without a better gap as long as that is large.
         if added == 0 && tolerance == Tolerance::NONE
             || stale == STALE_PASSES_MAX && best < SMALL_GAP
         {
             break Stop::Rounding;
         }
-        // What is outside is in the pool already: only a sharper solution of the pool can help.
+        // What is outside is in the working set already: only a sharper solution of the working set can help.
         // The first time, nobody knows yet how thin the points lie: an interior point above that tells nothing.
         let part = if counters.interior == 0 { 1e-4 } else { 1e-2 };
         let hard = (part * reached).max(0.6 * wanted);
@@ -270,14 +270,14 @@ pub(super) fn candidate(
     Candidate { support, multipliers, matrix: whitener.matrix().to_vec(), center, found }
 }
 
-/// The points outside that are not in the pool.
+/// The points outside that are not in the working set.
 fn outside(found: &PassResult, dim: usize, working_set: &WorkingSet) -> Vec<Far> {
     let beyond =
         |far: &&Far| far.reach2 > dim as f64 * (1.0 + 1e-14) && !working_set.contains(far.id);
     found.far.iter().filter(beyond).copied().collect()
 }
 
-/// Takes some of the far points to the pool, and useless points out of it, more of them if the pool is `hard`; says how
+/// Takes some of the far points to the working set, and useless points out of it, more of them if the working set is `hard`; says how
 /// many were taken.
 fn add(
     working_set: &mut WorkingSet,

@@ -1,9 +1,9 @@
-//! A sample of the points: an origin, a first whitener, and the first points of a pool.
+//! A sample of the points: an origin, a first whitener, and the first points of a working set.
 //!
 //! *Idea.* Rows at equal distances. The mean of some of them is the origin of all calculations; the covariance of all
 //! makes leverages comparable before anything is known of the optimum.
 //! *Trap.* The points of largest leverage alone may lie in a plane: of data with few different points, or many copies,
-//! they may be copies of one. A pool like that has no ellipsoid, and gives leverages of 1e16 outside. So the points
+//! they may be copies of one. A working set like that has no ellipsoid, and gives leverages of 1e16 outside. So the points
 //! farthest from the span of those before them are taken, too: an affine basis.
 
 use super::point_reader::PointReader;

@@ -37,9 +37,9 @@ pub(super) struct Whitener {
     shift: Vec<f64>,
 }
 
-/// The images of a pool.
+/// The images of a working set.
 pub(super) struct Whitened {
-    /// y, in blocks as the pool.
+    /// y, in blocks as the working set.
     pub(super) blocks: Vec<f64>,
     /// |y|² of each point.
     pub(super) leverages: Vec<f64>,
@@ -74,7 +74,7 @@ impl Whitener {
         center
     }
 
-    /// The images of all points of a pool.
+    /// The images of all points of a working set.
     pub(super) fn apply(&self, working_set: &WorkingSet) -> Whitened {
         let mut whitened = self.apply_to(working_set.blocks());
         whitened.leverages.truncate(working_set.len());

@@ -16,7 +16,7 @@
 //! *Guarantee.* The determinant falls with all that is accepted. Where no exchange is left no C-step leads on: a row kept
 //! that is farther than one left out has g < 0 with it.
 //! *Trap.* Rows beyond the border are not looked at while it moves: C-steps on all rows follow, and then the border
-//! anew, until neither leads on.
+//! again, until neither leads on.
 //! *Reference.* Hawkins, Computational Statistics & Data Analysis 17, 1994, for exchanges; the factor follows from the
 //! determinant lemma for the change of rank 2.
 
@@ -35,7 +35,7 @@ const PAIRED_ROWS: usize = 100;
 /// Part of the squared distances by which g has to be negative: a hundred times what rounding leaves of them.
 const ROUNDING: f64 = 1e-12;
 
-/// A kick bends distances, times h, at least this far; each size is twice the one before. On 10⁵ points kicks of 128
+/// A perturbation bends distances, times h, at least this far; each size is twice the one before. On 10⁵ points perturbations of 128
 /// and less led back to where they came from.
 const KICK_SIZE_MIN: f64 = 256.0;
 const KICK_SIZES: u64 = 6;
@@ -138,7 +138,7 @@ impl Border {
         Ok(Some(Border { dim, h, ids, images, state }))
     }
 
-    /// Goes down by C-steps and exchanges, and from `perturbations` kicks; the rows kept in the end, where some were changed.
+    /// Goes down by C-steps and exchanges, and from this many `perturbations`; the rows kept in the end, where some were changed.
     pub(super) fn search(mut self, raw: &Raw, perturbations: u64) -> Option<Vec<bool>> {
         let first = self.state.clone();
         self.settle();

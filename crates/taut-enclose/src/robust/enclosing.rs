@@ -22,7 +22,7 @@ use crate::{EllipsoidOptions, Error, ellipsoid};
 const KEPT_REACH_MAX: f64 = 1.0 + 1e-9;
 
 /// An ellipsoid around rows, and what its metric says of all rows of the space it is in.
-pub(super) struct Around {
+pub(super) struct EnclosingMetric {
     pub(super) enclosure: Enclosure,
     /// Rows enclosed, ascending.
     pub(super) kept: Vec<u64>,
@@ -64,7 +64,7 @@ pub(super) fn enclose(
     data: &mut PointReader<'_>,
     mut kept: Vec<u64>,
     epsilon: f64,
-) -> Result<Around, Error> {
+) -> Result<EnclosingMetric, Error> {
     let dim = data.dim();
     loop {
         let found = around(data, &kept, epsilon)?;
@@ -116,6 +116,6 @@ pub(super) fn enclose(
         let enclosure = Enclosure { ellipsoid: found.answer, certificate };
         let metric = Estimate { center, tail, matrix };
         let metric = if metric.dim() > 0 { metric.with_needed_tail() } else { metric };
-        return Ok(Around { enclosure, kept, part, metric });
+        return Ok(EnclosingMetric { enclosure, kept, part, metric });
     }
 }

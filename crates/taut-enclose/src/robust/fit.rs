@@ -7,7 +7,7 @@ use super::chi_square::{
     mcd_reweighted_scale, mcd_scale, mve_reweighted_scale, mve_scale, quantile,
 };
 use super::concentrate::{Criterion, Found, Raw};
-use super::enclosing::Around;
+use super::enclosing::EnclosingMetric;
 use super::estimate::{Estimate, RankedEstimate};
 use super::flat::{Flat, Part, hull};
 use super::{RobustOptions, enclosing, search};
@@ -105,7 +105,8 @@ pub(super) fn place(
         (Some(part), Some(raw)) => marked(&raw.kept, |row| part.ids[row]),
         (None, raw) => raw.as_ref().map_or(vec![], |raw| marked(&raw.kept, |row| row as u64)),
     };
-    let Around { enclosure, kept, part, metric } = enclosing::enclose(data, kept, options.epsilon)?;
+    let EnclosingMetric { enclosure, kept, part, metric } =
+        enclosing::enclose(data, kept, options.epsilon)?;
     let mark = |ids: &mut dyn Iterator<Item = u64>| -> Vec<bool> {
         let mut kept = kept.iter().copied().peekable();
         ids.map(|id| kept.next_if_eq(&id).is_some()).collect()

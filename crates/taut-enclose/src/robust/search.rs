@@ -37,7 +37,7 @@ const BEST_ELEMENTS: usize = 10;
 const CANDIDATES_MAX: usize = 6;
 /// At most this many of them go on to the end.
 const FINALISTS_MAX: usize = 4;
-/// The best of them is given at most this many kicks at the border.
+/// The best of them is given at most this many perturbations at the border.
 const PERTURBATIONS_MAX: u64 = 40;
 
 /// Finds the h rows, or a hyperplane that holds so many.
@@ -118,7 +118,7 @@ fn polish(
             Found::Full(next) => next,
             Found::Flat(flat) => return Ok(Some(flat)),
         };
-        // What rounding alone gained could be lost and gained for ever.
+        // What rounding alone gained could be lost and gained endlessly.
         let leads_on = next.estimate.log_det() < raw.estimate.log_det();
         if !leads_on {
             break;

@@ -4,7 +4,7 @@
 //! *Idea.* Coordinates are brought to median 0 and scale 1. Six matrices that single outliers cannot bend far, each of
 //! another kind, give directions: the correlations of hyperbolic tangents, of ranks and of normal scores, the
 //! covariance of signs, that of the half nearest the medians, and the raw OGK matrix of pairs. In the eigenvectors of
-//! each, scales are taken anew by Qn and a center by medians, and points are ranked by the distance these say.
+//! each, scales are taken again by Qn and a center by medians, and points are ranked by the distance these say.
 //! *Guarantee.* A function of the points, of their order only where distances are equal. Shifted and scaled coordinates
 //! give the same rankings; turned ones need not: medians by coordinate are not the medians of turned points.
 //! *Trap.* Where half of the points lie in a hyperplane a scale is 0. It is taken as a trifle, so that exactly those

@@ -250,7 +250,7 @@ fn rows_that_a_c_step_improves_are_rejected() {
     let found = solve("mcd", &values, 2, &by(RobustMethod::Mcd));
     let out = &found.certificate.left_out;
     let kept: Vec<u64> = (0..80).filter(|row| !out.contains(row)).collect();
-    // Right in all but that points could be weighed anew: the distances are judged before that.
+    // Right in all but that points could be weighed again: the distances are judged before that.
     let right = by_hand(&found, &values, &kept).check(&points).unwrap_err();
     assert!(matches!(right, CheckError::Rejected(Violation::Reweighting { .. })), "{right}");
     for at in 0..kept.len() {

@@ -11,7 +11,7 @@ pub(super) struct Edges {
     /// The vertices as given.
     pub(super) exact: Vec<[f64; 2]>,
     scaled: Vec<[f64; 2]>,
-    /// Of each edge its vector over its squared length, so that a foot takes no division; 0 where that overflows.
+    /// Of each edge its vector over its squared length, so that a projection takes no division; 0 where that overflows.
     inverse: Vec<[f64; 2]>,
     /// The product of both is the power of two that brings the largest coordinate to [1, 2).
     factors: [f64; 2],

@@ -42,10 +42,10 @@ const LARGE_CELL: f64 = 4.0;
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// A circle is thin when its scaled radius is less than this many times the rounding errors of plain distances.
-const THIN: f64 = 1e12;
+const THIN_CIRCLE_ROUNDINGS: f64 = 1e12;
 
 /// Cells between two looks at the monitor.
-const CELLS_BETWEEN_LOOKS: u64 = 256;
+const CELLS_BETWEEN_CHECKS: u64 = 256;
 
 /// Denominators of the weights in a certificate, as powers of two; the first that closes the cell is taken.
 const WEIGHT_BITS: [u32; 4] = [6, 16, 32, 50];
@@ -245,7 +245,7 @@ impl Search<'_> {
         gap: f64,
     ) -> Result<Outcome, Cancelled> {
         self.cells += 1;
-        if self.cells.is_multiple_of(CELLS_BETWEEN_LOOKS) {
+        if self.cells.is_multiple_of(CELLS_BETWEEN_CHECKS) {
             self.monitor.check()?;
         }
         let edges = self.edges;
@@ -277,7 +277,7 @@ impl Search<'_> {
             return Ok(Outcome::Open(single, bound, axis));
         }
         // Plain distances will do where the circle is much larger than their rounding errors.
-        let is_thin = self.radius.max(clearance) < ROUNDING * THIN;
+        let is_thin = self.radius.max(clearance) < ROUNDING * THIN_CIRCLE_ROUNDINGS;
         let from = |corner, edge| match is_thin {
             true => edges.accurate(corner, edge),
             false => edges.distance(corner, edge),

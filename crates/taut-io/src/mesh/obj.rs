@@ -15,7 +15,7 @@ use super::colors::fraction;
 use super::writing::Job;
 use super::{MeshBuilder, printable};
 use crate::words::{Line, put_number, put_numbers, put_place, put_whole, whole, words};
-use crate::write::Out;
+use crate::write::OutputFile;
 use crate::{Error, FilePlace};
 
 /// The keyword of simplices of so many vertices.
@@ -222,7 +222,7 @@ fn counts(comment: &[u8]) -> Option<(u64, u64)> {
     Some((vertices.parse().ok()?, simplices.strip_suffix(" simplices")?.parse().ok()?))
 }
 
-pub(super) fn write(job: &Job<'_>, out: &mut Out<'_>) -> Result<(), Error> {
+pub(super) fn write(job: &Job<'_>, out: &mut OutputFile<'_>) -> Result<(), Error> {
     let (normals, colors) = (job.mesh.normals, job.mesh.colors);
     let (vertices, simplices) = (job.mesh.vertex_count(), job.mesh.simplex_count());
     out.put(format!("# {vertices} vertices, {simplices} simplices\n").as_bytes())?;

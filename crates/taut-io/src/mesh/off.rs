@@ -10,7 +10,7 @@ use std::io::BufRead;
 use super::writing::Job;
 use super::{MeshBuilder, printable};
 use crate::words::{Lines, put_ids, put_number, put_numbers, whole, words};
-use crate::write::Out;
+use crate::write::OutputFile;
 use crate::{Error, FilePlace};
 
 /// The meaning of the letters before `OFF`.
@@ -139,7 +139,7 @@ fn read_vertex(
     }
 }
 
-pub(super) fn write(job: &Job<'_>, out: &mut Out<'_>) -> Result<(), Error> {
+pub(super) fn write(job: &Job<'_>, out: &mut OutputFile<'_>) -> Result<(), Error> {
     let (normals, colors) = (job.mesh.normals, job.mesh.colors);
     let word = match (colors, normals) {
         (None, None) => "OFF",

@@ -16,10 +16,10 @@ use super::MeshBuilder;
 use super::writing::Job;
 use crate::input::{self, Medium};
 use crate::read::{Seekable, first_line, quiet, thrift};
-use crate::write::Out;
+use crate::write::OutputFile;
 use crate::{Error, FilePlace, Format, ReadOptions};
 
-pub(super) fn write(job: &Job<'_>, out: &mut Out<'_>) -> Result<(), Error> {
+pub(super) fn write(job: &Job<'_>, out: &mut OutputFile<'_>) -> Result<(), Error> {
     let (path, failure, width) = (out.path, out.failure, job.mesh.width);
     let failed = |source: ParquetError| failure(path, source.into());
     let field = |i| Field::new(format!("v{i}"), DataType::UInt32, false);

@@ -14,7 +14,7 @@ use super::writing::{Encoding, Job};
 use super::{MeshBuilder, MeshView, Vertices, printable};
 use crate::cursor::{Cursor, Kind};
 use crate::words::{put_number, put_numbers, put_whole};
-use crate::write::Out;
+use crate::write::OutputFile;
 use crate::{Error, FilePlace};
 use header::Element;
 use values::Values;
@@ -191,7 +191,7 @@ fn header_of(mesh: &MeshView<'_>, encoding: Encoding) -> String {
     )
 }
 
-pub(super) fn write(job: &Job<'_>, out: &mut Out<'_>) -> Result<(), Error> {
+pub(super) fn write(job: &Job<'_>, out: &mut OutputFile<'_>) -> Result<(), Error> {
     let (normals, colors) = (job.mesh.normals, job.mesh.colors);
     out.put(header_of(job.mesh, job.encoding).as_bytes())?;
     let text = job.encoding == Encoding::Text;

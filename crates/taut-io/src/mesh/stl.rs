@@ -17,7 +17,7 @@ use super::writing::{Encoding, Job};
 use super::{MeshBuilder, printable};
 use crate::cursor::Cursor;
 use crate::words::{put_place, words};
-use crate::write::Out;
+use crate::write::OutputFile;
 use crate::{Error, FilePlace};
 
 /// This many bytes are looked at to tell text from binary: the head of a binary file and nine triangles.
@@ -171,7 +171,7 @@ fn read_vertex<'a>(
     }
 }
 
-pub(super) fn write(job: &Job<'_>, out: &mut Out<'_>) -> Result<(), Error> {
+pub(super) fn write(job: &Job<'_>, out: &mut OutputFile<'_>) -> Result<(), Error> {
     let (vertices, triangles) = (job.mesh.places(), job.mesh.triangles());
     let corners = |ids: &[u32; 3]| ids.map(|id| vertices[id as usize]);
     if job.encoding == Encoding::Text {

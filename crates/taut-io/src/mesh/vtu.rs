@@ -6,7 +6,7 @@
 use super::MeshBuilder;
 use super::writing::Job;
 use crate::cursor::{Cursor, Kind};
-use crate::write::Out;
+use crate::write::OutputFile;
 use crate::{Error, FilePlace};
 
 /// VTK's numbers of the cells of so many vertices: vertex, line, triangle, tetra.
@@ -16,7 +16,7 @@ const CELLS: [u8; 4] = [1, 3, 5, 10];
 const LONGEST_TAG: u64 = 1 << 16;
 const MOST_TAGS: usize = 1 << 10;
 
-pub(super) fn write(job: &Job<'_>, out: &mut Out<'_>) -> Result<(), Error> {
+pub(super) fn write(job: &Job<'_>, out: &mut OutputFile<'_>) -> Result<(), Error> {
     let (vertices, width) = (job.mesh.vertex_count(), job.mesh.width as u64);
     let cells = job.mesh.simplex_count() as u64;
     // Each array is its length in bytes, as 8 bytes, and its values.

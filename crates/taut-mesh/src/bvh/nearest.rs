@@ -2,7 +2,7 @@
 //!
 //! *Problem.* Given p, find the triangle of least distance and that distance.
 //! *Idea.* Go down the tree into the nearer box first, and turn back where a box is farther than the best triangle so far. The
-//! nearest point of a triangle is the foot of p if that lies within, else it is on a side; the foot is a mean of the corners
+//! nearest point of a triangle is the projection of p if that lies within, else it is on a side; the projection is a mean of the corners
 //! with the areas of the opposite parts as weights.
 //! *Guarantee.* Exact up to rounding, for triangles without area too: what is called nearest is always a mean of corners, so
 //! the distance is never that of a point beyond the triangle. Of triangles at one distance the one of the lowest number is
@@ -168,7 +168,7 @@ mod tests {
         assert_eq!(Bvh::new(&[]).nearest(&[0.0; 3]), None);
     }
 
-    /// The foot of a point on the plane of a needle may be wrong by much of its length, but not the distance.
+    /// The projection of a point on the plane of a needle may be wrong by much of its length, but not the distance.
     #[test]
     fn needles_keep_their_distance() {
         for k in 0..200 {

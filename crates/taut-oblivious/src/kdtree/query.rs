@@ -334,7 +334,7 @@ impl<const D: usize> KdTree<D> {
         found
     }
 
-    /// Tells a probe of the arrays; once, ahead of the first probed call.
+    /// Tells a probe of the arrays; once, ahead of the first instrumented call.
     pub fn place<P: Probe>(&self, probe: &mut P) {
         probe.place(self.nodes.words());
         probe.place(self.coordinates.words());

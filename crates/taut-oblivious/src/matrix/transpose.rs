@@ -31,7 +31,7 @@ pub(in crate::matrix) mod tiles;
 /// a fifth.
 const STRIP_COLUMNS: usize = 48;
 /// A band has this many rows: their pages, one for each row of a wide matrix, stay among the two or three thousand
-/// whose translation the processor keeps. Walked from top to bottom, a strip of more rows would ask for each page anew.
+/// whose translation the processor keeps. Walked from top to bottom, a strip of more rows would ask for each page again.
 const BAND_ROWS: usize = 1024;
 /// A strip of a band has this many columns.
 const WALK_COLUMNS: usize = 64;

@@ -106,7 +106,7 @@ pub struct FileTransposition {
 
 /// Writes the file `to`: `header`, then the transpose of the matrix in the file `from`.
 ///
-/// The names may be the same. `monitor` hears of one pass and of the elements of each tile. The target is written without
+/// The names may be the same. `monitor` is told of one pass and of the elements of each tile. The target is written without
 /// a name, or under a temporary one in its folder, brought to the disk and named. Where there is an earlier file of that
 /// name, also behind a symbolic link, it is replaced and its permissions are kept. Room on the disk is reserved before the
 /// work where the system can. O(rows · columns) and `options.memory` bytes.

@@ -89,7 +89,7 @@ pub struct FileSort {
 
 /// Sorts the records of a file by their key into another file, or into the same one.
 ///
-/// Stable. `monitor` hears of a pass over the records while runs are made, one for each merge of some runs into a longer
+/// Stable. `monitor` is told of a pass over the records while runs are made, one for each merge of some runs into a longer
 /// one, and one for the last merge; it can stop the work after any block. Until the output is complete, `output` is
 /// untouched. Where the system has files without a name, nothing is left behind even if the process is killed, but for
 /// the file of [`FileSortOptions::resume`], which is removed when the output is there. Room for runs, also those of merges in

@@ -1,4 +1,4 @@
-//! Measures how strongly each facet says that the cells on both sides are of one medium, or that a surface is between them.
+//! Measures how strongly each facet says that the cells on both sides are on one side of the surface, or that a surface is between them.
 //!
 //! *Idea.* s = (r² + q² − d²)/(2rq) for spheres of radii r and q whose centers are d apart is the cosine of the angle between them, but
 //! for its sign: near 1 they are nearly one, which cells deep within a body or deep outside are; near −1 they barely meet, which they
@@ -66,7 +66,7 @@ pub(super) struct DualEdges {
 }
 
 impl DualEdges {
-    /// The ties between cells. Where ghosts are one, nothing is stronger than what they are joined by.
+    /// The dual edges between cells. Where ghosts are one, nothing is stronger than what they are joined by.
     pub(super) fn of(cells: &Cells, points: &[Point], ghosts_are_one: bool) -> Self {
         let (mut spheres, flat) = spheres(cells, points);
         let geometry = Geometry { cells, points, spheres: &spheres, ghosts_are_one };

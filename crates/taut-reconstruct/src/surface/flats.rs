@@ -32,7 +32,7 @@ struct Offer {
     facet: Reverse<u32>,
 }
 
-/// Gives some of the flat cells the sphere of another one, and lists them. The ties are of all cells with spheres of their own.
+/// Gives some of the flat cells the sphere of another one, and lists them. The dual edges are of all cells with spheres of their own.
 pub(super) fn flats(
     flat: &[u32],
     dual_edges: &DualEdges,
@@ -48,39 +48,39 @@ pub(super) fn flats(
     (0..).zip(&flat).for_each(|(k, &cell)| number[cell as usize] = k);
     // Where a facet of a flat cell leads.
     let beyond = |facet: u32| match number[(cells.mirror(facet) >> 2) as usize] {
-        NONE => Way::Out(facet),
-        other => Way::To(other),
+        NONE => SphereSource::Out(facet),
+        other => SphereSource::To(other),
     };
     let surest = |&cell: &u32| {
-        offers(cell, dual_edges, cells).max().map_or(Way::End, |(_, own)| beyond(own))
+        offers(cell, dual_edges, cells).max().map_or(SphereSource::End, |(_, own)| beyond(own))
     };
-    let mut groups = ends(&flat.iter().map(surest).collect::<Vec<Way>>());
+    let mut groups = ends(&flat.iter().map(surest).collect::<Vec<SphereSource>>());
     // What hangs together with flat cells alone looks beyond itself.
     loop {
-        let is_alone = |&k: &u32| matches!(groups[k as usize], Way::To(_));
+        let is_alone = |&k: &u32| matches!(groups[k as usize], SphereSource::To(_));
         let alone: Vec<u32> = (0..flat.len() as u32).filter(is_alone).collect();
         if alone.is_empty() {
             break;
         }
-        let mut best: Vec<Option<(Offer, Way)>> = vec![None; flat.len()];
+        let mut best: Vec<Option<(Offer, SphereSource)>> = vec![None; flat.len()];
         for &k in &alone {
-            let Way::To(group) = groups[k as usize] else { continue };
+            let SphereSource::To(group) = groups[k as usize] else { continue };
             for (offer, own) in offers(flat[k as usize], dual_edges, cells) {
                 let way = match beyond(own) {
-                    Way::To(other) => groups[other as usize],
+                    SphereSource::To(other) => groups[other as usize],
                     out => out,
                 };
                 let is_surer = best[group as usize].is_none_or(|(most, _)| offer > most);
-                if is_surer && way != Way::To(group) {
+                if is_surer && way != SphereSource::To(group) {
                     best[group as usize] = Some((offer, way));
                 }
             }
         }
-        let ways: Vec<Way> =
-            best.iter().map(|best| best.map_or(Way::End, |(_, way)| way)).collect();
+        let ways: Vec<SphereSource> =
+            best.iter().map(|best| best.map_or(SphereSource::End, |(_, way)| way)).collect();
         let joined = ends(&ways);
         for k in alone {
-            if let Way::To(group) = groups[k as usize] {
+            if let SphereSource::To(group) = groups[k as usize] {
                 groups[k as usize] = joined[group as usize];
             }
         }
@@ -88,7 +88,7 @@ pub(super) fn flats(
     // What is beyond is not flat, and keeps its own.
     let mut groups = groups.into_iter();
     flat.retain(|&cell| {
-        let Some(Way::Out(facet)) = groups.next() else { return false };
+        let Some(SphereSource::Out(facet)) = groups.next() else { return false };
         let from = cells.mirror(facet) >> 2;
         spheres[cell as usize] = match cells.is_ghost(from) {
             true => half_space(cells.facet(facet >> 2, facet as usize & 3), points),
@@ -104,7 +104,7 @@ const NONE: u32 = u32::MAX;
 
 /// Where a flat cell, or a group of them, gets its sphere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Way {
+enum SphereSource {
     /// From the cell beyond a facet, which is not flat.
     Out(u32),
     /// From whatever this one gets it from; from itself, if the two look at each other.
@@ -115,7 +115,7 @@ enum Way {
 
 /// Follows ways to their ends: out, or to the lower of two that look at each other. There is no other way round, as each goes by its
 /// surest offer.
-fn ends(ways: &[Way]) -> Vec<Way> {
+fn ends(ways: &[SphereSource]) -> Vec<SphereSource> {
     let mut ends = vec![None; ways.len()];
     let mut path = Vec::new();
     for start in 0..ways.len() {
@@ -126,14 +126,16 @@ fn ends(ways: &[Way]) -> Vec<Way> {
             }
             path.push(at);
             match ways[at as usize] {
-                Way::To(next) if ways[next as usize] == Way::To(at) => break Way::To(at.min(next)),
-                Way::To(next) => at = next,
+                SphereSource::To(next) if ways[next as usize] == SphereSource::To(at) => {
+                    break SphereSource::To(at.min(next));
+                }
+                SphereSource::To(next) => at = next,
                 end => break end,
             }
         };
         path.drain(..).for_each(|at| ends[at as usize] = Some(end));
     }
-    ends.into_iter().map(|end| end.unwrap_or(Way::End)).collect()
+    ends.into_iter().map(|end| end.unwrap_or(SphereSource::End)).collect()
 }
 
 /// Returns true if a cell says "same" to all its neighbors, though not surely to one of them.
@@ -174,7 +176,7 @@ mod tests {
 
     #[test]
     fn ways_end_outside_or_in_pairs() {
-        use Way::{End, Out, To};
+        use SphereSource::{End, Out, To};
         let ways = [To(1), To(2), Out(40), To(4), To(3), To(4), To(7), End];
         assert_eq!(ends(&ways), [Out(40), Out(40), Out(40), To(3), To(3), To(3), End, End]);
     }

@@ -17,7 +17,6 @@ mod changes;
 mod circles;
 mod denoise;
 mod diagonals;
-mod doubled;
 mod dual_edges;
 mod facing;
 mod filter;
@@ -42,6 +41,7 @@ mod spheres;
 mod stars;
 pub mod thesis;
 mod tree;
+mod two_sum;
 mod vector;
 mod witness;
 

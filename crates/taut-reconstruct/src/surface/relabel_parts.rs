@@ -131,9 +131,9 @@ struct Part {
     sum: i64,
 }
 
-/// A tie of cells in two parts: the parts, and how much it agrees with the labels.
+/// A dual edge of cells in two parts: the parts, and how much it agrees with the labels.
 #[derive(Clone, Copy, Default)]
-struct Between {
+struct PartEdge {
     parts: [u32; 2],
     agrees: i64,
 }
@@ -204,8 +204,8 @@ impl<'a> Suspects<'a> {
     }
 
     /// Adds what the facets of some cells say to the parts where it begins to count.
-    fn weigh(&mut self, cells: &[u32], between: &mut Vec<Between>, inside: &[bool]) {
-        between.resize(4 * cells.len() + 1, Between::default());
+    fn weigh(&mut self, cells: &[u32], between: &mut Vec<PartEdge>, inside: &[bool]) {
+        between.resize(4 * cells.len() + 1, PartEdge::default());
         let mut count = 0;
         for &cell in cells {
             let part = self.part(cell);
@@ -217,8 +217,8 @@ impl<'a> Suspects<'a> {
                 // What is within a part is within all around it. Nothing here can be guessed, so nothing is asked.
                 let is_between = beyond != part;
                 sum += agrees * i64::from(is_between);
-                between[count] = Between { parts: [part, beyond], agrees };
-                // A tie of two parts is met at both.
+                between[count] = PartEdge { parts: [part, beyond], agrees };
+                // A dual edge of two parts is met at both.
                 count += usize::from(is_between & (beyond != NONE) & (cell < other));
             }
             self.parts[part as usize].sum += sum;
@@ -298,7 +298,7 @@ impl<'a> Suspects<'a> {
     }
 }
 
-/// Returns what is said against the parts that hang by peeled cells. Within a part a tie counts twice here, as where ways meet is not known yet.
+/// Returns what is said against the parts that hang by peeled cells. Within a part a dual edge counts twice here, as where ways meet is not known yet.
 fn against(objections: &[(u32, i64)], peeling: &Peeling<'_>) -> Vec<i64> {
     let mut against = vec![0i64; peeling.cells.len()];
     for &(cell, objection) in objections {
@@ -361,7 +361,7 @@ pub(super) fn flip(
     Relabeled { relabeled, doubtful }
 }
 
-/// Returns what a tie between two cells adds to the agreement with the labels.
+/// Returns what a dual edge between two cells adds to the agreement with the labels.
 fn agrees(dual_edge: DualEdge, cells: [u32; 2], inside: &[bool]) -> i64 {
     let [a, b] = cells.map(|cell| inside[cell as usize]);
     if a == b { dual_edge.signed() } else { -dual_edge.signed() }

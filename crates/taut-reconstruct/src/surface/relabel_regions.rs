@@ -1,9 +1,9 @@
-//! Islands: small regions that the facets around them do not set apart.
+//! Relabels small regions that the facets around them do not set apart.
 //!
 //! *Problem.* A few flat cells can end up on the wrong side together, as a bubble beside the surface or within it.
 //! *Idea.* The border of a true body says "opposite" with nearly all its facets; a bubble's facets say it with no more than a quarter of
 //! their strength. Such a region of at most [`REGION_CELLS_MAX`] cells is turned over; its points are then found unused, and repaired as such.
-//! *Guarantee.* O(border). What is an island depends on the labels and the points alone.
+//! *Guarantee.* O(border). The regions depend on the labels and the points alone.
 
 use std::collections::BTreeSet;
 
@@ -12,10 +12,10 @@ use taut_delaunay::decode;
 use super::border::{Face, parts};
 use super::cells::Cells;
 
-/// The largest island has this many cells, and at most twice as many facets.
+/// The largest region has this many cells, and at most twice as many facets.
 const REGION_CELLS_MAX: usize = 24;
 
-/// Turns islands over, and says how many.
+/// Relabels small regions, and returns their number.
 pub(super) fn sink(
     faces: &[Face],
     cells: &Cells,

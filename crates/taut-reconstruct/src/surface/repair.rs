@@ -4,7 +4,7 @@
 //! neighbors, or a whole part of the star changes sides: the change that leaves the fewest parts too many at all vertices it
 //! touches, and of those the one that the strengths of the facets object to least.
 //! *Guarantee.* Each change lowers the number of parts too many, so it ends. A cell changes only to a side that it has a facet with,
-//! so no island arises. Vertices are taken in the order of their numbers, cells in the order of their sites, and sums are exact: the
+//! so no small region arises. Vertices are taken in the order of their numbers, cells in the order of their sites, and sums are exact: the
 //! answer is a function of the points.
 
 use std::collections::{BTreeSet, HashMap};
@@ -74,13 +74,13 @@ struct Bench<'a> {
 }
 
 /// A star with the labels of its cells, and how many parts too many it has.
-struct Around {
+struct StarDefect {
     star: Rc<Star>,
     labels: Vec<bool>,
     defect: u32,
 }
 
-impl Around {
+impl StarDefect {
     /// By how much the defect would be less, were some cells turned over.
     fn gain(&self, change: &[u32]) -> i64 {
         let mut labels = self.labels.clone();
@@ -94,11 +94,11 @@ impl Around {
 }
 
 impl Bench<'_> {
-    fn around(&mut self, inside: &[bool], site: u32, near: Option<u32>) -> Around {
+    fn around(&mut self, inside: &[bool], site: u32, near: Option<u32>) -> StarDefect {
         let star = self.stars.star(site, near);
         let labels: Vec<bool> = star.cells.iter().map(|&cell| inside[cell as usize]).collect();
         let defect = star.defect(&labels);
-        Around { star, labels, defect }
+        StarDefect { star, labels, defect }
     }
 
     /// The sites of some cells, each with one of these.
@@ -114,7 +114,7 @@ impl Bench<'_> {
     /// The change at a site that lowers the defects around it most.
     fn best_change(&mut self, inside: &[bool], site: u32) -> Option<Vec<u32>> {
         let own = self.around(inside, site, None);
-        let mut known: HashMap<u32, Around> = HashMap::new();
+        let mut known: HashMap<u32, StarDefect> = HashMap::new();
         let mut best: Option<(i64, i64, Vec<u32>)> = None;
         for change in self.changes(inside, &own) {
             let mut gain = 0;
@@ -137,7 +137,11 @@ impl Bench<'_> {
     }
 
     /// The changes worth a look: cells of the star, pairs of neighbors one of which is in it, and its parts of one label.
-    fn changes(&self, inside: &[bool], Around { star, labels, .. }: &Around) -> Vec<Vec<u32>> {
+    fn changes(
+        &self,
+        inside: &[bool],
+        StarDefect { star, labels, .. }: &StarDefect,
+    ) -> Vec<Vec<u32>> {
         let may = |cell: u32| self.ghosts_may || !self.cells.is_ghost(cell);
         let mut changes: Vec<Vec<u32>> = star.cells.iter().map(|&cell| vec![cell]).collect();
         for &cell in &star.cells {

@@ -1,15 +1,15 @@
 //! Which cells are inside: the strongest spanning tree of the cells, by the signs along it.
 //!
 //! *Problem.* Facets contradict each other about where the surface is; weak ones, on slivers and at sharp edges, are often wrong.
-//! *Idea.* Facets are heard in the order of their strength. One that joins two parts of space which were not joined yet is obeyed: same
-//! medium, or opposite. All others are ignored, as what they say is decided already. The facets obeyed are a maximum spanning tree of
+//! *Idea.* Facets are processed in the order of their weight. One that joins two parts of space which were not joined yet is obeyed: same
+//! side, or opposite sides. All others are ignored, as what they say is decided already. The facets obeyed are a maximum spanning tree of
 //! the dual graph, and the parity of opposites on the way from outside is the label. It is the thesis' spanning tree, turned from
 //! growing a surface to dividing space.
-//! *Way.* Borůvka's: in each round every part joins the one across its strongest facet. No facet is sorted, and all are read in the order
+//! *Way.* Borůvka's: in each round every part joins the one across its facet of the largest weight. No facet is sorted, and all are read in the order
 //! in which their cells lie in memory; each round leaves half of the parts at most, of most samples a third, and of facets those between
-//! them. In the first round a part is a cell, and its facets are at hand; then parts are numbered anew in each round, so that what is kept
+//! them. In the first round a part is a cell, and its facets are at hand; then parts are numbered again in each round, so that what is kept
 //! of them stays small.
-//! *Guarantee.* The labels are a function of the points: equal strengths are ordered by the numbers of facets, which are. O(n log n).
+//! *Guarantee.* The labels are a function of the points: equal weights are ordered by the numbers of facets, which are. O(n log n).
 //! *Reference.* Borůvka 1926; Nešetřil, Milková and Nešetřilová, Discrete Math. 233, 2001.
 
 use std::sync::atomic::AtomicU64;
@@ -22,9 +22,9 @@ use super::cells::Cells;
 use super::dual_edges::DualEdges;
 use super::parity::ParityUnionFind;
 
-/// Cells of one task, and the bonds that are listed from them.
+/// Cells of one task, and the cross edges that are listed from them.
 const TASK: usize = 1 << 14;
-// A rank has 16 bits for the place of a bond among those of its task, and as many for the task, as cells are fewer than 2³⁰.
+// A rank has 16 bits for the place of a cross edge among those of its task, and as many for the task, as cells are fewer than 2³⁰.
 const _: () = assert!(4 * TASK <= 1 << 16 && (1 << 30) / TASK <= 1 << 16);
 
 /// A facet between two parts.
@@ -49,13 +49,13 @@ pub(super) struct Labels {
     pub(super) tree: Vec<u8>,
 }
 
-/// The bond of the highest rank is heard first. Strength comes first, then the lower task and the lower place in it, which are in the order
+/// The cross edge of the highest rank is processed first. Weight comes first, then the lower task and the lower place in it, which are in the order
 /// of facets: no two ranks are equal.
 fn rank(cross_edge: &CrossEdge, task: usize, place: usize) -> u64 {
     u64::from(cross_edge.weight) << 32 | u64::from(!((task << 16 | place) as u32))
 }
 
-/// The bond that has a rank.
+/// The cross edge that has a rank.
 fn ranked(cross_edges: &[Vec<CrossEdge>], rank: u64) -> &CrossEdge {
     let at = !(rank as u32) as usize;
     &cross_edges[at >> 16][at & 0xffff]
@@ -109,12 +109,12 @@ pub(super) fn labels(dual_edges: &DualEdges, cells: &Cells, root: u32) -> Labels
     Labels { inside: sides.iter().map(|side| side & 1 != outside).collect(), tree }
 }
 
-/// For each part the rank of the facet that is heard first, none yet.
+/// For each part the rank of the facet that is processed first, none yet.
 fn nothing(parts: usize) -> Vec<AtomicU64> {
     (0..parts).map(|_| AtomicU64::new(0)).collect()
 }
 
-/// Offers the bonds of a task to their parts: whoever comes first, the highest rank stays.
+/// Offers the cross edges of a task to their parts: whoever comes first, the highest rank stays.
 fn offer(best: &[AtomicU64], task: usize, cross_edges: &[CrossEdge]) {
     for (place, cross_edge) in cross_edges.iter().enumerate() {
         let rank = rank(cross_edge, task, place);
@@ -127,7 +127,7 @@ fn offer(best: &[AtomicU64], task: usize, cross_edges: &[CrossEdge]) {
     }
 }
 
-/// The facet of a cell that is heard first.
+/// The facet of a cell that is processed first.
 fn strongest_of(cell: u32, dual_edges: &DualEdges, cells: &Cells) -> u32 {
     let own = dual_edges.of_cell(cell);
     let [a, b, c, d] = own;
@@ -143,7 +143,7 @@ fn strongest_of(cell: u32, dual_edges: &DualEdges, cells: &Cells) -> u32 {
     }
 }
 
-/// The parts of cells that each join the one across their strongest facet, as a level, and how many there are; the facets go to `obey`.
+/// The parts of cells that each join the one across their facet of the largest weight, as a level, and how many there are; the facets go to `obey`.
 /// Whoever follows these facets comes to one that is the strongest for both its cells, as ranks only rise: the first of them stands for
 /// all. Each cell takes the leap that the one it leaps to takes, until none leaps further: twice as far each time, and nobody
 /// has to guess where a way ends.
@@ -222,7 +222,7 @@ fn first_cross_edges(
     begins.into_par_iter().map_init(Vec::new, task).collect()
 }
 
-/// Keeps the bonds that are between parts after these were joined.
+/// Keeps the cross edges that are between parts after these were joined.
 fn keep_between(cross_edges: &mut [Vec<CrossEdge>], level: &[u32], best: &[AtomicU64]) {
     let keep = |(task, cross_edges): (usize, &mut Vec<CrossEdge>)| {
         let mut count = 0;

@@ -24,7 +24,7 @@ const MOMENTUM: f64 = 0.3;
 const STEPS_WITHOUT_PROGRESS_MAX: u32 = 4;
 /// Steps get shorter by this factor.
 const STEP_FACTOR: f64 = 0.7;
-/// This many steps are made without moats: on samples of one curve they are all it takes.
+/// This many steps are made without coordinates of clusters: on samples of one curve they are all it takes.
 const STEPS_WITHOUT_MOATS: u64 = 5;
 /// Steps have this length after a restart, against the first.
 const RESTART_STEP_RATIO: f64 = 0.3;
@@ -130,7 +130,7 @@ impl<'a> Ascent<'a> {
         Ok(false)
     }
 
-    /// The direction of steepest ascent, in coordinates of sites at first and then of moats; its square, 0 at a tour.
+    /// The direction of steepest ascent, in coordinates of sites at first and then of clusters; its square, 0 at a tour.
     fn slope(&mut self) -> f64 {
         if self.steps <= STEPS_WITHOUT_MOATS {
             let mut square = 0.0;

@@ -3,19 +3,19 @@
 //! *Problem.* Sites in clusters far from each other: the potentials of a cluster have to move together, and steps that follow degrees
 //! alone carry what one bridge tells through the cluster a few sites a step.
 //! *Idea.* Between the length d at which single linkage forms a cluster S and the length D at which it joins it to another one, a
-//! moat of width up to D − d fits around S. With one coordinate for each moat, in units of its width, the slope is the sum of the
+//! zone of width up to D − d fits around S. With one coordinate for each cluster, in units of that width, the slope is the sum of the
 //! degrees less 2 over S, and the direction of steepest ascent is π += Σ (D − d)²·slope over all S of a site. Sites
 //! alone are clusters with d = 0.
 //! *Guarantee.* Any such direction is one of ascent, in another metric; two passes over a binary tree, O(n). It is 0 only where all
 //! degrees are 2, as each site has a coordinate of its own, which is of a least width where rounding leaves none.
 //! *Trap.* Widths are of very different size: without the squares a bridge would move as slowly as the closest two sites allow.
-//! *Reference.* Jünger and Pulleyblank, Geometric duality and combinatorial optimization, 1993, for zones and moats.
+//! *Reference.* Jünger and Pulleyblank, Geometric duality and combinatorial optimization, 1993, for zones and "moats" around clusters.
 
 use super::candidates::Candidates;
 use super::tree::LeastTree;
 use super::union::Union;
 
-/// The least width of a moat around a site, of an extent between 1 and 2.
+/// The least width around a site, of an extent between 1 and 2.
 const WIDTH_MIN: f64 = 1e-30;
 
 /// The clusters of single linkage.

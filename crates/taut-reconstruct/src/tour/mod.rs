@@ -3,8 +3,8 @@
 //! *Problem.* A closed tour through all sites, or a path, as short as can be, without crossings, and potentials that prove how short
 //! any tour must be.
 //! *Idea.* Candidates from the Delaunay triangulation; fragments that grow together (greedy matching); moves of three edges; the
-//! ascent of Held and Karp, from potentials read off the tour, later with moats around clusters; and, where the bound leaves something
-//! open, kicks that are repaired by moves. Crossings that are left are removed with exact signs.
+//! ascent of Held and Karp, from potentials read off the tour, later with one coordinate for each cluster; and, where the bound leaves something
+//! open, perturbations that are repaired by moves. Crossings that are left are removed with exact signs.
 //! *Guarantee.* The tour is a simple polygon or path. The bound holds for all tours, not only those of candidates. All budgets count
 //! events. O(n) memory.
 //! *Trap.* Sites on a line have no closed tour that is simple: they get the path from end to end.
@@ -39,15 +39,15 @@ use moves::{Queue, Search};
 use perturbations::perturb;
 use simple::untangle;
 
-/// The ascent has this many steps, a third of them before the kicks, and fewer where sites times steps would be more
+/// The ascent has this many steps, a third of them before the perturbations, and fewer where sites times steps would be more
 /// than [`STEPS_WORK`].
 const ASCENT_STEPS: usize = 90;
 const STEPS_MIN: usize = 30;
 const STEPS_WORK: usize = 3_000_000;
-/// This many kicks are made per site that the bound leaves open.
+/// This many perturbations are made per site that the bound leaves open.
 const KICKS_PER_SITE: usize = 2;
 /// Few sites afford more of both, in rounds, until the tour is within [`GAP_WANTED`] of its bound: this many, and fewer
-/// where sites times rounds would be more than [`ROUNDS_WORK`]. A round takes [`ASCENT_STEPS`], and as many kicks per
+/// where sites times rounds would be more than [`ROUNDS_WORK`]. A round takes [`ASCENT_STEPS`], and as many perturbations per
 /// site of the tour.
 const ROUNDS_MAX: usize = 12;
 const ROUNDS_WORK: usize = 1500;

@@ -2,7 +2,7 @@
 //!
 //! *Idea.* Three short runs near a node that the bound leaves open change their order (a double bridge, which moves of three edges
 //! cannot undo), the eight nodes at the cuts are queued, and moves do the rest. All that takes place within some dozens of
-//! nodes, so a kick costs microseconds whatever n.
+//! nodes, so a perturbation costs microseconds whatever n.
 //! *Guarantee.* The tour never gets longer. The random numbers depend on n and the round alone.
 //! *Reference.* Johnson and McGeoch 1997, iterated 3-opt with segment lengths bounded by 50.
 
@@ -12,9 +12,9 @@ use super::cycle::Cycle;
 use super::moves::{Queue, Search};
 use crate::Error;
 
-/// A kick moves a run of at most this many sites.
+/// A perturbation moves a run of at most this many sites.
 const MOVED_RUN_MAX: u64 = 30;
-/// Moves reverse a run of at most this many sites after a kick: without a limit, rare long ones would take most of the
+/// Moves reverse a run of at most this many sites after a perturbation: without a limit, rare long ones would take most of the
 /// time.
 const REVERSED_RUN_MAX: usize = 1000;
 

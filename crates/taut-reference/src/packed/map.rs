@@ -98,7 +98,7 @@ impl<K: Key, V: Copy + Default> PackedMap<K, V> {
         self.counts.len() * LEAF_SLOTS
     }
 
-    /// Tells a probe of the arrays; once, ahead of the first probed call.
+    /// Tells a probe of the arrays; once, ahead of the first instrumented call.
     pub fn place<P: Probe>(&self, probe: &mut P) {
         probe.place(self.keys.words());
         probe.place(&self.values);

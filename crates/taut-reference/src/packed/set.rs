@@ -52,7 +52,7 @@ impl<K: Key> PackedSet<K> {
         self.map.slots()
     }
 
-    /// Tells a probe of the arrays; once, ahead of the first probed call.
+    /// Tells a probe of the arrays; once, ahead of the first instrumented call.
     pub fn place<P: Probe>(&self, probe: &mut P) {
         self.map.place(probe);
     }

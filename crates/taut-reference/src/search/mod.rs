@@ -54,7 +54,7 @@ pub trait SortedIndex<K: Key>: Sized {
     /// Returns how many keys there are.
     fn len(&self) -> usize;
 
-    /// Tells a probe of the arrays that searches read; once, ahead of the first probed search.
+    /// Tells a probe of the arrays that searches read; once, ahead of the first instrumented search.
     fn place<P: Probe>(&self, probe: &mut P);
 
     /// Returns how many keys have a smaller word, and whether the next key has this word. The search that all others are made

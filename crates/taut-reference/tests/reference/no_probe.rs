@@ -86,7 +86,7 @@ fn tells(line: &str) -> bool {
     calls.iter().any(|call| line.starts_with(&format!("probe.{call}("))) && line.ends_with(';')
 }
 
-/// The instructions of each function without their operands: registers are dealt out anew for each change of the source.
+/// The instructions of each function without their operands: registers are dealt out again for each change of the source.
 fn functions(assembly: &str) -> BTreeMap<&str, Vec<&str>> {
     let mut functions = BTreeMap::<&str, Vec<&str>>::new();
     let mut name = "";

@@ -3,7 +3,7 @@
 //!
 //! *Problem.* For each of n rows, some center c with w·|p − c| + r ≤ R; in one pass.
 //! *Idea.* The center that held the row before is asked first, then those that are not too far along some axis
-//! ([`Halves`]). What plain arithmetic leaves open is decided in whole numbers, by [`compare`].
+//! ([`CenterTree`]). What plain arithmetic leaves open is decided in whole numbers, by [`compare`].
 //! *Assignment.* Where it is given, the center named for a row must be the nearest but for what a sum in `f64` may be off
 //! by, |p − c| ≤ |p − c'|·(1 + (d + 32)u) + 4ur for every other c': which of centers that are equally near by rounding is
 //! the first, depends on the order of a sum. Rows left out are assigned like others.
@@ -14,8 +14,8 @@ use std::cmp::Ordering;
 use taut_points::{Cancelled, Monitor, PointSource, Points, Rows, Scalar};
 
 use super::super::{Centers, CentersCertificate, CentersViolation};
+use super::center_tree::CenterTree;
 use super::distance::{Scale, compare, factors, is_same_place, kappa, square, thresholds};
-use super::halves::Halves;
 use super::item::{Item, Kind};
 use super::meter::Meter;
 use crate::CheckError;
@@ -28,15 +28,15 @@ pub(super) struct Enclosure<'a> {
     kind: Kind,
     scale: Scale,
     kappa: f64,
-    halves: Halves,
+    center_tree: CenterTree,
 }
 
 impl<'a> Enclosure<'a> {
     pub(super) fn of(answer: &'a Centers, kind: Kind) -> Self {
         let dim = answer.centers[0].len();
-        let halves = Halves::of(&answer.centers);
+        let center_tree = CenterTree::of(&answer.centers);
         let scale = Scale::of(answer.radius);
-        Enclosure { answer, kind, scale, kappa: kappa(dim), halves }
+        Enclosure { answer, kind, scale, kappa: kappa(dim), center_tree }
     }
 
     /// Reads all rows once; returns those of the core-set and those that are centers.
@@ -160,7 +160,7 @@ impl<'a> Enclosure<'a> {
         let mut asked = 1;
         let found = match test(*held_by) {
             true => Some(*held_by),
-            false => self.halves.find(place, reach, |center| {
+            false => self.center_tree.find(place, reach, |center| {
                 asked += 1;
                 test(center)
             }),
@@ -192,7 +192,7 @@ impl<'a> Enclosure<'a> {
             asked += 1;
             distance(other) * slack + 4.0 * U * item.radius < own
         };
-        let nearer = self.halves.find(item.position, own * (1.0 + 1e-9), is_nearer);
+        let nearer = self.center_tree.find(item.position, own * (1.0 + 1e-9), is_nearer);
         meter.spend(asked * item.position.len())?;
         Ok(match nearer {
             Some(nearer) => Err(CentersViolation::Assignment { row, center, nearer }),

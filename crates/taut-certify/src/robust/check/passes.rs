@@ -51,7 +51,7 @@ struct Distances {
     near: (f64, u64),
     /// Rows kept that do not reach the border of the ellipsoid around them.
     inside: u64,
-    /// Sums over the rows within the quantile, where nothing is weighed anew.
+    /// Sums over the rows within the quantile, where nothing is weighed again.
     within: Sums,
 }
 

@@ -15,7 +15,7 @@
 //! vertices: S ∩ T = conv(F ∩ G), a part of the hull of the common vertices of S and T. The same holds with T in place of S. ∎
 //!
 //! *Facets of the hull.* Let no site be beyond the plane of S, and none in the plane inside its circle. Of the balls with the vertices of S
-//! on their spheres take one whose center is far enough beyond the plane: each site beneath the plane is outside, and one in the
+//! on their spheres take one whose center is far enough beyond the plane: each site below the plane is outside, and one in the
 //! plane is inside, on the sphere or outside as it is of the circle. That is an empty ball whose sphere has the sites of the circle and
 //! no others.
 //! *Use.* A pair has to be looked at only if both triangles are dependent in this sense. [`balls`](super::balls), which proves the balls to

@@ -40,22 +40,22 @@ fn a_line_without_end_is_an_error_that_names_file_line_and_limit() {
     for (name, line, text) in endless_lines() {
         let said = format!("{name}: line {line} is longer than 1048576 bytes");
         folder.put(name, &text);
-        folder.taut(&format!("ball {name} --memory 1M")).ends(2).complains(&[&said]);
+        folder.taut(&format!("ball {name} --memory 1M")).ends(2).stderr_has(&[&said]);
         let (packed, said) = (format!("{name}.gz"), said.replace(name, &format!("{name}.gz")));
         folder.put(&packed, gzip(&text));
-        folder.taut(&format!("ball {packed} --memory 1M")).ends(2).complains(&[&said]);
+        folder.taut(&format!("ball {packed} --memory 1M")).ends(2).stderr_has(&[&said]);
     }
     let text = &endless_lines()[0].2;
     let mut encoder = XzEncoder::new(Vec::new(), 1);
     encoder.write_all(text).unwrap();
     folder.put("a.csv.xz", encoder.finish().unwrap());
-    folder.taut("ball a.csv.xz --memory 1M").ends(2).complains(&["a.csv.xz: line 1 is longer"]);
+    folder.taut("ball a.csv.xz --memory 1M").ends(2).stderr_has(&["a.csv.xz: line 1 is longer"]);
     folder
         .pipe(gzip(text), "ball - --memory 1M")
         .ends(2)
-        .complains(&["standard input: line 1 is longer than 1048576 bytes"]);
+        .stderr_has(&["standard input: line 1 is longer than 1048576 bytes"]);
     // The end of the line makes all the difference.
-    folder.taut("ball b.tsv --columns 0 --memory 1G").ends(2).complains(&["row 2 (line 2) has"]);
+    folder.taut("ball b.tsv --columns 0 --memory 1G").ends(2).stderr_has(&["row 2 (line 2) has"]);
 }
 
 #[test]
@@ -65,8 +65,8 @@ fn a_line_has_a_longest_length_without_a_limit_on_memory() {
     let file = File::create(folder.path("zeros.obj")).unwrap();
     file.set_len((64 << 20) + 2).unwrap();
     let said = "line 1 is longer than 67108864 bytes";
-    folder.taut("ball zeros.obj").ends(2).complains(&["zeros.obj", said, "a point per line"]);
-    folder.taut("verify zeros.obj zeros.obj").ends(2).complains(&["zeros.obj", said]);
+    folder.taut("ball zeros.obj").ends(2).stderr_has(&["zeros.obj", said, "a point per line"]);
+    folder.taut("verify zeros.obj zeros.obj").ends(2).stderr_has(&["zeros.obj", said]);
 }
 
 #[test]
@@ -82,12 +82,12 @@ fn compressed_arrays_are_read_in_pieces_within_the_allowed_memory() {
     folder.taut("ball zeros.npy.gz --memory 1M --quiet").ends(0);
     let said =
         ["a single point must be held in memory, which takes at least 24000000 bytes", "1048576"];
-    folder.taut("ball wide.npy.gz --memory 1M").ends(2).complains(&said);
-    folder.taut("ball wide.npy --memory 1M").ends(2).complains(&said);
+    folder.taut("ball wide.npy.gz --memory 1M").ends(2).stderr_has(&said);
+    folder.taut("ball wide.npy --memory 1M").ends(2).stderr_has(&said);
     folder
         .taut("ball wide.raw.gz --memory 1M --raw-dim 3000000 --raw-type f64")
         .ends(2)
-        .complains(&said);
+        .stderr_has(&said);
     folder.taut("ball wide.npy.gz --quiet").ends(0);
 }
 
@@ -100,7 +100,7 @@ fn a_shape_larger_than_the_allowed_memory_is_an_error() {
     folder.put("cloud.ply", &cloud);
     folder.put("cloud.ply.gz", gzip(&cloud));
     for name in ["cloud.ply", "cloud.ply.gz"] {
-        folder.taut(&format!("ball {name} --memory 2M")).ends(2).complains(&[
+        folder.taut(&format!("ball {name} --memory 2M")).ends(2).stderr_has(&[
             name,
             "all its vertices and triangles must be held in memory",
             "convert it to npy",
@@ -121,7 +121,7 @@ fn an_output_larger_than_the_free_space_is_refused_before_it_is_begun() {
         folder
             .taut(&format!("generate normal -n 1000000000000 -d 1000000 -o {name}"))
             .ends(2)
-            .complains(&[name, &format!("at least {bytes} bytes would be written"), "left"]);
+            .stderr_has(&[name, &format!("at least {bytes} bytes would be written"), "left"]);
         assert_eq!(folder.files(), ["points.csv"]);
         assert_eq!(folder.text("points.csv"), "earlier");
     }
@@ -130,7 +130,7 @@ fn an_output_larger_than_the_free_space_is_refused_before_it_is_begun() {
         folder
             .taut(&format!("generate normal -n 1000000000000000000 -d 1000000 -o {out}"))
             .ends(2)
-            .complains(&["option `--n` is 1000000000000000000", "can be counted"]);
+            .stderr_has(&["option `--n` is 1000000000000000000", "can be counted"]);
     }
     folder.taut("generate normal -n 1 -d 4000000000000000000 --type f32").ends(2);
 }

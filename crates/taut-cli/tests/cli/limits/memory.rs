@@ -24,7 +24,7 @@ fn points_that_outgrow_the_memory_of_the_process_are_an_error_with_a_remedy() {
     folder
         .shell("ulimit -d 150000; taut ball big.npy --threads 1")
         .ends(2)
-        .complains(&["big.npy: out of memory", "--memory"]);
+        .stderr_has(&["big.npy: out of memory", "--memory"]);
     folder.shell("ulimit -d 150000; taut ball big.npy --threads 1 --memory 20M --quiet").ends(0);
 }
 
@@ -35,7 +35,7 @@ fn a_solver_that_runs_out_of_memory_ends_with_code_2_and_leaves_no_file() {
     folder
         .shell("ulimit -d 150000; taut delaunay big.npy --threads 1 -o mesh.ply")
         .ends(2)
-        .complains(&["out of memory: the system refused ", "--memory"]);
+        .stderr_has(&["out of memory: the system refused ", "--memory"]);
     assert_eq!(folder.files(), ["big.npy"]);
 }
 
@@ -46,7 +46,7 @@ fn an_output_that_was_begun_is_removed_when_memory_runs_out() {
     folder
         .shell("ulimit -d 150000; taut generate normal -n 9 -d 4000000 --threads 1 -o wide.csv")
         .ends(2)
-        .complains(&["out of memory: the system refused "]);
+        .stderr_has(&["out of memory: the system refused "]);
     assert_eq!(folder.files(), Vec::<String>::new());
 }
 
@@ -56,10 +56,10 @@ fn a_library_that_handles_the_lack_of_memory_still_says_what_was_asked_for() {
     folder
         .shell("ulimit -d 150000; taut memory sample -k 100000000000 -n 1000000000000 -o s.txt")
         .ends(2)
-        .complains(&["option `k` is 100000000000", "memory"]);
+        .stderr_has(&["option `k` is 100000000000", "memory"]);
     folder
         .taut("generate normal -n 1 -d 500000000000000000 --type f32")
         .ends(2)
-        .complains(&["option `--dim` is 500000000000000000", "fits into memory"]);
+        .stderr_has(&["option `--dim` is 500000000000000000", "fits into memory"]);
     assert_eq!(folder.files(), Vec::<String>::new());
 }

@@ -56,11 +56,11 @@ fn an_endless_answer_is_refused() {
     let folder = TestFolder::new();
     folder.put("points.csv", "0,0\n1,1\n");
     let device = ["is a device, which may never end"];
-    folder.taut("verify /dev/zero points.csv").ends(2).complains(&device);
-    folder.shell("taut verify - points.csv < /dev/zero").ends(2).complains(&["no JSON object"]);
-    folder.shell("yes '{' | taut verify - points.csv").ends(2).complains(&["nested too deeply"]);
-    folder.shell("yes '{}' | taut verify - points.csv").ends(2).complains(&["more follows"]);
-    folder.shell("yes | taut draw - points.csv -o a.svg").ends(2).complains(&["no JSON object"]);
+    folder.taut("verify /dev/zero points.csv").ends(2).stderr_has(&device);
+    folder.shell("taut verify - points.csv < /dev/zero").ends(2).stderr_has(&["no JSON object"]);
+    folder.shell("yes '{' | taut verify - points.csv").ends(2).stderr_has(&["nested too deeply"]);
+    folder.shell("yes '{}' | taut verify - points.csv").ends(2).stderr_has(&["more follows"]);
+    folder.shell("yes | taut draw - points.csv -o a.svg").ends(2).stderr_has(&["no JSON object"]);
     folder.taut("verify /dev/null points.csv").ends(2);
     assert_eq!(folder.files(), ["points.csv"]);
 }
@@ -73,11 +73,11 @@ fn an_endless_device_is_no_file_of_points() {
         if !cfg!(feature = "arrow") && options.ends_with("parquet") {
             continue;
         }
-        folder.taut(&format!("ball /dev/zero {options}")).ends(2).complains(&device);
-        folder.shell(&format!("taut ball - {options} < /dev/zero")).ends(2).complains(&device);
+        folder.taut(&format!("ball /dev/zero {options}")).ends(2).stderr_has(&device);
+        folder.shell(&format!("taut ball - {options} < /dev/zero")).ends(2).stderr_has(&device);
     }
-    folder.taut("ball /dev/null --format csv").ends(2).complains(&["is empty"]);
-    folder.shell("taut ball - < /dev/null").ends(2).complains(&["is empty"]);
+    folder.taut("ball /dev/null --format csv").ends(2).stderr_has(&["is empty"]);
+    folder.shell("taut ball - < /dev/null").ends(2).stderr_has(&["is empty"]);
 }
 
 #[test]
@@ -97,7 +97,7 @@ fn a_full_device_is_said_by_everything_that_speaks() {
         folder
             .shell(&format!("taut {line} > /dev/full"))
             .ends(2)
-            .complains(&["standard output: writing failed", "No space left"]);
+            .stderr_has(&["standard output: writing failed", "No space left"]);
         // Whoever closes a pipe has seen enough.
         folder.shell(&format!("(taut {line}; echo $? > code) | true")).ends(0);
         assert_eq!(folder.text("code"), "0\n", "{line}");

@@ -45,12 +45,12 @@ fn options_are_shown_without_hundreds_of_digits() {
 fn a_number_that_would_become_0_is_refused_with_its_place() {
     let folder = TestFolder::new();
     folder.put("a.csv", "x,y\n0,1\n2,-1e-400\n");
-    folder.taut("ball a.csv").ends(2).complains(&[
+    folder.taut("ball a.csv").ends(2).stderr_has(&[
         "a.csv: row 2 (line 3), column 1 (`y`)",
         "`-1e-400` is not 0, but too small for double precision",
     ]);
     folder.put("first.csv", "1e-400,1\n2,3\n");
-    folder.taut("ball first.csv").ends(2).complains(&["row 1 (line 1), column 0", "`1e-400`"]);
+    folder.taut("ball first.csv").ends(2).stderr_has(&["row 1 (line 1), column 0", "`1e-400`"]);
     let small = "0.00000000001e-330";
     folder.put("b.txt", format!("1 {small}\n"));
     folder.put("c.tsp", format!("DIMENSION: 1\nNODE_COORD_SECTION\n1 {small} 2\nEOF\n"));
@@ -74,10 +74,10 @@ fn a_number_that_would_become_0_is_refused_with_its_place() {
         ("h.stl", "line 4"),
     ] {
         let said = format!("`{small}` is not 0, but too small");
-        folder.taut(&format!("ball {file}")).ends(2).complains(&[file, line, &said]);
+        folder.taut(&format!("ball {file}")).ends(2).stderr_has(&[file, line, &said]);
     }
     folder.put("mesh.obj", format!("v 0 0 {small}\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
-    folder.taut("verify mesh.obj a.csv").ends(2).complains(&["mesh.obj", "line 1", "is not 0"]);
+    folder.taut("verify mesh.obj a.csv").ends(2).stderr_has(&["mesh.obj", "line 1", "is not 0"]);
 }
 
 #[test]
@@ -98,7 +98,7 @@ fn places_on_the_earth_are_no_points_of_the_plane() {
         )
     };
     folder.put("geo.tsp", problem("GEO", "1 38.24 20.42\n2 39.57 26.15\n"));
-    folder.taut("ball geo.tsp").ends(2).complains(&[
+    folder.taut("ball geo.tsp").ends(2).stderr_has(&[
         "geo.tsp: line 4 says `EDGE_WEIGHT_TYPE: GEO`",
         "latitude and longitude",
         "project them",

@@ -32,17 +32,17 @@ fn arrays_of_any_type_and_order_are_turned() {
             folder
                 .taut("memory transpose a.npy --memory 4K -o b.npy --certificate b.json")
                 .ends(0)
-                .says(&["30 × 70 elements", dtype, "all elements"]);
+                .stdout_has(&["30 × 70 elements", dtype, "all elements"]);
             assert!(folder.bytes("b.npy") == npy(dtype, false, "(30, 70)", &other), "{dtype}");
-            folder.taut("verify b.json a.npy b.npy").ends(0).says(&[
+            folder.taut("verify b.json a.npy b.npy").ends(0).stdout_has(&[
                 "Verified: 30 × 70, the transpose",
                 "each compared with the one of the input",
             ]);
-            folder.taut("verify b.json b.npy").ends(0).says(&["by a hash"]);
+            folder.taut("verify b.json b.npy").ends(0).stdout_has(&["by a hash"]);
             folder
                 .taut("memory transpose a.npy --samples 20 -o c.npy")
                 .ends(0)
-                .says(&["20 elements"]);
+                .stdout_has(&["20 elements"]);
             assert!(folder.bytes("b.npy") == folder.bytes("c.npy"));
         }
     }
@@ -52,7 +52,7 @@ fn arrays_of_any_type_and_order_are_turned() {
     folder
         .taut("verify b.json a.npy b.npy")
         .ends(1)
-        .says(&["Rejected: b.npy has another element in row 1, column 1 than a.npy"]);
+        .stdout_has(&["Rejected: b.npy has another element in row 1, column 1 than a.npy"]);
     folder.taut("verify b.json b.npy a.npy").ends(1);
 }
 
@@ -80,11 +80,11 @@ fn headers_that_numpy_reads_and_headers_that_lie() {
         "b.json",
         without.join("\n").replace("\"output_offset\": 128,", "\"output_offset\": 128"),
     );
-    folder.taut("verify b.json a.npy b.npy").ends(0).says(&["byte 128 of the input"]);
+    folder.taut("verify b.json a.npy b.npy").ends(0).stdout_has(&["byte 128 of the input"]);
     let turned = folder.bytes("b.npy")[128..].to_vec();
     for lie in [npy("<f8", true, "(6, 5)", &turned), npy("<f8", false, "(30, 1)", &turned)] {
         folder.put("b.npy", lie);
-        folder.taut("verify b.json b.npy").ends(1).says(&["Rejected: the header of b.npy"]);
+        folder.taut("verify b.json b.npy").ends(1).stdout_has(&["Rejected: the header of b.npy"]);
     }
 }
 
@@ -124,23 +124,26 @@ fn what_is_no_matrix_is_refused_by_name() {
         (plain.clone(), "-o a.npy", &["a.npy", "is the input"]),
     ] {
         folder.put("a.npy", bytes);
-        folder.taut(&format!("memory transpose a.npy {options}")).ends(2).complains(said);
+        folder.taut(&format!("memory transpose a.npy {options}")).ends(2).stderr_has(said);
         assert_eq!(folder.files(), ["a.npy"]);
     }
     folder.taut("memory transpose a.npy --samples 1 --certificate b.json -o b.npy").ends(2);
     for missing in ["missing.npy -o b.npy", "missing.bin --rows 1 --columns 2 -o b.bin"] {
         let named = ["missing", ": no such file or folder"];
-        folder.taut(&format!("memory transpose {missing}")).ends(2).complains(&named);
+        folder.taut(&format!("memory transpose {missing}")).ends(2).stderr_has(&named);
     }
     folder.put("a.bin", [0; 16]);
-    folder.taut("memory transpose a.bin -o b.bin").ends(2).complains(&["a.bin", "--rows N"]);
+    folder.taut("memory transpose a.bin -o b.bin").ends(2).stderr_has(&["a.bin", "--rows N"]);
     folder
         .taut("memory transpose a.bin --rows 1 --columns 2 -o b.npy")
         .ends(2)
-        .complains(&["b.npy", "without a header"]);
+        .stderr_has(&["b.npy", "without a header"]);
     folder
         .taut("memory transpose a.bin --rows 1 --columns 2 -o b.bin --certificate b.json")
         .ends(0);
-    folder.taut("verify b.json a.bin c.bin").ends(2).complains(&["c.bin: no such file or folder"]);
-    folder.taut("verify b.json a.bin b.bin").ends(0).says(&["Verified: 2 × 1, the transpose"]);
+    folder.taut("verify b.json a.bin c.bin").ends(2).stderr_has(&["c.bin: no such file or folder"]);
+    folder
+        .taut("verify b.json a.bin b.bin")
+        .ends(0)
+        .stdout_has(&["Verified: 2 × 1, the transpose"]);
 }

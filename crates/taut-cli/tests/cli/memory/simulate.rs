@@ -14,7 +14,7 @@ fn misses_stand_beside_the_formula() {
     folder
         .taut("memory simulate transpose -n 256 --memory 32K,256K --block 64,256 -o misses.csv")
         .ends(0)
-        .says(&["algorithm", "formula", "transpose", "16,384", "1.000"]);
+        .stdout_has(&["algorithm", "formula", "transpose", "16,384", "1.000"]);
     let text = folder.text("misses.csv");
     assert!(text.starts_with("algorithm,n,memory,block,policy,misses,write_backs,formula\n"));
     let rows = rows(&text);
@@ -83,11 +83,11 @@ fn figures_of_the_thesis_are_counted_and_drawn() {
     folder
         .taut("memory simulate --figure 40 -o 40.csv --draw 40.svg")
         .ends(0)
-        .says(&["transpose-loops"]);
+        .stdout_has(&["transpose-loops"]);
     assert!(folder.text("40.svg").contains("Transposition, n × 100"));
     assert_eq!(rows(&folder.text("40.csv")).len(), 22);
     for number in [35, 39, 44, 45, 51] {
-        folder.taut(&format!("memory simulate --figure {number}")).ends(2).complains(&[
+        folder.taut(&format!("memory simulate --figure {number}")).ends(2).stderr_has(&[
             "--figure",
             &number.to_string(),
             "36 to 38",
@@ -112,7 +112,7 @@ fn what_is_no_memory_is_refused_by_name() {
         ("strassen -n 48", &["`n`", "power of two"]),
         ("transpose --draw picture.txt", &["picture.txt"]),
     ] {
-        folder.taut(&format!("memory simulate {options}")).ends(2).complains(said);
+        folder.taut(&format!("memory simulate {options}")).ends(2).stderr_has(said);
     }
     for usage in ["transposition", "--draw picture.svg", "transpose --figure 36"] {
         folder.taut(&format!("memory simulate {usage}")).ends(2);

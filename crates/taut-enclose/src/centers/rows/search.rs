@@ -2,7 +2,7 @@
 //!
 //! *Idea.* Depth first; a node is [`State`]. Where X is held, each cluster takes one of its rows as center, and all
 //! items are measured: either the radius is enough, or the farthest item joins X and the node is looked at again. What
-//! was refuted stays refuted. When X has grown and the tree as well, it starts anew, as the new items may refute it sooner.
+//! was refuted stays refuted. When X has grown and the tree as well, it starts again, as the new items may refute it sooner.
 
 use taut_points::{Monitor, ReadError};
 
@@ -36,7 +36,7 @@ pub(super) struct Search<'a, 's> {
 }
 
 impl Search<'_, '_> {
-    /// Searches from the root; starts anew rather than go on after `patience` nodes when X has grown.
+    /// Searches from the root; starts again rather than go on after `patience` nodes when X has grown.
     pub(super) fn run(&mut self, patience: u64) -> Result<End, Error> {
         let (members, restart) = (self.state.core.len(), self.nodes.saturating_add(patience));
         let mut path = Path::new();

@@ -22,7 +22,7 @@ use crate::kernel::vector::{add_scaled, dot};
 const DEPENDENT_RATIO: f64 = 1e-11;
 /// More than this counts as a rise of the radius, in parts of it.
 const RADIUS_RISE_MIN: f64 = 4e-16;
-/// Items may join in vain, one after the other, up to this many times beyond d.
+/// Items may join without progress, one after the other, up to this many times beyond d.
 const JOINS_WITHOUT_RISE_MAX: usize = 10;
 /// R is found in at most this many steps, of which each doubles the digits.
 const NEWTON_STEPS_MAX: usize = 60;

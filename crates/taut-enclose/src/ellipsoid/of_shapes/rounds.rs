@@ -1,4 +1,4 @@
-//! The rounds: a pool's ellipsoid, a pass for what lies outside, and that joins the pool.
+//! The rounds: a working set's ellipsoid, a pass for what lies outside, and that joins the working set.
 
 use taut_certify::{Ellipsoid, PassBounds, Solution, Stop, Trace};
 use taut_points::{Monitor, ReadError};
@@ -18,7 +18,7 @@ use crate::shapes::frame::{Framed, Map};
 
 /// After a pass, this many points may join for each of the d(d + 3)/2 that can be needed.
 const JOINING_FACTOR: usize = 2;
-/// A point of the pool with no multiplier whose |y|² is below this part of d is of no use any more.
+/// A point of the working set with no multiplier whose |y|² is below this part of d is of no use any more.
 const LEVERAGE_RATIO_MIN: f64 = 0.98;
 /// This many passes without a better gap show that rounding is in the way, of gaps below [`SMALL_GAP`].
 const STALE_PASSES_MAX: u32 = 4;
@@ -133,7 +133,7 @@ impl Base {
     }
 }
 
-/// Points with no multiplier, well inside, leave the pool.
+/// Points with no multiplier, well inside, leave the working set.
 fn drop_useless(working_set: &mut WorkingSet, whitener: &Whitener) {
     let dim = working_set.dim() as f64;
     let leverages = whitener.apply(working_set).leverages;

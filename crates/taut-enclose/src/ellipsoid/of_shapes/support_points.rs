@@ -1,4 +1,4 @@
-//! Points in which items touch: the pool knows each by its number, its item and a direction.
+//! Points in which items touch: the working set knows each by its number, its item and a direction.
 
 use rayon::prelude::*;
 
@@ -8,7 +8,7 @@ use crate::kernel::vector::dot;
 use crate::shapes::eigen::eigen;
 use crate::shapes::frame::Framed;
 
-/// The first pool has this many points for each of the d(d + 3)/2 that can be needed.
+/// The first working set has this many points for each of the d(d + 3)/2 that can be needed.
 const FIRST_POOL_FACTOR: usize = 4;
 /// An affine basis is taken from a sample of this many items.
 const SAMPLE_SIZE: usize = 200;
@@ -20,7 +20,7 @@ pub(super) struct SupportPoint {
     pub(super) direction: Vec<f64>,
 }
 
-/// The points of a pool by their numbers.
+/// The points of a working set by their numbers.
 pub(super) struct SupportPoints {
     pub(super) list: Vec<SupportPoint>,
 }

@@ -253,7 +253,7 @@ fn wrong_calls_are_answered_by_name() {
     assert!(error.expect_err("refused").to_string().contains("not a regular file"));
 }
 
-/// To open a pipe that nobody writes to would be to wait for ever.
+/// To open a pipe that nobody writes to would be to wait endlessly.
 #[cfg(target_os = "linux")]
 #[test]
 #[cfg_attr(miri, ignore = "files")]

@@ -18,7 +18,7 @@ const NONE: Side = Side::MAX;
 
 /// The change of the fans of a corner when a triangle is added.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Turn {
+enum FanChange {
     Begins,
     Extends,
     Joins,
@@ -88,7 +88,7 @@ impl<'a> Fans<'a> {
         let allowed = |i: usize| {
             let site = corners[i] as usize;
             !self.closed[site]
-                && (self.open[site] < 2 || self.turn(corners, edges, i) != Turn::Closes)
+                && (self.open[site] < 2 || self.turn(corners, edges, i) != FanChange::Closes)
         };
         (0..3).all(runs_on) && (0..3).all(allowed)
     }
@@ -101,10 +101,10 @@ impl<'a> Fans<'a> {
         for (corner, turn) in corners.into_iter().zip(turns) {
             let open = &mut self.open[corner as usize];
             match turn {
-                Turn::Begins => *open += 1,
-                Turn::Extends => {}
-                Turn::Joins => *open -= 1,
-                Turn::Closes => {
+                FanChange::Begins => *open += 1,
+                FanChange::Extends => {}
+                FanChange::Joins => *open -= 1,
+                FanChange::Closes => {
                     *open -= 1;
                     self.closed[corner as usize] = true;
                 }
@@ -125,18 +125,18 @@ impl<'a> Fans<'a> {
     }
 
     /// Returns what a triangle does at its corner i.
-    fn turn(&self, corners: [u32; 3], edges: [u32; 3], i: usize) -> Turn {
+    fn turn(&self, corners: [u32; 3], edges: [u32; 3], i: usize) -> FanChange {
         let (one, other) = (edges[i], edges[(i + 2) % 3]);
         match (self.only(one), self.only(other)) {
-            (None, None) => Turn::Begins,
+            (None, None) => FanChange::Begins,
             (Some(side), Some(_)) => {
                 if self.end_of_fan(corners[i], one, side) == other {
-                    Turn::Closes
+                    FanChange::Closes
                 } else {
-                    Turn::Joins
+                    FanChange::Joins
                 }
             }
-            _ => Turn::Extends,
+            _ => FanChange::Extends,
         }
     }
 

@@ -19,7 +19,7 @@ use crate::surface::vector::{Vector, minus};
 
 /// A candidate at an edge.
 #[derive(Clone, Copy, Debug)]
-struct Kept {
+struct RingCandidate {
     /// The side that continues the orientation of the triangle at the edge.
     side: Side,
     /// The third site.
@@ -42,7 +42,7 @@ pub(super) struct Choice {
 pub(super) struct Ring {
     forbidden: Bound,
     sliver: Bound,
-    kept: Vec<Kept>,
+    kept: Vec<RingCandidate>,
     by_measure: Vec<u32>,
 }
 
@@ -116,7 +116,7 @@ impl Ring {
                 let normal = half_plane(from, d, at(third));
                 if !self.forbidden.exceeds(own, normal) {
                     let measure = candidates.measure(own_number, candidate);
-                    self.kept.push(Kept { side: next, third, normal, measure });
+                    self.kept.push(RingCandidate { side: next, third, normal, measure });
                 }
             }
             (side, last) = (sides.mirror(next), third);

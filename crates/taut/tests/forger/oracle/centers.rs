@@ -232,7 +232,7 @@ impl Optima {
         Optima { bodies, least }
     }
 
-    /// The least radius of at most k balls around all rows but so many.
+    /// The least radius of at most k balls around all rows except z.
     fn optimum(&self, k: u64, outliers: u64, end: usize) -> Dyadic {
         let n = self.bodies.len();
         let layer = &self.least[end][(k as usize).clamp(1, n) - 1];

@@ -97,7 +97,7 @@ pub(super) fn judge(problem: &Problem<'_>, found: &Solution<Centers>, epsilon: f
     }
 }
 
-/// A walk through the proof.
+/// A depth-first replay of the proof.
 struct Replay<'a> {
     /// For each item of the core-set, whether each row has it within less than the bound.
     near: Vec<Vec<bool>>,

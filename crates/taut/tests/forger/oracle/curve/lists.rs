@@ -103,7 +103,7 @@ pub(super) fn apart(p: Point, [a, b]: [Point; 2], t: f64) -> f64 {
     x.hypot(y)
 }
 
-/// The share of a segment before the foot of p.
+/// The share of a segment before the projection of p.
 pub(super) fn projection(p: Point, [a, b]: [Point; 2]) -> f64 {
     let [e, r] = [b, p].map(|q| [0, 1].map(|k| q[k] / 2.0 - a[k] / 2.0));
     let size = e[0].abs().max(e[1].abs());

@@ -24,16 +24,16 @@ struct Parting {
 }
 
 /// All centers.
-pub(super) struct Halves {
+pub(super) struct CenterTree {
     order: Vec<usize>,
     nodes: Vec<Node>,
 }
 
-impl Halves {
+impl CenterTree {
     pub(super) fn of(centers: &[Vec<f64>]) -> Self {
-        let mut halves = Halves { order: (0..centers.len()).collect(), nodes: vec![] };
-        halves.part(centers, 0, centers.len());
-        halves
+        let mut center_tree = CenterTree { order: (0..centers.len()).collect(), nodes: vec![] };
+        center_tree.part(centers, 0, centers.len());
+        center_tree
     }
 
     /// Parts a range of the order; its depth is the logarithm of its length.
@@ -112,14 +112,14 @@ mod tests {
         let coordinate = |i: usize| ((i * i * 37 + i * 11) % 101) as f64;
         let centers: Vec<Vec<f64>> =
             (0..300).map(|i| vec![coordinate(i), coordinate(i + 7), coordinate(3 * i)]).collect();
-        let halves = Halves::of(&centers);
+        let center_tree = CenterTree::of(&centers);
         let distance = |a: &[f64], b: &[f64]| {
             a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
         };
         let mut total = 0;
         for place in &centers {
             let mut asked = vec![];
-            halves.find(place, 12.0, |center| {
+            center_tree.find(place, 12.0, |center| {
                 asked.push(center);
                 false
             });

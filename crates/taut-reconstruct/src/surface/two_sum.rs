@@ -8,12 +8,12 @@ use std::ops::{Add, Mul, Sub};
 
 /// The sum of two numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Doubled {
+pub(super) struct TwoSum {
     pub(super) high: f64,
     low: f64,
 }
 
-impl Doubled {
+impl TwoSum {
     /// The difference of two numbers, exactly.
     pub(super) fn difference(a: f64, b: f64) -> Self {
         Self::sum(a, -b)
@@ -26,7 +26,7 @@ impl Doubled {
     }
 }
 
-impl Add for Doubled {
+impl Add for TwoSum {
     type Output = Self;
 
     fn add(self, other: Self) -> Self {
@@ -35,7 +35,7 @@ impl Add for Doubled {
     }
 }
 
-impl Sub for Doubled {
+impl Sub for TwoSum {
     type Output = Self;
 
     fn sub(self, other: Self) -> Self {
@@ -43,7 +43,7 @@ impl Sub for Doubled {
     }
 }
 
-impl Mul for Doubled {
+impl Mul for TwoSum {
     type Output = Self;
 
     fn mul(self, other: Self) -> Self {
@@ -60,11 +60,11 @@ mod tests {
     #[test]
     fn what_one_number_loses_is_kept() {
         let tiny = 2f64.powi(-70);
-        let one = Doubled::difference(1.0, -tiny);
+        let one = TwoSum::difference(1.0, -tiny);
         assert_eq!((one.high, one.low), (1.0, tiny));
-        let square = one * one - Doubled::difference(1.0, 0.0);
+        let square = one * one - TwoSum::difference(1.0, 0.0);
         assert_eq!(square.high, 2.0 * tiny);
-        let third = Doubled::difference(0.1, 0.3);
-        assert_eq!((third + Doubled::difference(0.3, 0.1)).high, 0.0);
+        let third = TwoSum::difference(0.1, 0.3);
+        assert_eq!((third + TwoSum::difference(0.3, 0.1)).high, 0.0);
     }
 }
