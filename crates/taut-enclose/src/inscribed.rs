@@ -161,7 +161,7 @@ fn binary_exponent(value: f64) -> i32 {
 }
 
 /// c, G by rows, multipliers of all rows, and how it came about.
-struct Found {
+struct PathResult {
     center: Vec<f64>,
     axes: Vec<f64>,
     lambda: Vec<f64>,
@@ -198,11 +198,11 @@ fn seen(row: &[f64], center: &[f64], axes: &[f64]) -> View {
 /// From the end of the path to an answer: grown until it touches, multipliers corrected for what it is then.
 fn prove(
     sides: &HalfSpaces,
-    found: Found,
+    found: PathResult,
     options: &InscribedOptions<'_>,
 ) -> Result<Solution<InscribedEllipsoid>, Error> {
     let dim = sides.dim;
-    let Found { center, mut axes, lambda, steps, mut stop, history } = found;
+    let PathResult { center, mut axes, lambda, steps, mut stop, history } = found;
     let measure = |axes: &[f64]| {
         sides
             .rows()

@@ -9,6 +9,9 @@ use std::process::Command;
 
 use serde_json::Value;
 
+#[path = "tidy/vocabulary.rs"]
+mod vocabulary;
+
 /// The layer of each package: an arrow may only go to a lower one.
 const LAYERS: [(&str, i32); 16] = [
     ("taut-points", -1),
@@ -47,16 +50,18 @@ const KERNELS: [&str; 6] = [
 ];
 
 /// Words that cannot be searched for and say nothing: no constant has one of them as its whole name.
-const BARE_WORDS: [&str; 86] = [
-    "AHEAD", "ALIKE", "ASKED", "BESIDE", "CLEAR", "CLOSE", "COARSE", "COARSER", "DENSE", "DENSER",
-    "DOUBTFUL", "DRAWN", "END", "ENOUGH", "EVEN", "FALL", "FAR", "FARTHER", "FARTHEST", "FEW",
-    "FEWEST", "FINE", "FINEST", "FIRST", "FLATTER", "FORGIVEN", "GAIN", "GOOD", "GROWTH", "HALF",
-    "HUGE", "LARGE", "LARGEST", "LAST", "LATER", "LEAST", "LESS", "LONG", "LONGEST", "LOOSE",
-    "MANY", "MIDDLE", "MORE", "MOST", "NAMED", "NARROW", "NEAR", "NEARLY", "NEXT", "NOTHING",
-    "OFTEN", "OUT", "PATIENCE", "QUICK", "REACH", "RISE", "ROOM", "ROUGH", "RUNS", "SAFE",
-    "SELDOM", "SHORT", "SHORTER", "SHORTEST", "SHOWN", "SLACK", "SMALL", "SMALLEST", "SOME",
-    "SPARE", "SPARSE", "STALE", "STEPS", "SURE", "TIMES", "TINY", "TOGETHER", "TURNS", "TWICE",
-    "USEFUL", "VAIN", "WIDE", "WIDER", "WIDEST", "WITHIN", "WORTH",
+const BARE_WORDS: [&str; 109] = [
+    "AHEAD", "ALIKE", "ALMOST", "ASKED", "BARELY", "BESIDE", "BIG", "BRIEF", "CLEAR", "CLOSE",
+    "COARSE", "COARSER", "DEEP", "DEEPEST", "DENSE", "DENSER", "DOUBTFUL", "DRAWN", "END",
+    "ENOUGH", "EVEN", "FALL", "FAR", "FARTHER", "FARTHEST", "FAST", "FEW", "FEWEST", "FINE",
+    "FINEST", "FIRST", "FLATTER", "FORGIVEN", "FURTHER", "GAIN", "GOOD", "GREAT", "GROWTH", "HALF",
+    "HIGH", "HIGHEST", "HUGE", "LARGE", "LARGEST", "LAST", "LATER", "LEAST", "LESS", "LITTLE",
+    "LONG", "LONGEST", "LOOSE", "LOW", "LOWEST", "MANY", "MIDDLE", "MORE", "MOST", "MUCH", "NAMED",
+    "NARROW", "NEAR", "NEARLY", "NEXT", "NOTHING", "OFTEN", "OUT", "PATIENCE", "PLENTY", "QUICK",
+    "RARE", "REACH", "RISE", "ROOM", "ROUGH", "RUNS", "SAFE", "SELDOM", "SEVERAL", "SHORT",
+    "SHORTER", "SHORTEST", "SHOWN", "SLACK", "SLOW", "SMALL", "SMALLEST", "SOME", "SPARE",
+    "SPARSE", "STALE", "STEEP", "STEPS", "SURE", "THICK", "THIN", "TIGHT", "TIMES", "TINY",
+    "TOGETHER", "TURNS", "TWICE", "USEFUL", "VAIN", "WIDE", "WIDER", "WIDEST", "WITHIN", "WORTH",
 ];
 
 /// Functions at the root of the façade, at most: one for each noun, and some for those to come.

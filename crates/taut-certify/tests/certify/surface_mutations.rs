@@ -145,7 +145,7 @@ fn numbers_that_are_changed_are_refused() {
 
 /// An apex is accepted just where fractions find its ball empty.
 #[test]
-fn apexes_that_are_changed_are_judged_anew() {
+fn apexes_that_are_changed_are_judged_again() {
     for (name, case) in valid() {
         let places = case.places();
         let unused = &case.solution.answer.unused;

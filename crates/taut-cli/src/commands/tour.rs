@@ -55,7 +55,7 @@ impl Args {
         let mut outcome = Outcome::Done;
         let mut sections = Vec::new();
         // Where the page goes to standard output, nothing else does.
-        let say = |line: &str| match self.effort.quiet || writing::is_stream(&self.out) {
+        let print_line = |line: &str| match self.effort.quiet || writing::is_stream(&self.out) {
             true => Ok(()),
             false => writing::print(line.as_bytes()),
         };
@@ -76,7 +76,7 @@ impl Args {
             if !stop.verified {
                 outcome = Outcome::CheckFailed;
             }
-            say(&format!(
+            print_line(&format!(
                 "{heading:<37}{:<44} verified {verified:<4} {}\n",
                 stop.summary,
                 seconds(clock.elapsed())

@@ -12,7 +12,7 @@
 use taut_predicates::{Exact, MulAdd, Sign};
 
 use super::seen::{PointOffset, View, minor};
-use super::walk::{Found, LAST_FACET, NEXT_FACET};
+use super::walk::{LAST_FACET, LocatedTriangle, NEXT_FACET};
 use crate::kernel::Counters;
 use crate::simplex::{GHOST, Simplex, decode};
 
@@ -46,7 +46,7 @@ pub(super) trait Sink {
 #[inline(always)]
 pub(super) fn dig<M: MulAdd, S: Sink>(
     view: &View<'_>,
-    found: Found,
+    found: LocatedTriangle,
     pending: &mut Vec<Edge>,
     exact: &mut Exact,
     counters: &mut Counters,

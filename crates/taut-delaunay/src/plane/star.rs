@@ -10,7 +10,7 @@ use taut_predicates::Separate;
 
 use super::dig::Sink;
 use super::seen::{PointOffset, minor};
-use super::walk::Found;
+use super::walk::LocatedTriangle;
 use crate::simplex::{GHOST, Simplex, code, decode};
 
 /// Replaces the cavity by the star of a site: vertex 0 of each triangle is the site, facet 0 the edge of the rim.
@@ -34,7 +34,7 @@ impl<'a> Star<'a> {
         site: u32,
         triangles: &'a mut [Simplex<3>],
         free: &'a mut Vec<u32>,
-        found: &Found,
+        found: &LocatedTriangle,
         next: PointOffset,
     ) -> Star<'a> {
         free.push(found.triangle);

@@ -14,7 +14,7 @@ use crate::simplex::{GHOST, Simplex, decode};
 
 /// The triangle (d, b, a) that was found, d being at place `facet`, and its minors.
 #[derive(Clone, Copy)]
-pub(super) struct Found {
+pub(super) struct LocatedTriangle {
     pub(super) triangle: u32,
     pub(super) facet: usize,
     pub(super) a: PointOffset,
@@ -32,7 +32,7 @@ pub(super) fn walk<M: MulAdd>(
     from: u32,
     exact: &mut Exact,
     counters: &mut Counters,
-) -> Found {
+) -> LocatedTriangle {
     // As if the first triangle had been entered through the edge opposite its vertex 0; that edge is looked at once.
     let mut triangle = from;
     if let Some(place) = triangles[triangle as usize].vertices.iter().position(|&v| v == GHOST) {
@@ -65,7 +65,7 @@ pub(super) fn walk<M: MulAdd>(
         } else {
             counters.walk_steps += steps;
             counters.orientations += 2 * steps + 1;
-            return Found { triangle, facet, a, b, d, ba, ad, db };
+            return LocatedTriangle { triangle, facet, a, b, d, ba, ad, db };
         }
     }
 }

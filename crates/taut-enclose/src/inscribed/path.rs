@@ -12,7 +12,7 @@ use taut_certify::{PassBounds, Stop};
 use taut_points::{Monitor, ReadError};
 
 use super::start::Interior;
-use super::{Found, HalfSpaces, InscribedOptions, ROUNDING, View, seen};
+use super::{HalfSpaces, InscribedOptions, PathResult, ROUNDING, View, seen};
 use crate::Error;
 use crate::ellipsoid::dense::cholesky;
 use crate::ellipsoid::outcome::log_unit_ball;
@@ -40,7 +40,7 @@ pub(super) fn follow(
     start: Interior,
     options: &InscribedOptions<'_>,
     monitor: &Monitor<'_>,
-) -> Result<Found, Error> {
+) -> Result<PathResult, Error> {
     let dim = sides.dim;
     let n = sides.rows().len();
     let mut center = start.center;
@@ -79,7 +79,7 @@ pub(super) fn follow(
     let multiplier =
         |View { normal: a, slack: s, unit }: &View| 2.0 * mu * s / (s * s - dot(a, a)) / unit;
     let lambda = views.iter().map(multiplier).collect();
-    Ok(Found { center, axes, lambda, steps, stop, history })
+    Ok(PathResult { center, axes, lambda, steps, stop, history })
 }
 
 /// Entries (k, l), k ≥ l, of a symmetric matrix, and by what they are multiplied in a vector of the same length.

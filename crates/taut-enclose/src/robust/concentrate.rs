@@ -22,7 +22,7 @@ pub(super) struct Raw {
 }
 
 /// Where steps ended.
-pub(super) enum Found {
+pub(super) enum ConcentrationResult {
     Full(Raw),
     /// In a hyperplane that holds the rows kept: their determinant is 0.
     Flat(Flat),
@@ -80,11 +80,11 @@ pub(super) fn concentrate(
     h: usize,
     limit: usize,
     steps: &mut u64,
-) -> Result<Found, Error> {
+) -> Result<ConcentrationResult, Error> {
     let mut kept = nearest(&start.distances(data)?, h);
     let mut here = match estimate(criterion, data, start, &kept)? {
         Ok(estimate) => estimate,
-        Err(flat) => return Ok(Found::Flat(flat)),
+        Err(flat) => return Ok(ConcentrationResult::Flat(flat)),
     };
     for _ in 1..limit {
         *steps += 1;
@@ -94,7 +94,7 @@ pub(super) fn concentrate(
         }
         let better = match estimate(criterion, data, &here, &next)? {
             Ok(estimate) => estimate,
-            Err(flat) => return Ok(Found::Flat(flat)),
+            Err(flat) => return Ok(ConcentrationResult::Flat(flat)),
         };
         // Rows that differ by rounding alone could follow each other in a circle.
         let leads_on = better.log_det() < here.log_det() - criterion.least_step();
@@ -103,7 +103,7 @@ pub(super) fn concentrate(
         }
         (kept, here) = (next, better);
     }
-    Ok(Found::Full(Raw { estimate: here, kept }))
+    Ok(ConcentrationResult::Full(Raw { estimate: here, kept }))
 }
 
 /// C-steps until they end, from the nearest half by a ranking.
@@ -114,7 +114,7 @@ pub(super) fn from_ranking(
     ranking: &[f64],
     h: usize,
     steps: &mut u64,
-) -> Result<Found, Error> {
+) -> Result<ConcentrationResult, Error> {
     let points = Points::new(values, dim).expect("rows of the dimension");
     let silent = Monitor::silent();
     let mut data = PointReader::new(&points, &silent)?;
@@ -125,7 +125,7 @@ pub(super) fn from_ranking(
         match estimate(criterion, &mut data, &metric, &kept)? {
             Ok(start) => return concentrate(criterion, &mut data, &start, h, usize::MAX, steps),
             // Half of the points may lie in a hyperplane that does not hold h of them.
-            Err(flat) if count == h => return Ok(Found::Flat(flat)),
+            Err(flat) if count == h => return Ok(ConcentrationResult::Flat(flat)),
             Err(_) => {}
         }
     }

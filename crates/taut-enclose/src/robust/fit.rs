@@ -6,7 +6,7 @@ use taut_points::{Monitor, Points};
 use super::chi_square::{
     mcd_reweighted_scale, mcd_scale, mve_reweighted_scale, mve_scale, quantile,
 };
-use super::concentrate::{Criterion, Found, Raw};
+use super::concentrate::{ConcentrationResult, Criterion, Raw};
 use super::enclosing::EnclosingMetric;
 use super::estimate::{Estimate, RankedEstimate};
 use super::flat::{Flat, Part, hull};
@@ -66,8 +66,8 @@ fn descend(
     steps: &mut u64,
 ) -> Result<Descent, Error> {
     let flat = match search::solve(Criterion::of(options), data, h, steps)? {
-        Found::Full(raw) => return Ok(Descent { part: None, raw: Some(raw) }),
-        Found::Flat(flat) => flat,
+        ConcentrationResult::Full(raw) => return Ok(Descent { part: None, raw: Some(raw) }),
+        ConcentrationResult::Flat(flat) => flat,
     };
     let part = flat.holding(data, h)?;
     if part.flat.rank() == 0 {

@@ -16,7 +16,9 @@ use rayon::prelude::*;
 use taut_points::{Monitor, Points};
 
 use super::border::Border;
-use super::concentrate::{Criterion, Found, Raw, concentrate, estimate, from_ranking};
+use super::concentrate::{
+    ConcentrationResult, Criterion, Raw, concentrate, estimate, from_ranking,
+};
 use super::estimate::{Estimate, RankedEstimate};
 use super::flat::Flat;
 use super::starts::{START_COUNT, Standardized};
@@ -46,7 +48,7 @@ pub(super) fn solve(
     data: &mut PointReader<'_>,
     h: usize,
     steps: &mut u64,
-) -> Result<Found, Error> {
+) -> Result<ConcentrationResult, Error> {
     let (n, dim) = (data.len() as usize, data.dim());
     let size = SAMPLE_SIZE.max(20 * dim);
     let ids = by_hash(data, if n > 2 * size { size } else { n })?;
@@ -57,12 +59,16 @@ pub(super) fn solve(
     for (found, taken) in ends {
         *steps += taken;
         match found {
-            Found::Full(raw) if candidates.iter().all(|other| other.kept != raw.kept) => {
+            ConcentrationResult::Full(raw)
+                if candidates.iter().all(|other| other.kept != raw.kept) =>
+            {
                 candidates.push(raw);
             }
-            Found::Full(_) => {}
-            Found::Flat(flat) if holds(&flat, data, h)? => return Ok(Found::Flat(flat)),
-            Found::Flat(_) => {}
+            ConcentrationResult::Full(_) => {}
+            ConcentrationResult::Flat(flat) if holds(&flat, data, h)? => {
+                return Ok(ConcentrationResult::Flat(flat));
+            }
+            ConcentrationResult::Flat(_) => {}
         }
     }
     if candidates.is_empty() {
@@ -71,14 +77,14 @@ pub(super) fn solve(
         let metric = Estimate::rough(data, &all)?;
         return match estimate(criterion, data, &metric, &all)? {
             Ok(start) => concentrate(criterion, data, &start, h, usize::MAX, steps),
-            Err(flat) => Ok(Found::Flat(flat)),
+            Err(flat) => Ok(ConcentrationResult::Flat(flat)),
         };
     }
     best(&mut candidates, CANDIDATES_MAX);
     for (limit, left) in [(2, FINALISTS_MAX), (usize::MAX, FINALISTS_MAX)] {
         for candidate in &mut candidates {
             match concentrate(criterion, data, &candidate.estimate, h, limit, steps)? {
-                Found::Full(raw) => *candidate = raw,
+                ConcentrationResult::Full(raw) => *candidate = raw,
                 flat => return Ok(flat),
             }
         }
@@ -90,13 +96,13 @@ pub(super) fn solve(
         for perturbations in [0, PERTURBATIONS_MAX] {
             for candidate in &mut candidates {
                 if let Some(flat) = polish(data, candidate, h, perturbations, steps)? {
-                    return Ok(Found::Flat(flat));
+                    return Ok(ConcentrationResult::Flat(flat));
                 }
             }
             best(&mut candidates, 1);
         }
     }
-    Ok(Found::Full(candidates.swap_remove(0)))
+    Ok(ConcentrationResult::Full(candidates.swap_remove(0)))
 }
 
 /// Goes down at the border and by C-steps on all rows, by turns, until neither leads on; a hyperplane, if that ends in
@@ -115,8 +121,8 @@ fn polish(
             Err(flat) => return Ok(Some(flat)),
         };
         let next = match concentrate(Criterion::Determinant, data, &start, h, usize::MAX, steps)? {
-            Found::Full(next) => next,
-            Found::Flat(flat) => return Ok(Some(flat)),
+            ConcentrationResult::Full(next) => next,
+            ConcentrationResult::Flat(flat) => return Ok(Some(flat)),
         };
         // What rounding alone gained could be lost and gained endlessly.
         let leads_on = next.estimate.log_det() < raw.estimate.log_det();
@@ -140,7 +146,7 @@ fn ends_on_sample(
     sample: &[f64],
     dim: usize,
     part: usize,
-) -> Result<Vec<(Found, u64)>, Error> {
+) -> Result<Vec<(ConcentrationResult, u64)>, Error> {
     let simplices = best_simplices(sample, dim, part)?;
     let points = Standardized::of(sample, dim);
     let silent = Monitor::silent();

@@ -51,7 +51,7 @@ const CELLS_BETWEEN_CHECKS: u64 = 256;
 const WEIGHT_BITS: [u32; 4] = [6, 16, 32, 50];
 
 /// The result of a search.
-pub(super) struct Found {
+pub(super) struct SearchResult {
     /// The center in coordinates of the input, if there is one.
     pub(super) center: Option<[f64; 2]>,
     /// The scaled radius: no edge is nearer.
@@ -87,7 +87,10 @@ impl Leaf {
 }
 
 /// Finds the largest circle, and the log that proves it.
-pub(super) fn search(edges: &Edges, options: &CircleOptions<'_>) -> Result<Found, Cancelled> {
+pub(super) fn search(
+    edges: &Edges,
+    options: &CircleOptions<'_>,
+) -> Result<SearchResult, Cancelled> {
     let monitor = &options.monitor;
     let mut search = Search { edges, monitor, center: None, radius: 0.0, cells: 0 };
     search.best_first(options.epsilon)?;
@@ -97,7 +100,7 @@ pub(super) fn search(edges: &Edges, options: &CircleOptions<'_>) -> Result<Found
         let before = search.radius;
         let Some((log, upper)) = search.depth_first(gap, options.max_cells)? else {
             if search.center.is_none() {
-                return Ok(Found {
+                return Ok(SearchResult {
                     center: None,
                     radius: 0.0,
                     upper: f64::INFINITY,
@@ -121,7 +124,7 @@ pub(super) fn search(edges: &Edges, options: &CircleOptions<'_>) -> Result<Found
             stop = Stop::Rounding;
         }
         let (center, cells) = (search.center, search.cells);
-        return Ok(Found { center, radius, upper, log, stop, cells, searches });
+        return Ok(SearchResult { center, radius, upper, log, stop, cells, searches });
     }
 }
 

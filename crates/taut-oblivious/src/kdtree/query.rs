@@ -54,7 +54,7 @@ struct Side<const D: usize> {
 }
 
 /// The points that a search keeps.
-trait Found {
+trait NearestSet {
     /// The largest squared distance at which a point may still count.
     fn reach(&self) -> f64;
 
@@ -65,7 +65,7 @@ trait Found {
 /// The nearest point so far.
 struct NearestOne(Nearest);
 
-impl Found for NearestOne {
+impl NearestSet for NearestOne {
     #[inline(always)]
     fn reach(&self) -> f64 {
         self.0.distance2
@@ -155,7 +155,7 @@ pub(super) fn keep<S: Ord, F: Fn(u32, u32) -> Ordering>(
     }
 }
 
-impl<F: Fn(u32, u32) -> Ordering + Copy> Found for NearestHeap<F> {
+impl<F: Fn(u32, u32) -> Ordering + Copy> NearestSet for NearestHeap<F> {
     #[inline(always)]
     fn reach(&self) -> f64 {
         match self.heap.peek() {
@@ -187,7 +187,7 @@ struct NearestList<F> {
     ties: F,
 }
 
-impl<F: Fn(u32, u32) -> Ordering + Copy> Found for NearestList<F> {
+impl<F: Fn(u32, u32) -> Ordering + Copy> NearestSet for NearestList<F> {
     #[inline(always)]
     fn reach(&self) -> f64 {
         self.found.get(self.k - 1).map_or(f64::INFINITY, |&(bits, _)| f64::from_bits(bits))
@@ -344,7 +344,7 @@ impl<const D: usize> KdTree<D> {
     /// Runs a search with the instructions of a level.
     #[allow(unsafe_code, reason = "dispatch of a vector kernel")]
     #[inline]
-    fn search<F: Found, P: Probe>(
+    fn search<F: NearestSet, P: Probe>(
         &self,
         level: Level,
         place: [f64; D],
@@ -368,18 +368,23 @@ impl<const D: usize> KdTree<D> {
 
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx512f")]
-    fn search_avx512<F: Found, P: Probe>(&self, place: [f64; D], found: &mut F, probe: &mut P) {
+    fn search_avx512<F: NearestSet, P: Probe>(
+        &self,
+        place: [f64; D],
+        found: &mut F,
+        probe: &mut P,
+    ) {
         self.search_by(place, found, probe);
     }
 
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2")]
-    fn search_avx2<F: Found, P: Probe>(&self, place: [f64; D], found: &mut F, probe: &mut P) {
+    fn search_avx2<F: NearestSet, P: Probe>(&self, place: [f64; D], found: &mut F, probe: &mut P) {
         self.search_by(place, found, probe);
     }
 
     #[inline(always)]
-    fn search_by<F: Found, P: Probe>(&self, place: [f64; D], found: &mut F, probe: &mut P) {
+    fn search_by<F: NearestSet, P: Probe>(&self, place: [f64; D], found: &mut F, probe: &mut P) {
         if self.len == 0 {
             return;
         }

@@ -210,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn a_bump_is_put_down_and_a_stray_point_left_out() {
+    fn a_bump_is_flattened_and_an_outlier_left_out() {
         let mut points: Vec<Point> =
             (0..400).map(|k| [f64::from(k % 20), f64::from(k / 20), 0.0]).collect();
         points[210][2] = 0.2;

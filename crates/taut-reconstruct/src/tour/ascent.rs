@@ -25,7 +25,7 @@ const STEPS_WITHOUT_PROGRESS_MAX: u32 = 4;
 /// Steps get shorter by this factor.
 const STEP_FACTOR: f64 = 0.7;
 /// This many steps are made without coordinates of clusters: on samples of one curve they are all it takes.
-const STEPS_WITHOUT_MOATS: u64 = 5;
+const STEPS_WITHOUT_CLUSTERS: u64 = 5;
 /// Steps have this length after a restart, against the first.
 const RESTART_STEP_RATIO: f64 = 0.3;
 /// The bound is as good as the tour.
@@ -132,7 +132,7 @@ impl<'a> Ascent<'a> {
 
     /// The direction of steepest ascent, in coordinates of sites at first and then of clusters; its square, 0 at a tour.
     fn slope(&mut self) -> f64 {
-        if self.steps <= STEPS_WITHOUT_MOATS {
+        if self.steps <= STEPS_WITHOUT_CLUSTERS {
             let mut square = 0.0;
             for (along, &degree) in self.latest.iter_mut().zip(&self.degrees) {
                 *along = f64::from(degree);

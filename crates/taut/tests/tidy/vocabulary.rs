@@ -8,37 +8,161 @@ use std::path::Path;
 use super::{read, root, sources};
 
 /// Names that say nothing, of types, modules, functions and variables: each has a standard term.
-const NAMES: [&str; 61] = [
-    "AnswerSheet", "Answered", "Apart", "Beside", "Bond", "Building", "Cover", "Covered", "Delivery", "Desk", "Doubled",
-    "Fact", "Few", "Gathered", "Guest", "Halves", "Islands", "Lacuna", "Laid", "Look", "Looks", "Media", "MeshPlace",
-    "Misread", "Moats", "Parting", "PlainTree", "Promise", "Prospect", "Said", "Shown", "Snug", "Standing", "Strand",
-    "Survey", "Tell", "Unsound", "Walked", "Written", "blame", "bond", "bonds", "complain", "complains", "foot", "guest",
-    "guests", "hear", "homeless", "islands", "look_around", "looks", "media", "moats", "plain_tree", "probed", "say",
-    "seam", "stray", "survey", "tell",
+const NAMES: [&str; 58] = [
+    "Answered",
+    "Apart",
+    "Beside",
+    "Bond",
+    "Building",
+    "Cover",
+    "Covered",
+    "Delivery",
+    "Desk",
+    "Doubled",
+    "Fact",
+    "Few",
+    "Gathered",
+    "Guest",
+    "Guests",
+    "Halves",
+    "Homeless",
+    "Laid",
+    "Look",
+    "Looks",
+    "Media",
+    "MeshPlace",
+    "Misread",
+    "Moats",
+    "Parting",
+    "PlainTree",
+    "Prospect",
+    "Quick",
+    "Said",
+    "Shown",
+    "Strand",
+    "Survey",
+    "Tell",
+    "Unsound",
+    "Walked",
+    "Written",
+    "blame",
+    "bond",
+    "bonds",
+    "complain",
+    "complains",
+    "foot",
+    "guest",
+    "guests",
+    "hear",
+    "homeless",
+    "kicks",
+    "look_around",
+    "looks",
+    "media",
+    "moats",
+    "plain_tree",
+    "probed",
+    "say",
+    "seam",
+    "stray",
+    "survey",
+    "tell",
 ];
 
 /// Parts of names, between underscores or capitals, in lower case.
 const PARTS: [&str; 12] = [
-    "blamed", "complains", "desk", "guest", "guests", "homeless", "lacuna", "moat", "moats", "strand", "strands", "stray",
+    "blamed",
+    "complains",
+    "desk",
+    "guest",
+    "guests",
+    "homeless",
+    "lacuna",
+    "moat",
+    "moats",
+    "strand",
+    "strands",
+    "stray",
 ];
 
 /// Words and phrases that no line holds, whatever the case.
 const PHRASES: [&str; 17] = [
-    "anew", "at the door", "but so many", "convinces a stranger", "downstairs", "for ever", "goes on for ever", "guests",
-    "homeless", "in vain", "moat", "of the house", "probed", "strangers", "the house", "upstairs", "vainly",
+    "anew",
+    "at the door",
+    "but so many",
+    "convinces a stranger",
+    "downstairs",
+    "for ever",
+    "goes on for ever",
+    "guests",
+    "homeless",
+    "in vain",
+    "moat",
+    "of the house",
+    "probed",
+    "strangers",
+    "the house",
+    "upstairs",
+    "vainly",
 ];
 
 /// Beginnings of words in British spelling, whatever the case.
 const STEMS: [&str; 20] = [
-    "behaviour", "catalogue", "centre", "centring", "colour", "defence", "favour", "fulfil ", "grey", "honour", "kilometre",
-    "labelled", "labelling", "licence", "millimetre", "modelled", "modelling", "neighbour", "programme ", "travelled",
+    "behaviour",
+    "catalogue",
+    "centre",
+    "centring",
+    "colour",
+    "defence",
+    "favour",
+    "fulfil ",
+    "grey",
+    "honour",
+    "kilometre",
+    "labelled",
+    "labelling",
+    "licence",
+    "millimetre",
+    "modelled",
+    "modelling",
+    "neighbour",
+    "programme ",
+    "travelled",
 ];
 
 /// Stems of verbs in -ize.
 const VERBS: [&str; 31] = [
-    "amort", "capital", "character", "discret", "emphas", "equal", "factor", "final", "general", "initial", "linear",
-    "maxim", "minim", "normal", "optim", "organ", "orthogonal", "parallel", "penal", "quant", "random", "real",
-    "recogn", "regular", "serial", "special", "standard", "summar", "symmetr", "util", "vector",
+    "amort",
+    "capital",
+    "character",
+    "discret",
+    "emphas",
+    "equal",
+    "factor",
+    "final",
+    "general",
+    "initial",
+    "linear",
+    "maxim",
+    "minim",
+    "normal",
+    "optim",
+    "organ",
+    "orthogonal",
+    "parallel",
+    "penal",
+    "quant",
+    "random",
+    "real",
+    "recogn",
+    "regular",
+    "serial",
+    "special",
+    "standard",
+    "summar",
+    "symmetr",
+    "util",
+    "vector",
 ];
 
 /// Spellings that stay: the value of an option, and the title of a paper.
@@ -46,7 +170,8 @@ const KEPT: [&str; 2] = ["circumcentre-distance", "natural neighbour interpolati
 
 /// Returns the names that a line of Rust declares.
 fn declared(line: &str) -> Vec<&str> {
-    const KEYWORDS: [&str; 9] = ["const", "enum", "fn", "let", "mod", "static", "struct", "trait", "type"];
+    const KEYWORDS: [&str; 9] =
+        ["const", "enum", "fn", "let", "mod", "static", "struct", "trait", "type"];
     let code = line.split("//").next().unwrap_or_default();
     let words: Vec<_> = code
         .split(|c: char| !c.is_alphanumeric() && c != '_')
@@ -140,21 +265,29 @@ fn planted_words_are_found() {
     for part in PARTS {
         let camel = part[..1].to_uppercase() + &part[1..];
         for name in [format!("first_{part}"), format!("{part}_of_all"), format!("First{camel}")] {
-            assert_eq!(problems(&format!("type {name} = u8;"), true), [format!("the name {name}")]);
+            assert_eq!(
+                problems(&format!("type {name} = u8;"), true)[0],
+                format!("the name {name}")
+            );
         }
     }
     for words in PHRASES {
         assert!(!problems(&format!("/// All of it, {words}."), false).is_empty(), "{words}");
     }
-    for stem in STEMS.map(str::to_owned).into_iter().chain(VERBS.map(|verb| format!("{verb}ised"))) {
+    for stem in STEMS.map(str::to_owned).into_iter().chain(VERBS.map(|verb| format!("{verb}ised")))
+    {
         assert_eq!(problems(&format!("    // It is {stem} here"), true).len(), 1, "{stem}");
     }
     let names = ["let look_up = 1;", "fn stray_light() {", "mod covering;", "struct CoverPage;"];
     let found = names.map(|line| problems(line, true).len());
     assert_eq!(found, [0, 1, 0, 0]);
-    for line in ["// A realistic optimist, and a finalist: a characteristic surprise.", "/// Look at the cover.",
-        "center, color, neighbor, normalize", "the value `circumcentre-distance`", "renewed, whenever"]
-    {
+    for line in [
+        "// A realistic optimist, and a finalist: a characteristic surprise.",
+        "/// Look at the cover.",
+        "center, color, neighbor, normalize",
+        "the value `circumcentre-distance`",
+        "renewed, whenever",
+    ] {
         assert_eq!(problems(line, true), Vec::<String>::new(), "{line}");
     }
 }

@@ -11,10 +11,10 @@ struct Node {
     first: usize,
     end: usize,
     /// Where they are parted; `None` for few.
-    parting: Option<Parting>,
+    parting: Option<Split>,
 }
 
-struct Parting {
+struct Split {
     axis: usize,
     /// The largest coordinate of the one side, and the smallest of the other.
     low: f64,
@@ -64,7 +64,7 @@ impl CenterTree {
         self.part(centers, first, first + half);
         let other = self.nodes.len();
         self.part(centers, first + half, end);
-        self.nodes[node].parting = Some(Parting { axis, low, high, other });
+        self.nodes[node].parting = Some(Split { axis, low, high, other });
     }
 
     /// The first center that passes a test, of all that are at most so far from a place, and perhaps of others; those on
@@ -82,7 +82,7 @@ impl CenterTree {
             count -= 1;
             let number = open[count];
             let node = &self.nodes[number];
-            let Some(Parting { axis, low, high, other }) = node.parting else {
+            let Some(Split { axis, low, high, other }) = node.parting else {
                 let few = &self.order[node.first..node.end];
                 match few.iter().copied().find(|&center| test(center)) {
                     Some(center) => return Some(center),

@@ -169,8 +169,8 @@ mod on_disk {
         let (from, content) = source(folder.path());
         let to = folder.path().join("to.bin");
         let heard = std::sync::atomic::AtomicU64::new(0);
-        let hear = |n| _ = heard.fetch_add(n, Ordering::Relaxed);
-        let monitor = Monitor { on_points: Some(&hear), ..Monitor::silent() };
+        let record = |n| _ = heard.fetch_add(n, Ordering::Relaxed);
+        let monitor = Monitor { on_points: Some(&record), ..Monitor::silent() };
         transpose_file(&from, MATRIX, &to, b"seven b", &OPTIONS, &monitor).unwrap();
         assert_eq!(heard.into_inner(), 300 * 211);
         let mut turned = std::fs::read(&to).unwrap();
@@ -228,8 +228,9 @@ mod on_disk {
         let to = folder.path().join("to.bin");
         std::fs::write(&to, "earlier").unwrap();
         let (stop, tiles) = (AtomicBool::new(false), std::sync::atomic::AtomicU64::new(0));
-        let hear = |_| stop.store(tiles.fetch_add(1, Ordering::Relaxed) == 3, Ordering::Relaxed);
-        let monitor = Monitor { on_points: Some(&hear), cancel: Some(&stop), ..Monitor::silent() };
+        let record = |_| stop.store(tiles.fetch_add(1, Ordering::Relaxed) == 3, Ordering::Relaxed);
+        let monitor =
+            Monitor { on_points: Some(&record), cancel: Some(&stop), ..Monitor::silent() };
         let found = transpose_file(&from, MATRIX, &to, b"", &OPTIONS, &monitor);
         assert!(matches!(found, Err(Error::Cancelled(_))), "{found:?}");
         let longer = FileMatrix { rows: 301, ..MATRIX };
