@@ -78,7 +78,7 @@ impl<A: Answer> Solution<A> {
     /// Writes the document to `out`, in small pieces: give a buffer. It ends without a line feed.
     ///
     /// # Errors
-    /// What `out` says.
+    /// The error that `out` returns.
     pub fn write_json(&self, out: impl io::Write) -> io::Result<()> {
         write_document(A::KIND, &self.answer, &self.certificate, &self.trace, out)
     }

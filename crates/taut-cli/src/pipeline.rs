@@ -20,7 +20,6 @@ use crate::watch::Watch;
 
 /// A subcommand that finds one shape: its input, its solver and its outputs.
 pub(crate) trait Find {
-    /// The answer that it finds.
     type Answer: Summary;
     /// The data that the solver keeps beside the answer, for outputs of its own.
     type Extra;

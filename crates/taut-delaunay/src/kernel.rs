@@ -18,7 +18,6 @@ pub(crate) trait Kernel<const D: usize, const V: usize>: Sized {
         Self::new((0..count).map(site).collect(), settings)
     }
 
-    /// Returns how many sites are numbered.
     fn site_count(&self) -> u32;
 
     fn site(&self, site: u32) -> [f64; D];

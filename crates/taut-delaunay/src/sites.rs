@@ -101,13 +101,11 @@ impl<const D: usize> Sites<D> {
         self.coordinates = self.rows.par_iter().with_min_len(TASK).map(site).collect();
     }
 
-    /// Returns how many sites there are.
     pub(crate) fn len(&self) -> usize {
         self.rows.len()
     }
 }
 
-/// The largest magnitude of a coordinate.
 fn largest_magnitude<T: Scalar>(points: &Points<'_, T>) -> Result<f64, Error> {
     let dim = points.dim();
     let blocks = points.values().par_chunks(TASK * dim.max(1));

@@ -121,7 +121,6 @@ impl Space {
     }
 }
 
-/// The result of a build.
 struct Built<const V: usize> {
     complex: Complex,
     slots: Slots<V>,

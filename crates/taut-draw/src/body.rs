@@ -73,7 +73,6 @@ impl Body {
         self.shadow_of_rows(&self.axes[j], &self.axes[k])
     }
 
-    /// The shadow on two directions.
     pub(crate) fn shadow_along(&self, directions: &[Vec<f64>; 2]) -> Shadow {
         let [a, b] = directions.each_ref().map(|direction| -> Vec<f64> {
             let along =

@@ -52,7 +52,6 @@ pub fn to_png(figure: &Figure, style: &Style, scale: f32) -> Result<Vec<u8>, Err
     pixels.encode_png().map_err(|e| wrong(e.to_string()))
 }
 
-/// Draws an image in its place.
 fn lay(laid: &PlacedImage, zoom: tiny_skia::Transform, onto: &mut tiny_skia::Pixmap) -> Option<()> {
     let (width, height) = (laid.image.width, laid.image.height);
     let mut pixels = tiny_skia::Pixmap::new(width as u32, height as u32)?;

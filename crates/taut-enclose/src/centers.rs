@@ -280,7 +280,7 @@ fn finish<P: Position>(
         ("proof_nodes", proof.nodes),
         ("proofs_given_up", given_up),
     ];
-    // What was shown on the way, as far as it is proved in the end.
+    // The bounds shown on the way, as far as they are proved in the end.
     let bounds = |b: &PassBounds| PassBounds {
         lower: (b.lower / unit).min(lower),
         upper: (b.upper / unit).max(radius).min(f64::MAX),

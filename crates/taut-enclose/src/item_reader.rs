@@ -29,7 +29,6 @@ pub(crate) struct Query<'c> {
     pub(crate) center: &'c Center,
     /// Only items with a squared reach above this are listed.
     pub(crate) above: f64,
-    /// The largest number of them.
     pub(crate) keep: usize,
     /// List at most two items per face of the cube around the center, too, of those with a squared reach above this.
     pub(crate) by_face_above: Option<f64>,
@@ -103,7 +102,6 @@ impl<'a> ItemReader<'a> {
         self.dim
     }
 
-    /// Number of items.
     pub(crate) fn len(&self) -> u64 {
         self.source.len()
     }

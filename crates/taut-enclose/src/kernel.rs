@@ -41,7 +41,6 @@ pub(crate) struct Center {
 }
 
 impl Center {
-    /// Dimension.
     pub(crate) fn dim(&self) -> usize {
         self.high.len()
     }

@@ -180,7 +180,7 @@ impl Shapes {
             }
         }
         let (values, vectors) = eigen(&mut correlations, dim);
-        // What rounding of the entries can make of an eigenvalue of 0.
+        // The largest value that rounding of the entries can make of an eigenvalue of 0.
         let of_entries = match kind {
             ScalarKind::F32 => 4.0 * dim as f64 * f64::from(f32::EPSILON / 2.0),
             ScalarKind::F64 => 0.0,

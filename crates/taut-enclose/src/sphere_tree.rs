@@ -122,7 +122,7 @@ impl SphereTreeOptions<'_> {
             let (name, value) = ("leaf_size", "0".into());
             return Err(Error::Input(InputError::Option { name, value, expected: "at least 1" }));
         }
-        // What a row is called, whatever is wrong with it: the balls know rows by their place in a node.
+        // The name of a row in errors: the balls know rows by their place in a node.
         frame_pass(source, &self.monitor).map(|_| ())
     }
 }

@@ -6,7 +6,6 @@ use std::collections::BTreeMap;
 /// An item and how far it reaches from the center of a pass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Far {
-    /// Row number.
     pub(crate) id: u64,
     /// (|x − c| + r)², with r = 0 for a point.
     pub(crate) reach2: f64,

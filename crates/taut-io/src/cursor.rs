@@ -33,7 +33,6 @@ pub(crate) enum Kind {
 }
 
 impl Kind {
-    /// Bytes of a number.
     pub(crate) fn size(self) -> usize {
         match self {
             Kind::I8 | Kind::U8 => 1,
@@ -85,7 +84,6 @@ impl<'a> Cursor<'a> {
         Ok(bytes)
     }
 
-    /// A number as a coordinate.
     pub(crate) fn real(
         &mut self,
         kind: Kind,

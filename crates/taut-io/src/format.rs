@@ -153,12 +153,10 @@ impl Format {
         self.is_built() && matches!(access, Some(Access::Write | Access::Both))
     }
 
-    /// Returns true if anything is read from it.
     pub(crate) fn is_read(self) -> bool {
         self.entry().uses.iter().any(|(_, access, _)| *access != Access::Write)
     }
 
-    /// Returns true if anything is written to it.
     pub(crate) fn is_written(self) -> bool {
         self.entry().uses.iter().any(|(_, access, _)| *access != Access::Read)
     }

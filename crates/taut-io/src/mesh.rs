@@ -107,7 +107,6 @@ impl<'a> MeshView<'a> {
         MeshView { vertices, width, simplices, normals: None, colors: None }
     }
 
-    /// Number of vertices.
     fn vertex_count(&self) -> u64 {
         match self.vertices {
             Vertices::Points(source) => source.len(),
@@ -115,7 +114,6 @@ impl<'a> MeshView<'a> {
         }
     }
 
-    /// Number of simplices.
     fn simplex_count(&self) -> usize {
         self.simplices.len() / self.width
     }
@@ -128,7 +126,6 @@ impl<'a> MeshView<'a> {
         }
     }
 
-    /// The triangles of a surface.
     fn triangles(&self) -> &'a [[u32; 3]] {
         self.simplices.as_chunks().0
     }

@@ -13,7 +13,6 @@ use literal::Literal;
 /// The way in which such a file begins.
 pub(crate) const MAGIC: &[u8] = b"\x93NUMPY";
 
-/// The contents of a header.
 pub(crate) struct NpyHeader {
     /// The type of an element; none of records with fields.
     pub(crate) descr: Option<String>,

@@ -62,7 +62,6 @@ struct Text<'a> {
 }
 
 impl Text<'_> {
-    /// Words as they are.
     fn put(&mut self, words: &str) {
         self.bytes.extend_from_slice(words.as_bytes());
     }

@@ -62,7 +62,6 @@ pub(crate) fn format_of_magic(bytes: &[u8]) -> Option<Format> {
     bytes.starts_with(&[0xff; 4]).then_some(Format::Arrow)
 }
 
-/// Reads `medium` as the format of `job`.
 pub(crate) fn read(job: &Job<'_>, medium: Medium) -> Result<Decoded, Error> {
     match job.format {
         Format::Csv | Format::Tsv | Format::Whitespace => delimited::read(job, medium.stream()),

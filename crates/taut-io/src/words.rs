@@ -153,7 +153,6 @@ pub(crate) fn put_ids(ids: &[u32], first: u64, out: &mut Vec<u8>) {
     out.push(b'\n');
 }
 
-/// Writes a whole number.
 pub(crate) fn put_whole(value: u64, out: &mut Vec<u8>) {
     let mut digits = [0; 20];
     let mut rest = value;

@@ -65,7 +65,6 @@ pub fn write_points(
     out.finish()?.commit()
 }
 
-/// Points to be written.
 pub(crate) struct Points<'a> {
     pub(crate) source: &'a dyn PointSource,
     pub(crate) columns: &'a [String],

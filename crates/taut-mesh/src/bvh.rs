@@ -68,13 +68,11 @@ struct Node {
     second: u32,
 }
 
-/// The tree.
 pub(crate) struct Bvh {
     nodes: Vec<Node>,
     /// The number of the triangle at each place.
     numbers: Vec<u32>,
     corners: Vec<[[f64; 3]; 3]>,
-    /// Its box.
     bounds: Vec<Bounds>,
 }
 

@@ -59,7 +59,6 @@ impl<'a> TriangleMesh<'a> {
         self.triangles
     }
 
-    /// The three corners of a triangle.
     pub(crate) fn corners(&self, triangle: u32) -> [[f64; 3]; 3] {
         self.triangles[triangle as usize].map(|index| self.vertices[index as usize])
     }

@@ -169,7 +169,6 @@ fn power_of_two_below(x: f64) -> f64 {
 /// A mesh in a unit of its own, ready to be measured.
 struct Surface {
     triangles: Vec<(u32, [[f64; 3]; 3])>,
-    /// Vertices of triangles.
     vertices: Vec<[f64; 3]>,
     tree: Bvh,
 }

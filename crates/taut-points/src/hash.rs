@@ -137,7 +137,7 @@ pub fn hash_block(rows: &Rows<'_>) -> BlockHash {
 /// The hash of all points of `source`, in one pass.
 ///
 /// # Errors
-/// What reading the points says.
+/// The error of reading the points.
 pub fn hash_points(
     source: &dyn PointSource,
     monitor: &Monitor<'_>,

@@ -142,7 +142,7 @@ impl<S: PointSource + ?Sized> PointSource for &S {
 /// Copies the points with the given numbers, in that order, widened to `f64`: `ids.len()` × d, row-major.
 ///
 /// # Errors
-/// What [`PointSource::read`] says.
+/// The error of [`PointSource::read`].
 pub fn gather(source: &dyn PointSource, ids: &[u64]) -> Result<Vec<f64>, ReadError> {
     let dim = source.dim();
     let (mut scratch, mut out) = (Scratch::new(), Vec::new());

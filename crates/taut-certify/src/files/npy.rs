@@ -49,7 +49,6 @@ pub(super) fn begins(source: &mut Source<'_>) -> Result<bool, FileCheckError> {
     Ok(start == *MAGIC)
 }
 
-/// Reads the header of a file.
 pub(super) fn header(source: &mut Source<'_>) -> Result<Header, FileCheckError> {
     let file = source.which;
     let wrong = |problem: &str| FileViolation::Header { file, problem: problem.to_owned() };

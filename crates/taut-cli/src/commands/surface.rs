@@ -262,7 +262,6 @@ impl Args {
     }
 }
 
-/// The coordinates of all points.
 fn places(points: &Opened) -> anyhow::Result<Vec<[f64; 3]>> {
     let source: &dyn PointSource = points.source();
     let mut scratch = Scratch::new();

@@ -119,7 +119,6 @@ impl Args {
     }
 }
 
-/// The result of a station.
 struct Stop {
     section: Section,
     summary: String,

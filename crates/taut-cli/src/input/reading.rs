@@ -42,7 +42,6 @@ pub(crate) struct Reading {
     raw_offset: Option<u64>,
 }
 
-/// A parser of the names of formats.
 pub(crate) fn formats(
     usable: fn(Format, Content) -> bool,
 ) -> impl TypedValueParser<Value = Format> {

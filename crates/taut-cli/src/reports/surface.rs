@@ -90,7 +90,7 @@ impl Summary for Surface {
         _source: &dyn PointSource,
     ) -> Claims {
         let word = |is| if is { "yes" } else { "no" };
-        // What a word means is said where it is so.
+        // The meaning of a word is printed where the word holds.
         let shown = |name, is, meaning: &str| match is {
             true => Field::proved(name, word(is)).remark(meaning),
             false => Field::proved(name, word(is)),

@@ -52,7 +52,6 @@ const QUESTIONS_EACH: u64 = 24;
 /// Most sites that one leaf may add to the halo: the box of a sparse leaf may lie over all of a dense cell.
 const HALO_EACH: usize = 4 * LEAF_SIZE;
 
-/// The data that all cells share.
 pub(crate) struct SharedData<'a, const D: usize, const V: usize> {
     pub(crate) sites: &'a [[f64; D]],
     pub(crate) index: &'a Index<D>,

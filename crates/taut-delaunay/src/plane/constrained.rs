@@ -312,7 +312,6 @@ impl<'a> Constraining<'a> {
     }
 }
 
-/// The place of a vertex that the triangle has.
 fn place(t: &Simplex<3>, vertex: u32) -> usize {
     let [a, b, _] = t.vertices;
     if a == vertex {

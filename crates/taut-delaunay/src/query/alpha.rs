@@ -28,7 +28,6 @@ pub struct AlphaComplex<const D: usize> {
 ///
 /// Radii are taken of the simplex blown up to size 1: products of eight coordinates leave the range of `f64` early.
 trait Radii<const D: usize, const V: usize> {
-    /// The circumradius of a simplex.
     fn circumradius(corners: [[f64; D]; V]) -> f64;
     /// The radius of the smallest sphere through a facet.
     fn facet_radius(corners: [[f64; D]; D]) -> f64;

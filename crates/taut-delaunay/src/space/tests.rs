@@ -78,7 +78,6 @@ fn quadruples(mesh: &Mesh) -> Vec<[u32; 4]> {
     all
 }
 
-/// Returns how many simplices are finite.
 fn finite(mesh: &Mesh) -> usize {
     mesh.simplices().iter().filter(|s| s.is_live() && !s.is_ghost()).count()
 }

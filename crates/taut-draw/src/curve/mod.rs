@@ -143,7 +143,6 @@ impl Picture<'_> {
         Ok(self.scene(self.title(), caption, chains, &others, &outliers))
     }
 
-    /// Returns what a window shows.
     fn part(&self, window: &Window) -> Result<Scene2, Error> {
         let inside = |marks: Marks| -> Marks {
             marks.into_iter().filter(|(_, at)| window.holds(*at)).collect()

@@ -19,7 +19,6 @@ impl Frame {
         (0..2).all(|k| self.low[k] <= at[k] && at[k] <= self.high[k])
     }
 
-    /// The part of the segment from `a` to `b`.
     pub(super) fn segment(&self, a: [f64; 2], b: [f64; 2]) -> Option<[[f64; 2]; 2]> {
         self.part(a, [b[0] - a[0], b[1] - a[1]], 1.0)
     }

@@ -29,7 +29,6 @@ pub(super) struct Side {
 /// The half-spaces that are drawn, the nearest first.
 pub(super) struct Sides {
     pub(super) near: Vec<Side>,
-    /// The largest weight.
     pub(super) largest: f64,
     /// The number of sides that come within a thousandth of touching.
     pub(super) close: u64,

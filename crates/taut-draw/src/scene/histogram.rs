@@ -13,7 +13,6 @@ const LINEAR_HEIGHT_MAX: u64 = 200;
 /// The text of the histogram of an answer.
 pub(crate) struct Histogram {
     pub(crate) title: String,
-    /// The name of the horizontal axis.
     pub(crate) axis: &'static str,
     /// The name of the border in the caption, and beside its line.
     pub(crate) border: (&'static str, String),

@@ -39,7 +39,6 @@ impl<'a> Input<'a> {
         format!("{word} ({})", counted(items as u64, self.thing()))
     }
 
-    /// The row of an item.
     pub(crate) fn row(&self, id: u64) -> Result<Vec<f64>, Error> {
         Ok(gather(self.source, &[id])?)
     }

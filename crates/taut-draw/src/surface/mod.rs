@@ -163,7 +163,6 @@ struct Picture<'a> {
 }
 
 impl Picture<'_> {
-    /// Where a vertex is.
     fn vertex(&self, row: u32) -> [f64; 3] {
         let places = if self.view.moved.is_empty() { &self.places } else { self.view.moved };
         places[row as usize]

@@ -16,7 +16,6 @@ pub(super) struct Canvas {
     pub(super) density: f64,
     /// True if images are written into the body; else they are kept beside it, to be laid over what was written before the first.
     pub(super) embeds: bool,
-    /// Images with their places.
     pub(super) images: Vec<PlacedImage>,
     /// Length of the body before the first image.
     cut: usize,

@@ -14,7 +14,6 @@ pub(crate) enum Chrome {
     Bare,
 }
 
-/// An entry of the legend.
 pub(super) struct Entry<'a> {
     pub(super) name: &'a str,
     pub(super) tone: Tone,

@@ -147,7 +147,6 @@ fn hover(name: String, value: &[f64; 2], at: [f64; 2]) -> Hover {
     Hover { at, id: None, words: vec![short(value[0], 6), short(value[1], 6), name] }
 }
 
-/// An axis of either scale.
 struct AxisScale {
     scale: Scale,
     span: Span,

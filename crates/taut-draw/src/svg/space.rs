@@ -61,7 +61,6 @@ enum Piece {
     Face { corners: Vec<[f64; 2]>, light: f64 },
 }
 
-/// The scene from one place.
 pub(super) fn draw(scene: &Scene3, chrome: Chrome, canvas: &mut Canvas) {
     let room = begin(scene, chrome, canvas);
     let camera = Camera::new(scene.projection, scene.azimuth, scene.elevation, room);

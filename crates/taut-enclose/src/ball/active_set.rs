@@ -68,7 +68,7 @@ pub(super) struct ActiveSet {
 impl ActiveSet {
     /// The support is item 0 alone; `reach2` is about the squared radius, radii of balls included.
     pub(super) fn new(set: &WorkingSet, reach2: f64) -> Self {
-        // What lies closer together than the rounding of the radius need not be told apart.
+        // Points closer together than the rounding of the radius need not be distinguished.
         let least = f64::EPSILON * f64::EPSILON * reach2;
         let mut active = ActiveSet {
             support: vec![0],

@@ -62,7 +62,6 @@ impl Hull {
         }
     }
 
-    /// Coordinate `k` of item `i`.
     fn coordinate(&self, i: usize, k: usize) -> f64 {
         self.coordinates[i].get(k).copied().unwrap_or(0.0)
     }

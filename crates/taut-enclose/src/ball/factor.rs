@@ -63,7 +63,6 @@ impl Factor {
         self.rows.push(vec![pivot]);
     }
 
-    /// Deletes the point at `position`.
     pub(super) fn delete(&mut self, position: usize) {
         for (i, row) in self.rows.iter_mut().enumerate().take(position) {
             row.remove(position - i);

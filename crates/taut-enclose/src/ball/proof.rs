@@ -242,7 +242,7 @@ fn lower_bound(weights: &[DoubleDouble], support: &Measurement) -> DoubleDouble 
         let spread = DoubleDouble::from(item.r).sub(mean).square();
         inner = inner.add(w.mul(item.squared.sub(spread)));
     }
-    // What the returned center, being rounded, lies beside the one the multipliers mean.
+    // The offset of the returned center, being rounded, from the one that the multipliers mean.
     let inner = support.beside.iter().fold(inner, |inner, sum| inner.sub(sum.square()));
     let bound = mean.add(inner.sqrt());
     // No ball is smaller than one it holds.

@@ -25,7 +25,6 @@ const SHORT_LIST: usize = 256;
 /// Items and their cells.
 pub(super) struct Cloud<P> {
     pub(super) items: ItemSet<P>,
-    /// The row of each item.
     pub(super) rows: Vec<u64>,
     cells: Vec<Cell<P>>,
 }
@@ -37,7 +36,6 @@ struct Cell<P> {
     spread: f64,
     /// The largest reach of an item from the middle, but for its weight.
     reach: f64,
-    /// The largest weight.
     weight: f64,
 }
 

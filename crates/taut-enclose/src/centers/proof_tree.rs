@@ -69,7 +69,6 @@ impl Piece {
     }
 }
 
-/// The tree that is asked for.
 pub(super) struct ProofTree<'a, S> {
     /// The state before any decision.
     root: S,

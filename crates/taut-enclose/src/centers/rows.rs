@@ -95,7 +95,7 @@ pub(super) fn solve(
         proof: proof.by,
         points_hash: sites.hash(),
     };
-    // What was shown on the way, as far as it is proved in the end.
+    // The bounds shown on the way, as far as they are proved in the end.
     let bounds = |b: &PassBounds| PassBounds {
         lower: b.lower.min(lower),
         upper: b.upper.max(answer.radius),

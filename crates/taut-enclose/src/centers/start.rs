@@ -24,7 +24,6 @@ pub(super) struct Incumbent<P> {
     pub(super) radius: f64,
 }
 
-/// The results of the traversals.
 pub(super) struct Start<P> {
     /// The best centers after Lloyd's steps.
     pub(super) incumbent: Incumbent<P>,

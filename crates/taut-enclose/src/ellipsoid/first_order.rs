@@ -41,7 +41,7 @@ pub(super) fn solve(
     options: &EllipsoidOptions<'_>,
 ) -> Result<Outcome, Error> {
     let dim = reader.dim();
-    let mut working_set = match options.method {
+    let mut set = match options.method {
         EllipsoidMethod::ThesisKhachiyan => all(reader, sample)?,
         _ => initial::points(reader, sample, options.seed)?,
     };
@@ -51,7 +51,7 @@ pub(super) fn solve(
     bounds(&mut counters, options, dim, reader.len());
     let stop = loop {
         if counters.steps.is_multiple_of(STEPS_PER_REFRESH)
-            && whitener.rebase(&working_set, REBASE_TOLERANCE) == Rebased::Never
+            && whitener.rebase(&set, REBASE_TOLERANCE) == Rebased::Never
         {
             return Err(Error::Overflow);
         }
@@ -66,9 +66,7 @@ pub(super) fn solve(
             return Err(Error::Overflow);
         }
         let farthest = found.far.first().map(|far| far.id);
-        progress.note(&whitener, working_set.len(), largest, || {
-            candidate(&working_set, &whitener, center, found)
-        });
+        progress.note(&whitener, set.len(), largest, || candidate(&set, &whitener, center, found));
         if gap(dim, largest) <= options.epsilon {
             break Stop::Converged;
         }
@@ -80,73 +78,73 @@ pub(super) fn solve(
         let Some(farthest) = farthest else { break Stop::Rounding };
         counters.steps += 1;
         let away = options.method == EllipsoidMethod::AwaySteps;
-        if !(away && step_away(&mut working_set, &mut whitener, largest, &mut counters)) {
+        if !(away && step_away(&mut set, &mut whitener, largest, &mut counters)) {
             let row = reader.rows_from(&sample.origin, &[farthest])?;
-            working_set.push(farthest, &row, 0.0);
-            let i = working_set.position(farthest).expect("it has just been put there");
+            set.push(farthest, &row, 0.0);
+            let i = set.position(farthest).expect("it has just been put there");
             let (m, kappa) = (dim as f64 + 1.0, largest + 1.0);
-            step(&mut working_set, &mut whitener, i, (kappa - m) / (m * (kappa - 1.0)));
+            step(&mut set, &mut whitener, i, (kappa - m) / (m * (kappa - 1.0)));
         }
     };
-    let core_set = working_set.weights().iter().filter(|u| **u > 0.0).count();
+    let core_set = set.weights().iter().filter(|u| **u > 0.0).count();
     Ok(progress.into_outcome(stop, counters, core_set))
 }
 
 /// All points, with equal weights.
 fn all(reader: &PointReader<'_>, sample: &Sample) -> Result<WorkingSet, Error> {
-    let mut working_set = WorkingSet::new(reader.dim());
+    let mut set = WorkingSet::new(reader.dim());
     let ids: Vec<u64> = (0..reader.len()).collect();
     for ids in ids.chunks(4096) {
         let rows = reader.rows_from(&sample.origin, ids)?;
         for (&id, row) in ids.iter().zip(rows.chunks_exact(reader.dim())) {
-            working_set.push(id, row, 1.0);
+            set.push(id, row, 1.0);
         }
     }
-    working_set.normalize();
-    Ok(working_set)
+    set.normalize();
+    Ok(set)
 }
 
 /// u ← (1 − β)u + βeᵢ, and the whitener with it: in its coordinates the new covariance is (1 − β)(I + βyy′).
-fn step(working_set: &mut WorkingSet, whitener: &mut Whitener, i: usize, beta: f64) {
-    let mut row = vec![0.0; working_set.dim()];
-    working_set.copy_row(i, &mut row);
+fn step(set: &mut WorkingSet, whitener: &mut Whitener, i: usize, beta: f64) {
+    let mut row = vec![0.0; set.dim()];
+    set.copy_row(i, &mut row);
     whitener.step(&row, beta);
-    let weights = working_set.weights_mut();
+    let weights = set.weights_mut();
     weights.iter_mut().for_each(|u| *u *= 1.0 - beta);
     weights[i] = (weights[i] + beta).max(0.0);
 }
 
 /// Moves weight away from the point of least leverage, if that is farther below m than the largest is above.
 fn step_away(
-    working_set: &mut WorkingSet,
+    set: &mut WorkingSet,
     whitener: &mut Whitener,
     largest: f64,
     counters: &mut Counters,
 ) -> bool {
-    let m = working_set.dim() as f64 + 1.0;
-    let leverages = whitener.apply(working_set).leverages;
-    let with_weight = (0..working_set.len()).filter(|&i| working_set.weights()[i] > 0.0);
+    let m = set.dim() as f64 + 1.0;
+    let leverages = whitener.apply(set).leverages;
+    let with_weight = (0..set.len()).filter(|&i| set.weights()[i] > 0.0);
     let Some(i) = with_weight.min_by(|&a, &b| leverages[a].total_cmp(&leverages[b])) else {
         return false;
     };
     let kappa = leverages[i] + 1.0;
-    let u = working_set.weights()[i];
+    let u = set.weights()[i];
     if m - kappa <= largest + 1.0 - m || u >= 1.0 {
         return false;
     }
     // In the form of Todd: u ← (u + λeᵢ)/(1 + λ), λ < 0.
     let wanted = (kappa - m) / ((m - 1.0) * kappa);
     let lambda = wanted.max(-u);
-    step(working_set, whitener, i, lambda / (1.0 + lambda));
+    step(set, whitener, i, lambda / (1.0 + lambda));
     *counters.others.entry("away-steps".into()).or_default() += 1;
     if lambda > wanted {
-        working_set.weights_mut()[i] = 0.0;
-        let id = working_set.ids()[i];
-        let ids = working_set.ids().to_vec();
-        working_set.retain(|k| ids[k] != id);
+        set.weights_mut()[i] = 0.0;
+        let id = set.ids()[i];
+        let ids = set.ids().to_vec();
+        set.retain(|k| ids[k] != id);
         *counters.others.entry("drop-steps".into()).or_default() += 1;
     }
-    working_set.normalize();
+    set.normalize();
     true
 }
 

@@ -152,7 +152,6 @@ impl Span {
     }
 }
 
-/// The rank of a set.
 pub(super) enum RankResult {
     /// That of the space: a sample that shows it, and its whitener.
     Full(Sample, Whitener),
@@ -199,9 +198,9 @@ pub(super) fn decide_rank(
 fn span(reader: &mut PointReader<'_>, sample: &mut Sample, raised: f64) -> Result<Span, Error> {
     let dim = reader.dim();
     loop {
-        let mut rows = vec![0.0; sample.working_set.len() * dim];
+        let mut rows = vec![0.0; sample.set.len() * dim];
         for (i, row) in rows.chunks_exact_mut(dim).enumerate() {
-            sample.working_set.copy_row(i, row);
+            sample.set.copy_row(i, row);
         }
         let mut span = Span::new(&sample.origin, &sample.extents(), raised);
         span.grow(rows);
@@ -210,7 +209,7 @@ fn span(reader: &mut PointReader<'_>, sample: &mut Sample, raised: f64) -> Resul
         }
         let Some(far) = span.farthest(reader)? else { return Ok(span) };
         // What is farthest outside, and is in the sample already, is rounding after all.
-        if sample.working_set.contains(far) {
+        if sample.set.contains(far) {
             return Ok(span);
         }
         let row = reader.rows_from(&sample.origin, &[far])?;
@@ -361,7 +360,7 @@ fn extents(
         distance = distance.max(far);
     }
     let reach = extents.iter().fold(0.0f64, |m, v| m.max(*v));
-    // What rounding may have hidden: of r products with rows as long as √d times the reach.
+    // The amount that rounding may have hidden: of r products with rows as long as √d times the reach.
     let rounding = 4.0 * f64::EPSILON * (dim as f64).sqrt() * (dim + directions.len() / dim) as f64;
     Ok((extents, distance * (1.0 + 1e-12) + rounding * reach))
 }

@@ -23,11 +23,11 @@ pub(super) fn points(
     seed: u64,
 ) -> Result<WorkingSet, Error> {
     let dim = reader.dim();
-    let mut working_set = WorkingSet::new(dim);
+    let mut set = WorkingSet::new(dim);
     if reader.len() <= 2 * dim as u64 {
         let ids: Vec<u64> = (0..reader.len()).collect();
-        take(&mut working_set, reader, &sample.origin, &ids)?;
-        return Ok(working_set);
+        take(&mut set, reader, &sample.origin, &ids)?;
+        return Ok(set);
     }
     let extents = sample.extents();
     let directions: Vec<f64> =
@@ -38,7 +38,7 @@ pub(super) fn points(
         orthogonalize(&mut b, &span);
         let scaled: Vec<f64> = b.iter().zip(&extents).map(|(b, e)| b / e).collect();
         let (most, least) = extremes(reader, &scaled, &sample.origin)?;
-        take(&mut working_set, reader, &sample.origin, &[most, least])?;
+        take(&mut set, reader, &sample.origin, &[most, least])?;
         let rows = reader.rows_from(&sample.origin, &[most, least])?;
         let (p, q) = rows.split_at(dim);
         let mut difference: Vec<f64> =
@@ -50,22 +50,22 @@ pub(super) fn points(
             span.push(difference);
         }
     }
-    Ok(working_set)
+    Ok(set)
 }
 
 /// Adds points, and makes all weights equal.
 fn take(
-    working_set: &mut WorkingSet,
+    set: &mut WorkingSet,
     reader: &PointReader<'_>,
     origin: &[f64],
     ids: &[u64],
 ) -> Result<(), Error> {
     let rows = reader.rows_from(origin, ids)?;
     for (&id, row) in ids.iter().zip(rows.chunks_exact(origin.len())) {
-        working_set.push(id, row, 1.0);
+        set.push(id, row, 1.0);
     }
-    working_set.weights_mut().fill(1.0);
-    working_set.normalize();
+    set.weights_mut().fill(1.0);
+    set.normalize();
     Ok(())
 }
 

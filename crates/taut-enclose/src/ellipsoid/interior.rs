@@ -38,20 +38,20 @@ const TILE_COLUMNS: usize = 64;
 
 /// Replaces the multipliers of a working set by nearly optimal ones, p − 1 at most; a gap of `tolerance` is good enough.
 pub(super) fn solve(
-    working_set: &mut WorkingSet,
+    set: &mut WorkingSet,
     whitener: &mut Whitener,
     tolerance: f64,
     counters: &mut Counters,
     monitor: &Monitor<'_>,
 ) -> Result<(), Error> {
-    let k = working_set.len();
+    let k = set.len();
     // Every point needs a multiplier to start with.
-    working_set.weights_mut().iter_mut().for_each(|u| *u = 0.5 * *u + 0.5 / k as f64);
-    if whitener.rebase(working_set, REBASE_TOLERANCE) == Rebased::Never {
+    set.weights_mut().iter_mut().for_each(|u| *u = 0.5 * *u + 0.5 / k as f64);
+    if whitener.rebase(set, REBASE_TOLERANCE) == Rebased::Never {
         return Ok(());
     }
-    let mut state = State::new(working_set, whitener);
-    let mut best = (f64::INFINITY, working_set.weights().to_vec());
+    let mut state = State::new(set, whitener);
+    let mut best = (f64::INFINITY, set.weights().to_vec());
     let mut patience = STEPS_WITHOUT_PROGRESS_MAX;
     for _ in 0..STEPS_MAX {
         monitor.check().map_err(ReadError::from)?;
@@ -60,14 +60,14 @@ pub(super) fn solve(
             break;
         }
         let total: f64 = state.z.iter().sum();
-        working_set.weights_mut().iter_mut().zip(&state.z).for_each(|(u, z)| *u = z / total);
+        set.weights_mut().iter_mut().zip(&state.z).for_each(|(u, z)| *u = z / total);
         let mut trial = whitener.clone();
-        if trial.rebase(working_set, REBASE_TOLERANCE) == Rebased::Never {
+        if trial.rebase(set, REBASE_TOLERANCE) == Rebased::Never {
             break;
         }
-        let reached = gap(working_set.dim(), trial.apply(working_set).largest());
+        let reached = gap(set.dim(), trial.apply(set).largest());
         if reached < best.0 {
-            best = (reached, working_set.weights().to_vec());
+            best = (reached, set.weights().to_vec());
             patience = STEPS_WITHOUT_PROGRESS_MAX;
         } else {
             patience -= 1;
@@ -78,12 +78,12 @@ pub(super) fn solve(
     }
     let mut order: Vec<usize> = (0..k).collect();
     order.sort_by(|&a, &b| best.1[b].total_cmp(&best.1[a]).then(a.cmp(&b)));
-    let weights = working_set.weights_mut();
+    let weights = set.weights_mut();
     weights.fill(0.0);
     for &i in order.iter().take(state.p - 1) {
         weights[i] = best.1[i];
     }
-    working_set.normalize();
+    set.normalize();
     Ok(())
 }
 
@@ -100,13 +100,13 @@ struct State {
 
 impl State {
     /// M a multiple of the identity inside the cone, which is where the whitener has brought the multipliers.
-    fn new(working_set: &WorkingSet, whitener: &Whitener) -> Self {
-        let (dim, m) = (working_set.dim(), working_set.dim() + 1);
+    fn new(set: &WorkingSet, whitener: &Whitener) -> Self {
+        let (dim, m) = (set.dim(), set.dim() + 1);
         let p = m * (m + 1) / 2;
-        let whitened = whitener.apply(working_set);
-        let mut rows = Vec::with_capacity(working_set.len() * p);
+        let whitened = whitener.apply(set);
+        let mut rows = Vec::with_capacity(set.len() * p);
         let mut w = vec![1.0; m];
-        for i in 0..working_set.len() {
+        for i in 0..set.len() {
             copy_row(&whitened.blocks, dim, i, &mut w[..dim]);
             for a in 0..m {
                 rows.extend((0..a).map(|b| w[a] * w[b] * std::f64::consts::SQRT_2));
@@ -117,7 +117,7 @@ impl State {
         let mut matrix = vec![0.0; p];
         (0..m).for_each(|a| matrix[a * (a + 1) / 2 + a] = start);
         let s = whitened.leverages.iter().map(|l| 1.0 - start * (1.0 + l)).collect();
-        let z = working_set.weights().iter().map(|u| u * m as f64).collect();
+        let z = set.weights().iter().map(|u| u * m as f64).collect();
         State { m, p, rows, matrix, s, z }
     }
 
@@ -282,16 +282,16 @@ mod tests {
     fn the_path_ends_near_the_optimum_of_normal_points() {
         let (n, dim) = (300, 4);
         let rows: Vec<f64> = generate(Distribution::Normal, n, dim, 5).unwrap();
-        let mut working_set = WorkingSet::new(dim);
+        let mut set = WorkingSet::new(dim);
         for (i, row) in rows.chunks_exact(dim).enumerate() {
-            working_set.push(i as u64, row, 1.0 / n as f64);
+            set.push(i as u64, row, 1.0 / n as f64);
         }
         let mut whitener = Whitener::of_scales(&[1.0; 4]);
         let mut counters = Counters::default();
-        solve(&mut working_set, &mut whitener, 0.0, &mut counters, &Monitor::silent()).unwrap();
-        assert!(working_set.weights().iter().filter(|u| **u > 0.0).count() < 15);
-        assert_eq!(whitener.rebase(&working_set, REBASE_TOLERANCE), Rebased::Plainly);
-        assert!(gap(dim, whitener.apply(&working_set).largest()) < 1e-6);
+        solve(&mut set, &mut whitener, 0.0, &mut counters, &Monitor::silent()).unwrap();
+        assert!(set.weights().iter().filter(|u| **u > 0.0).count() < 15);
+        assert_eq!(whitener.rebase(&set, REBASE_TOLERANCE), Rebased::Plainly);
+        assert!(gap(dim, whitener.apply(&set).largest()) < 1e-6);
         assert!((5..40).contains(&counters.interior));
     }
 

@@ -57,27 +57,27 @@ impl Tolerance {
 ///
 /// Ends with the whitener of the multipliers, and says by what factor each |y|² may exceed d in the working set.
 pub(super) fn solve(
-    working_set: &mut WorkingSet,
+    set: &mut WorkingSet,
     whitener: &mut Whitener,
     tolerance: Tolerance,
     counters: &mut Counters,
     monitor: &Monitor<'_>,
 ) -> Result<f64, Error> {
-    let dim = working_set.dim();
+    let dim = set.dim();
     let m = dim + 1;
     let mut best: Option<(f64, Vec<f64>)> = None;
     let mut patience = STEPS_WITHOUT_PROGRESS_MAX;
     let interior_steps = counters.interior;
     for _ in 0..STEPS_MAX {
         monitor.check().map_err(ReadError::from)?;
-        if whitener.rebase(working_set, REBASE_TOLERANCE) == Rebased::Never {
+        if whitener.rebase(set, REBASE_TOLERANCE) == Rebased::Never {
             break;
         }
-        let whitened = whitener.apply(working_set);
+        let whitened = whitener.apply(set);
         let largest = whitened.largest();
         let improves = best.as_ref().is_none_or(|(least, _)| largest < *least);
         if improves {
-            best = Some((largest, working_set.weights().to_vec()));
+            best = Some((largest, set.weights().to_vec()));
         } else if gap(dim, largest) < SMALL_GAP {
             patience -= 1;
         }
@@ -88,14 +88,14 @@ pub(super) fn solve(
         }
         counters.steps += 1;
         let excess = largest - dim as f64;
-        let patience = nnls::patience(working_set.len(), dim, interior_steps > 0, tried);
-        let u = working_set.weights();
+        let patience = nnls::patience(set.len(), dim, interior_steps > 0, tried);
+        let u = set.weights();
         let model = nnls::solve(dim, &whitened, u, GRADIENT_RATIO_MIN * excess, patience, counters);
         let step = match model {
             Outcome::Solved(step) => step,
             // Once: what it hands back is a basis, and models made there are short.
             Outcome::Stuck if !tried => {
-                interior::solve(working_set, whitener, 0.3 * tolerance.hard, counters, monitor)?;
+                interior::solve(set, whitener, 0.3 * tolerance.hard, counters, monitor)?;
                 continue;
             }
             Outcome::Stuck => break,
@@ -104,17 +104,17 @@ pub(super) fn solve(
         if t < 1e-12 {
             break;
         }
-        let weights = working_set.weights_mut();
+        let weights = set.weights_mut();
         weights.iter_mut().for_each(|u| *u *= 1.0 - t);
         for (i, v) in step.weights {
             weights[i] += t * v;
         }
-        working_set.normalize();
+        set.normalize();
     }
     let Some((largest, weights)) = best else { return Ok(f64::INFINITY) };
-    if weights != working_set.weights() {
-        working_set.weights_mut().copy_from_slice(&weights);
-        whitener.rebase(working_set, REBASE_TOLERANCE);
+    if weights != set.weights() {
+        set.weights_mut().copy_from_slice(&weights);
+        whitener.rebase(set, REBASE_TOLERANCE);
     }
     Ok(largest)
 }
@@ -141,35 +141,33 @@ mod tests {
     use super::*;
 
     fn solved(rows: &[f64], dim: usize) -> (WorkingSet, f64) {
-        let mut working_set = WorkingSet::new(dim);
+        let mut set = WorkingSet::new(dim);
         for (i, row) in rows.chunks_exact(dim).enumerate() {
-            working_set.push(i as u64, row, 1.0);
+            set.push(i as u64, row, 1.0);
         }
-        working_set.normalize();
+        set.normalize();
         let mut whitener = Whitener::of_scales(&vec![1.0; dim]);
         let (mut counters, monitor) = (Counters::default(), Monitor::silent());
         let tolerance = Tolerance { easy: 1e-13, hard: 1e-13 };
-        let largest =
-            solve(&mut working_set, &mut whitener, tolerance, &mut counters, &monitor).unwrap();
-        (working_set, largest)
+        let largest = solve(&mut set, &mut whitener, tolerance, &mut counters, &monitor).unwrap();
+        (set, largest)
     }
 
     #[test]
     fn known_designs_are_found() {
         // A triangle with an inner point, which gets no weight; a square with its center.
-        let (working_set, largest) = solved(&[0.0, 0.0, 5.0, 0.0, 0.0, 1.0, 1.0, 0.25], 2);
+        let (set, largest) = solved(&[0.0, 0.0, 5.0, 0.0, 0.0, 1.0, 1.0, 0.25], 2);
         assert!(gap(2, largest) <= 1e-13);
-        assert!(working_set.weights()[..3].iter().all(|u| (u - 1.0 / 3.0).abs() < 1e-13));
-        assert_eq!(working_set.weights()[3], 0.0);
-        let (working_set, largest) =
-            solved(&[1.0, 1.0, -1.0, 1.0, -1.0, -1.0, 1.0, -1.0, 0.0, 0.0], 2);
+        assert!(set.weights()[..3].iter().all(|u| (u - 1.0 / 3.0).abs() < 1e-13));
+        assert_eq!(set.weights()[3], 0.0);
+        let (set, largest) = solved(&[1.0, 1.0, -1.0, 1.0, -1.0, -1.0, 1.0, -1.0, 0.0, 0.0], 2);
         assert!(gap(2, largest) <= 1e-13);
-        assert_eq!(working_set.weights()[4], 0.0);
+        assert_eq!(set.weights()[4], 0.0);
         // On a line the two ends, half and half.
-        let (working_set, largest) = solved(&[3.0, -1.0, 0.5, 2.9], 1);
+        let (set, largest) = solved(&[3.0, -1.0, 0.5, 2.9], 1);
         assert!(gap(1, largest) <= 1e-13);
-        assert!(working_set.weights()[..2].iter().all(|u| (u - 0.5).abs() < 1e-15));
-        assert_eq!(working_set.weights()[2..], [0.0, 0.0]);
+        assert!(set.weights()[..2].iter().all(|u| (u - 0.5).abs() < 1e-15));
+        assert_eq!(set.weights()[2..], [0.0, 0.0]);
     }
 
     #[test]

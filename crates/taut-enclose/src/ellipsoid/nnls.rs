@@ -362,14 +362,14 @@ mod tests {
 
     /// Rows with equal weights, under their whitener.
     fn whitened(rows: &[f64], dim: usize) -> Whitened {
-        let mut working_set = WorkingSet::new(dim);
+        let mut set = WorkingSet::new(dim);
         for (i, row) in rows.chunks_exact(dim).enumerate() {
-            working_set.push(i as u64, row, 1.0);
+            set.push(i as u64, row, 1.0);
         }
-        working_set.normalize();
+        set.normalize();
         let mut whitener = Whitener::of_scales(&vec![1.0; dim]);
-        assert_eq!(whitener.rebase(&working_set, REBASE_TOLERANCE), Rebased::Plainly);
-        whitener.apply(&working_set)
+        assert_eq!(whitener.rebase(&set, REBASE_TOLERANCE), Rebased::Plainly);
+        whitener.apply(&set)
     }
 
     /// v ≥ 0, g ≤ 0 and gv = 0, with g = b − Hv from all of H.

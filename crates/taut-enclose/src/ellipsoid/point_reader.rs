@@ -31,7 +31,6 @@ pub(super) struct Query<'q> {
     pub(super) center: &'q Center,
     /// Only points with |M(x − c)|² above this are listed.
     pub(super) above: f64,
-    /// The largest number of them.
     pub(super) keep: usize,
 }
 
@@ -99,7 +98,6 @@ impl<'a> PointReader<'a> {
         self.hash.expect("the first pass hashes the rows")
     }
 
-    /// The rows with the given numbers.
     pub(crate) fn rows(&self, ids: &[u64]) -> Result<Vec<f64>, Error> {
         Ok(gather(self.source, ids)?)
     }
@@ -343,7 +341,7 @@ fn block<T: Scalar>(
     }
     if first {
         let rows = T::rows(*points);
-        // What is not finite among the coordinates makes a leverage that is not; large coordinates do, too.
+        // A coordinate that is not finite makes a leverage that is not; large coordinates do, too.
         if !report.finite
             && let Some((row, column, value)) = rows.first_non_finite()
         {

@@ -72,23 +72,23 @@ pub(super) fn solve(
     let (first, later) = sizes(dim, reader.len());
     let mut counters = Counters::default();
     let mut progress = Progress::new(dim);
-    let share = shortlist::share(dim, &sample.working_set, reader.len());
+    let share = shortlist::share(dim, &sample.set, reader.len());
     let mut list = share.map(|_| Shortlist::of_sample(sample));
     let share = share.unwrap_or(0.0);
-    let mut working_set = match list {
+    let mut set = match list {
         Some(_) => working_set_of_sample(sample, &whitener, first.min(4 * (dim + 1) * (dim + 2))),
         None => first_working_set(reader, sample, &mut whitener, first)?,
     };
     let mut later = later;
     // With all points in the working set there is nothing to come.
-    let first = if working_set.len() as u64 == reader.len() { 0.6 * wanted } else { 1e-2 };
+    let first = if set.len() as u64 == reader.len() { 0.6 * wanted } else { 1e-2 };
     let mut tolerance = Tolerance { easy: first, hard: first };
     let mut last = f64::INFINITY;
     let (mut best, mut stale) = (f64::INFINITY, 0);
     // Of the rounds over a list.
     let (mut least, mut idle) = (f64::INFINITY, 0);
     let stop = loop {
-        newton::solve(&mut working_set, &mut whitener, tolerance, &mut counters, reader.monitor())?;
+        newton::solve(&mut set, &mut whitener, tolerance, &mut counters, reader.monitor())?;
         let center = center_of(&sample.origin, &whitener);
         let matrix = whitener.matrix();
         let doubt = 3.0 * pass_error(dim, triangular_spread(matrix, dim));
@@ -105,7 +105,7 @@ pub(super) fn solve(
                 let reached = gap(dim, found.largest);
                 let open = reached > wanted
                     && !(idle >= STALE_PASSES_MAX && reached < SMALL_GAP)
-                    && !outside(&found, dim, &working_set).is_empty();
+                    && !outside(&found, dim, &set).is_empty();
                 let mut all = others < dim as f64;
                 if !all && !open {
                     if reader.passes() >= options.max_passes && progress.best_gap() < f64::INFINITY
@@ -126,13 +126,11 @@ pub(super) fn solve(
         if !largest.is_finite() {
             return Err(Error::Overflow);
         }
-        let mut far = outside(&found, dim, &working_set);
+        let mut far = outside(&found, dim, &set);
         far.truncate(4 * later);
-        let size = working_set.len();
+        let size = set.len();
         if all {
-            progress.note(&whitener, size, largest, || {
-                candidate(&working_set, &whitener, center, found)
-            });
+            progress.note(&whitener, size, largest, || candidate(&set, &whitener, center, found));
         }
         let reached = gap(dim, largest);
         if progress.best_gap() <= wanted {
@@ -141,15 +139,8 @@ pub(super) fn solve(
         if all && list.is_none() && reader.passes() >= options.max_passes {
             break Stop::PassBudget;
         }
-        let added = add(
-            &mut working_set,
-            reader,
-            &sample.origin,
-            &whitener,
-            &far,
-            later,
-            counters.interior > 0,
-        )?;
+        let added =
+            add(&mut set, reader, &sample.origin, &whitener, &far, later, counters.interior > 0)?;
         if all {
             stale = if progress.best_gap() < best { 0 } else { stale + 1 };
             best = progress.best_gap();
@@ -175,17 +166,17 @@ pub(super) fn solve(
         }
         last = reached;
         if largest > WEIGHTED_EXCESS_MIN * dim as f64 {
-            jump(&mut working_set, added);
+            jump(&mut set, added);
         }
     };
-    let core_set = working_set.len();
+    let core_set = set.len();
     Ok(progress.into_outcome(stop, counters, core_set))
 }
 
 /// Equal weights on points of a sample: those of large leverage, an affine basis, and what is extreme.
 fn working_set_of_sample(sample: &Sample, whitener: &Whitener, size: usize) -> WorkingSet {
-    let images = whitener.apply(&sample.working_set);
-    let mut order: Vec<usize> = (0..sample.working_set.len()).collect();
+    let images = whitener.apply(&sample.set);
+    let mut order: Vec<usize> = (0..sample.set.len()).collect();
     let farther = |&a: &usize, &b: &usize| images.leverages[b].total_cmp(&images.leverages[a]);
     let size = size.min(order.len());
     if size < order.len() {
@@ -193,14 +184,14 @@ fn working_set_of_sample(sample: &Sample, whitener: &Whitener, size: usize) -> W
         order.truncate(size);
         order.sort_unstable();
     }
-    let mut working_set = WorkingSet::new(sample.working_set.dim());
-    let mut row = vec![0.0; sample.working_set.dim()];
+    let mut set = WorkingSet::new(sample.set.dim());
+    let mut row = vec![0.0; sample.set.dim()];
     for i in order.into_iter().chain(sample.spread(&images.blocks)) {
-        sample.working_set.copy_row(i, &mut row);
-        working_set.push(sample.working_set.ids()[i], &row, 1.0);
+        sample.set.copy_row(i, &mut row);
+        set.push(sample.set.ids()[i], &row, 1.0);
     }
-    working_set.normalize();
-    working_set
+    set.normalize();
+    set
 }
 
 /// Equal weights on points of large leverage, on an affine basis, and on what is extreme in the sample.
@@ -212,10 +203,10 @@ fn first_working_set(
 ) -> Result<WorkingSet, Error> {
     let dim = reader.dim();
     let n = reader.len();
-    if n == sample.working_set.len() as u64 && n <= 2 * size as u64 {
-        return Ok(sample.working_set.clone());
+    if n == sample.set.len() as u64 && n <= 2 * size as u64 {
+        return Ok(sample.set.clone());
     }
-    let images = whitener.apply(&sample.working_set);
+    let images = whitener.apply(&sample.set);
     let mut leverages = images.leverages.clone();
     leverages.sort_unstable_by(|a, b| b.total_cmp(a));
     // Few of the listed points should be thrown away again, and enough should be listed.
@@ -224,19 +215,19 @@ fn first_working_set(
     let center = center_of(&sample.origin, whitener);
     let query = Query { matrix: whitener.matrix(), center: &center, above, keep: size };
     let found = reader.pass(query)?;
-    let mut working_set = WorkingSet::new(dim);
+    let mut set = WorkingSet::new(dim);
     let ids: Vec<u64> = found.far.iter().map(|far| far.id).collect();
     let rows = reader.rows_from(&sample.origin, &ids)?;
     for (&id, row) in ids.iter().zip(rows.chunks_exact(dim)) {
-        working_set.push(id, row, 1.0);
+        set.push(id, row, 1.0);
     }
     let mut row = vec![0.0; dim];
     for i in sample.spread(&images.blocks) {
-        sample.working_set.copy_row(i, &mut row);
-        working_set.push(sample.working_set.ids()[i], &row, 1.0);
+        sample.set.copy_row(i, &mut row);
+        set.push(sample.set.ids()[i], &row, 1.0);
     }
-    working_set.normalize();
-    Ok(working_set)
+    set.normalize();
+    Ok(set)
 }
 
 /// The center of a whitener in the coordinates of the source; in two terms where rounding it to one could be seen.
@@ -258,12 +249,12 @@ pub(super) fn center_of(origin: &[f64], whitener: &Whitener) -> Center {
 }
 
 pub(super) fn candidate(
-    working_set: &WorkingSet,
+    set: &WorkingSet,
     whitener: &Whitener,
     center: Center,
     found: PassResult,
 ) -> Candidate {
-    let weighted = working_set.ids().iter().zip(working_set.weights()).filter(|(_, u)| **u > 0.0);
+    let weighted = set.ids().iter().zip(set.weights()).filter(|(_, u)| **u > 0.0);
     let mut pairs: Vec<(u64, f64)> = weighted.map(|(&id, &u)| (id, u)).collect();
     pairs.sort_unstable_by_key(|pair| pair.0);
     let (support, multipliers) = pairs.into_iter().unzip();
@@ -271,16 +262,15 @@ pub(super) fn candidate(
 }
 
 /// The points outside that are not in the working set.
-fn outside(found: &PassResult, dim: usize, working_set: &WorkingSet) -> Vec<Far> {
-    let beyond =
-        |far: &&Far| far.reach2 > dim as f64 * (1.0 + 1e-14) && !working_set.contains(far.id);
+fn outside(found: &PassResult, dim: usize, set: &WorkingSet) -> Vec<Far> {
+    let beyond = |far: &&Far| far.reach2 > dim as f64 * (1.0 + 1e-14) && !set.contains(far.id);
     found.far.iter().filter(beyond).copied().collect()
 }
 
 /// Takes some of the far points to the working set, and useless points out of it, more of them if the working set is `hard`; says how
 /// many were taken.
 fn add(
-    working_set: &mut WorkingSet,
+    set: &mut WorkingSet,
     reader: &PointReader<'_>,
     origin: &[f64],
     whitener: &Whitener,
@@ -288,10 +278,10 @@ fn add(
     most: usize,
     hard: bool,
 ) -> Result<usize, Error> {
-    let dim = working_set.dim();
-    if working_set.len() > 4 * most || hard {
-        let leverages = whitener.apply(working_set).leverages;
-        let weights = working_set.weights().to_vec();
+    let dim = set.dim();
+    if set.len() > 4 * most || hard {
+        let leverages = whitener.apply(set).leverages;
+        let weights = set.weights().to_vec();
         let mut least = LEVERAGE_RATIO_MIN * dim as f64;
         let spare = HARD_SPARE * (dim + 1) * (dim + 2) / 2;
         if hard {
@@ -302,7 +292,7 @@ fn add(
                 least = least.max(*bound);
             }
         }
-        working_set.retain(|i| weights[i] > 0.0 || leverages[i] > least);
+        set.retain(|i| weights[i] > 0.0 || leverages[i] > least);
     }
     let ids: Vec<u64> = far.iter().map(|far| far.id).collect();
     let rows = reader.rows_from(origin, &ids)?;
@@ -321,7 +311,7 @@ fn add(
         if *sector < each && added < most {
             *sector += 1;
             added += 1;
-            working_set.push(id, row, 0.0);
+            set.push(id, row, 0.0);
         }
     }
     Ok(added)
@@ -334,10 +324,10 @@ fn sector(image: &[f64]) -> usize {
 }
 
 /// Half of the weight goes to the points that came last.
-fn jump(working_set: &mut WorkingSet, added: usize) {
-    let k = working_set.len();
-    for (i, u) in working_set.weights_mut().iter_mut().enumerate() {
+fn jump(set: &mut WorkingSet, added: usize) {
+    let k = set.len();
+    for (i, u) in set.weights_mut().iter_mut().enumerate() {
         *u = if i + added < k { *u / 2.0 } else { 0.5 / added as f64 };
     }
-    working_set.normalize();
+    set.normalize();
 }

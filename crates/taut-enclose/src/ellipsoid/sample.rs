@@ -24,7 +24,7 @@ pub(super) struct Sample {
     /// The vector that is subtracted from all coordinates before anything else.
     pub(super) origin: Vec<f64>,
     /// The rows, relative to that, all with the same weight.
-    pub(super) working_set: WorkingSet,
+    pub(super) set: WorkingSet,
 }
 
 impl Sample {
@@ -36,29 +36,29 @@ impl Sample {
         let rows = reader.rows(&ids)?;
         let dim = reader.dim();
         let origin = mean(&rows, dim);
-        let mut working_set = WorkingSet::with_room(dim, ids.len());
+        let mut set = WorkingSet::with_room(dim, ids.len());
         let mut row = vec![0.0; dim];
         for (&id, values) in ids.iter().zip(rows.chunks_exact(dim)) {
             for ((row, x), o) in row.iter_mut().zip(values).zip(&origin) {
                 *row = x - o;
             }
-            working_set.push(id, &row, 1.0 / count as f64);
+            set.push(id, &row, 1.0 / count as f64);
         }
-        Ok(Sample { origin, working_set })
+        Ok(Sample { origin, set })
     }
 
     /// Returns true if all rows are finite, relative to the origin.
     pub(super) fn is_finite(&self) -> bool {
-        self.working_set.blocks().iter().all(|v| v.is_finite())
+        self.set.blocks().iter().all(|v| v.is_finite())
     }
 
     /// The largest absolute value of each coordinate, relative to the origin.
     pub(super) fn extents(&self) -> Vec<f64> {
-        let dim = self.working_set.dim();
+        let dim = self.set.dim();
         let mut extents = vec![0.0f64; dim];
         let mut row = vec![0.0; dim];
-        for i in 0..self.working_set.len() {
-            self.working_set.copy_row(i, &mut row);
+        for i in 0..self.set.len() {
+            self.set.copy_row(i, &mut row);
             extents.iter_mut().zip(&row).for_each(|(e, v)| *e = e.max(v.abs()));
         }
         extents
@@ -66,25 +66,25 @@ impl Sample {
 
     /// Takes up more rows, relative to the origin; all have the same weight then.
     pub(super) fn add(&mut self, ids: &[u64], rows: &[f64]) {
-        for (&id, row) in ids.iter().zip(rows.chunks_exact(self.working_set.dim())) {
-            self.working_set.push(id, row, 0.0);
+        for (&id, row) in ids.iter().zip(rows.chunks_exact(self.set.dim())) {
+            self.set.push(id, row, 0.0);
         }
-        self.working_set.weights_mut().fill(1.0);
-        self.working_set.normalize();
+        self.set.weights_mut().fill(1.0);
+        self.set.normalize();
     }
 
     /// A map that makes the covariance of the sample the identity, and what stood in its way.
     pub(super) fn whitener(&self, extents: &[f64]) -> (Whitener, Rebased) {
         let mut whitener = Whitener::of_scales(extents);
-        let how = whitener.rebase(&self.working_set, REBASE_TOLERANCE);
+        let how = whitener.rebase(&self.set, REBASE_TOLERANCE);
         (whitener, how)
     }
 
     /// Positions of an affine basis, and of what is least and largest in each coordinate of `blocks`, the images of the
     /// sample under its whitener.
     pub(super) fn spread(&self, blocks: &[f64]) -> Vec<usize> {
-        let dim = self.working_set.dim();
-        let k = self.working_set.len();
+        let dim = self.set.dim();
+        let k = self.set.len();
         let mut rows = vec![0.0; k * dim];
         for (i, row) in rows.chunks_exact_mut(dim).enumerate() {
             copy_row(blocks, dim, i, row);

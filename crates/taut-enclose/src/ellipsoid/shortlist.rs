@@ -41,13 +41,13 @@ pub(super) struct Shortlist {
 impl Shortlist {
     /// A sample, of which nothing follows for other points.
     pub(super) fn of_sample(sample: &Sample) -> Self {
-        let dim = sample.working_set.dim();
-        let mut rows = vec![0.0; sample.working_set.len() * dim];
+        let dim = sample.set.dim();
+        let mut rows = vec![0.0; sample.set.len() * dim];
         for (i, row) in rows.chunks_exact_mut(dim).enumerate() {
-            sample.working_set.copy_row(i, row);
+            sample.set.copy_row(i, row);
             row.iter_mut().zip(&sample.origin).for_each(|(x, o)| *x += o);
         }
-        Shortlist { dim, ids: sample.working_set.ids().to_vec(), rows, others: None }
+        Shortlist { dim, ids: sample.set.ids().to_vec(), rows, others: None }
     }
 
     /// One pass over all points, in which this whitener lists about a share of them.
@@ -59,7 +59,7 @@ impl Shortlist {
         share: f64,
     ) -> Result<Self, Error> {
         let share = share.min(MOST_LISTED / reader.len() as f64);
-        let mut leverages = whitener.apply(&sample.working_set).leverages;
+        let mut leverages = whitener.apply(&sample.set).leverages;
         let rank =
             ((share * leverages.len() as f64) as usize + SAMPLE_RANK_MIN).min(leverages.len() - 1);
         let (_, &mut above, _) = leverages.select_nth_unstable_by(rank, |a, b| b.total_cmp(a));

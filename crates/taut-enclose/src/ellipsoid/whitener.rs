@@ -75,9 +75,9 @@ impl Whitener {
     }
 
     /// The images of all points of a working set.
-    pub(super) fn apply(&self, working_set: &WorkingSet) -> Whitened {
-        let mut whitened = self.apply_to(working_set.blocks());
-        whitened.leverages.truncate(working_set.len());
+    pub(super) fn apply(&self, set: &WorkingSet) -> Whitened {
+        let mut whitened = self.apply_to(set.blocks());
+        whitened.leverages.truncate(set.len());
         whitened
     }
 
@@ -121,10 +121,10 @@ impl Whitener {
     /// Makes the covariance of the weighted points the identity; the last turn starts from one within `near` of it.
     ///
     /// The returned value tells the cost in rounding.
-    pub(super) fn rebase(&mut self, working_set: &WorkingSet, near: f64) -> Rebased {
+    pub(super) fn rebase(&mut self, set: &WorkingSet, near: f64) -> Rebased {
         let (dim, m) = (self.dim, self.dim + 1);
         let mut how = Rebased::Plainly;
-        let (points, weights) = working_set.support();
+        let (points, weights) = set.support();
         for _ in 0..TURNS_MAX {
             let images = self.apply_to(&points);
             let moments = moments(dim, &images.blocks, &weights);

@@ -30,12 +30,12 @@ impl WorkingSet {
 
     /// The same with room for a number of points.
     pub(super) fn with_room(dim: usize, points: usize) -> Self {
-        let mut working_set = WorkingSet::new(dim);
-        working_set.positions.reserve(points);
-        working_set.ids.reserve(points);
-        working_set.blocks.reserve(points.next_multiple_of(POINTS) * dim);
-        working_set.weights.reserve(points.next_multiple_of(POINTS));
-        working_set
+        let mut set = WorkingSet::new(dim);
+        set.positions.reserve(points);
+        set.ids.reserve(points);
+        set.blocks.reserve(points.next_multiple_of(POINTS) * dim);
+        set.weights.reserve(points.next_multiple_of(POINTS));
+        set
     }
 
     pub(super) fn dim(&self) -> usize {

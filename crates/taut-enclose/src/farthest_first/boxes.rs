@@ -17,7 +17,6 @@ use crate::frame::Frame;
 /// Points of a leaf, a multiple of [`GROUP_SIZE`]: fewer have a smaller box that rules out more, and more boxes are to be asked.
 const POINTS: usize = 256;
 
-/// Some neighbors.
 pub(super) struct BoxLeaf {
     /// Coordinate after coordinate of all points.
     columns: Vec<f64>,

@@ -78,7 +78,6 @@ pub(super) struct Leaves<L> {
     pub(super) stored: bool,
 }
 
-/// The task.
 pub(super) struct Job<'a> {
     pub(super) source: &'a dyn PointSource,
     pub(super) monitor: &'a Monitor<'a>,

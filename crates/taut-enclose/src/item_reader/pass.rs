@@ -39,7 +39,6 @@ pub(super) struct FirstReport {
     pub(super) overflow: bool,
 }
 
-/// The result of measuring a block.
 struct Measured {
     farthest: Far,
     /// True if every reach is a number.
@@ -109,7 +108,7 @@ impl<'p> Pass<'p> {
     ) -> Result<BlockReport, Error> {
         let rows = T::rows(*points);
         let Measured { farthest, finite } = self.block(first_row, points);
-        // What is not finite among the coordinates makes a reach that is not; large coordinates do, too.
+        // A coordinate that is not finite makes a reach that is not; large coordinates do, too.
         if !finite && let Some((row, column, value)) = rows.first_non_finite() {
             return Err(Error::Input(InputError::NonFinite {
                 row: first_row + row as u64,

@@ -147,7 +147,6 @@ impl Difference {
         difference
     }
 
-    /// Dimension.
     pub(crate) fn dim(&self) -> usize {
         self.high.len()
     }

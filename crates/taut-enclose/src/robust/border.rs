@@ -47,7 +47,6 @@ pub(super) struct Border {
     ids: Vec<u64>,
     /// y, row by row, in order of |y|.
     images: Vec<f64>,
-    /// The present state.
     state: State,
 }
 

@@ -196,7 +196,7 @@ mod tests {
         for d in [1, 2, 5, 40, 300] {
             for p in [1e-6, 0.1, 0.5, 0.9, 0.999_999] {
                 let off = probability(quantile(p, d), d) / p - 1.0;
-                // What rounding the quantile costs far out.
+                // The cost of rounding the quantile far out.
                 assert!(off.abs() < 1e-14 * (10 + d) as f64, "{p}, {d}: {off:e}");
             }
         }

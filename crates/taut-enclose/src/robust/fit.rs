@@ -16,7 +16,6 @@ use crate::ellipsoid::point_reader::PointReader;
 
 /// An estimate with all it was made from.
 pub(super) struct Fit {
-    /// Rows kept.
     pub(super) kept: Vec<bool>,
     pub(super) objective: f64,
     pub(super) raw_scale: f64,

@@ -78,7 +78,7 @@ impl Flat {
         for direction in self.basis.chunks_exact(self.dim()) {
             let product = dot(&rest, direction);
             add_scaled(&mut rest, -product, direction);
-            // What only rounding keeps from 0: left as it is, a column of such numbers would count as one of its own.
+            // A column that only rounding keeps from 0: left as it is, a column of such numbers would count as one of its own.
             let size: f64 = offset.iter().zip(direction).map(|(x, b)| (x * b).abs()).sum();
             let is_zero =
                 product.abs() <= ZERO_ROUNDINGS * (self.dim() + 4) as f64 * f64::EPSILON * size;

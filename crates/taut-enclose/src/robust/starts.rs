@@ -71,7 +71,6 @@ impl Standardized {
         self.columns.len()
     }
 
-    /// The correlations of transformed columns.
     fn correlation(&self, transform: impl Fn(&[f64]) -> Vec<f64>) -> Vec<f64> {
         let columns: Vec<Vec<f64>> = self
             .columns

@@ -12,7 +12,6 @@ use super::distance;
 /// Rows that are measured together.
 const CHUNK: usize = 512;
 
-/// The result of the pass.
 pub(super) struct Measured {
     /// The largest distance of a point to the center next to it, as evaluated.
     pub(super) radius: f64,

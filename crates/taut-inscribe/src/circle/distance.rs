@@ -41,7 +41,6 @@ impl Edges {
         [points[edge], points[if edge + 1 == points.len() { 0 } else { edge + 1 }]]
     }
 
-    /// The ends of an edge as given.
     pub(super) fn segment(&self, edge: u32) -> [[f64; 2]; 2] {
         self.ends(&self.exact, edge)
     }

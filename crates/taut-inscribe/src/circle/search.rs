@@ -50,7 +50,6 @@ const CELLS_BETWEEN_CHECKS: u64 = 256;
 /// Denominators of the weights in a certificate, as powers of two; the first that closes the cell is taken.
 const WEIGHT_BITS: [u32; 4] = [6, 16, 32, 50];
 
-/// The result of a search.
 pub(super) struct SearchResult {
     /// The center in coordinates of the input, if there is one.
     pub(super) center: Option<[f64; 2]>,
@@ -60,7 +59,6 @@ pub(super) struct SearchResult {
     pub(super) upper: f64,
     pub(super) log: Log,
     pub(super) stop: Stop,
-    /// Cells of all searches.
     pub(super) cells: u64,
     pub(super) searches: u64,
 }

@@ -83,7 +83,6 @@ impl<'a> MeshBuilder<'a> {
         (self.simplices.len() / self.width) as u64
     }
 
-    /// Adds a vertex.
     pub(super) fn vertex(&mut self, place: FilePlace, at: [f64; 3]) -> Result<(), Error> {
         let at = self.finite(place, "coordinate", at)?;
         if self.vertices.len() >= u32::MAX as usize {
@@ -93,7 +92,6 @@ impl<'a> MeshBuilder<'a> {
         self.check_memory()
     }
 
-    /// Adds a normal.
     pub(super) fn normal(&mut self, place: FilePlace, normal: [f64; 3]) -> Result<(), Error> {
         let normal = self.finite(place, "normal", normal)?;
         self.normals.push(normal);

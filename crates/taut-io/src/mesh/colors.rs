@@ -23,7 +23,6 @@ impl Colors {
         Ok(())
     }
 
-    /// Number of colors.
     pub(super) fn len(&self) -> usize {
         self.values.len()
     }

@@ -32,7 +32,6 @@ struct Buffer<'a> {
     normals: Option<Vec<[f64; 3]>>,
 }
 
-/// A run of values in the buffer.
 struct Run {
     /// The attribute of vertices; none of corners.
     attribute: Option<&'static str>,

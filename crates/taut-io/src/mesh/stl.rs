@@ -110,7 +110,7 @@ fn read_text(mesh: &mut MeshBuilder<'_>, stream: Box<dyn BufRead>) -> Result<(),
     let mut lines = mesh.lines(stream, 0);
     let mut weld = Weld::default();
     let mut corners: Vec<i64> = Vec::new();
-    // What the next line may begin with; of a loop, the corners are counted.
+    // The words that the next line may begin with; of a loop, the corners are counted.
     let mut expected: &[&str] = &["solid"];
     while lines.advance(mesh)? {
         let at = lines.place();

@@ -59,7 +59,6 @@ pub(super) fn write(job: &Job<'_>, out: &mut OutputFile<'_>) -> Result<(), Error
     out.put(b"\n</AppendedData>\n</VTKFile>\n")
 }
 
-/// A tag with its attributes.
 struct Tag {
     name: String,
     attributes: Vec<(String, String)>,

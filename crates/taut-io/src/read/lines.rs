@@ -43,7 +43,6 @@ impl<'a> Lines<'a> {
         }
     }
 
-    /// The next line and its number.
     pub(super) fn next(&mut self) -> Result<Option<(u64, &[u8])>, Error> {
         let Some(length) = self.length()? else { return Ok(None) };
         self.number += 1;

@@ -19,7 +19,6 @@ use crate::{Error, Format, Place};
 /// Values read at a time.
 const CHUNK: usize = 1 << 13;
 
-/// The contents of a header.
 pub(super) struct Header {
     element: Element,
     big_endian: bool,

@@ -33,7 +33,7 @@ pub(crate) fn open<R: ChunkReader + 'static>(
     let metadata = ArrowReaderMetadata::load(&chunks, ArrowReaderOptions::default())?;
     for column in metadata.metadata().row_groups().iter().flat_map(|group| group.columns()) {
         let start = column.dictionary_page_offset().unwrap_or(column.data_page_offset());
-        // What is negative or beyond the file is for the decoder to refuse.
+        // The decoder refuses sizes that are negative or beyond the file.
         if let (Ok(start), Ok(length)) =
             (u64::try_from(start), u64::try_from(column.compressed_size()))
         {

@@ -14,9 +14,7 @@ use super::{Bounds, Bvh, Stack};
 /// A triangle, and how far away it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Nearest {
-    /// The square of the distance.
     pub(crate) square: f64,
-    /// The number of the triangle.
     pub(crate) number: u32,
 }
 

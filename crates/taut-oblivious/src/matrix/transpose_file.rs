@@ -174,7 +174,6 @@ fn transpose_through<F: Store + Borrow<File>>(
     Ok(Pending::new(done, target, to, None))
 }
 
-/// Opens a file that ends with `matrix`.
 fn open(path: &Path, matrix: &FileMatrix) -> Result<File, Error> {
     let (file, about) = store::open(path).map_err(failed(path))?;
     let bytes = about.len();

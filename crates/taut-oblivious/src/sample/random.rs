@@ -13,7 +13,6 @@ use crate::random::split_mix;
 pub(super) struct Random([u64; 4]);
 
 impl Random {
-    /// The stream of a node.
     pub(super) fn new(seed: u64, node: u64) -> Self {
         let mut state = seed;
         let mut state = split_mix(&mut state) ^ node.wrapping_mul(0xD6E8_FEB8_6659_FD93);

@@ -78,7 +78,6 @@ impl Sites {
     }
 }
 
-/// The answer.
 pub(super) fn finish(
     method: SurfaceMethod,
     mode: Promise,
@@ -170,7 +169,6 @@ fn unused(facets: &Facets, sites: &Sites, is_surface: bool) -> Unused {
     rows
 }
 
-/// The topology as the certificate has it.
 fn numbers(found: &Topology) -> SurfaceTopology {
     let components = found.components.iter().map(|one| SurfaceComponent {
         first_triangle: one.first_triangle,

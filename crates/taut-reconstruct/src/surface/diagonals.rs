@@ -190,7 +190,6 @@ impl Quadrangle {
         }
     }
 
-    /// The cells across.
     fn neighbors(&self, cells: &Cells, _: &[bool]) -> Vec<u32> {
         (0..4).map(|i| cells.across(self.cell, i).0).collect()
     }

@@ -38,7 +38,7 @@ pub(super) struct DualEdge {
 
 impl DualEdge {
     fn new(s: f64) -> Self {
-        // What is not a number says nothing.
+        // NaN carries no evidence.
         let s = if s.is_nan() { 0.0 } else { s.clamp(-1.0, 1.0) };
         Self { key: ((s.abs() * WEIGHT_STEPS + 0.5) as u32) << 1 | u32::from(s < 0.0) }
     }

@@ -32,7 +32,6 @@ struct Spheres<'a> {
     flat: f64,
 }
 
-/// A vector in each lane.
 pub(super) type Vectors<S> = [<S as Simd>::f64s; 3];
 
 #[inline(always)]

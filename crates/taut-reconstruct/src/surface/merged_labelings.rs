@@ -135,7 +135,6 @@ fn euler_characteristic(faces: &[Face]) -> i64 {
     vertices as i64 - (sides.len() / 2) as i64 + faces.len() as i64
 }
 
-/// Some points.
 struct Region {
     /// By site.
     has: Vec<bool>,

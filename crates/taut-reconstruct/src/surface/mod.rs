@@ -124,7 +124,6 @@ pub fn surface(
     })
 }
 
-/// The coordinates of rows that have three.
 fn coordinates(rows: Rows<'_>) -> Vec<[f64; 3]> {
     match rows {
         Rows::F32(points) => points.rows().map(|p| [0, 1, 2].map(|k| f64::from(p[k]))).collect(),

@@ -38,7 +38,6 @@ pub(super) fn quad_qualities(
     Arch::new().dispatch(QuadQualityKernel { quadrangles, cells, points })
 }
 
-/// Looks at one.
 pub(super) fn quad_quality(
     quadrangle: &Quadrangle,
     cells: &Cells,

@@ -331,7 +331,6 @@ fn objections(dual_edges: &DualEdges, cells: &Cells, inside: &[bool]) -> Vec<(u3
     all.filter_map(of_cell).collect()
 }
 
-/// The result of relabeling parts.
 pub(super) struct Relabeled {
     pub(super) relabeled: u64,
     /// Of each facet that disagrees with the labels one cell at least is among these.

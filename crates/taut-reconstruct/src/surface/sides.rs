@@ -65,7 +65,6 @@ impl Sides {
         if self.scaled(back) < length { back.next_up() } else { back }
     }
 
-    /// Returns how many numbers of cells there are.
     pub(super) fn cell_count(&self) -> usize {
         self.vertices.len()
     }
@@ -123,7 +122,6 @@ impl Sides {
         of.filter(|&side| self.either(side) == side && !self.triangle(side).contains(&GHOST))
     }
 
-    /// Returns how many finite facets there are.
     pub(super) fn facet_count(&self) -> usize {
         (0..self.cell_count() as u32).map(|cell| self.facets_of(cell).count()).sum()
     }

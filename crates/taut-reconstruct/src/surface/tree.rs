@@ -55,7 +55,6 @@ fn rank(cross_edge: &CrossEdge, task: usize, place: usize) -> u64 {
     u64::from(cross_edge.weight) << 32 | u64::from(!((task << 16 | place) as u32))
 }
 
-/// The cross edge that has a rank.
 fn ranked(cross_edges: &[Vec<CrossEdge>], rank: u64) -> &CrossEdge {
     let at = !(rank as u32) as usize;
     &cross_edges[at >> 16][at & 0xffff]

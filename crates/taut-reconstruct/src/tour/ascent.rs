@@ -31,7 +31,6 @@ const RESTART_STEP_RATIO: f64 = 0.3;
 /// The bound is as good as the tour.
 const CLOSED_GAP: f64 = 1e-7;
 
-/// An ascent in progress.
 pub(super) struct Ascent<'a> {
     candidates: &'a Candidates,
     tree: LeastTree<'a>,

@@ -108,7 +108,6 @@ impl Candidates {
         self.neighbors[range.clone()].iter().copied().zip(self.lengths[range].iter().copied())
     }
 
-    /// The length of an edge.
     pub(super) fn length(&self, v: u32, u: u32) -> f64 {
         self.edges(v).find(|&(w, _)| w == u).map_or(0.0, |(_, length)| length)
     }

@@ -59,7 +59,6 @@ const GAP_RATIO_MAX: f64 = 0.95;
 /// A tour with its bound.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Tour {
-    /// The sites in order.
     pub(crate) order: Vec<u32>,
     /// True if it returns to the first; false for fewer than three sites and for sites on a line, whatever was asked.
     pub(crate) closed: bool,
@@ -68,14 +67,12 @@ pub(crate) struct Tour {
     pub(crate) potentials: Vec<f64>,
     /// No tour, or path if this is one, is shorter.
     pub(crate) lower: f64,
-    /// The events on the way.
     pub(crate) events: Events,
 }
 
 /// Events worth counting.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Events {
-    /// Steps of the ascent.
     pub(crate) steps: u64,
     /// Changes that removed crossings.
     pub(crate) untangled: u64,

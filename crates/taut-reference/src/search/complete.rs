@@ -18,7 +18,6 @@ impl CompleteTree {
         Self { len, height, last: len - above.min(len) }
     }
 
-    /// Nodes.
     pub(super) fn len(&self) -> usize {
         self.len
     }

@@ -67,7 +67,6 @@ unsafe fn below_avx2<W: Word>(line: *const W, word: W) -> usize {
     }
 }
 
-/// A way to count.
 pub(crate) trait Count<W> {
     /// The words of the line that starts at `first` of `words` that are smaller than `word`.
     ///

@@ -23,7 +23,6 @@ struct Split {
     other: usize,
 }
 
-/// All centers.
 pub(super) struct CenterTree {
     order: Vec<usize>,
     nodes: Vec<Node>,

@@ -15,7 +15,6 @@ pub(super) trait Oracle {
     /// Data to undo the last `grow`.
     type Undo;
 
-    /// The number of items.
     fn len(&self) -> usize;
 
     /// A group of one item; `None` where it is refuted.

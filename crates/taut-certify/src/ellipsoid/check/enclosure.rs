@@ -29,7 +29,6 @@ const EXCESS_MAX: f64 = 1e-12;
 /// 2³⁰⁰: a length from which on squares are not formed, as they could overflow.
 pub(crate) const FAR_OUT: f64 = f64::from_bits((1023 + 300) << 52);
 
-/// The result of the pass.
 pub(super) struct Enclosed {
     /// By how much |F(x − c)| exceeds 1 at worst, rounded up.
     pub(super) excess: f64,

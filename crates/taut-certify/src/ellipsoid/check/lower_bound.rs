@@ -232,7 +232,7 @@ impl Sums {
         let rank = self.rank as f64;
         let of_sums = (2 * self.count + 32) as f64 * DoubleDouble::ROUNDOFF * self.size;
         let of_factors = (4 * self.rank + 16) as f64 * DoubleDouble::ROUNDOFF * self.size;
-        // What products of numbers far below 1 may lose, in each of the entries.
+        // The loss of products of numbers far below 1, in each of the entries.
         let underflow = (self.count + 4) as f64 * (rank + 4.0) * f64::MIN_POSITIVE;
         let weight = self.weight.rounded();
         rank * (of_sums + of_factors + 2.0 * self.error + underflow) / weight

@@ -93,7 +93,7 @@ pub(super) fn gap(
         size += lambda * (side.length.rounded() + side.slack.rounded().abs());
         error += lambda * (4.0 * side.normal_error + side.slack_error);
     }
-    // What products of entries far below the length of their side may have lost.
+    // The loss of products of entries far below the length of their side.
     error += (sides.len() * (dim + 2) * (dim + 2)) as f64 * f64::MIN_POSITIVE;
     let trace = (0..dim).fold(zero, |sum, a| sum.plus(&matrix[a * (a + 3) / 2]));
     if !TRACE_RANGE.contains(&trace.rounded()) {

@@ -36,7 +36,6 @@ pub(super) struct Moments {
     pub(super) coordinates: Vec<f64>,
 }
 
-/// The metric of the rows kept.
 pub(super) enum KeptMetric<'a> {
     /// That of the ellipsoid around them, and up to which distance rows lie strictly inside.
     Ellipsoid { frame: &'a Frame<'a>, inside: f64 },

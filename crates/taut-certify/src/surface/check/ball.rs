@@ -41,7 +41,6 @@ impl Ball {
         Ball::new(&tetrahedron[0], &Tetrahedra::lifted(&edges), m.powi(4), m.powi(3))
     }
 
-    /// The smallest ball of a triangle.
     pub(super) fn smallest(triangle: &[[f64; 3]; 3]) -> Self {
         let (edges, m) = edges(triangle);
         Ball::new(&triangle[0], &Gabriel::lifted(&edges), m.powi(5), m.powi(4))
@@ -64,7 +63,7 @@ impl Ball {
     ) -> Self {
         let (normal, weight) = (lifted.normal.map(|x| x.high), lifted.orientation.high);
         let largest = normal.iter().fold(0.0f64, |largest, x| largest.max(x.abs()));
-        // What components of N, and O, are off by.
+        // The errors of the components of N, and of O.
         let normal_error = 2.0 * U * largest + DOUBLED_ROUNDING * normal_size + UNDERFLOW;
         let weight_error = 2.0 * U * weight.abs() + DOUBLED_ROUNDING * weight_size + UNDERFLOW;
         Ball {

@@ -56,7 +56,6 @@ impl<'a> Faces<'a> {
         self.tree.get_or_init(|| self.tree_of(0..self.triangles.len() as u32))
     }
 
-    /// A tree over some of them.
     fn tree_of(&self, triangles: impl Iterator<Item = u32>) -> Tree {
         let areas: Vec<Area> = triangles.map(|t| Area::of(&self.face(t).corners)).collect();
         Tree::of(&areas)

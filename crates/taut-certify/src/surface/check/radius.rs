@@ -8,7 +8,6 @@ use super::places::Places;
 use crate::arithmetic::{Integer, Ring, U, parts};
 use crate::triangulation::{UNDERFLOW, cross};
 
-/// Checks all triangles.
 pub(super) fn check(
     surface: &Surface,
     places: &Places,

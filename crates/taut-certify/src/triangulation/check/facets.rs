@@ -58,7 +58,7 @@ impl Facets<2> for [u32; 3] {
     fn beyond(&[a, b]: &[u32; 2], other: &Self, back: &Self, number: u32) -> (u32, u32) {
         let off =
             |i: usize, j: usize, k: usize| (back[i] ^ number) | (other[j] ^ b) | (other[k] ^ a);
-        // What is left of three numbers when two of them are taken away.
+        // The rest of three numbers when two of them are taken away.
         let rest = other[0] ^ other[1] ^ other[2] ^ a ^ b;
         (rest, off(0, 1, 2).min(off(1, 2, 0)).min(off(2, 0, 1)))
     }

@@ -12,7 +12,6 @@ use super::signs::Signs;
 use super::sites::Sites;
 use super::{line, listed, pairing, polygon, polyhedron};
 
-/// The claim to be proved.
 pub(super) struct Claim<'a> {
     pub(super) hull_dimension: Option<u8>,
     pub(super) simplices: &'a [u32],

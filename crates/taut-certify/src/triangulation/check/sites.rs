@@ -101,12 +101,10 @@ impl<'a, const D: usize> Sites<'a, D> {
         self.named[id as usize].store(true, Ordering::Relaxed);
     }
 
-    /// Returns true if a row was named.
     pub(super) fn is_named(&self, id: u32) -> bool {
         self.named.get(id as usize).is_some_and(|named| named.load(Ordering::Relaxed))
     }
 
-    /// Returns how many rows were named.
     pub(super) fn count(&self) -> usize {
         self.named.iter().map(|named| usize::from(named.load(Ordering::Relaxed))).sum()
     }

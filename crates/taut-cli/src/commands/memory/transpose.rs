@@ -182,7 +182,6 @@ impl Args {
         Ok(Outcome::Done)
     }
 
-    /// Compares some elements.
     fn sample(&self, job: &Job, elements: u64, watch: &Watch) -> anyhow::Result<Outcome> {
         if elements == 0 {
             return Ok(Outcome::Done);

@@ -24,7 +24,6 @@ pub(super) enum End {
     Spent,
 }
 
-/// A search at work.
 pub(super) struct Search<'a, 's> {
     /// The root.
     pub(super) state: &'a mut State<'s>,

@@ -31,7 +31,6 @@ pub(super) struct Sites {
     weights: Vec<f64>,
     /// By site; empty for points.
     radii: Vec<f64>,
-    /// The row of each site.
     rows: Vec<u64>,
     hash: PointsHash,
 }
@@ -68,12 +67,10 @@ impl Sites {
         self.hash
     }
 
-    /// The row that stands at a site.
     pub(super) fn row(&self, site: usize) -> u64 {
         self.rows[site]
     }
 
-    /// Its coordinates.
     pub(super) fn position(&self, site: usize) -> &[f64] {
         &self.positions[site * self.dim..(site + 1) * self.dim]
     }

@@ -215,7 +215,7 @@ fn pair<P: Position>(items: &ItemSet<P>, a: usize, b: usize) -> Option<(P, f64)>
         return None;
     }
     let radius = items.pair_radius(a, b);
-    // How far the center is from a, in parts of the distance.
+    // The distance of the center from a, in parts of the distance.
     let part = match items.shape() {
         Shape::Points => 0.5,
         Shape::Weighted => items.weight(b) / (items.weight(a) + items.weight(b)),

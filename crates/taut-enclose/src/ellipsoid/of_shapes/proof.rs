@@ -32,7 +32,7 @@ impl Base {
         let near: Vec<usize> = (0..shapes.len())
             .filter(|&i| best.squares[i] >= best.largest * (1.0 - BORDER_TOLERANCE))
             .collect();
-        // What a reach found from exact coordinates may be off by: eigenvalues, roots and sums.
+        // The error of a reach found from exact coordinates: eigenvalues, roots and sums.
         let rounding = 16.0 * (rank + 4) as f64 * f64::EPSILON;
         let mut scale = (1.0 - rounding) / best.largest.sqrt();
         let mut factor = self.factor(&best.matrix, scale);

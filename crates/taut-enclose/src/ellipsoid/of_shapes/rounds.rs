@@ -52,7 +52,7 @@ impl Base {
         let mut whitener = Whitener::of_scales(&vec![1.0; rank]);
         let axes = axes(&framed);
         let widths: Vec<f64> = axes.iter().map(Axes::longest).collect();
-        let (mut working_set, mut support_points) = first_working_set(&framed, axes);
+        let (mut set, mut support_points) = first_working_set(&framed, axes);
         let later = JOINING_FACTOR * (rank + 1) * (rank + 2) / 2;
         let later = later.max(64);
         let mut best: Option<Best> = None;
@@ -62,13 +62,13 @@ impl Base {
         let base_logs: f64 = (0..rank).map(|a| self.lower[a * rank + a].ln()).sum();
         let stop = loop {
             let sharp = Tolerance { easy: tolerance, hard: tolerance };
-            newton::solve(&mut working_set, &mut whitener, sharp, &mut counters, monitor)?;
+            newton::solve(&mut set, &mut whitener, sharp, &mut counters, monitor)?;
             passes += 1;
             monitor.pass(passes, shapes.len() as u64);
             monitor.check().map_err(ReadError::from)?;
             let matrix = whitener.matrix();
             let center = whitener.center();
-            let seeds = support_points.seeds(&working_set, shapes.len());
+            let seeds = support_points.seeds(&set, shapes.len());
             let found = pass(&framed, &widths, matrix, &center, &seeds);
             monitor.points(shapes.len() as u64);
             if !found.largest.is_finite() {
@@ -76,11 +76,7 @@ impl Base {
             }
             let lower = trial_log_volume(rank, matrix) - base_logs;
             let reached = gap(rank, found.largest);
-            history.push(PassBounds {
-                lower,
-                upper: lower + reached,
-                working_set: working_set.len() as u64,
-            });
+            history.push(PassBounds { lower, upper: lower + reached, set: set.len() as u64 });
             let is_better = best.as_ref().is_none_or(|best| found.largest < best.largest);
             stale = if is_better { 0 } else { stale + 1 };
             let outside = found.outside;
@@ -90,7 +86,7 @@ impl Base {
                     squares: found.squares,
                     matrix: matrix.to_vec(),
                     center,
-                    support: support_points.support(&working_set),
+                    support: support_points.support(&set),
                 });
             }
             let best_gap = best.as_ref().map_or(f64::INFINITY, |best| gap(rank, best.largest));
@@ -105,7 +101,7 @@ impl Base {
             {
                 break Stop::Rounding;
             }
-            drop_useless(&mut working_set, &whitener);
+            drop_useless(&mut set, &whitener);
             let sharper = if 1e-2 * reached < 1e-3 {
                 (1e-2 * reached).max(0.1 * wanted)
             } else {
@@ -114,7 +110,7 @@ impl Base {
             tolerance = if outside.is_empty() { 0.0 } else { sharper };
             for (_, support_point) in outside.into_iter().take(later) {
                 let point = framed.touching(support_point.item, &support_point.direction);
-                working_set.push(support_points.list.len() as u64, &point, 0.0);
+                set.push(support_points.list.len() as u64, &point, 0.0);
                 support_points.list.push(support_point);
             }
         };
@@ -125,7 +121,7 @@ impl Base {
             stop,
             passes,
             iterations: counters.steps,
-            core_set: working_set.len() as u64,
+            core_set: set.len() as u64,
             history,
             counters: counters.into_named(),
         };
@@ -134,9 +130,9 @@ impl Base {
 }
 
 /// Points with no multiplier, well inside, leave the working set.
-fn drop_useless(working_set: &mut WorkingSet, whitener: &Whitener) {
-    let dim = working_set.dim() as f64;
-    let leverages = whitener.apply(working_set).leverages;
-    let weights = working_set.weights().to_vec();
-    working_set.retain(|i| weights[i] > 0.0 || leverages[i] > LEVERAGE_RATIO_MIN * dim);
+fn drop_useless(set: &mut WorkingSet, whitener: &Whitener) {
+    let dim = set.dim() as f64;
+    let leverages = whitener.apply(set).leverages;
+    let weights = set.weights().to_vec();
+    set.retain(|i| weights[i] > 0.0 || leverages[i] > LEVERAGE_RATIO_MIN * dim);
 }

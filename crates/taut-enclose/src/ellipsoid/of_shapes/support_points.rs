@@ -27,20 +27,17 @@ pub(super) struct SupportPoints {
 
 impl SupportPoints {
     /// The directions of the points with a multiplier, by item.
-    pub(super) fn seeds(&self, working_set: &WorkingSet, items: usize) -> Vec<Vec<&[f64]>> {
+    pub(super) fn seeds(&self, set: &WorkingSet, items: usize) -> Vec<Vec<&[f64]>> {
         let mut seeds = vec![vec![]; items];
-        let weighted =
-            working_set.ids().iter().zip(working_set.weights()).filter(|(_, u)| **u > 0.0);
+        let weighted = set.ids().iter().zip(set.weights()).filter(|(_, u)| **u > 0.0);
         for support_point in weighted.map(|(&id, _)| &self.list[id as usize]) {
             seeds[support_point.item].push(&support_point.direction[..]);
         }
         seeds
     }
 
-    /// The points with a multiplier.
-    pub(super) fn support(&self, working_set: &WorkingSet) -> Vec<(SupportPoint, f64)> {
-        let weighted =
-            working_set.ids().iter().zip(working_set.weights()).filter(|(_, u)| **u > 0.0);
+    pub(super) fn support(&self, set: &WorkingSet) -> Vec<(SupportPoint, f64)> {
+        let weighted = set.ids().iter().zip(set.weights()).filter(|(_, u)| **u > 0.0);
         weighted.map(|(&id, &u)| (self.list[id as usize].clone(), u)).collect()
     }
 }
@@ -58,7 +55,6 @@ impl Axes {
     }
 }
 
-/// The axes of all items.
 pub(super) fn axes(framed: &Framed) -> Vec<Axes> {
     let axes = |i: usize| {
         let (squares, directions) = eigen(&mut framed.shape(i).to_vec(), framed.rank);
@@ -92,18 +88,18 @@ pub(super) fn first_working_set(framed: &Framed, axes: Vec<Axes>) -> (WorkingSet
     let size = FIRST_POOL_FACTOR * (rank + 1) * (rank + 2) / 2;
     let mut chosen: Vec<usize> = order.iter().take(size).copied().collect();
     let step = framed.len().div_ceil(SAMPLE_SIZE);
-    let mut sample = Sample { origin: vec![0.0; rank], working_set: WorkingSet::new(rank) };
+    let mut sample = Sample { origin: vec![0.0; rank], set: WorkingSet::new(rank) };
     for (at, support_point) in list.iter().enumerate() {
         if support_point.item.is_multiple_of(step) {
-            sample.working_set.push(at as u64, &points[at], 1.0);
+            sample.set.push(at as u64, &points[at], 1.0);
         }
     }
-    let spread = sample.spread(sample.working_set.blocks());
-    chosen.extend(spread.into_iter().map(|i| sample.working_set.ids()[i] as usize));
-    let mut working_set = WorkingSet::new(rank);
+    let spread = sample.spread(sample.set.blocks());
+    chosen.extend(spread.into_iter().map(|i| sample.set.ids()[i] as usize));
+    let mut set = WorkingSet::new(rank);
     for at in chosen {
-        working_set.push(at as u64, &points[at], 1.0);
+        set.push(at as u64, &points[at], 1.0);
     }
-    working_set.normalize();
-    (working_set, SupportPoints { list })
+    set.normalize();
+    (set, SupportPoints { list })
 }

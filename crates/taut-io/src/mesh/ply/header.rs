@@ -29,11 +29,9 @@ impl Encoding {
     }
 }
 
-/// The contents of a header.
 pub(super) struct Header {
     pub(super) encoding: Encoding,
     pub(super) elements: Vec<Element>,
-    /// Lines of the header.
     pub(super) lines: u64,
 }
 

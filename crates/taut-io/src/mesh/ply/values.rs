@@ -62,7 +62,6 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// An id.
     pub(super) fn whole(
         &mut self,
         mesh: &MeshBuilder<'_>,

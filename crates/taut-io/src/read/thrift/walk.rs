@@ -29,7 +29,6 @@ pub(super) struct VisitedStructure {
     pub(super) page: Option<i32>,
 }
 
-/// Walks the structure at the begin of `bytes`.
 pub(super) fn walk(bytes: &[u8], shape: Shape) -> Result<VisitedStructure, StructureError> {
     let mut walk = Walk { bytes, at: 0 };
     let page = walk.structure(shape, DEPTH_MAX)?;

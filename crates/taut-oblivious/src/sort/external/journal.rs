@@ -102,7 +102,6 @@ impl Journal {
         Self::place(self.runs).next_multiple_of(PAGE as u64)
     }
 
-    /// Runs that are complete.
     pub(super) fn runs_done(&self) -> u64 {
         self.made_of.len() as u64
     }

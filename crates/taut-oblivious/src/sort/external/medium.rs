@@ -46,7 +46,6 @@ impl<S: Store> Medium<S> {
         self.all(address, length, offset, ErrorKind::UnexpectedEof, some)
     }
 
-    /// Writes all of `bytes` to a place.
     pub(super) fn write(&mut self, bytes: &[u8], offset: u64) -> Result<(), Error> {
         self.bytes_written += bytes.len() as u64;
         let (address, length) = (bytes.as_ptr().addr(), bytes.len());

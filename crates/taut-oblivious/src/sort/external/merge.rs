@@ -57,7 +57,6 @@ pub(super) struct Merge<'a> {
 }
 
 impl<'a> Merge<'a> {
-    /// Starts to merge runs.
     pub(super) fn start(plan: &'a Plan, runs: &[Run]) -> Result<Self, Error> {
         let width = plan.layout.width;
         let (block, window) = plan.merge_sizes(runs.len());

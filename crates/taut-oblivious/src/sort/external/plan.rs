@@ -28,7 +28,6 @@ const BLOCK_MIN: usize = 256 << 10;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Plan {
     pub(super) layout: RecordLayout,
-    /// Records in the input.
     pub(super) records: u64,
     /// Most records of a run: what fits, or less where more gains nothing.
     pub(super) chunk: usize,
@@ -159,7 +158,6 @@ pub(super) struct Run {
 }
 
 impl Run {
-    /// Where it ends.
     pub(super) fn end(&self, plan: &Plan) -> u64 {
         self.offset + self.records * plan.layout.width as u64
     }

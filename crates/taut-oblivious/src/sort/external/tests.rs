@@ -99,7 +99,6 @@ impl Folder {
         verify(layout, certificate, input, output);
     }
 
-    /// Names of the files in it.
     fn names(&self) -> Vec<String> {
         let entries = fs::read_dir(self.0.path()).expect("a folder");
         let mut names: Vec<String> = entries

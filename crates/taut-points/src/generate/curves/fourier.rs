@@ -57,7 +57,6 @@ impl Piece {
         Self { range: [from, to], closed: false, ..self }
     }
 
-    /// The point at t.
     pub(super) fn at(&self, t: f64) -> [f64; 2] {
         let mut point = [self.center[0] + self.drift[0] * t, self.center[1] + self.drift[1] * t];
         for wave in &self.waves {

@@ -60,7 +60,6 @@ pub(super) fn of_candidates(sides: &Sides, candidates: &Candidates) -> ThesisSur
     finish(sides, candidates.sites.clone(), &candidates.sides, vec![], Pinches::Keep)
 }
 
-/// The surface that a front grew.
 pub(super) fn of_front(sides: &Sides, front: &Front<'_>, wanted: Pinches) -> ThesisSurface {
     let mut grown = front.grown.clone();
     let mut triangles: Vec<_> = grown.iter().map(|&side| sides.triangle(side)).collect();

@@ -74,12 +74,10 @@ impl Candidates {
         self.edges[candidate as usize][opposite]
     }
 
-    /// The candidates at an edge.
     pub(super) fn at_edge(&self, edge: u32) -> &[u32] {
         self.at_edge.run(edge)
     }
 
-    /// The candidates at a site.
     pub(super) fn at_site(&self, site: u32) -> &[u32] {
         self.at_site.run(site)
     }
@@ -150,7 +148,6 @@ fn center(sides: &Sides, triangle: [u32; 3]) -> Vector {
     [0, 1, 2].map(|i| a[i] + c[i])
 }
 
-/// The square of the circumradius.
 fn square(sides: &Sides, triangle: [u32; 3]) -> f64 {
     let (_, u, v) = corners(sides, triangle);
     let c = circumcenter(u, v);

@@ -61,12 +61,10 @@ impl<'a> Fans<'a> {
         self.at_edge[edge as usize][1] != NONE
     }
 
-    /// Returns true if a site has a closed fan.
     pub(super) fn is_closed(&self, site: u32) -> bool {
         self.closed[site as usize]
     }
 
-    /// Returns true if a site is on a triangle.
     pub(super) fn is_used(&self, site: u32) -> bool {
         self.closed[site as usize] || self.open[site as usize] > 0
     }
@@ -93,7 +91,6 @@ impl<'a> Fans<'a> {
         (0..3).all(runs_on) && (0..3).all(allowed)
     }
 
-    /// Adds a side that may be added.
     pub(super) fn add(&mut self, side: Side) {
         let corners = self.sides.triangle(side);
         let (_, edges) = self.edges(side);

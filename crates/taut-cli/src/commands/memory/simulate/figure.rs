@@ -189,7 +189,7 @@ pub(crate) fn panel() -> anyhow::Result<Panel> {
     // Of 256, 1024 and 4096 words, whose roots are powers of two, as the submatrices are.
     let squares = [2 << 10, 8 << 10, 32 << 10];
     let blocks: Vec<usize> = (6..=10).map(|power| 1 << power).collect();
-    // What the constant of each may be; the tests of the library hold larger sizes against the same.
+    // The largest constant of each; the tests of the library hold larger sizes against the same.
     let lists = [
         (wanted(Multiply, &[64], &squares, &[64]), 5.5),
         (wanted(Transpose(None), &[256], &[256 << 10], &blocks), 1.01),
