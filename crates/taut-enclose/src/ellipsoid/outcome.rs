@@ -51,13 +51,13 @@ impl Progress {
     pub(super) fn note(
         &mut self,
         whitener: &Whitener,
-        set: usize,
+        working_set: usize,
         largest: f64,
         candidate: impl FnOnce() -> Candidate,
     ) {
         let lower = trial_log_volume(self.dim, whitener.matrix());
         let upper = (lower + gap(self.dim, largest)).min(f64::MAX);
-        self.history.push(PassBounds { lower, upper, set: set as u64 });
+        self.history.push(PassBounds { lower, upper, working_set: working_set as u64 });
         if self.best.as_ref().is_none_or(|best| largest < best.found.largest) {
             self.best = Some(candidate());
         }

@@ -76,7 +76,11 @@ impl Base {
             }
             let lower = trial_log_volume(rank, matrix) - base_logs;
             let reached = gap(rank, found.largest);
-            history.push(PassBounds { lower, upper: lower + reached, set: set.len() as u64 });
+            history.push(PassBounds {
+                lower,
+                upper: lower + reached,
+                working_set: set.len() as u64,
+            });
             let is_better = best.as_ref().is_none_or(|best| found.largest < best.largest);
             stale = if is_better { 0 } else { stale + 1 };
             let outside = found.outside;
