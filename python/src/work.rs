@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 use taut::Monitor;
 
-/// The number of times that Python is asked whether a signal has come. It delays a Ctrl-C, never a result.
+/// The interval at which Python is asked whether a signal has come. It delays a Ctrl-C, never a result.
 const SIGNAL_INTERVAL: Duration = Duration::from_millis(50);
 
 /// Runs `work` on a thread of its own with the interpreter released, and cancels it when Python has a signal whose

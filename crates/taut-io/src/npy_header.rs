@@ -10,7 +10,7 @@ use std::io::{BufRead, ErrorKind, Read};
 use crate::{Error, FilePlace, Format};
 use literal::Literal;
 
-/// The way in which such a file begins.
+/// The first bytes of such a file.
 pub(crate) const MAGIC: &[u8] = b"\x93NUMPY";
 
 pub(crate) struct NpyHeader {

@@ -1,6 +1,6 @@
 //! Edges that were found beside those that are true, both as pairs of rows.
 
-/// The number of edges that are in which of two sets.
+/// The numbers of edges in one of two sets and in both.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct EdgeScore {
     /// True edges that were found.

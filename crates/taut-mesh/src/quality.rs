@@ -1,4 +1,4 @@
-//! Measures how good found curves are beside the true ones.
+//! Compares found curves with the true ones.
 
 use crate::Polyline;
 use crate::connectivity::{Place, homeomorphic};

@@ -24,7 +24,7 @@ pub use shared::Shared;
 /// Samples or vertices that a thread takes at a time, and over which sums are formed.
 const BLOCK: usize = 2048;
 
-/// The way in which finely [`compare_surfaces`] looks. Write `SurfaceOptions { samples: 1_000_000, ..Default::default() }`.
+/// Options of [`compare_surfaces`]. Write `SurfaceOptions { samples: 1_000_000, ..Default::default() }`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SurfaceOptions {
     /// Points laid over each mesh, evenly by area; its vertices are measured beside these. 0 measures vertices alone. Default

@@ -142,7 +142,7 @@ pub enum InputError {
     TooManyPoints {
         /// The number of them.
         points: u64,
-        /// The number of would that have been accepted.
+        /// The largest number that would have been accepted.
         most: u64,
     },
     /// An option is outside its range.

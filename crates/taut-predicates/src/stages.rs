@@ -2,7 +2,7 @@
 
 use std::ops::AddAssign;
 
-/// The number of calls that were decided at which stage. Each call counts once in one of the first five.
+/// The numbers of calls decided at each stage. Each call counts once in one of the first five.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Stages {
     /// By a floating-point filter. A kernel that calls the filters itself may add its own count here; the

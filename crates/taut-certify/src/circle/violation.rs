@@ -46,7 +46,7 @@ pub enum CircleViolation {
         /// The reason for the refusal.
         problem: &'static str,
     },
-    /// The reason for a cell is malformed.
+    /// A cell is malformed.
     #[error("entry {leaf} of the leaves {problem}")]
     Leaf {
         /// Position in the list, from 0.

@@ -1,4 +1,4 @@
-//! Decides whether some rows are *the* support of an ellipse: decided by exact arithmetic, without any tolerance.
+//! Decides whether some rows are *the* support of an ellipse: by exact arithmetic, without any tolerance.
 //!
 //! *Problem.* The smallest ellipse of points in the plane is that of three to five of them, of which none can be spared
 //! (a basis). Given rows that are said to be those, prove it from the input alone.

@@ -12,7 +12,7 @@ use super::{FileCheckError, FileViolation};
 
 pub(super) use names::{is_same_type, width};
 
-/// The way in which such a file begins.
+/// The first bytes of such a file.
 const MAGIC: &[u8; 6] = b"\x93NUMPY";
 /// A header is looked at if it has at most this many bytes.
 const HEADER_BYTES_MAX: u64 = 1 << 16;

@@ -159,7 +159,7 @@ pub enum MeshViolation {
     },
 }
 
-/// The way in which the hull of points is spoken of.
+/// The words for the hull of points.
 struct Hull(Option<u8>);
 
 impl fmt::Display for Hull {

@@ -25,7 +25,7 @@ pub(super) struct Run<'s, 'a> {
 pub(super) struct Evaluation {
     /// The item that reaches farthest.
     pub(super) farthest: u64,
-    /// The distance that it reaches: the radius that encloses all items.
+    /// Its reach: the radius that encloses all items.
     pub(super) upper: f64,
     /// The radius that encloses X from this center.
     #[cfg(feature = "conic")]

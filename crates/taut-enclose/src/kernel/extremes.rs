@@ -20,7 +20,7 @@ fn largest_body<const FUSED: bool>(values: &[f64]) -> f64 {
 }
 
 dispatched! {
-    /// States whether all values are finite.
+    /// Returns true if all values are finite.
     all_finite(values: &[f64]) -> bool, all_finite_body
 }
 

@@ -71,7 +71,7 @@ pub struct Multiset {
     pub hash: u128,
 }
 
-/// The way in which a file was sorted: its certificate, and counters.
+/// The result of sorting a file: its certificate, and counters.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct FileSort {
     /// The records that were read. If they did not fit, those that came back from the runs for the output were found to be

@@ -1,4 +1,4 @@
-//! Defines how many entries each leaf of a window gets when the window is spread.
+//! Computes how many entries each leaf of a window gets when the window is spread.
 //!
 //! Evenly, as the thesis has it; or, where insertions hammer one place, with the room where they will come. Of the two
 //! halves of a window the one without the place is then filled as far as its bound allows, and the other one is split

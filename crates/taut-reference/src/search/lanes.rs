@@ -1,4 +1,4 @@
-//! Defines how many words of a line of memory are smaller than a given one: the step of every search by lines.
+//! Counts the words of a line of memory that are smaller than a given one: the step of every search by lines.
 //!
 //! Idea: a line of 64 bytes is one vector of AVX-512, or two of AVX2; one comparison gives a bit for each word, and the
 //! count of bits is the place. The portable form adds up comparisons. All count the same.

@@ -1,4 +1,4 @@
-//! Decides whether every row lies in the ball, decided exactly; and whether the rows are those the certificate speaks of.
+//! Tests exactly whether every row lies in the ball, and whether the rows are those the certificate speaks of.
 //!
 //! *Problem.* |p − c| ≤ ρ with ρ = R − r (R for points), for each of n rows, in one pass.
 //! *Idea.* Three stages, each asked only about what the one before left open.

@@ -1,4 +1,4 @@
-//! Decides whether every row that counts lies in one of the balls, decided exactly; and whether the rows are those the certificate
+//! Tests exactly whether every row that counts lies in one of the balls, and whether the rows are those the certificate
 //! speaks of.
 //!
 //! *Problem.* For each of n rows, some center c with w·|p − c| + r ≤ R; in one pass.
