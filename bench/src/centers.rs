@@ -11,8 +11,8 @@ mod traversal;
 
 use taut_certify::{Centers, CentersVerdict, LowerBound, Placement, Solution};
 use taut_enclose::{
-    CentersOptions, Cover, CoverOptions, FarthestFirst, FarthestFirstOptions, centers,
-    farthest_first,
+    CentersOptions, FarthestFirst, FarthestFirstOptions, StreamingCenters, StreamingOptions,
+    centers, farthest_first,
 };
 use taut_points::{PointSource, Scalar};
 

@@ -16,8 +16,8 @@ use std::fmt::Write as _;
 use std::fs;
 
 use taut_draw::{
-    Aspect, Axis, DrawOptions, Figure as Drawing, Layer2, Look, Plot, Point2, Scale, Scene2,
-    Series, SeriesLook, Shape2, Style, Tone, surface_figures, to_svg,
+    Aspect, Axis, DrawOptions, Figure as Drawing, Layer2, LineStyle, Plot, Point2, Scale, Scene2,
+    Series, SeriesStyle, Shape2, Style, Tone, surface_figures, to_svg,
 };
 use taut_enclose::{BallMethod, BallOptions, EllipsoidMethod, EllipsoidOptions};
 use taut_points::generate::curves::{CurveNoise, TestCurve, sample_curve};

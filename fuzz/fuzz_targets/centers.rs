@@ -1,4 +1,4 @@
-//! Any bytes as points, weighted points or balls: centres are found, and judged by the checker.
+//! Any bytes as points, weighted points or balls: centers are found, and judged by the checker.
 #![no_main]
 
 #[path = "../../crates/taut-enclose/tests/enclose/centers_any/bytes.rs"]

@@ -1,4 +1,4 @@
-//! Certificates of robust and inscribed ellipsoids and of centres edited by any bytes: no check panics.
+//! Certificates of robust and inscribed ellipsoids and of centers edited by any bytes: no check panics.
 #![no_main]
 
 #[path = "../../crates/taut-enclose/tests/enclose/certificates/edits.rs"]

@@ -4,12 +4,12 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use taut::points::Choice;
 
-/// What a word stands for; another word is a `ValueError` that names those that are known.
+/// Returns what a word stands for; another word is a `ValueError` that names those that are known.
 pub(crate) fn choice<T: Choice>(option: &str, word: &str) -> PyResult<T> {
     one_of(option, word, T::CHOICES.iter().map(|&(name, value, _)| (name, value)))
 }
 
-/// What a word out of a list stands for; another word is a `ValueError` that names those that are known.
+/// Returns what a word out of a list stands for; another word is a `ValueError` that names those that are known.
 pub(crate) fn one_of<T>(
     option: &str,
     word: &str,

@@ -122,7 +122,7 @@ fn judged(error: FileCheckError) -> PyErr {
     }
 }
 
-/// What a `taut.FileSolution` holds.
+/// The contents of a `taut.FileSolution`.
 #[pyclass(frozen, eq, module = "taut._native")]
 #[derive(PartialEq)]
 pub(crate) struct FoundFile(AnyFileSolution);
@@ -141,7 +141,7 @@ impl FoundFile {
         })
     }
 
-    /// What the checker proves of the file that was written, as a dict.
+    /// Returns what the checker proves of the file that was written, as a dict.
     fn check<'py>(
         &self,
         py: Python<'py>,

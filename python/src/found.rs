@@ -1,4 +1,4 @@
-//! What a `taut.Solution` holds: a solution of any kind, as Rust has it.
+//! The contents of a `taut.Solution`: a solution of any kind, as Rust has it.
 
 use pyo3::create_exception;
 use pyo3::exceptions::{PyException, PyRuntimeError, PyValueError};
@@ -64,7 +64,7 @@ impl Found {
         })
     }
 
-    /// What the checker proves over these rows, as a dict; `items` says what they are.
+    /// Returns what the checker proves over these rows, as a dict; `items` says what they are.
     fn check<'py>(
         &self,
         py: Python<'py>,

@@ -33,7 +33,7 @@ pub(crate) fn inscribed_ellipsoid(
     )
 }
 
-/// What is wrong with a half-space, in the words of somebody who gave normals and offsets.
+/// Returns what is wrong with a half-space, in the words of somebody who gave normals and offsets.
 fn refused(error: Error, columns: usize) -> PyErr {
     match error {
         Error::Input(InputError::NonFinite { row, column, value }) => {

@@ -1,4 +1,4 @@
-//! What the rows of an array are, and what is wrong with one of them, in the words of somebody who gave centers, radii
+//! The kinds of rows of an array, and what is wrong with one of them, in the words of somebody who gave centers, radii
 //! and shapes in arrays of their own.
 
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
@@ -10,12 +10,12 @@ use taut::{Error, Items};
 
 use crate::choice::choice;
 
-/// What the rows are, by its name in JSON.
+/// Returns the kind of the inputs, by its name in JSON.
 pub(crate) fn items_of_name(name: &str) -> PyResult<Items> {
     choice("items", name)
 }
 
-/// What a solver refused: what is wrong with the input is a `ValueError`. `columns` is the length of a row.
+/// Returns what a solver refused: what is wrong with the input is a `ValueError`. `columns` is the length of a row.
 pub(crate) fn raise(error: impl Into<Error>, items: Items, columns: usize) -> PyErr {
     let error = error.into();
     match error {
@@ -36,7 +36,7 @@ pub(crate) fn raise(error: impl Into<Error>, items: Items, columns: usize) -> Py
     }
 }
 
-/// What a checker found.
+/// Returns what a checker found.
 pub(crate) fn words(violation: Violation, items: Items, columns: usize) -> String {
     match (violation, items) {
         (Violation::NonFinite { row, column, value }, Items::Balls | Items::Ellipsoids) => {

@@ -1,7 +1,7 @@
 //! The Python package of taut: thin bindings.
 //!
-//! What a user calls is in `taut/*.py` with its documentation, and so are the classes of answers; here is what Python cannot
-//! do: view an array as points without a copy (`rows`), work with the interpreter released and still hear Ctrl-C (`work`),
+//! The functions that a user calls are in `taut/*.py` with its documentation, and so are the classes of answers; here is what Python cannot
+//! do: view an array as points without a copy (`rows`), work with the interpreter released and still react to Ctrl-C (`work`),
 //! hold a solution (`found`), and hand over its data (`object`). No geometry is calculated in this crate.
 #![forbid(unsafe_code)]
 

@@ -1,4 +1,4 @@
-//! What serde says of a value, as plain objects of Python.
+//! Turns serde's view of a value into plain objects of Python.
 //!
 //! | serde | Python |
 //! |---|---|
@@ -59,7 +59,7 @@ impl From<PyErr> for Raised {
 }
 
 /// An object, or nothing where a number went to its list.
-type Said<'py> = Result<Option<Bound<'py, PyAny>>, Raised>;
+type Converted<'py> = Result<Option<Bound<'py, PyAny>>, Raised>;
 
 /// Where a value stands.
 enum Place<'a, 'py> {
@@ -70,21 +70,20 @@ enum Place<'a, 'py> {
     InRow(&'a mut List<'py>),
 }
 
-/// Writes one value.
 struct Writer<'a, 'py> {
     py: Python<'py>,
     place: Place<'a, 'py>,
 }
 
 impl<'a, 'py> Writer<'a, 'py> {
-    fn number(self, number: Number) -> Said<'py> {
+    fn number(self, number: Number) -> Converted<'py> {
         match self.place {
             Place::Alone => Ok(Some(number.into_object(self.py)?)),
             Place::InList(list) | Place::InRow(list) => list.push(number).map(|()| None),
         }
     }
 
-    fn word(self, word: &str) -> Said<'py> {
+    fn word(self, word: &str) -> Converted<'py> {
         Ok(Some(PyString::new(self.py, word).into_any()))
     }
 
@@ -122,7 +121,7 @@ impl<'py> Elements<'_, 'py> {
         Ok(())
     }
 
-    fn done(self) -> Said<'py> {
+    fn done(self) -> Converted<'py> {
         match self.outer {
             Some(outer) => outer.end_row(),
             None => return Ok(Some(self.own.into_object(self.py)?)),
@@ -142,7 +141,7 @@ struct Fields<'py> {
 }
 
 impl<'py> Fields<'py> {
-    fn done(self) -> Said<'py> {
+    fn done(self) -> Converted<'py> {
         let Some(variant) = self.variant else { return Ok(Some(self.entries.into_any())) };
         let outer = PyDict::new(self.py);
         outer.set_item(variant, self.entries)?;
@@ -153,7 +152,7 @@ impl<'py> Fields<'py> {
 /// Methods of one line for numbers of each type.
 macro_rules! numbers {
     ($($method:ident: $type:ty as $number:ident,)*) => {
-        $(fn $method(self, value: $type) -> Said<'py> {
+        $(fn $method(self, value: $type) -> Converted<'py> {
             self.number(Number::$number(value.into()))
         })*
     };
@@ -183,39 +182,44 @@ impl<'a, 'py> Serializer for Writer<'a, 'py> {
         serialize_f64: f64 as Float,
     }
 
-    fn serialize_bool(self, value: bool) -> Said<'py> {
+    fn serialize_bool(self, value: bool) -> Converted<'py> {
         Ok(Some(value.into_pyobject(self.py).map_err(PyErr::from)?.to_owned().into_any()))
     }
 
-    fn serialize_char(self, value: char) -> Said<'py> {
+    fn serialize_char(self, value: char) -> Converted<'py> {
         self.word(value.encode_utf8(&mut [0; 4]))
     }
 
-    fn serialize_str(self, value: &str) -> Said<'py> {
+    fn serialize_str(self, value: &str) -> Converted<'py> {
         self.word(value)
     }
 
-    fn serialize_bytes(self, value: &[u8]) -> Said<'py> {
+    fn serialize_bytes(self, value: &[u8]) -> Converted<'py> {
         value.serialize(self)
     }
 
-    fn serialize_none(self) -> Said<'py> {
+    fn serialize_none(self) -> Converted<'py> {
         Ok(Some(self.py.None().into_bound(self.py)))
     }
 
-    fn serialize_some<T: Serialize + ?Sized>(self, value: &T) -> Said<'py> {
+    fn serialize_some<T: Serialize + ?Sized>(self, value: &T) -> Converted<'py> {
         value.serialize(self)
     }
 
-    fn serialize_unit(self) -> Said<'py> {
+    fn serialize_unit(self) -> Converted<'py> {
         self.serialize_none()
     }
 
-    fn serialize_unit_struct(self, _: &'static str) -> Said<'py> {
+    fn serialize_unit_struct(self, _: &'static str) -> Converted<'py> {
         self.serialize_none()
     }
 
-    fn serialize_unit_variant(self, _: &'static str, _: u32, variant: &'static str) -> Said<'py> {
+    fn serialize_unit_variant(
+        self,
+        _: &'static str,
+        _: u32,
+        variant: &'static str,
+    ) -> Converted<'py> {
         self.word(variant)
     }
 
@@ -223,7 +227,7 @@ impl<'a, 'py> Serializer for Writer<'a, 'py> {
         self,
         _: &'static str,
         value: &T,
-    ) -> Said<'py> {
+    ) -> Converted<'py> {
         value.serialize(self)
     }
 
@@ -233,7 +237,7 @@ impl<'a, 'py> Serializer for Writer<'a, 'py> {
         _: u32,
         variant: &'static str,
         value: &T,
-    ) -> Said<'py> {
+    ) -> Converted<'py> {
         let entries = PyDict::new(self.py);
         entries.set_item(variant, plain(self.py, value)?)?;
         Ok(Some(entries.into_any()))
@@ -295,7 +299,7 @@ macro_rules! elements {
                 self.element(value)
             }
 
-            fn end(self) -> Said<'py> {
+            fn end(self) -> Converted<'py> {
                 self.done()
             }
         })*
@@ -323,7 +327,7 @@ macro_rules! fields {
                 Ok(self.entries.set_item(name, plain(self.py, value)?)?)
             }
 
-            fn end(self) -> Said<'py> {
+            fn end(self) -> Converted<'py> {
                 self.done()
             }
         })*
@@ -345,7 +349,7 @@ impl<'py> ser::SerializeMap for Fields<'py> {
         Ok(self.entries.set_item(self.key.take(), plain(self.py, value)?)?)
     }
 
-    fn end(self) -> Said<'py> {
+    fn end(self) -> Converted<'py> {
         self.done()
     }
 }

@@ -36,7 +36,6 @@ impl<'py> Rows<'py> {
     }
 }
 
-/// An array as points.
 fn points<'a, T: Scalar + Element>(array: &'a PyReadonlyArray2<'_, T>) -> PyResult<Points<'a, T>> {
     if !array.is_c_contiguous() {
         return Err(PyValueError::new_err("expected an array in C order"));

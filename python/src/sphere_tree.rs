@@ -9,7 +9,7 @@ use crate::object::plain;
 use crate::rows::Rows;
 use crate::work::interruptible;
 
-/// What `taut.SphereTree` is made of.
+/// The arrays of a `taut.SphereTree`.
 type Arrays<'py> = [Bound<'py, PyAny>; 5];
 
 /// The tree of balls around the rows of an array.

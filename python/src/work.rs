@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 use taut::Monitor;
 
-/// How often Python is asked whether a signal has come. It delays a Ctrl-C, never a result.
+/// The interval at which Python is asked whether a signal has come. It delays a Ctrl-C, never a result.
 const SIGNAL_INTERVAL: Duration = Duration::from_millis(50);
 
 /// Runs `work` on a thread of its own with the interpreter released, and cancels it when Python has a signal whose
@@ -44,7 +44,7 @@ pub(crate) fn interruptible<R: Send>(
 /// Runs `work` in a pool whose threads live in this process.
 ///
 /// *Trap.* A forked child, as `multiprocessing` makes them, inherits rayon's global pool without its threads, and
-/// would wait for them for ever. So the process that works first keeps that pool, and each of its forks builds one for
+/// would wait for them endlessly. So the process that works first keeps that pool, and each of its forks builds one for
 /// each call: that costs the start of its threads. One kept for longer would need a lock, and a lock can be inherited
 /// locked.
 fn with_living_threads<R: Send>(

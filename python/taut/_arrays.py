@@ -26,7 +26,7 @@ def as_rows(
     Parameters
     ----------
     points : array_like of shape (n, d)
-        Points, centres of balls or ellipsoids, or normals of half-spaces.
+        Points, centers of balls or ellipsoids, or normals of half-spaces.
     radii : array_like of shape (n,), optional
         Radii of balls: they become the last column, in a new array.
     shapes : array_like of shape (n, d, d), optional

@@ -33,7 +33,7 @@ def ball(
         also when it is read-only; anything else is first converted by NumPy (integers and other precisions to
         float64, in which integers must be exact). Other threads must not write to it meanwhile.
     shapes : array_like of shape (n, d, d), optional
-        Given these, `points` are the centres m of ellipsoids {m + v : v v.T <= S}, with S symmetric, to 1e-8 of its
+        Given these, `points` are the centers m of ellipsoids {m + v : v v.T <= S}, with S symmetric, to 1e-8 of its
         largest entry, and positive semidefinite; of the two halves the lower one counts. S has the units of a
         covariance: the half axes are the square roots of its eigenvalues. The one method is "core-set" then, and
         ``check`` takes the shapes as well.
@@ -111,7 +111,7 @@ def ball_of_balls(
     Parameters
     ----------
     centers : array_like of shape (n, d)
-        Finite real numbers. Centres and radii are copied to one array, float32 if both are, else float64.
+        Finite real numbers. Centers and radii are copied to one array, float32 if both are, else float64.
     radii : array_like of shape (n,)
         Finite real numbers, at least 0.
     epsilon, method, batch, max_passes, threads, seed
@@ -125,11 +125,11 @@ def ball_of_balls(
     Raises
     ------
     ValueError
-        As `ball`, and when a radius is negative or there are more or fewer radii than centres.
+        As `ball`, and when a radius is negative or there are more or fewer radii than centers.
 
     Examples
     --------
-    Two balls of radius 1 whose centres are 2 apart:
+    Two balls of radius 1 whose centers are 2 apart:
 
     >>> import taut
     >>> found = taut.ball_of_balls([[0, 1], [2, 1]], [1, 1])

@@ -1,4 +1,4 @@
-"""Few centres for many points."""
+"""Few centers for many points."""
 
 from __future__ import annotations
 
@@ -28,16 +28,16 @@ def centers(
     assignment: bool = False,
     threads: int | None = None,
 ) -> Solution:
-    """k centres such that the farthest point is as near to one of them as can be, with a certificate.
+    """k centers such that the farthest point is as near to one of them as can be, with a certificate.
 
     Parameters
     ----------
     points : array_like of shape (n, d)
         Finite real numbers, taken as by `ball`.
     k : int >= 1
-        Most centres.
+        Most centers.
     radii : array_like of shape (n,), optional
-        Given these, `points` are the centres of balls, and each of these is to lie in one of the k. ``check`` takes the
+        Given these, `points` are the centers of balls, and each of these is to lie in one of the k. ``check`` takes the
         radii as well.
     weights : array_like of shape (n,), optional
         Numbers above 0: a point counts with its weight times its distance. ``check`` takes the weights as well.
@@ -46,20 +46,20 @@ def centers(
         influence on "farthest-first" and "stream".
     method : {"tree", "thesis", "farthest-first", "stream"}, default "tree"
         The way to find them; all end in the same kind of certificate. "tree" proves any gap in time exponential in k;
-        "thesis" is the method of the literature it grew from, for free centres without weights and outliers;
+        "thesis" is the method of the literature it grew from, for free centers without weights and outliers;
         "farthest-first" takes any k and proves a radius of at most twice the least,
         but for weights and outliers, with which it proves what it can; "stream" goes through the points twice, holds
         some 8 k of them, and proves a radius of at most 2.96 times the least, for points without weights and outliers,
         and without ``assignment``.
     discrete : bool, default False
-        Whether centres have to be points of the input.
+        Whether centers have to be points of the input.
     outliers : int >= 0, default 0
         Most points that may be left out.
     max_nodes : int, default 10,000,000
-        Nodes of the search before the best centres so far are returned with their gap; large ones count as several. The proof
+        Nodes of the search before the best centers so far are returned with their gap; large ones count as several. The proof
         has a budget of its own, some twenty times what the search took; ``stop`` is then "proof-budget".
     assignment : bool, default False
-        Whether the answer is to say which centre each point has.
+        Whether the answer is to say which center each point has.
     threads : int in [1, 1024], optional
         Threads to use, by default all cores. The answer does not depend on it.
 
@@ -79,7 +79,7 @@ def centers(
 
     See Also
     --------
-    farthest_first : an order whose first k points are good centres for every k.
+    farthest_first : an order whose first k points are good centers for every k.
     sphere_tree : balls within balls, from repeated splits in two.
     ball : the smallest ball, which is k = 1.
 
@@ -97,7 +97,7 @@ def centers(
     >>> found.check(points).gap <= 1e-6
     True
 
-    With one point left out, a single centre is enough for three:
+    With one point left out, a single center is enough for three:
 
     >>> taut.centers([[0], [1], [2], [50]], 1, epsilon=1e-6, outliers=1).answer.outliers
     array([3])
@@ -131,7 +131,7 @@ def farthest_first(
 ) -> FarthestFirst:
     """Points in an order in which each is the one farthest from all before it.
 
-    The first k of them are centres with at most twice the least radius, for every k at once.
+    The first k of them are centers with at most twice the least radius, for every k at once.
 
     Parameters
     ----------
@@ -159,7 +159,7 @@ def farthest_first(
 
     See Also
     --------
-    centers : k centres to any proved gap.
+    centers : k centers to any proved gap.
 
     Examples
     --------

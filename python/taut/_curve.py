@@ -29,7 +29,7 @@ def curve(
     points: ArrayLike,
     *,
     method: CurveMethod = "auto",
-    open: bool = False,  # noqa: A002, the name at the door
+    open: bool = False,  # noqa: A002, the public name
     rho: float = 4.0,
     omega: float = 0.1,
     feature: float | None = None,
@@ -45,7 +45,7 @@ def curve(
     method : str, default "auto"
         The way to find them. "auto" takes "fit" where the points are noisy, else
         "nn-crust" or "fit" where that is certified, else "corners". For noisy points: "fit",
-        which first decides which neighbours belong together and then fits along the order they have; "thesis" and
+        which first decides which neighbors belong together and then fits along the order they have; "thesis" and
         "thesis-crude", the methods of the literature it is compared with. For points without noise, which then are the
         vertices: "crust", "one-step-crust", "nn-crust", "conservative-crust" (curves with ends), "hnn-crust" and "corners".
         "tour" is a short tour through all points, with a lower bound.

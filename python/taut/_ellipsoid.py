@@ -33,10 +33,10 @@ def ellipsoid(
         Finite real numbers. An array of float32 or float64 in C order is read where it lies; anything else is first
         converted by NumPy, as by `ball`. Other threads must not write to it meanwhile.
     radii : array_like of shape (n,), optional
-        Given these, at least 0, `points` are the centres of balls. The one method is "newton" then, and ``check`` takes
+        Given these, at least 0, `points` are the centers of balls. The one method is "newton" then, and ``check`` takes
         the radii as well.
     shapes : array_like of shape (n, d, d), optional
-        Given these, `points` are the centres m of ellipsoids {m + v : v v.T <= S}, with S symmetric, to 1e-8 of its
+        Given these, `points` are the centers m of ellipsoids {m + v : v v.T <= S}, with S symmetric, to 1e-8 of its
         largest entry, and positive semidefinite; of the two halves the lower one counts. S has the units of a
         covariance: the half axes are the square roots of its eigenvalues. The one method is "newton" then, and
         ``check`` takes the shapes as well.

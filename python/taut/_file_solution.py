@@ -62,7 +62,7 @@ class FileSolution:
         part: dict[str, Any] = json.loads(self.to_json())[name]
         return part
 
-    def check(self, output: Path, input: Path | None = None) -> FileVerdict:  # noqa: A002, the name at the door
+    def check(self, output: Path, input: Path | None = None) -> FileVerdict:  # noqa: A002, the public name
         """A second opinion: reads the file that was written, and compares it with the one it was made from.
 
         Parameters

@@ -60,7 +60,7 @@ def generate(
         ``"normal"``; ``"uniform"`` in the unit cube; ``"cube"``, the vertices of the unit cube; ``"poisson"``
         with mean 1; ``"sphere"``, uniform on the unit sphere; ``"shell"``, uniform in direction, at a distance
         uniform in 1 - `thickness` to 1 + `thickness`; ``"clusters"``, `count` normal clouds of standard deviation
-        `spread` around centres uniform in the unit cube; ``"clouds"``, the same with `count` widths from 1e-5 to
+        `spread` around centers uniform in the unit cube; ``"clouds"``, the same with `count` widths from 1e-5 to
         1e-2; ``"simplex"``, the vertices of a regular simplex with unit edges, then points inside;
         ``"polygon"``, `vertices` points at equal angles on the unit circle, in turn; ``"kuzmin"``, the stars of a
         flat galaxy; ``"grid"``, an integer grid of `side` points along each axis in random order, turned by

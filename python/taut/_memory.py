@@ -1,4 +1,4 @@
-"""Files larger than memory, samples, and points in an order where neighbours are near each other."""
+"""Files larger than memory, samples, and points in an order where neighbors are near each other."""
 
 from __future__ import annotations
 
@@ -231,7 +231,7 @@ def sample(n: int, k: int, *, seed: int = 0) -> NDArray[np.uint64]:
 
 
 def spatial_order(points: ArrayLike, *, curve: OrderCurve = "hilbert") -> Solution:
-    """Put points of the plane or of space in an order in which neighbours are near each other.
+    """Put points of the plane or of space in an order in which neighbors are near each other.
 
     The order depends on the set of points alone; equal points are side by side, the first row first.
 

@@ -69,7 +69,7 @@ def table(dtype: Any, width: int | str | None, *, at: str | None = None, optiona
         if is_empty and optional:
             return None
         if isinstance(width, str):
-            expected, like = _width(said, width), "the centre" if width.endswith("center") else f"a row of {width}"
+            expected, like = _width(said, width), "the center" if width.endswith("center") else f"a row of {width}"
         elif width is None:
             expected, like = 0 if is_empty else len(found[0]), "row 0"
         else:

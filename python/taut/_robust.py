@@ -1,4 +1,4 @@
-"""Centre and scatter of most of the points, whatever the others are."""
+"""Center and scatter of most of the points, whatever the others are."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ def robust_ellipsoid(
     epsilon: float = 1e-9,
     threads: int | None = None,
 ) -> Solution:
-    """Centre and scatter of most of the points, the ellipsoid they mean, and the outliers.
+    """Center and scatter of most of the points, the ellipsoid they mean, and the outliers.
 
     Parameters
     ----------
     points : array_like of shape (n, d)
         Finite real numbers, taken as by `ball`.
     method : {"mcd", "mve", "trim"}, default "mcd"
-        What is minimised over the points kept: the determinant of their covariance, the volume of the ellipsoid around
+        What is minimized over the points kept: the determinant of their covariance, the volume of the ellipsoid around
         them, or the latter with that ellipsoid as the answer.
     coverage : float, optional
         About which part of the points is kept: in [0.5, 1], by default 0.5, where most outliers are borne; by "trim" in

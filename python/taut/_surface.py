@@ -18,7 +18,7 @@ def surface(
     points: ArrayLike,
     *,
     method: SurfaceMethod = "tree",
-    open: bool = False,  # noqa: A002, the name at the door
+    open: bool = False,  # noqa: A002, the public name
     denoise: bool = False,
     neighbors: int = 24,
     iterations: int = 2,
@@ -38,14 +38,14 @@ def surface(
     points : array_like of shape (n, 3)
         Finite real numbers, taken as by `ball`.
     method : str, default "tree"
-        The way to find it: "tree" labels all space as inside or outside, by the strongest of what neighbouring Delaunay cells say
+        The way to find it: "tree" labels all space as inside or outside, by the strongest of what neighboring Delaunay cells say
         about each other; "thesis" grows a front over facets with empty equatorial spheres; "alpha" is the alpha shape; "hull" are
         all facets with empty equatorial spheres.
     open : bool, default False
         Of "tree": whether sheets end where their points end. Else every part is closed, as the boundary of a body.
     denoise : bool, default False
         Whether noise is taken out of the points first: outliers are left out, and each other point is moved onto the sheet that its
-        neighbours show. The places are then in ``answer.vertices``.
+        neighbors show. The places are then in ``answer.vertices``.
     neighbors : int, 4 to 1000, default 24
         With `denoise`: how many nearest points show the sheet of a point, itself among them.
     iterations : int, 0 to 100, default 2

@@ -24,7 +24,7 @@ def verify(
     solution : Solution or str
         The answer with its certificate, or their JSON as `Solution.to_json` and the command line write it.
     points : array_like of shape (n, d)
-        The points, or the centres of the balls or ellipsoids; of an inscribed ellipsoid the normals.
+        The points, or the centers of the balls or ellipsoids; of an inscribed ellipsoid the normals.
     radii : array_like of shape (n,), optional
         The radii, when the answer is about balls.
     shapes : array_like of shape (n, d, d), optional

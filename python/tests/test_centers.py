@@ -1,4 +1,4 @@
-"""Centres: their shapes and options, what is proved of them, and how they travel."""
+"""Centers: their shapes and options, what is proved of them, and how they travel."""
 
 import itertools
 import json
@@ -16,7 +16,7 @@ def points():
 
 
 def reach(points, centers):
-    """The distance of each point to the nearest centre."""
+    """The distance of each point to the nearest center."""
     return np.sqrt(((points[:, None, :] - centers[None, :, :]) ** 2).sum(axis=2)).min(axis=1)
 
 
@@ -29,14 +29,14 @@ def least_radius(points, k):
         for part in itertools.combinations(range(n), size)
     }
     best = np.inf
-    for colours in itertools.product(range(k), repeat=n):
-        parts = [tuple(i for i in range(n) if colours[i] == c) for c in range(k)]
+    for colors in itertools.product(range(k), repeat=n):
+        parts = [tuple(i for i in range(n) if colors[i] == c) for c in range(k)]
         best = min(best, max(ball[part] for part in parts if part))
     return best
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
-def test_every_point_is_near_a_centre_and_the_bound_is_proved(points, dtype):
+def test_every_point_is_near_a_center_and_the_bound_is_proved(points, dtype):
     points = points.astype(dtype)
     found = taut.centers(points, 4, epsilon=1e-6, assignment=True)
     answer, certificate = found.answer, found.certificate
@@ -65,7 +65,7 @@ def test_small_sets_have_the_least_radius_of_all_partitions(k):
     assert found.answer.radius == pytest.approx(least_radius(points, k), rel=1e-8)
 
 
-def test_one_centre_is_the_smallest_ball(points):
+def test_one_center_is_the_smallest_ball(points):
     assert taut.centers(points, 1, epsilon=1e-9).answer.radius == pytest.approx(
         taut.ball(points).answer.radius, rel=2e-9
     )
@@ -89,7 +89,7 @@ def test_a_stream_knows_plain_points_only(points, options, message):
         taut.centers(points, 3, method="stream", **options)
 
 
-def test_discrete_centres_are_rows_and_the_best_of_all(points):
+def test_discrete_centers_are_rows_and_the_best_of_all(points):
     few = points[:30]
     found = taut.centers(few, 2, epsilon=0, discrete=True)
     assert (few[found.answer.rows] == found.answer.centers).all()
@@ -203,7 +203,7 @@ def test_wrong_points_are_named():
         taut.centers([[0, 1]], 1.5)
 
 
-def test_copies_and_spare_centres_need_no_radius():
+def test_copies_and_spare_centers_need_no_radius():
     found = taut.centers([[1, 2], [1, 2], [3, 4]], 5)
     assert (found.answer.radius, found.answer.lower_bound) == (0.0, 0.0)
     assert len(found.answer.centers) <= 5
@@ -242,7 +242,7 @@ def test_wrong_options_of_farthest_first_are_named(points, count, options, messa
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 def test_a_tree_of_balls_holds_every_point_in_every_node(points, dtype):
-    # Far from the origin centres have a tail, which the radii make up for.
+    # Far from the origin centers have a tail, which the radii make up for.
     points = (points + [1e6, 0]).astype(dtype)
     tree = taut.sphere_tree(points, leaf_size=4)
     m = len(tree.radii)

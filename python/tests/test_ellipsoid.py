@@ -217,7 +217,7 @@ def test_damaged_answers_are_rejected(points, found, part, key, change):
 def test_rows_of_other_lengths_are_refused(found, key, problem):
     document = json.loads(found.to_json())
     document["answer"][key][1].append(0.0)
-    with pytest.raises(ValueError, match=f"row 1 of {problem} has 5 numbers, but the centre has 4"):
+    with pytest.raises(ValueError, match=f"row 1 of {problem} has 5 numbers, but the center has 4"):
         taut.Solution.from_json(json.dumps(document))
 
 

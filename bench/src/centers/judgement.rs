@@ -29,7 +29,7 @@ pub(super) fn judge(found: &Solution<Centers>, source: &dyn PointSource) -> Judg
         verdict,
         core_set: found.certificate.core_set.len(),
         proof: match found.certificate.proof {
-            LowerBound::Apart => "apart",
+            LowerBound::Separated => "apart",
             LowerBound::Branches { .. } => "branches",
         },
         seconds: start.elapsed().as_secs_f64(),
@@ -51,7 +51,7 @@ impl Judgement {
         };
         json!({
             "radius": self.radius, "verdict": said, "core-set": self.core_set, "by": self.proof,
-            "branches": verdict.ok().map(|verdict| verdict.nodes), "check": self.seconds,
+            "branches": verdict.ok().map(|verdict| verdict.branches), "check": self.seconds,
             "lower": verdict.ok().map(|verdict| verdict.lower), "gap": self.gap(),
         })
     }

@@ -32,10 +32,10 @@ pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
     for (order, values) in [("as drawn", &drawn), ("from inside", &sorted)] {
         let points = Points::new(values, DIM)?;
         for (k, instances) in CENTERS.into_iter().flat_map(|k| INSTANCES.map(|i| (k, i))) {
-            let options = CoverOptions { instances };
+            let options = StreamingOptions { instances };
             let (mut clocks, mut found) = (vec![], None);
             for _ in 0..context.runs {
-                let mut cover = Cover::new(DIM, k, &options)?;
+                let mut cover = StreamingCenters::new(DIM, k, &options)?;
                 let meter = Meter::start();
                 pool.install(|| {
                     (0..n).step_by(BLOCK).try_for_each(|first| {

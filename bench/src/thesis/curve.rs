@@ -72,14 +72,19 @@ fn draw(picture: &Picture, found: &Curve) -> Figure {
         let curves = found.curves.iter().filter(|curve| curve.closed == closed);
         curves.map(|curve| curve.vertices.clone()).collect()
     };
-    let layer = |name: &str, tone, look, shape| Layer2 { name: name.to_owned(), tone, look, shape };
+    let layer = |name: &str, tone, line_style, shape| Layer2 {
+        name: name.to_owned(),
+        tone,
+        line_style,
+        shape,
+    };
     let mut layers =
-        vec![layer("points", Tone::Point, Look::Solid, Shape2::Points(dots.collect()))];
+        vec![layer("points", Tone::Point, LineStyle::Solid, Shape2::Points(dots.collect()))];
     for (closed, name) in [(true, "closed curve"), (false, "curve with ends")] {
         let chains = of(closed);
         if !chains.is_empty() {
             let shape = if closed { Shape2::Polygons(chains) } else { Shape2::Polylines(chains) };
-            layers.push(layer(name, Tone::Answer, Look::Solid, shape));
+            layers.push(layer(name, Tone::Answer, LineStyle::Solid, shape));
         }
     }
     let vertices: usize = found.curves.iter().map(|curve| curve.vertices.len()).sum();

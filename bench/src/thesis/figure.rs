@@ -110,13 +110,13 @@ impl Figure {
     fn plot(&self) -> Plot {
         const TONES: [Tone; 6] =
             [Tone::Answer, Tone::Second, Tone::Third, Tone::Fourth, Tone::Bound, Tone::Support];
-        // More curves than tones come round again with another look.
-        const LOOKS: [SeriesLook; 3] =
-            [SeriesLook::LineAndDots, SeriesLook::Dashed, SeriesLook::Line];
+        // More curves than tones come round again in another style.
+        const STYLES: [SeriesStyle; 3] =
+            [SeriesStyle::LineAndDots, SeriesStyle::Dashed, SeriesStyle::Line];
         let series = self.curves.iter().enumerate().map(|(at, curve)| Series {
             name: curve.name.clone(),
             tone: TONES[at % TONES.len()],
-            look: LOOKS[at / TONES.len() % LOOKS.len()],
+            style: STYLES[at / TONES.len() % STYLES.len()],
             points: curve.points.clone(),
         });
         Plot {

@@ -1,7 +1,7 @@
-//! How fast one triangulation is proved: `cargo run --release -p taut-certify --example check_mesh D POINTS SIMPLICES
-//! NEIGHBORS [plain]`; with `plain` also without neighbours.
+//! Measures how fast one triangulation is proved: `cargo run --release -p taut-certify --example check_mesh D POINTS SIMPLICES
+//! NEIGHBORS [plain]`; with `plain` also without neighbors.
 //!
-//! The files are raw: `f64` rows of D coordinates, and `u32` rows of D + 1 ids, the neighbour opposite each vertex in the
+//! The files are raw: `f64` rows of D coordinates, and `u32` rows of D + 1 ids, the neighbor opposite each vertex in the
 //! same place, −1 on the hull. SciPy's `Delaunay` gives such arrays of any general points; put its simplices in an order
 //! that follows space first. Time of the processor, mean of ten, per row of the points; `RAYON_NUM_THREADS=1` for one thread.
 
@@ -73,7 +73,7 @@ fn read<const N: usize>(path: &str) -> std::io::Result<Vec<[u8; N]>> {
     Ok(std::fs::read(path)?.as_chunks().0.to_vec())
 }
 
-/// The facets without a neighbour, seen from outside.
+/// The facets without a neighbor, seen from outside.
 fn hull(dimension: usize, simplices: &[u32], neighbors: &[u32]) -> Vec<u32> {
     let facets: &[&[usize]] = match dimension {
         2 => &[&[1, 2], &[2, 0], &[0, 1]],

@@ -1,4 +1,4 @@
-//! How fast one check runs: `cargo run --release -p taut-certify --example check_speed [rows] [columns]`.
+//! Measures how fast one check runs: `cargo run --release -p taut-certify --example check_speed [rows] [columns]`.
 //!
 //! Each line is one kind of point set; the ball is the true one of the kind, so that all stages of the checker have
 //! the work they have in life. A plain sum of the same memory stands beside it.
@@ -49,7 +49,7 @@ fn measure<T: Scalar>(name: &str, values: &[T], d: usize, radius: f64, center: f
         };
         (0..7).map(|_| once()).fold(0.0, f64::max)
     };
-    // Every row is inside; only then does the checker come to the multipliers, which have nothing to do with the centre.
+    // Every row is inside; only then does the checker come to the multipliers, which have nothing to do with the center.
     let outcome = solution.check(&points);
     assert!(matches!(outcome, Err(CheckError::Rejected(Violation::Center { .. }))), "{outcome:?}");
     let check = speed(&|| drop(solution.check(&points)));

@@ -1,4 +1,4 @@
-//! How fast one check of an ellipsoid runs: `cargo run --release -p taut-certify --example ellipsoid_speed`.
+//! Measures how fast one check of an ellipsoid runs: `cargo run --release -p taut-certify --example ellipsoid_speed`.
 //!
 //! The ellipsoid is given by a full triangular factor. Easy rows all lie well inside; on a shell all lie so near the
 //! surface that only the bound on rounding tells; beyond that, each row needs doubled precision, as support rows always

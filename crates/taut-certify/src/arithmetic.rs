@@ -8,6 +8,6 @@ mod ring;
 
 pub(crate) use double_double::{Compensated, Known, U, square, two_product, two_sum};
 pub(crate) use exact::ExactSum;
-pub(crate) use field::{Field, factorise};
+pub(crate) use field::{Field, factorize};
 pub(crate) use integer::{Integer, parts};
 pub(crate) use ring::{DoubleDouble, Residue, Ring};

@@ -12,11 +12,11 @@ use crate::{Answer, CheckError, Items, Verdict};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a ball: an object with center and radius")]
 pub struct Ball {
-    /// The d coordinates of the centre.
+    /// The d coordinates of the center.
     pub center: Vec<f64>,
-    /// What is to be added to `center`, coordinate by coordinate, for the exact centre; empty means nothing.
+    /// The vector to add to `center`, coordinate by coordinate, for the exact center; empty means nothing.
     ///
-    /// Given when the points lie so far from the origin that rounding the centre to one `f64` would cost more than
+    /// Given when the points lie so far from the origin that rounding the center to one `f64` would cost more than
     /// 1e-15 of the radius. It is what that rounding leaves over: adding it to `center` in `f64` changes nothing.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub center_tail: Vec<f64>,
@@ -31,7 +31,7 @@ pub struct Ball {
 /// known by their `directions`.
 ///
 /// With u = 2⁻⁵³, the checker grants |Σ λᵢ − 1| ≤ 2(k + 2)u for k multipliers, and takes λᵢ/Σ λᵢ in their place. The
-/// centre of the ball is Σ λᵢpᵢ/Σ λᵢ, each coordinate to 4u(|cⱼ| + R), with a tail to 4uR + 8u²|cⱼ|; of a ball around
+/// center of the ball is Σ λᵢpᵢ/Σ λᵢ, each coordinate to 4u(|cⱼ| + R), with a tail to 4uR + 8u²|cⱼ|; of a ball around
 /// ellipsoids this is not asked, as their points are rounded.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(

@@ -11,7 +11,7 @@ use crate::{Answer, CheckError, Items};
 
 pub use violation::CentersViolation;
 
-/// Where centres may be.
+/// Where centers may be.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Placement {
@@ -22,44 +22,45 @@ pub enum Placement {
     Rows,
 }
 
-/// k centres, from one of which each item is at most `radius` away.
+/// k centers, from one of which each item is at most `radius` away.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "centers: an object with centers, radius and lower_bound")]
 pub struct Centers {
-    /// At most k centres of d coordinates each. Fewer than k where fewer are as good.
+    /// At most k centers of d coordinates each. Fewer than k where fewer are as good.
     pub centers: Vec<Vec<f64>>,
-    /// For centres among the points, the row of each.
+    /// For centers among the points, the row of each.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub rows: Vec<u64>,
-    /// The largest distance of an item to the centre next to it, as evaluated in `f64` or a little more: |p − c|, |m − c| + r for a ball,
+    /// The largest distance of an item to the center next to it, as evaluated in `f64` or a little more: |p − c|, |m − c| + r for a ball,
     /// w·|p − c| for a point of weight w.
     pub radius: f64,
-    /// No k centres have a smaller radius.
+    /// No k centers have a smaller radius.
     pub lower_bound: f64,
     /// The rows that are left out, ascending; they count for nothing.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub outliers: Vec<u64>,
-    /// On request, for each row the number of the centre next to it, the first of several; also for rows that are left out.
+    /// On request, for each row the number of the center next to it, the first of several; also for rows that are left out.
     ///
-    /// The checker asks that no other centre is nearer by more than what a sum in `f64` may be off by: which of centres that
+    /// The checker asks that no other center is nearer by more than what a sum in `f64` may be off by: which of centers that
     /// are equally near but for rounding is the first, depends on the order of the sum.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub assignment: Vec<u32>,
 }
 
-/// How the lower bound is to be confirmed: that no k balls of a radius less than it hold all of a core-set but so many of
+/// The way in which the lower bound is to be confirmed: that no k balls of a radius less than it hold all of a core-set except z of
 /// its items.
 ///
-/// A ball of a radius less than ρ holds items just when its centre is less than ρᵢ from each of them, with ρᵢ = ρ for points,
+/// A ball of a radius less than ρ holds items just when its center is less than ρᵢ from each of them, with ρᵢ = ρ for points,
 /// ρ − r for balls and ρ/w for points of weight w. That no such ball holds some items is shown by λ ≥ 0 with
 /// Σλᵢ = 1 and p̄ = Σλᵢpᵢ, when Σλᵢ(|pᵢ − p̄|² − ρᵢ²) ≥ 0; the checker finds λ itself, and refutes with a bound on all that it
-/// rounds, some 1e-14·d/8 of ρ: claim the radius at which all cases are refuted, less 1e-12 of it. For centres among the
+/// rounds, some 1e-14·d/8 of ρ: claim the radius at which all cases are refuted, less 1e-12 of it. For centers among the
 /// rows, and for two items apart, it decides exactly.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case", tag = "by", try_from = "Written")]
+#[serde(rename_all = "kebab-case", tag = "by", try_from = "LowerBoundFields")]
 pub enum LowerBound {
     /// No two items of the core-set fit in one ball, and there are more than k and the outliers together. O(|X|²d).
-    Apart,
+    #[serde(rename = "apart")]
+    Separated,
     /// By the branches of a search, in the order in which they were taken (preorder), over at most 16384 items. For
     /// free centers the checker compares all pairs of items first. It replays the branches in time linear in their number.
     Branches {
@@ -75,20 +76,23 @@ pub enum LowerBound {
 /// versions may also say `search`.
 #[derive(Deserialize)]
 #[serde(rename_all = "kebab-case", tag = "by", deny_unknown_fields)]
-enum Written {
-    Apart {},
+enum LowerBoundFields {
+    #[serde(rename = "apart")]
+    Separated {},
     Search {},
-    Branches { items: Vec<u32> },
+    Branches {
+        items: Vec<u32>,
+    },
 }
 
-impl TryFrom<Written> for LowerBound {
+impl TryFrom<LowerBoundFields> for LowerBound {
     type Error = &'static str;
 
-    fn try_from(written: Written) -> Result<Self, Self::Error> {
+    fn try_from(written: LowerBoundFields) -> Result<Self, Self::Error> {
         match written {
-            Written::Apart {} => Ok(LowerBound::Apart),
-            Written::Branches { items } => Ok(LowerBound::Branches { items }),
-            Written::Search {} => Err(
+            LowerBoundFields::Separated {} => Ok(LowerBound::Separated),
+            LowerBoundFields::Branches { items } => Ok(LowerBound::Branches { items }),
+            LowerBoundFields::Search {} => Err(
                 "the proof of these centers is \"search\", which an earlier version of taut wrote and \
                  which is no longer verified: solve again to get a proof that lists its branches",
             ),
@@ -96,7 +100,7 @@ impl TryFrom<Written> for LowerBound {
     }
 }
 
-/// What was asked, and a few items that prove the lower bound.
+/// The question, and a few items that prove the lower bound.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(
     deny_unknown_fields,
@@ -105,12 +109,12 @@ impl TryFrom<Written> for LowerBound {
 pub struct CentersCertificate {
     /// Points or balls.
     pub items: Items,
-    /// Whether the last column holds the weights w > 0 of points.
+    /// True if the last column holds the weights w > 0 of points.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub weights: bool,
-    /// Where centres may be.
+    /// Where centers may be.
     pub placement: Placement,
-    /// Most centres.
+    /// Most centers.
     pub k: u64,
     /// Most rows that may be left out.
     #[serde(default)]
@@ -120,24 +124,25 @@ pub struct CentersCertificate {
     pub gap: f64,
     /// Row numbers, none twice, in the order that `proof` speaks of.
     pub core_set: Vec<u64>,
-    /// How these rows prove the lower bound. Where that is 0 nothing has to be proved.
+    /// The way in which these rows prove the lower bound. Where that is 0 nothing has to be proved.
     pub proof: LowerBound,
     /// The hash of the rows this was made for.
     #[serde(serialize_with = "hash_to_hex", deserialize_with = "hash_from_hex")]
     pub points_hash: PointsHash,
 }
 
-/// What was proved of centres.
+/// The proved facts about centers.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct CentersVerdict {
-    /// No k centres have a smaller radius.
+    /// No k centers have a smaller radius.
     pub lower: f64,
     /// The radius of the answer, within which every item that counts was found.
     pub upper: f64,
     /// `upper / lower − 1`, rounded up; 0 where both are equal, infinite where `lower` alone is 0.
     pub gap: f64,
     /// Branches that were replayed to prove the lower bound; 0 where it needs none.
-    pub nodes: u64,
+    #[serde(rename = "nodes")]
+    pub branches: u64,
 }
 
 impl Answer for Centers {

@@ -52,7 +52,7 @@ pub struct CircleCertificate {
     pub points_hash: PointsHash,
 }
 
-/// What was proved of an inscribed circle.
+/// The proved facts about an inscribed circle.
 ///
 /// A point is inside when the edges wind around it an odd number of times (even-odd rule). For a ring that neither meets nor
 /// touches itself these are the points inside the polygon; the checker does not prove that the ring is such a ring.

@@ -37,7 +37,7 @@ pub struct Curve {
 pub struct CurveComponent {
     /// The vertices in order.
     pub vertices: Vec<[f64; 2]>,
-    /// Whether an edge leads from the last vertex back to the first.
+    /// True if an edge leads from the last vertex back to the first.
     pub closed: bool,
     /// Where vertices are points of the input, the row of each.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -48,7 +48,7 @@ pub struct CurveComponent {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Place(pub u32, pub f64);
 
-/// What is claimed of a curve.
+/// The claims about a curve.
 ///
 /// # What `certified` means
 /// The rows that are not outliers sample the answer itself so densely, and lie so near to it, beside its own features, that a
@@ -77,7 +77,7 @@ pub struct CurveCertificate {
     pub sampling_ratio: f64,
     /// Over all rows but the outliers, the largest of the distance from the curve over φ next to it. [`f64::MAX`] where it is not known.
     pub noise_ratio: f64,
-    /// Whether the sampling is dense enough, beside the features of the curve itself, to call it homeomorphic to the one that was
+    /// True if the sampling is dense enough, beside the features of the curve itself, to call it homeomorphic to the one that was
     /// sampled.
     pub certified: bool,
     /// Of a tour, what proves how short it can be.
@@ -88,7 +88,7 @@ pub struct CurveCertificate {
     pub points_hash: PointsHash,
 }
 
-/// What proves that no tour through the points is shorter than a bound.
+/// The proof that no tour through the points is shorter than a bound.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(
     deny_unknown_fields,
@@ -102,7 +102,7 @@ pub struct TourBound {
     pub lower: f64,
 }
 
-/// What was proved of a curve.
+/// The proved facts about a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct CurveVerdict {
     /// Rows there are.
@@ -111,13 +111,13 @@ pub struct CurveVerdict {
     pub outliers: u64,
     /// The largest distance of a row that is no outlier from the curve, rounded up.
     pub band: f64,
-    /// Whether no two edges meet but neighbours at their vertex. Of tours alone it may be false; other answers are refused then.
+    /// True if no two edges meet but neighbors at their vertex. Of tours alone it may be false; other answers are refused then.
     pub is_simple: bool,
     /// ε as the checker finds it; infinite where it is not known.
     pub sampling_ratio: f64,
     /// The noise ratio as the checker finds it; infinite where it is not known.
     pub noise_ratio: f64,
-    /// Whether the evidence for a homeomorphism was found, claimed or not.
+    /// True if the evidence for a homeomorphism was found, claimed or not.
     pub certified: bool,
     /// Where it was not, the first reason.
     pub doubt: Option<CurveDoubt>,

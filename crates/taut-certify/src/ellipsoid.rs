@@ -49,11 +49,11 @@ use crate::{Answer, CheckError, Items, Violation};
     expecting = "an ellipsoid: an object with center, matrix, factor and log_volume"
 )]
 pub struct Ellipsoid {
-    /// The d coordinates of the centre c.
+    /// The d coordinates of the center c.
     pub center: Vec<f64>,
-    /// What is to be added to `center`, coordinate by coordinate, for the exact centre; empty means nothing.
+    /// The vector to add to `center`, coordinate by coordinate, for the exact center; empty means nothing.
     ///
-    /// Given when the points lie so far from the origin that rounding the centre to one `f64` would cost more than
+    /// Given when the points lie so far from the origin that rounding the center to one `f64` would cost more than
     /// rounding the rest. It is what that rounding leaves over: adding it to `center` in `f64` changes nothing.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub center_tail: Vec<f64>,
@@ -160,12 +160,12 @@ pub struct EllipsoidCertificate {
     pub points_hash: PointsHash,
 }
 
-/// What was proved of an ellipsoid.
+/// The proved facts about an ellipsoid.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct EllipsoidVerdict {
     /// No enclosing ellipsoid has a log-volume below this.
     pub lower: f64,
-    /// Log-volume of the answer, enlarged about its centre by 1 + `excess` so that it encloses every item.
+    /// Log-volume of the answer, enlarged about its center by 1 + `excess` so that it encloses every item.
     pub upper: f64,
     /// `upper` − `lower`, rounded up, as it was before what rounding the log-volume itself costs was added to both.
     pub gap: f64,

@@ -29,7 +29,7 @@ pub use violation::{FileCheckError, FileViolation, WhichFile};
 
 /// An answer that is a file, to be judged from its bytes and the certificate.
 pub trait FileAnswer: Serialize + DeserializeOwned {
-    /// What convinces a stranger.
+    /// The data that convince a third party.
     type Certificate: Serialize + DeserializeOwned;
 
     /// The word for it in JSON: `"sort"`.
@@ -47,10 +47,10 @@ pub trait FileAnswer: Serialize + DeserializeOwned {
     ) -> Result<FileVerdict, FileCheckError>;
 }
 
-/// What a file holds, what proves it, and how it came about.
+/// The contents of a file, their proof, and how they came about.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FileSolution<A: FileAnswer> {
-    /// What the file is said to be.
+    /// The claim about the file.
     pub answer: A,
     /// Its proof.
     pub certificate: A::Certificate,
@@ -72,11 +72,11 @@ impl<A: FileAnswer> FileSolution<A> {
     }
 }
 
-/// What was proved of a file.
+/// The proved facts about a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct FileVerdict {
     /// Records, elements or numbers that were read, in each of the files.
     pub items: u64,
-    /// Whether the file that was read was compared, or the certificate's word taken for it.
+    /// True if the file that was read was compared, or the certificate's word taken for it.
     pub compared: bool,
 }

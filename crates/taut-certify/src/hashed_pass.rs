@@ -12,7 +12,7 @@ use crate::{CheckError, Violation};
 /// Reads all rows once: what `block` finds in each block, in order, and the wanted rows.
 ///
 /// # Errors
-/// What `block` or the source returns, or [`Violation::Hash`] if the rows are not those of the hash `claimed`.
+/// The error that `block` or the source returns, or [`Violation::Hash`] if the rows are not those of the hash `claimed`.
 pub(crate) fn hashed_pass<T: Send>(
     source: &dyn PointSource,
     claimed: PointsHash,

@@ -17,7 +17,7 @@ use crate::{Answer, CheckError};
     expecting = "an inscribed ellipsoid: an object with center, axes and log_volume"
 )]
 pub struct InscribedEllipsoid {
-    /// The d coordinates of the centre c.
+    /// The d coordinates of the center c.
     pub center: Vec<f64>,
     /// G, d rows of d numbers.
     pub axes: Vec<Vec<f64>>,
@@ -49,7 +49,7 @@ pub struct InscribedCertificate {
     pub points_hash: PointsHash,
 }
 
-/// What was proved of an inscribed ellipsoid.
+/// The proved facts about an inscribed ellipsoid.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct InscribedVerdict {
     /// The log-volume of the answer, rounded down as found here: it lies in every half-space, so the optimum is no less.

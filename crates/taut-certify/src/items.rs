@@ -1,18 +1,18 @@
-//! What the rows of a source stand for.
+//! The objects that the rows of a source stand for.
 
 use serde::{Deserialize, Serialize};
 use taut_points::choice;
 
-/// What the rows of a source stand for.
+/// The objects that the rows of a source stand for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Items {
     /// Each row is a point.
     #[default]
     Points,
-    /// Each row is a ball: its centre, then its radius ≥ 0 in the last column.
+    /// Each row is a ball: its center, then its radius ≥ 0 in the last column.
     Balls,
-    /// Each row is an ellipsoid: the d coordinates of its centre m, then the d(d + 1)/2 numbers of the lower triangle
+    /// Each row is an ellipsoid: the d coordinates of its center m, then the d(d + 1)/2 numbers of the lower triangle
     /// of its symmetric shape matrix S, row by row: S₁₁, S₂₁, S₂₂, S₃₁, …
     ///
     /// It is the set {m + v : vvᵀ ⪯ S}, which is {m + S^½ w : |w| ≤ 1}. S has the units of a covariance: the ball of
@@ -27,8 +27,8 @@ pub enum Items {
 
 choice! { "inputs", Items {
     Points = "points", "each row is a point";
-    Balls = "balls", "each row is a centre, then a radius";
-    Ellipsoids = "ellipsoids", "each row is a centre, then the lower triangle of a shape matrix";
+    Balls = "balls", "each row is a center, then a radius";
+    Ellipsoids = "ellipsoids", "each row is a center, then the lower triangle of a shape matrix";
 }}
 
 impl Items {
@@ -45,7 +45,7 @@ impl Items {
         }
     }
 
-    /// How many numbers a row has in a space of dimension `dim`.
+    /// Returns how many numbers a row has in a space of dimension `dim`.
     pub fn columns(self, dim: usize) -> usize {
         match self {
             Items::Points => dim,

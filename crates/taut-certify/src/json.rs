@@ -78,13 +78,12 @@ impl<A: Answer> Solution<A> {
     /// Writes the document to `out`, in small pieces: give a buffer. It ends without a line feed.
     ///
     /// # Errors
-    /// What `out` says.
+    /// The error that `out` returns.
     pub fn write_json(&self, out: impl io::Write) -> io::Result<()> {
         write_document(A::KIND, &self.answer, &self.certificate, &self.trace, out)
     }
 }
 
-/// Writes a document of any kind.
 pub(crate) fn write_document(
     kind: &str,
     answer: &impl Serialize,
@@ -103,7 +102,7 @@ struct RowFormatter {
     pretty: PrettyFormatter<'static>,
     /// For each open list or object, whether it is a list.
     open: Vec<bool>,
-    /// How many of the innermost lists stand on one line.
+    /// The number of innermost lists on one line.
     inline: usize,
 }
 

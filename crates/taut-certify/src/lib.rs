@@ -4,10 +4,10 @@
 //! |---|---|---|
 //! | [`Ball`] | [`BallCertificate`] | every point is inside; no smaller ball than r/(1 + gap) holds them all |
 //! | [`Ellipsoid`] | [`EllipsoidCertificate`] | every point is inside; no ellipsoid of a log-volume less by more than the gap holds them all |
-//! | [`RobustEllipsoid`] | [`RobustCertificate`] | centre, scatter, factors and flags are those of the points kept; by `mcd`, no C-step leads on from them; by `mve` and `trim`, no much smaller ellipsoid holds them |
+//! | [`RobustEllipsoid`] | [`RobustCertificate`] | center, scatter, factors and flags are those of the points kept; by `mcd`, no C-step leads on from them; by `mve` and `trim`, no much smaller ellipsoid holds them |
 //! | [`InscribedEllipsoid`] | [`InscribedCertificate`] | it lies in every half-space; no ellipsoid in the polytope has a log-volume larger by more than the gap |
 //! | [`InscribedCircle`] | [`CircleCertificate`] | its center is inside and no edge enters it; no circle in the polygon has a radius above (1 + gap)·r |
-//! | [`Centers`] | [`CentersCertificate`] | every item that counts is within the radius of a centre; no k equal balls much smaller hold the core-set |
+//! | [`Centers`] | [`CentersCertificate`] | every item that counts is within the radius of a center; no k equal balls much smaller hold the core-set |
 //! | [`Curve`] | [`CurveCertificate`] | it meets neither itself nor others; every point but the outliers is within the band; whether sampling was dense enough |
 //! | [`Surface`] | [`SurfaceCertificate`] | which rows it uses and why not the others; its topology; it meets itself nowhere; each triangle has an empty ball; it faces outwards |
 //! | [`Order`] | [`OrderCertificate`] | each row once; it is *the* order of the points along its curve |

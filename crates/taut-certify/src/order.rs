@@ -35,7 +35,7 @@ pub struct Order {
     pub rows: Vec<u64>,
 }
 
-/// What the order belongs to: it is a function of the points alone, and is proved from these.
+/// The points that the order belongs to: it is a function of the points alone, and is proved from these.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "the certificate of an order: an object with points_hash")]
 pub struct OrderCertificate {
@@ -44,7 +44,7 @@ pub struct OrderCertificate {
     pub points_hash: PointsHash,
 }
 
-/// What was proved of an order: it is the one that the points have.
+/// The proved facts about an order: it is the one that the points have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct OrderVerdict {
     /// Points.
@@ -68,9 +68,9 @@ pub enum OrderViolation {
     Row {
         /// The place, from 0.
         place: u64,
-        /// What stands there.
+        /// The row that stands there.
         row: u64,
-        /// How many rows there are.
+        /// The number of rows.
         points: u64,
     },
     /// A row comes too late.
@@ -78,7 +78,7 @@ pub enum OrderViolation {
     Descent {
         /// The place, from 0.
         place: u64,
-        /// What stands there.
+        /// The row that stands there.
         row: u64,
     },
 }

@@ -129,7 +129,7 @@ macro_rules! define_solutions {
 /// The verdicts of the same kinds, and the check that returns one.
 macro_rules! define_verdicts {
     ($($(#[$kind:meta])* $name:ident($answer:ty),)*) => {
-        /// What was proved of an answer of any kind; serde sees the verdict alone.
+        /// The proved facts about an answer of any kind; serde sees the verdict alone.
         #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
         #[serde(untagged)]
         #[non_exhaustive]

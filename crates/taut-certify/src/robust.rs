@@ -1,4 +1,4 @@
-//! Robust ellipsoids: what most of the points say of centre and scatter, whatever the others say.
+//! Robust ellipsoids: what most of the points say of center and scatter, whatever the others say.
 
 mod check;
 
@@ -8,7 +8,7 @@ use taut_points::{Monitor, PointSource, PointsHash, choice};
 use crate::json::{hash_from_hex, hash_to_hex};
 use crate::{Answer, CheckError, Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Hull};
 
-/// What an estimate of centre and scatter is to be robust by.
+/// The criterion of a robust estimate of center and scatter.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum RobustMethod {
@@ -27,7 +27,7 @@ choice! { "method", RobustMethod {
     Trim = "trim", "the same, and its ellipsoid as it stands";
 }}
 
-/// Centre and scatter of most of the points, the ellipsoid they mean, and the points that lie outside it.
+/// Center and scatter of most of the points, the ellipsoid they mean, and the points that lie outside it.
 ///
 /// By `mcd` and `mve` the ellipsoid is the tolerance ellipsoid (x − c)ᵀS⁻¹(x − c) ≤ χ²: of normal points it holds the
 /// part that was asked for. By `trim` it is the smallest ellipsoid around the points that were kept.
@@ -37,10 +37,10 @@ choice! { "method", RobustMethod {
     expecting = "a robust ellipsoid: an object with center, matrix, factor, log_volume, scatter, log_det and flagged"
 )]
 pub struct RobustEllipsoid {
-    /// The d coordinates of the centre c.
+    /// The d coordinates of the center c.
     pub center: Vec<f64>,
-    /// What is to be added to `center` for the exact centre, as in [`Ellipsoid::center_tail`]. By `mcd` and `mve` it is empty
-    /// unless the points are so far from the origin that rounding the centre to `f64` would move it by a visible part of
+    /// The vector to add to `center` for the exact center, as in [`Ellipsoid::center_tail`]. By `mcd` and `mve` it is empty
+    /// unless the points are so far from the origin that rounding the center to `f64` would move it by a visible part of
     /// their spread.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub center_tail: Vec<f64>,
@@ -75,21 +75,21 @@ impl RobustEllipsoid {
     }
 }
 
-/// What robust estimates are made of, so that all of it can be calculated again from the points.
+/// The parts of a robust estimate, so that all of it can be calculated again from the points.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(
     deny_unknown_fields,
     expecting = "the certificate of a robust ellipsoid: an object with method, kept, left_out, objective and others"
 )]
 pub struct RobustCertificate {
-    /// What was minimised.
+    /// The objective that was minimized.
     pub method: RobustMethod,
     /// h, how many points were asked for.
     pub kept: u64,
     /// Rows not among them, ascending. By `mcd` there are n − h; by `mve` and `trim` perhaps fewer, as an ellipsoid may
     /// hold more points than it was asked to.
     pub left_out: Vec<u64>,
-    /// What was minimised, reached: by `mcd` ln det of the covariance (divisor h − 1) of the points kept, by `mve` and
+    /// The value of the objective: by `mcd` ln det of the covariance (divisor h − 1) of the points kept, by `mve` and
     /// `trim` the log-volume of the ellipsoid around them. Of dimension r where a hull is given.
     pub objective: f64,
     /// The part of normal points that the tolerance ellipsoid holds. By `trim`, 1.
@@ -102,8 +102,8 @@ pub struct RobustCertificate {
     pub scale: f64,
     /// Rows weighed out, ascending: those beyond `cutoff` in the metric of the points kept.
     pub weighed_out: Vec<u64>,
-    /// Why centre and scatter are those of the points kept, if they are: then no others are weighed, and `weighed_out`
-    /// repeats `left_out`. Absent where points are weighed anew.
+    /// Why center and scatter are those of the points kept, if they are: then no others are weighed, and `weighed_out`
+    /// repeats `left_out`. Absent where points are weighed again.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unweighted: Option<Unweighted>,
     /// By `mve` and `trim`, the ellipsoid around the points kept, and the proof that it is the smallest.
@@ -114,7 +114,7 @@ pub struct RobustCertificate {
     pub points_hash: PointsHash,
 }
 
-/// Why points are not weighed anew.
+/// Why points are not weighed again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Unweighted {
@@ -147,27 +147,27 @@ pub struct Enclosure {
     pub certificate: EllipsoidCertificate,
 }
 
-/// What was proved of a robust ellipsoid.
+/// The proved facts about a robust ellipsoid.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct RobustVerdict {
-    /// What the method minimises, of the points kept, as found here. By `mcd` no C-step lowers it; that no other points
+    /// The objective of the method, of the points kept, as found here. By `mcd` no C-step lowers it; that no other points
     /// have less is not proved.
     pub objective: f64,
     /// By `mve` and `trim`, what was proved of the ellipsoid around the points kept.
     pub enclosure: Option<EllipsoidVerdict>,
     /// h, how many points were asked for. By `mcd` and `mve` at least ⌊(n + d + 1)/2⌋, or n.
     pub wanted: u64,
-    /// How many points are kept: h, and by `mve` and `trim` those that lie on the border besides.
+    /// The number of points that are kept: h, and by `mve` and `trim` those that lie on the border besides.
     pub kept: u64,
     /// Points on the hull; all of them where there is none.
     pub on_hull: u64,
     /// By how much a point that is not flagged lies beyond the border, or one that is flagged within, in units of the
     /// border: what evaluating |F(x − c)| in `f64` may be off by. 0 where the flags are exactly the points outside.
     pub flag_excess: f64,
-    /// What centre, scatter, and the border of the points weighed out may be off by, in units of the border: 1e-9, more
+    /// The tolerance of center, scatter, and the border of the points weighed out, in units of the border: 1e-9, more
     /// where rounding the coordinates leaves the points few digits.
     pub slack: f64,
-    /// Whether centre and scatter are those of the points not weighed out, rather than of the points kept.
+    /// True if center and scatter are those of the points not weighed out, rather than of the points kept.
     pub reweighted: bool,
     /// r, the dimension of the ellipsoid.
     pub rank: usize,

@@ -9,10 +9,10 @@ use crate::CheckError;
 
 /// A tight shape that can be judged from the points and its certificate.
 pub trait Answer: Serialize + DeserializeOwned {
-    /// What convinces a stranger that this answer is tight.
+    /// The data that convince a third party that this answer is tight.
     type Certificate: Serialize + DeserializeOwned;
 
-    /// What the checker says when it finds nothing wrong.
+    /// The result of the checker if it finds nothing wrong.
     type Verdict;
 
     /// The word for it in JSON: `"ball"`.
@@ -77,13 +77,13 @@ pub enum Stop {
 pub struct PassBounds {
     /// Lower bound on the optimal radius or log-volume, proved by the multipliers of that moment.
     pub lower: f64,
-    /// Radius or log-volume that encloses all points from the centre of that moment.
+    /// Radius or log-volume that encloses all points from the center of that moment.
     pub upper: f64,
     /// Points in the working set then.
     pub working_set: u64,
 }
 
-/// How an answer came about: counters of events, the same on every run and for every number of threads.
+/// The way in which an answer came about: counters of events, the same on every run and for every number of threads.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a trace: an object of counters")]
 pub struct Trace {

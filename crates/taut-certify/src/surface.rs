@@ -31,7 +31,7 @@ pub struct Surface {
     pub vertices: Vec<[f64; 3]>,
     /// The triangles, as rows.
     pub triangles: Vec<[u32; 3]>,
-    /// What the triangles are as a surface.
+    /// The topology of the triangles.
     pub topology: SurfaceTopology,
     /// The rows that no triangle names.
     pub unused: Unused,
@@ -58,7 +58,7 @@ pub struct Unused {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum SurfaceMethod {
-    /// Cells labelled inside or outside by a signed spanning tree.
+    /// Cells labeled inside or outside by a signed spanning tree.
     #[default]
     Tree,
     /// The advancing front of the thesis.
@@ -70,13 +70,13 @@ pub enum SurfaceMethod {
 }
 
 choice! { "method", SurfaceMethod {
-    Tree = "tree", "all space is inside or outside, by the strongest of what neighbouring cells say";
+    Tree = "tree", "all space is inside or outside, by the strongest of what neighboring cells say";
     Thesis = "thesis", "a front that grows over facets with empty equatorial spheres";
     Alpha = "alpha", "the alpha shape";
     Hull = "hull", "all facets with empty equatorial spheres, without choosing";
 }}
 
-/// What a surface promises to be. In JSON `"closed"`, `"open"` or `{"alpha": {"radius": 0.1}}`.
+/// The properties that a surface promises. In JSON `"closed"`, `"open"` or `{"alpha": {"radius": 0.1}}`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum SurfaceMode {
@@ -92,23 +92,23 @@ pub enum SurfaceMode {
     },
 }
 
-/// What is claimed of a surface, beside its topology. Claims of more than is so are refused; of less, those of `embedded` and `outward`.
+/// The claims about a surface, beside its topology. Claims of more than is so are refused; of less, those of `embedded` and `outward`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(
     deny_unknown_fields,
     expecting = "the certificate of a surface: an object with method, mode, apexes, embedded, outward, displacement and points_hash"
 )]
 pub struct SurfaceCertificate {
-    /// How it was found, for the record.
+    /// The way in which it was found, for the record.
     pub method: SurfaceMethod,
-    /// What it promises to be.
+    /// The properties that it promises.
     pub mode: SurfaceMode,
     /// For each triangle what shows that it is a Delaunay triangle: a ball with the three vertices on its sphere and no point but
     /// outliers strictly inside. Empty where that is not claimed.
     pub apexes: Vec<Apex>,
-    /// Whether any two triangles share their common vertices and edges and nothing else, and none is flat.
+    /// True if any two triangles share their common vertices and edges and nothing else, and none is flat.
     pub embedded: bool,
-    /// Whether each closed component has the side that it bounds behind it: outer ones face outwards, those within an odd number of
+    /// True if each closed component has the side that it bounds behind it: outer ones face outwards, those within an odd number of
     /// others inwards. True of a surface without closed components; claimed of embedded, oriented manifolds alone.
     pub outward: bool,
     /// The largest distance of a vertex from its row, 0 where points were not moved.
@@ -118,7 +118,7 @@ pub struct SurfaceCertificate {
     pub points_hash: PointsHash,
 }
 
-/// What was proved of a surface.
+/// The proved facts about a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SurfaceVerdict {
     /// Rows there are.
@@ -135,21 +135,21 @@ pub struct SurfaceVerdict {
     pub genus: Option<u64>,
     /// Rows that were left out as outliers, which the balls of triangles may hold.
     pub outliers: u64,
-    /// Whether it has no boundary.
+    /// True if it has no boundary.
     pub is_closed: bool,
-    /// Whether each edge has at most two triangles, and each vertex one fan of them.
+    /// True if each edge has at most two triangles, and each vertex one fan of them.
     pub is_manifold: bool,
-    /// Whether the two triangles of each edge run along it in opposite directions.
+    /// True if the two triangles of each edge run along it in opposite directions.
     pub is_oriented: bool,
-    /// Whether the surface meets itself nowhere.
+    /// True if the surface meets itself nowhere.
     pub is_embedded: bool,
-    /// Whether each triangle is a Delaunay triangle of the places of all rows but outliers.
+    /// True if each triangle is a Delaunay triangle of the places of all rows but outliers.
     pub is_delaunay: bool,
-    /// Whether each closed component has the side that it bounds behind it.
+    /// True if each closed component has the side that it bounds behind it.
     pub is_outward: bool,
     /// The largest distance of a vertex from its row, rounded up.
     pub displacement: f64,
-    /// Whether it is an oriented embedded manifold of Delaunay triangles that faces outwards.
+    /// True if it is an oriented embedded manifold of Delaunay triangles that faces outwards.
     pub certified: bool,
     /// Where it is not, the first reason.
     pub doubt: Option<SurfaceDoubt>,

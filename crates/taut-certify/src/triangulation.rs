@@ -17,7 +17,7 @@ pub(crate) use check::{
 pub use fingerprint::{Fingerprint, FingerprintFormError, SiteHash, fingerprint};
 pub use violation::MeshViolation;
 
-/// In [`TriangulationCertificate::neighbors`]: there is no neighbour, the facet lies on the hull.
+/// In [`TriangulationCertificate::neighbors`]: there is no neighbor, the facet lies on the hull.
 pub const NO_NEIGHBOR: u32 = u32::MAX;
 
 /// The Delaunay triangulation of the points of a set in the plane or in space.
@@ -64,7 +64,7 @@ impl Triangulation {
         self.simplices.len().checked_div(self.vertices_per_simplex()).unwrap_or(0)
     }
 
-    /// Whether there is no simplex, which is so for no points alone.
+    /// Returns true if there is no simplex, which is so for no points alone.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -75,7 +75,7 @@ impl Triangulation {
     }
 }
 
-/// What makes the check of a [`Triangulation`] one linear pass, and ties it to its points.
+/// The data that make the check of a [`Triangulation`] one linear pass, and tie it to its points.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(try_from = "json::CertificateDocument")]
 pub struct TriangulationCertificate {
@@ -87,7 +87,7 @@ pub struct TriangulationCertificate {
     pub fingerprint: Fingerprint,
     /// The hash of the rows this was made for.
     pub points_hash: PointsHash,
-    /// How many there are of what.
+    /// The counts of the triangulation.
     pub counts: TriangulationCounts,
 }
 
@@ -106,10 +106,10 @@ pub struct TriangulationCounts {
     pub hull: u64,
 }
 
-/// What was proved of a triangulation: it is the Delaunay triangulation of these points.
+/// The proved facts about a triangulation: it is the Delaunay triangulation of these points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct TriangulationVerdict {
-    /// How many there are of what.
+    /// The counts of the triangulation.
     pub counts: TriangulationCounts,
     /// The fingerprint of the simplices.
     pub fingerprint: Fingerprint,

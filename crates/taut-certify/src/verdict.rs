@@ -1,4 +1,4 @@
-//! What a checker says.
+//! The verdicts and violations of checkers.
 
 use serde::Serialize;
 use taut_points::ReadError;
@@ -8,7 +8,7 @@ use crate::{
     SurfaceViolation,
 };
 
-/// What was proved of an enclosing shape.
+/// The proved facts about an enclosing shape.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Verdict {
     /// No enclosing shape is smaller than this.
@@ -33,9 +33,9 @@ pub enum Violation {
         found: String,
     },
     /// The answer has another dimension than the points.
-    #[error("the centre has {}, but the points have dimension {expected}", Counted(*found, "number"))]
+    #[error("the center has {}, but the points have dimension {expected}", Counted(*found, "number"))]
     Dimension {
-        /// Coordinates of the centre.
+        /// Coordinates of the center.
         found: usize,
         /// Dimension of the points.
         expected: usize,
@@ -57,7 +57,7 @@ pub enum Violation {
         what: String,
         /// Its value.
         value: f64,
-        /// What would have been accepted.
+        /// The values that would have been accepted.
         expected: &'static str,
     },
     /// A coordinate of the input is NaN or infinite.
@@ -78,8 +78,8 @@ pub enum Violation {
         /// Its radius.
         value: f64,
     },
-    /// The certificate speaks of balls, but the rows have no room for a centre and a radius.
-    #[error("a ball needs a centre and a radius, but rows have {}", Counted(*columns, "column"))]
+    /// The certificate speaks of balls, but the rows have no room for a center and a radius.
+    #[error("a ball needs a center and a radius, but rows have {}", Counted(*columns, "column"))]
     NoRadius {
         /// Columns there are.
         columns: usize,
@@ -108,7 +108,7 @@ pub enum Violation {
         position: usize,
         /// The point it names.
         point: u64,
-        /// What is wrong with that.
+        /// The reason for the refusal.
         problem: &'static str,
     },
     /// A support was to be proved exactly, which is done in the plane alone.
@@ -138,7 +138,7 @@ pub enum Violation {
         position: usize,
         /// The row it names.
         row: u64,
-        /// What is wrong with that.
+        /// The reason for the refusal.
         problem: &'static str,
     },
     /// A hull is given where the ellipsoid has the dimension of the space.
@@ -152,31 +152,31 @@ pub enum Violation {
     /// The multipliers are not convex.
     #[error("the multipliers sum to {sum:?}: expected 1")]
     MultiplierSum {
-        /// What they sum to.
+        /// Their sum.
         sum: f64,
     },
-    /// The centre is not the combination of the support that the multipliers say.
+    /// The center is not the combination of the support that the multipliers say.
     #[error(
-        "coordinate {column} of the centre is {claimed:?}, but the multipliers give {found:?}, {difference:e} beside it"
+        "coordinate {column} of the center is {claimed:?}, but the multipliers give {found:?}, {difference:e} beside it"
     )]
     Center {
         /// Coordinate, from 0.
         column: usize,
-        /// What the answer says.
+        /// The value that the answer claims.
         claimed: f64,
-        /// What the certificate gives.
+        /// The value that the certificate gives.
         found: f64,
-        /// found − claimed, with the tail of the centre and before both were rounded to one `f64`.
+        /// found − claimed, with the tail of the center and before both were rounded to one `f64`.
         difference: f64,
     },
     /// A point lies outside the answer.
     #[error(
-        "point {row} lies {distance:?} from the centre, outside the radius {radius:?}, by {excess:e}"
+        "point {row} lies {distance:?} from the center, outside the radius {radius:?}, by {excess:e}"
     )]
     Outside {
         /// The first such point, from 0.
         row: u64,
-        /// How far it reaches from the centre.
+        /// The distance that it reaches from the center.
         distance: f64,
         /// The claimed radius.
         radius: f64,
@@ -186,9 +186,9 @@ pub enum Violation {
     /// The gap proved is larger than the gap claimed.
     #[error("the multipliers prove a gap of {proved:e}, the certificate claims {claimed:e}")]
     Gap {
-        /// What the certificate says.
+        /// The value that the certificate claims.
         claimed: f64,
-        /// What the checker finds.
+        /// The result of the checker.
         proved: f64,
     },
     /// An item reaches outside the ellipsoid.
@@ -196,7 +196,7 @@ pub enum Violation {
     OutsideEllipsoid {
         /// The first such row, from 0.
         row: u64,
-        /// How far it reaches: 1 is the border.
+        /// The distance that it reaches: 1 is the border.
         norm: f64,
         /// norm − 1.
         excess: f64,
@@ -214,7 +214,7 @@ pub enum Violation {
     NotOutside {
         /// The first such row, from 0.
         row: u64,
-        /// How far it reaches: 1 is the border.
+        /// The distance that it reaches: 1 is the border.
         norm: f64,
     },
     /// The matrix of an ellipsoid is not its factor multiplied out, or not symmetric.
@@ -224,17 +224,17 @@ pub enum Violation {
         row: usize,
         /// Column, from 0.
         column: usize,
-        /// What the answer says.
+        /// The value that the answer claims.
         claimed: f64,
-        /// What the factor gives.
+        /// The value that the factor gives.
         found: f64,
     },
     /// The log-volume is not that of the factor.
     #[error("the log-volume is {claimed:?}, but the factor gives {found:?}")]
     LogVolume {
-        /// What the answer says.
+        /// The value that the answer claims.
         claimed: f64,
-        /// What the factor gives, infinite when it is singular.
+        /// The value that the factor gives, infinite when it is singular.
         found: f64,
     },
     /// The basis of the hull is not orthonormal.
@@ -252,7 +252,7 @@ pub enum Violation {
     Span {
         /// Row, from 0.
         row: usize,
-        /// How far off, relatively.
+        /// The relative deviation.
         off: f64,
     },
     /// An item lies farther from the hull than stated.
@@ -260,7 +260,7 @@ pub enum Violation {
     OffHull {
         /// The first such row, from 0.
         row: u64,
-        /// How far off.
+        /// The deviation.
         distance: f64,
         /// The distance stated.
         claimed: f64,
@@ -270,7 +270,7 @@ pub enum Violation {
     NotFlat {
         /// The distance stated.
         distance: f64,
-        /// What would have been accepted.
+        /// The values that would have been accepted.
         allowed: f64,
     },
     /// The gap proved for a log-volume is larger than the gap claimed.
@@ -278,9 +278,9 @@ pub enum Violation {
         "the multipliers prove a gap of {proved:e} in log-volume, the certificate claims {claimed:e}"
     )]
     LogGap {
-        /// What the certificate says.
+        /// The value that the certificate claims.
         claimed: f64,
-        /// What the checker finds.
+        /// The result of the checker.
         proved: f64,
     },
     /// The ellipsoid around the points that a robust fit keeps is said to be around something else.
@@ -310,7 +310,7 @@ pub enum Violation {
         most: f64,
     },
     /// A robust estimate says that nothing was weighed out for a reason that does not hold.
-    #[error("points are said not to be weighed anew because {reason}, which is not so")]
+    #[error("points are said not to be weighed again because {reason}, which is not so")]
     Reweighting {
         /// The reason given.
         reason: &'static str,
@@ -320,7 +320,7 @@ pub enum Violation {
         "the multipliers prove a gap of {gap:e}, and none can be negative: some shape matrix is too far from positive semidefinite for this answer"
     )]
     NegativeGap {
-        /// What the checker finds.
+        /// The result of the checker.
         gap: f64,
     },
     /// A number of a robust estimate is not what the points give.
@@ -328,9 +328,9 @@ pub enum Violation {
     Estimate {
         /// The number in question.
         what: String,
-        /// What the answer or certificate says.
+        /// The value that the answer or certificate claims.
         claimed: f64,
-        /// What was found.
+        /// The value found.
         found: f64,
     },
     /// A list of rows of a robust estimate names a row that does not belong there, or lacks one that does.
@@ -359,7 +359,7 @@ pub enum Violation {
         /// Its squared distance.
         nearer: f64,
     },
-    /// Something is wrong with centres.
+    /// Something is wrong with centers.
     #[error(transparent)]
     Centers(#[from] CentersViolation),
     /// Something is wrong with an inscribed circle.
@@ -379,7 +379,7 @@ pub enum Violation {
     Mesh(#[from] MeshViolation),
 }
 
-/// What a violation blames: the answer, one point, or the point set.
+/// The object at fault in a violation: the answer, one point, or the point set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
     /// The answer or its certificate.

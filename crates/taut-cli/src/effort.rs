@@ -1,4 +1,4 @@
-//! How much of the machine is used and how much is said on the way, the same for every subcommand.
+//! Options for the use of the machine and for messages, the same for every subcommand.
 
 use anyhow::{anyhow, bail};
 use taut::points::{THREADS_MAX, check_threads};
@@ -54,7 +54,7 @@ fn threads(text: &str) -> Result<usize, String> {
         .ok_or_else(|| format!("expected a whole number from 1 to {THREADS_MAX}"))
 }
 
-/// What the variable `TAUT_THREADS` asks for, if it is set and not empty.
+/// Returns what the variable `TAUT_THREADS` asks for, if it is set and not empty.
 fn threads_of_environment() -> anyhow::Result<Option<usize>> {
     let Some(text) = std::env::var_os("TAUT_THREADS").filter(|text| !text.is_empty()) else {
         return Ok(None);

@@ -1,4 +1,4 @@
-//! How the command ends: one exit code, and for a failure one line on standard error.
+//! Defines how the command ends: one exit code, and for a failure one line on standard error.
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -9,7 +9,7 @@ use crate::watch;
 /// The exit code for bad input or usage, and for what the system refuses.
 pub(crate) const FAILURE_CODE: u8 = 2;
 
-/// How a subcommand that did not fail ended.
+/// The way in which a subcommand that did not fail ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Outcome {
     /// Done and as asked.
@@ -38,7 +38,7 @@ pub(crate) fn code(end: anyhow::Result<Outcome>) -> ExitCode {
 /// Says why there is no command to run: help and the version on standard output, or what is wrong with the words given.
 pub(crate) fn unparsed(unparsed: &clap::Error) -> ExitCode {
     if unparsed.use_stderr() {
-        // Whether anybody hears it changes nothing.
+        // The result is the same if nobody reads it.
         unparsed.print().ok();
         return ExitCode::from(FAILURE_CODE);
     }

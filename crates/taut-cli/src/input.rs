@@ -1,4 +1,4 @@
-//! What a subcommand reads: points, answers, amounts of memory.
+//! The inputs of a subcommand: points, answers, amounts of memory.
 
 pub(crate) mod answer_file;
 pub(crate) mod choice;

@@ -1,4 +1,4 @@
-//! What happens when the system gives no more memory: one line on standard error and exit code 2, not an abort.
+//! Handles the case that the system gives no more memory: one line on standard error and exit code 2, not an abort.
 //!
 //! *Idea.* The allocator of the command is that of the system, except that it ends the process where that returns nothing.
 //! Callers that handle a failure say so ([`failure_is_handled`]) and get it returned.
@@ -57,7 +57,7 @@ fn checked(memory: *mut u8, size: usize) -> *mut u8 {
 /// Says that `size` bytes are not to be had, removes temporary files, and ends the process with exit code 2.
 #[cold]
 fn end(size: usize) -> ! {
-    /// Whether a thread is on this way already: one message is enough.
+    /// States whether a thread is on this way already: one message is enough.
     static ENDING: AtomicBool = AtomicBool::new(false);
     while ENDING.swap(true, Ordering::SeqCst) {
         std::thread::sleep(Duration::from_millis(10));

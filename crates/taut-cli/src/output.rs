@@ -1,4 +1,4 @@
-//! What a subcommand writes: files that appear whole, pictures, numbers as people read them.
+//! The outputs of a subcommand: files that appear whole, pictures, numbers as people read them.
 
 pub(crate) mod files;
 pub(crate) mod numbers;

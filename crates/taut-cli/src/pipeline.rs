@@ -20,15 +20,14 @@ use crate::watch::Watch;
 
 /// A subcommand that finds one shape: its input, its solver and its outputs.
 pub(crate) trait Find {
-    /// What it finds.
     type Answer: Summary;
-    /// What the solver keeps beside the answer, for outputs of its own.
+    /// The data that the solver keeps beside the answer, for outputs of its own.
     type Extra;
 
     /// The rows, and how they are read.
     fn input(&self) -> Input<'_>;
 
-    /// What every subcommand does with its answer.
+    /// Describes what the subcommand does with its answer.
     fn output(&self) -> Output<'_>;
 
     /// Refuses options and names of files, before any work.
@@ -68,7 +67,7 @@ pub(crate) trait Find {
         }
     }
 
-    /// How the command ends once the answer is written.
+    /// Returns how the command ends once the answer is written.
     fn outcome(&self, _found: &Solution<Self::Answer>) -> Outcome {
         Outcome::Done
     }
@@ -82,7 +81,7 @@ pub(crate) struct Input<'a> {
     pub(crate) effort: &'a Effort,
 }
 
-/// What is done with an answer.
+/// The outputs of an answer.
 #[derive(Clone, Copy)]
 pub(crate) struct Output<'a> {
     pub(crate) no_verify: bool,
@@ -225,7 +224,7 @@ impl<'a> Output<'a> {
         }
     }
 
-    /// Whether the answer goes to standard output, where then nothing else does.
+    /// Returns true if the answer goes to standard output, where then nothing else does.
     pub(crate) fn is_standard_output(&self) -> bool {
         self.out.is_some_and(writing::is_stream)
     }

@@ -1,4 +1,4 @@
-//! What is said about an answer: the same fields on the terminal, beside pictures and in the tour.
+//! The report about an answer: the same fields on the terminal, beside pictures and in the tour.
 
 pub(crate) mod ball;
 pub(crate) mod centers;
@@ -28,12 +28,12 @@ pub(crate) struct Report<'a, A: Answer> {
     pub(crate) verdict: Option<A::Verdict>,
 }
 
-/// What there is to say and to show of one kind of answer.
+/// The report and the pictures of one kind of answer.
 pub(crate) trait Summary: Answer + Figures {
-    /// What messages call an answer that no file holds yet.
+    /// The name in messages of an answer that no file holds yet.
     const FOUND: &'static str;
 
-    /// What this is, in one line.
+    /// Returns one line that names the answer.
     fn title(report: &Report<'_, Self>) -> String;
 
     /// The numbers, each with its name.
@@ -47,7 +47,7 @@ pub(crate) trait Summary: Answer + Figures {
         None
     }
 
-    /// What the checker found to be so.
+    /// Returns what the checker found to be so.
     fn claims(found: &Solution<Self>, verdict: &Self::Verdict, source: &dyn PointSource) -> Claims;
 }
 
@@ -82,24 +82,24 @@ pub(crate) struct Field {
     pub(crate) name: &'static str,
     pub(crate) value: String,
     pub(crate) remark: Option<String>,
-    /// How far the checker stands behind it; `None` for what is only told.
-    pub(crate) standing: Option<Standing>,
+    /// The strength of the evidence for it; `None` for what is only told.
+    pub(crate) standing: Option<EvidenceKind>,
 }
 
-/// How far the checker stands behind a claim: `docs/certificates.md` says for each why.
+/// The strength of the evidence for a claim: `docs/certificates.md` says for each why.
 #[derive(Clone, Copy, PartialEq)]
-pub(crate) enum Standing {
+pub(crate) enum EvidenceKind {
     /// Derived from the input and the certificate alone.
     Proved,
     /// Found in the data by a test that can be wrong.
     Evidence,
 }
 
-impl Standing {
+impl EvidenceKind {
     fn word(self) -> &'static str {
         match self {
-            Standing::Proved => "proved",
-            Standing::Evidence => "evidence",
+            EvidenceKind::Proved => "proved",
+            EvidenceKind::Evidence => "evidence",
         }
     }
 }
@@ -111,12 +111,12 @@ impl Field {
 
     /// A claim that the checker derived.
     pub(crate) fn proved(name: &'static str, value: impl Into<String>) -> Self {
-        Field { standing: Some(Standing::Proved), ..Field::new(name, value) }
+        Field { standing: Some(EvidenceKind::Proved), ..Field::new(name, value) }
     }
 
     /// A claim that a test found likely.
     pub(crate) fn evidence(name: &'static str, value: impl Into<String>) -> Self {
-        Field { standing: Some(Standing::Evidence), ..Field::new(name, value) }
+        Field { standing: Some(EvidenceKind::Evidence), ..Field::new(name, value) }
     }
 
     pub(crate) fn remark(mut self, remark: impl Into<String>) -> Self {
@@ -125,7 +125,7 @@ impl Field {
     }
 }
 
-/// What a checker found to be so of an answer: what it is about in one line, and claim by claim.
+/// The findings of a checker about an answer: their subject in one line, and claim by claim.
 pub(crate) struct Claims {
     /// The answer, the inputs that it is about and how many of them, and the options it rests on.
     pub(crate) what: String,
@@ -145,7 +145,7 @@ impl Claims {
     }
 }
 
-/// How many inputs there are, of which kind, and in how many dimensions: "5,000 points in 3 dimensions".
+/// Returns how many inputs there are, of which kind, and in how many dimensions: "5,000 points in 3 dimensions".
 pub(crate) fn inputs(items: Items, rows: u64, columns: usize) -> String {
     let dim = counted(items.dim(columns) as u64, "dimension");
     format!("{} in {dim}", counted(rows, noun(items)))
@@ -190,7 +190,6 @@ pub(crate) fn share(some: u64, all: u64) -> String {
     format!("{} ({percent} %)", count(some))
 }
 
-/// What one item is called.
 pub(crate) fn noun(items: Items) -> &'static str {
     match items {
         Items::Points => "point",
@@ -199,9 +198,9 @@ pub(crate) fn noun(items: Items) -> &'static str {
     }
 }
 
-/// The centre beside a size, with a word on what is left out of many coordinates.
-pub(crate) fn centre(center: &[f64], size: f64) -> Field {
-    let mut field = Field::new("centre", coordinates(center, size));
+/// The center beside a size, with a word on what is left out of many coordinates.
+pub(crate) fn center(center: &[f64], size: f64) -> Field {
+    let mut field = Field::new("center", coordinates(center, size));
     if abridged(center) {
         field.value += &format!(" {} in all", count(center.len() as u64));
         field = field.remark("the JSON holds them (-o FILE)");
@@ -212,7 +211,7 @@ pub(crate) fn centre(center: &[f64], size: f64) -> Field {
 /// The numbers of at most this many rows are shown.
 const SHOWN_ROWS_MAX: usize = 8;
 
-/// How many rows there are, and the numbers of the first, counted from 1 as in the file.
+/// Returns how many rows there are, and the numbers of the first, counted from 1 as in the file.
 pub(crate) fn rows_of(name: &'static str, rows: &[u64]) -> Field {
     let field = Field::new(name, count(rows.len() as u64));
     let row = |&row: &u64| row.saturating_add(1).to_string();
@@ -269,7 +268,7 @@ pub(crate) fn text(title: &str, fields: &[Field]) -> String {
     std::iter::once(format!("{title}\n")).chain(lines).collect()
 }
 
-/// Whether a run that asked for the gap `epsilon`, stopped for that reason and has the gap `gap` got what it asked for.
+/// Tests whether a run that asked for the gap `epsilon`, stopped for that reason and has the gap `gap` got what it asked for.
 pub(crate) fn outcome(stop: Stop, gap: f64, epsilon: f64) -> Outcome {
     match stop {
         Stop::PassBudget | Stop::NodeBudget | Stop::ProofBudget => Outcome::StoppedEarly,

@@ -19,9 +19,9 @@ use crate::output::writing;
 /// Exit code after an interrupt: 128 and the number of the signal, as shells have it.
 pub(crate) const INTERRUPT_CODE: u8 = 130;
 
-/// Whether an interrupt was asked for while somebody looked.
+/// States whether an interrupt was asked for while somebody looked.
 static STOP: AtomicBool = AtomicBool::new(false);
-/// Whether somebody looks.
+/// States whether somebody looks.
 static WATCHED: AtomicBool = AtomicBool::new(false);
 
 /// Work that is over sooner than this is not worth a bar.
@@ -46,7 +46,7 @@ pub(crate) fn survive_file_limits() {
     signal_hook::flag::register(signal_hook::consts::SIGXFSZ, std::sync::Arc::default()).ok();
 }
 
-/// Whether watched work was asked to stop.
+/// Returns true if watched work was asked to stop.
 pub(crate) fn interrupted() -> bool {
     STOP.load(Ordering::SeqCst)
 }
@@ -71,7 +71,7 @@ impl Watch {
         }
     }
 
-    /// Does one step of work with a monitor that shows it as `what` and hears interrupts.
+    /// Does one step of work with a monitor that shows it as `what` and handles interrupts.
     pub(crate) fn during<R>(&self, what: &str, work: impl FnOnce(&Monitor<'_>) -> R) -> R {
         let lines = self.how == Progress::Always && !self.terminal;
         let bars = self.how != Progress::Never && self.terminal;

@@ -5,7 +5,7 @@
 
 use taut_predicates::{Sign, plane, space};
 
-/// What a set of distinct sites spans.
+/// The affine hull that a set of distinct sites spans.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Span<const V: usize> {
     Nothing,
@@ -17,7 +17,6 @@ pub(crate) enum Span<const V: usize> {
     Full([u32; V]),
 }
 
-/// What sites of the plane span.
 pub(crate) fn span_of_plane(sites: &[[f64; 2]]) -> Span<3> {
     match sites.len() {
         0 => Span::Nothing,
@@ -31,7 +30,7 @@ pub(crate) fn span_of_plane(sites: &[[f64; 2]]) -> Span<3> {
     }
 }
 
-/// Whether three points of space lie on a line: they do in all three projections.
+/// Tests whether three points of space lie on a line: they do in all three projections.
 fn collinear(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> bool {
     [[0, 1], [1, 2], [2, 0]].iter().all(|&[i, j]| {
         let project = |p: [f64; 3]| [p[i], p[j]];
@@ -39,7 +38,6 @@ fn collinear(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> bool {
     })
 }
 
-/// What sites of space span.
 pub(crate) fn span_of_space(sites: &[[f64; 3]]) -> Span<4> {
     match sites.len() {
         0 => return Span::Nothing,

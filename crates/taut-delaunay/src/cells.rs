@@ -27,7 +27,7 @@ pub(crate) use index::Index;
 use crate::kernel::{Counters, Settings};
 use crate::simplex::Slots;
 use crate::{Error, InsertionOrder};
-use cell::{Cell, Whole};
+use cell::{Cell, SharedData};
 use index::LEAF_SIZE;
 
 /// A cell has at least this many sites of its own, unless more cells are asked for: below, halos outweigh it.
@@ -47,7 +47,7 @@ pub(crate) fn triangulate<const D: usize, const V: usize, G: Geometry<D, V>>(
 ) -> Result<Option<(Slots<V>, Counters)>, Error> {
     let index = Index::build(sites);
     let hopeless = AtomicBool::new(false);
-    let whole = Whole { sites, index: &index, start, settings, order, hopeless: &hopeless };
+    let whole = SharedData { sites, index: &index, start, settings, order, hopeless: &hopeless };
     let leaves = sites.len().div_ceil(LEAF_SIZE);
     let cells = cells.clamp(1, leaves);
     let cut = |k: usize| (leaves * k / cells * LEAF_SIZE).min(sites.len()) as u32;

@@ -1,4 +1,4 @@
-//! What a triangulation can refuse.
+//! The errors of a triangulation.
 
 use taut_points::{Cancelled, InputError, ReadError};
 

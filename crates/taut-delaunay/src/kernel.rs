@@ -1,4 +1,4 @@
-//! What the kernel of the plane and the kernel of space have in common, so that rounds, cells and canonical order are
+//! The parts that the kernel of the plane and the kernel of space have in common, so that rounds, cells and canonical order are
 //! written once.
 
 use taut_predicates::Stages;
@@ -7,7 +7,7 @@ use crate::simplex::Simplex;
 
 /// A mesh under construction: a Delaunay triangulation of the sites inserted so far, closed by ghosts.
 ///
-/// Sites are numbered by the caller; coordinates are normalised (no −0; magnitudes at most 2⁴⁰, or `filtered` is off).
+/// Sites are numbered by the caller; coordinates are normalized (no −0; magnitudes at most 2⁴⁰, or `filtered` is off).
 /// The perturbation is lexicographic in the coordinates, so the mesh is a function of the set of inserted sites.
 pub(crate) trait Kernel<const D: usize, const V: usize>: Sized {
     /// A mesh over these sites, none of them inserted yet.
@@ -18,10 +18,8 @@ pub(crate) trait Kernel<const D: usize, const V: usize>: Sized {
         Self::new((0..count).map(site).collect(), settings)
     }
 
-    /// How many sites are numbered.
     fn site_count(&self) -> u32;
 
-    /// A site.
     fn site(&self, site: u32) -> [f64; D];
 
     /// Begins with `first`, which must be affinely independent (any orientation).
@@ -47,14 +45,14 @@ pub(crate) trait Kernel<const D: usize, const V: usize>: Sized {
     fn finish(self) -> (Vec<Simplex<V>>, Option<Vec<[f64; D]>>, Counters);
 }
 
-/// What the kernels must know of the coordinates.
+/// The properties that the kernels must know of the coordinates.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Settings {
     /// Every coordinate is an integer.
     pub(crate) integral: bool,
     /// Magnitudes allow floating filters; otherwise each sign is taken exactly.
     pub(crate) filtered: bool,
-    /// Whether vector instructions may be used where the machine has them; without, the scalar path runs (the meshes are
+    /// True if vector instructions may be used where the machine has them; without, the scalar path runs (the meshes are
     /// identical).
     pub(crate) vectors: bool,
 }

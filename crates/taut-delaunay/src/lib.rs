@@ -4,7 +4,7 @@
 //! |---|---|---|---|
 //! | the simplices with their certificate | [`delaunay()`] | exact for every finite input; the same bytes for any number of threads | O(n log n) |
 //! | a triangulation to walk around in | [`Plane::build`], [`Space::build`] | a function of the point set alone | O(n log n) |
-//! | the nearest site, the simplex at a point, Voronoi cells, natural neighbours | [`Triangulation::locator`] | the simplex exactly, areas to rounding | O(log n) a question |
+//! | the nearest site, the simplex at a point, Voronoi cells, natural neighbors | [`Triangulation::locator`] | the simplex exactly, areas to rounding | O(log n) a question |
 //! | the alpha shape | [`Plane::alpha_complex`], [`Space::alpha_complex`] | emptiness exactly, radii to rounding | O(simplices) |
 //! | rows in the order in which sites are numbered, with its certificate | [`spatial_order`] | a function of the point set alone | O(n log n) |
 //! | given edges in it | [`Plane::constrained`] | exact; Delaunay as far as the edges let it | O(n), and O(k²) for an edge across k others |

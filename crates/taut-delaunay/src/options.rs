@@ -1,8 +1,8 @@
-//! How a triangulation is built. Nothing here changes which simplices it has.
+//! Defines how a triangulation is built. Nothing here changes which simplices it has.
 
 use taut_points::{Monitor, choice};
 
-/// How to build a triangulation; [`Default`] is what most people want.
+/// Options to build a triangulation; [`Default`] is what most people want.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DelaunayOptions<'a> {
     /// Threads to use, 1 to 1024; `None` takes those of the current rayon pool. The answer does not depend on it.
@@ -14,7 +14,7 @@ pub struct DelaunayOptions<'a> {
     /// Cells that threads share; `None` makes as many as there are threads, fewer when points are few. The answer does
     /// not depend on it.
     pub cells: Option<usize>,
-    /// Whether vector instructions are used where the machine has them. The answer does not depend on it.
+    /// True if vector instructions are used where the machine has them. The answer does not depend on it.
     pub vectors: bool,
     /// Watches the work and can stop it. Default [`Monitor::silent`].
     pub monitor: Monitor<'a>,

@@ -9,7 +9,7 @@ use taut_points::{
 
 use crate::Error;
 
-/// How to order points; [`Default`] is what most people want.
+/// Options to order points; [`Default`] is what most people want.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct OrderOptions<'a> {
     /// Along which curve. Default [`OrderCurve::Hilbert`].

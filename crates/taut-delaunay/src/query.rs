@@ -1,4 +1,4 @@
-//! What people do with a triangulation: find where a point lies, the nearest site, Voronoi cells, natural neighbours.
+//! Queries of a triangulation: find where a point lies, the nearest site, Voronoi cells, natural neighbors.
 //!
 //! Idea: sites lie along a Hilbert curve, so boxes over runs of them answer which site is nearest, whatever the sites
 //! span; a walk of a few steps from there finds the simplex.

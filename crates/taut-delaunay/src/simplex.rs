@@ -6,7 +6,7 @@ pub const GHOST: u32 = u32::MAX;
 /// In place of vertex 0: this slot holds no simplex.
 pub(crate) const DEAD_MARK: u32 = u32::MAX - 1;
 
-/// A triangle (`V = 3`) or a tetrahedron (`V = 4`) with its neighbours.
+/// A triangle (`V = 3`) or a tetrahedron (`V = 4`) with its neighbors.
 ///
 /// Vertices are site numbers in positive order. A ghost has [`GHOST`] among its vertices and is oriented as if that
 /// vertex lay far outside the hull, so that all simplices together close up to a sphere and every facet has two sides.
@@ -15,18 +15,18 @@ pub(crate) const DEAD_MARK: u32 = u32::MAX - 1;
 pub struct Simplex<const V: usize> {
     /// Site numbers; [`GHOST`] for the vertex at infinity.
     pub vertices: [u32; V],
-    /// Across the facet opposite vertex i: `neighbour << 2 | facet`, where `facet` is the place of the same facet in
-    /// the neighbour.
+    /// Across the facet opposite vertex i: `neighbor << 2 | facet`, where `facet` is the place of the same facet in
+    /// the neighbor.
     pub neighbors: [u32; V],
 }
 
 impl<const V: usize> Simplex<V> {
-    /// Whether the vertex at infinity is among the vertices.
+    /// Returns true if the vertex at infinity is among the vertices.
     pub fn is_ghost(&self) -> bool {
         self.vertices.contains(&GHOST)
     }
 
-    /// Whether this slot holds a simplex; if not, its other contents mean nothing.
+    /// Returns true if this slot holds a simplex; if not, its other contents mean nothing.
     pub fn is_live(&self) -> bool {
         self.vertices[0] != DEAD_MARK
     }
@@ -54,12 +54,12 @@ impl<const V: usize> Slots<V> {
         Self { begins: begins.collect(), parts }
     }
 
-    /// How many slots there are.
+    /// Returns how many slots there are.
     pub fn len(&self) -> usize {
         self.parts.iter().map(Vec::len).sum()
     }
 
-    /// Whether there is none.
+    /// Returns true if there is none.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -77,7 +77,7 @@ impl<const V: usize> Slots<V> {
         self.parts.iter().flatten()
     }
 
-    /// The live simplices in one array, numbered anew in the same order.
+    /// The live simplices in one array, numbered again in the same order.
     pub(crate) fn compact(&self) -> Vec<Simplex<V>> {
         let numbers: Vec<u32> = self
             .iter()

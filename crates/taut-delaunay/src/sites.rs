@@ -1,4 +1,4 @@
-//! From input rows to sites: distinct, normalised points, numbered along the Hilbert curve.
+//! From input rows to sites: distinct, normalized points, numbered along the Hilbert curve.
 //!
 //! Idea: a power-of-two scale changes no sign of any predicate, so coordinates are scaled, exactly, to where filters are
 //! safe and where gridded data become integers; −0 becomes 0; equal points become one site.
@@ -29,9 +29,9 @@ pub(crate) struct Sites<const D: usize> {
     pub(crate) rows: Vec<u32>,
     /// Each row that is not in `rows`, with the smallest row it equals; by row.
     pub(crate) duplicates: Vec<[u32; 2]>,
-    /// What the kernels must know.
+    /// The properties that the kernels must know.
     pub(crate) settings: Settings,
-    /// What the coordinates were multiplied with.
+    /// The factor that the coordinates were multiplied with.
     pub(crate) scale: Scale,
 }
 
@@ -84,7 +84,7 @@ impl<const D: usize> Sites<D> {
         }
         let largest = largest_magnitude(points)?;
         monitor.check()?;
-        let (scale, integral, filtered) = normalisation(points, largest);
+        let (scale, integral, filtered) = normalization(points, largest);
         let rows = hilbert_order(n, |i: usize| row::<T, D>(points, i).map(|x| scale.apply(x)));
         monitor.check()?;
         let settings = Settings { integral, filtered, vectors };
@@ -101,13 +101,11 @@ impl<const D: usize> Sites<D> {
         self.coordinates = self.rows.par_iter().with_min_len(TASK).map(site).collect();
     }
 
-    /// How many sites there are.
     pub(crate) fn len(&self) -> usize {
         self.rows.len()
     }
 }
 
-/// The largest magnitude of a coordinate.
 fn largest_magnitude<T: Scalar>(points: &Points<'_, T>) -> Result<f64, Error> {
     let dim = points.dim();
     let blocks = points.values().par_chunks(TASK * dim.max(1));
@@ -166,8 +164,8 @@ fn lowest_exponent_above<T: Scalar>(points: &Points<'_, T>, floor: i32) -> Optio
     Some(lowest)
 }
 
-/// How to scale, and whether coordinates are then integers, and filters safe.
-fn normalisation<T: Scalar>(points: &Points<'_, T>, largest: f64) -> (Scale, bool, bool) {
+/// Returns how to scale, and whether coordinates are then integers, and filters safe.
+fn normalization<T: Scalar>(points: &Points<'_, T>, largest: f64) -> (Scale, bool, bool) {
     if largest == 0.0 {
         return (Scale::by(0), true, true);
     }
@@ -187,7 +185,7 @@ fn normalisation<T: Scalar>(points: &Points<'_, T>, largest: f64) -> (Scale, boo
     }
 }
 
-/// Merges equal neighbours; the first of each run, which has the smallest row, stays.
+/// Merges equal neighbors; the first of each run, which has the smallest row, stays.
 fn merge<const D: usize>(coordinates: &mut Vec<[f64; D]>, rows: &mut Vec<u32>) -> Vec<[u32; 2]> {
     let any = coordinates.par_windows(2).with_min_len(TASK).any(|pair| pair[0] == pair[1]);
     let mut duplicates = Vec::new();

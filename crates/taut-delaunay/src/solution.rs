@@ -164,7 +164,7 @@ impl<const D: usize, const V: usize> Triangulation<D, V> {
         self.tables::<2, 3>(&Slots::of(vec![turned]), hashes)
     }
 
-    /// Whether a triangle in space is counter-clockwise in the first of the projections to xy, xz, yz where it is not
+    /// Tests whether a triangle in space is counter-clockwise in the first of the projections to xy, xz, yz where it is not
     /// flat.
     fn turns_left(&self, vertices: [u32; 3]) -> bool {
         let corners = vertices.map(|v| self.sites.coordinates[v as usize]);

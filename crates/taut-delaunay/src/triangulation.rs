@@ -18,7 +18,7 @@ pub type Plane = Triangulation<2, 3>;
 /// The Delaunay triangulation of points of space, and the ghosts that close it.
 pub type Space = Triangulation<3, 4>;
 
-/// What the sites span, and the simplices on it.
+/// The affine hull of the sites, and the simplices on it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Complex {
     /// There are no points.
@@ -46,7 +46,7 @@ pub struct Triangulation<const D: usize, const V: usize> {
     pub(crate) complex: Complex,
     pub(crate) slots: Slots<V>,
     pub(crate) counters: Counters,
-    /// How it was built, for the trace.
+    /// The way in which it was built, for the trace.
     pub(crate) method: &'static str,
 }
 
@@ -121,7 +121,6 @@ impl Space {
     }
 }
 
-/// What a build comes to.
 struct Built<const V: usize> {
     complex: Complex,
     slots: Slots<V>,
@@ -165,7 +164,7 @@ fn along_line<const D: usize>(sites: &Sites<D>) -> Vec<u32> {
     chain
 }
 
-/// How many cells to cut the sites into.
+/// Returns how many cells to cut the sites into.
 fn cells_for(
     sites: usize,
     least: usize,
@@ -209,7 +208,7 @@ fn full<const D: usize, const V: usize, G: Geometry<D, V>>(
     Ok(Built { complex: Complex::Full, slots: Slots::of(vec![simplices]), counters })
 }
 
-/// Points of space on a plane: with one more point off it, all of whose neighbours are in it.
+/// Points of space on a plane: with one more point off it, all of whose neighbors are in it.
 fn flat(sites: &Sites<3>, on: [u32; 3], options: &DelaunayOptions<'_>) -> Result<Built<4>, Error> {
     let top = sites.len() as u32;
     let mut coordinates = sites.coordinates.clone();
@@ -224,7 +223,7 @@ fn flat(sites: &Sites<3>, on: [u32; 3], options: &DelaunayOptions<'_>) -> Result
 }
 
 impl<const D: usize, const V: usize> Triangulation<D, V> {
-    /// How many sites (distinct points) there are.
+    /// Returns how many sites (distinct points) there are.
     pub fn site_count(&self) -> usize {
         self.sites.len()
     }
@@ -262,7 +261,7 @@ impl<const D: usize, const V: usize> Triangulation<D, V> {
         &self.sites.duplicates
     }
 
-    /// What the sites span, and the simplices there are if that is less than all dimensions.
+    /// Returns what the sites span, and the simplices there are if that is less than all dimensions.
     pub fn complex(&self) -> &Complex {
         &self.complex
     }
@@ -273,7 +272,7 @@ impl<const D: usize, const V: usize> Triangulation<D, V> {
         &self.slots
     }
 
-    /// The [`slots`](Self::slots) alone, in one array in which neighbours are found by their numbers. All else is given back.
+    /// The [`slots`](Self::slots) alone, in one array in which neighbors are found by their numbers. All else is given back.
     pub fn into_slots(self) -> Vec<Simplex<V>> {
         self.slots.into_array()
     }

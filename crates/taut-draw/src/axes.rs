@@ -28,7 +28,6 @@ pub(crate) struct Span {
 }
 
 impl Span {
-    /// The pixel of a number.
     pub(crate) fn place(&self, value: f64) -> f64 {
         self.pixels[0] + self.fraction(value) * (self.pixels[1] - self.pixels[0])
     }
@@ -42,7 +41,6 @@ impl Span {
         (value / self.unit / (self.high - self.low) * (self.pixels[1] - self.pixels[0])).abs()
     }
 
-    /// The pixel of a tick.
     pub(crate) fn tick(&self, tick: &Tick) -> f64 {
         self.pixels[0] + tick.fraction * (self.pixels[1] - self.pixels[0])
     }
@@ -64,7 +62,6 @@ pub(crate) fn padded(low: f64, high: f64, part: f64) -> [f64; 2] {
 pub(crate) struct Tick {
     /// Where, as a part of the interval.
     pub(crate) fraction: f64,
-    /// What it says.
     pub(crate) label: String,
 }
 
@@ -155,7 +152,7 @@ pub(crate) fn logarithmic(span: &Span, most: usize) -> Ticks {
     let width = span.high - span.low;
     let (first, last) = (span.low.ceil() as i32, span.high.floor() as i32);
     let stride = ((width / most.max(1) as f64).ceil() as i32).max(1);
-    // All plain or all raised, so that neighbours compare at a glance.
+    // All plain or all raised, so that neighbors compare at a glance.
     let plain = first >= -3 && last <= 4;
     let mut marks: Vec<(f64, String)> = (first..=last)
         .filter(|e| e.rem_euclid(stride) == 0)

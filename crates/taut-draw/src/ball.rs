@@ -2,19 +2,19 @@
 //!
 //! *Idea.* In the plane and in space the ball is drawn as it is. Beyond, a projection of it hides what matters: almost
 //! all points seem to lie deep inside, though many may touch the boundary. So there are two pictures: a projection
-//! along the two directions in which the support spreads most, and the distances of all points from the centre.
+//! along the two directions in which the support spreads most, and the distances of all points from the center.
 //! *Guarantee.* The items are read twice at most (once for all, once more for those drawn); what is left out is counted
 //! in the caption.
 
 use taut_certify::{Ball, BallCertificate, Items, Solution};
 use taut_points::PointSource;
 
+use crate::item_pass::{Measure, PassQuery, Scaled};
 use crate::marks::{agree, all_finite, all_there, support_marks};
 use crate::number::{count, counted, short};
 use crate::passes::{Words, passes};
 use crate::project::{dot, plane, to_unit_reach};
 use crate::scene::{Histogram, Input, Layer, Marks, Projected, Scene, histogram};
-use crate::survey::{Measure, Question, Scaled};
 use crate::{DrawOptions, Error, Figure, Tone};
 
 /// At most this many points of the support choose the directions of a projection: those with the largest multipliers, as
@@ -26,7 +26,7 @@ const PROJECTION_ITEM_COUNT: usize = 64;
 const PROJECTION_ITEM_WEIGHT: f64 = 1e-4;
 
 /// Pictures of a ball and its points: the plane for d ≤ 2, space for d = 3, a projection and the distances from the
-/// centre beyond; then the bounds and the gap by pass, where the trace has them.
+/// center beyond; then the bounds and the gap by pass, where the trace has them.
 ///
 /// # Errors
 /// [`Error::Mismatch`] when `source` is not what the ball was made for, [`Error::NonFinite`],
@@ -39,7 +39,7 @@ pub fn ball_figures(
     options.check()?;
     check(solution, source)?;
     let scaled = Scaled::new(&solution.answer);
-    let question = Question {
+    let question = PassQuery {
         items: solution.certificate.items,
         support: &solution.certificate.support,
         left_out: &[],
@@ -61,7 +61,7 @@ pub fn ball_figures(
     Ok(figures)
 }
 
-/// What the answer and its points must agree in before anything is drawn.
+/// Checks what the answer and its points must agree in before anything is drawn.
 fn check(solution: &Solution<Ball>, source: &dyn PointSource) -> Result<(), Error> {
     let (ball, certificate) = (&solution.answer, &solution.certificate);
     let dim = certificate.items.dim(source.dim());
@@ -70,7 +70,7 @@ fn check(solution: &Solution<Ball>, source: &dyn PointSource) -> Result<(), Erro
     agree("number of multipliers", certificate.support.len(), certificate.multipliers.len())?;
     all_there("number of points", &certificate.support, source.len())?;
     let center = ball.center.iter().chain(&ball.center_tail);
-    let numbers = (center.map(|v| ("a coordinate of the centre", v)))
+    let numbers = (center.map(|v| ("a coordinate of the center", v)))
         .chain([("the radius", &ball.radius)])
         .chain(certificate.multipliers.iter().map(|v| ("a multiplier", v)));
     all_finite(numbers)?;
@@ -80,7 +80,7 @@ fn check(solution: &Solution<Ball>, source: &dyn PointSource) -> Result<(), Erro
     Ok(())
 }
 
-/// What all pictures of one ball share.
+/// The data that all pictures of one ball share.
 struct Picture<'a> {
     solution: &'a Solution<Ball>,
     scaled: Scaled,
@@ -102,7 +102,7 @@ impl Picture<'_> {
         if gap.is_finite() && gap >= 0.0 { self.ball().radius / (1.0 + gap) } else { 0.0 }
     }
 
-    /// Whether the lower bound can be told from the ball by eye.
+    /// Returns true if the lower bound can be told from the ball by eye.
     fn lower_is_visible(&self) -> bool {
         let lower = self.lower();
         lower > 0.0 && self.ball().radius - lower > 0.004 * self.ball().radius
@@ -126,7 +126,7 @@ impl Picture<'_> {
         format!("Radius {}; {gap}.{bound}", short(self.ball().radius, 8))
     }
 
-    /// What is drawn of how many, and what the support is.
+    /// Returns what is drawn of how many, and what the support is.
     fn counts(&self) -> String {
         let thing = self.input.thing();
         let support = match self.certificate().support.len() as u64 {
@@ -143,7 +143,7 @@ impl Picture<'_> {
     fn others(&self) -> Vec<u64> {
         let mut support = self.certificate().support.clone();
         support.sort_unstable();
-        let ids = self.input.survey.ids.iter().copied();
+        let ids = self.input.item_pass.ids.iter().copied();
         ids.filter(|id| support.binary_search(id).is_err()).collect()
     }
 
@@ -226,17 +226,17 @@ impl Picture<'_> {
         let words = format!(
             "A shadow on the two directions in which the support spreads most.{shares} The circle is the shadow of the \
              ball: every {} falls inside it, and even one that touches the ball usually falls well inside; the \
-             distances from the centre tell which do.",
+             distances from the center tell which do.",
             self.input.thing()
         );
         let axes = [
-            "first direction of the support, from the centre",
-            "second direction, from the centre",
+            "first direction of the support, from the center",
+            "second direction, from the center",
         ];
         Ok(Projected { measure: &self.scaled, unit: self.scaled.unit, directions, words, axes })
     }
 
-    /// d > 3: how far every item reaches from the centre.
+    /// d > 3: how far every item reaches from the center.
     fn distances(&self) -> Result<Option<Figure>, Error> {
         let radius = self.ball().radius;
         if radius == 0.0 {
@@ -250,8 +250,8 @@ impl Picture<'_> {
         let words = Histogram {
             title: format!("How far the {}s reach", self.input.thing()),
             axis: match items {
-                Items::Points => "distance from the centre",
-                Items::Balls | Items::Ellipsoids => "distance from the centre to the far side",
+                Items::Points => "distance from the center",
+                Items::Balls | Items::Ellipsoids => "distance from the center to the far side",
             },
             border: ("radius", format!("radius {}", short(radius, 6))),
             reach: radius,

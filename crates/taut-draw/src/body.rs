@@ -6,8 +6,8 @@
 
 use taut_certify::{Ellipsoid, Items};
 
+use crate::item_pass::Measure;
 use crate::project::dot;
-use crate::survey::Measure;
 
 /// An ellipsoid, ready to be drawn.
 pub(crate) struct Body {
@@ -57,7 +57,7 @@ impl Body {
         self.factor.len()
     }
 
-    /// How far the ellipsoid reaches from its centre along a coordinate.
+    /// Returns how far the ellipsoid reaches from its center along a coordinate.
     pub(crate) fn half_width(&self, j: usize) -> f64 {
         let row: Vec<f64> = self.axes[j].iter().map(|v| v / self.scale).collect();
         length(&row)
@@ -73,7 +73,6 @@ impl Body {
         self.shadow_of_rows(&self.axes[j], &self.axes[k])
     }
 
-    /// The shadow on two directions.
     pub(crate) fn shadow_along(&self, directions: &[Vec<f64>; 2]) -> Shadow {
         let [a, b] = directions.each_ref().map(|direction| -> Vec<f64> {
             let along =
@@ -96,7 +95,7 @@ impl Body {
         Shadow([[wide, 0.0], [slope, length(&rest)]])
     }
 
-    /// The cut through the centre along two coordinates: {v : |F(vⱼeⱼ + vₖeₖ)| ≤ 1}.
+    /// The cut through the center along two coordinates: {v : |F(vⱼeⱼ + vₖeₖ)| ≤ 1}.
     pub(crate) fn cut(&self, j: usize, k: usize) -> Shadow {
         let column = |j: usize| -> Vec<f64> { self.factor.iter().map(|row| row[j]).collect() };
         let (a, b) = (column(j), column(k));
@@ -153,7 +152,7 @@ impl Measure for Body {
         places.map(|((x, c), tail)| ((x - c) - tail) * self.scale).collect()
     }
 
-    /// |F(x − c)| at the farthest point of the item; for balls and ellipsoids found by climbing from their centre.
+    /// |F(x − c)| at the farthest point of the item; for balls and ellipsoids found by climbing from their center.
     fn part(&self, row: &[f64], items: Items) -> f64 {
         let image =
             |offset: &[f64]| -> Vec<f64> { self.factor.iter().map(|f| dot(f, offset)).collect() };
@@ -167,7 +166,7 @@ impl Measure for Body {
             let upwards: Vec<f64> = (0..dim)
                 .map(|j| self.factor.iter().zip(&image_here).map(|(f, y)| f[j] * y).sum())
                 .collect();
-            // From the very centre no way leads up: any direction will do to leave it.
+            // From the very center no way leads up: any direction will do to leave it.
             let upwards = if length(&upwards) > 0.0 { upwards } else { vec![1.0; dim] };
             let point = touching(items, dim, row, &upwards);
             image_here = image(&self.offset(&point));
@@ -247,7 +246,7 @@ impl Shadow {
         Shadow([[wide, 0.0], [slope, rest]])
     }
 
-    /// The ellipse as a chain of `steps` corners about a centre, each axis in its own scale.
+    /// The ellipse as a chain of `steps` corners about a center, each axis in its own scale.
     pub(crate) fn chain(&self, center: [f64; 2], part: f64, steps: usize) -> Vec<[f64; 2]> {
         let [[a, _], [b, c]] = self.0;
         let corner = |i: usize| {

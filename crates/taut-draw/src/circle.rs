@@ -9,7 +9,7 @@ use taut_points::{PointSource, gather};
 use crate::marks::{agree, all_finite, all_there};
 use crate::number::{counted, short};
 use crate::{
-    Aspect, Circle2, DrawOptions, Error, Figure, Layer2, Look, Point2, Scene2, Shape2, Tone,
+    Aspect, Circle2, DrawOptions, Error, Figure, Layer2, LineStyle, Point2, Scene2, Shape2, Tone,
 };
 
 /// The picture of a circle in the polygon whose vertices are the rows of `source`.
@@ -41,7 +41,12 @@ pub fn circle_figures(
         label: format!("touches the edge from point {row}"),
     };
     let marks = touching.iter().zip(&certificate.touching).map(mark).collect();
-    let layer = |name: &str, tone, look, shape| Layer2 { name: name.to_owned(), tone, look, shape };
+    let layer = |name: &str, tone, line_style, shape| Layer2 {
+        name: name.to_owned(),
+        tone,
+        line_style,
+        shape,
+    };
     let circle = vec![Circle2 { id: None, center: answer.center, radius: answer.radius }];
     let lines = touching.iter().map(|edge| edge.to_vec()).collect();
     let vertices = counted(source.len(), "point");
@@ -61,10 +66,10 @@ pub fn circle_figures(
         y: options.axis(1, 2),
         aspect: Aspect::Equal,
         layers: vec![
-            layer("polygon", Tone::Point, Look::Solid, outline),
-            layer("largest circle", Tone::Answer, Look::Solid, Shape2::Circles(circle)),
-            layer("touching edges", Tone::Support, Look::Solid, Shape2::Polylines(lines)),
-            layer("touched at", Tone::Support, Look::Solid, Shape2::Points(marks)),
+            layer("polygon", Tone::Point, LineStyle::Solid, outline),
+            layer("largest circle", Tone::Answer, LineStyle::Solid, Shape2::Circles(circle)),
+            layer("touching edges", Tone::Support, LineStyle::Solid, Shape2::Polylines(lines)),
+            layer("touched at", Tone::Support, LineStyle::Solid, Shape2::Points(marks)),
         ],
         width: options.width,
         height: options.height,

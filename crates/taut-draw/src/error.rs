@@ -1,4 +1,4 @@
-//! What drawing can refuse.
+//! The errors of drawing.
 
 use taut_points::{ReadError, shown_number};
 
@@ -11,11 +11,11 @@ pub enum Error {
         "{what}: the answer has {expected}, the points have {found}; draw an answer with its own points"
     )]
     Mismatch {
-        /// What does not fit.
+        /// The object that does not fit.
         what: &'static str,
-        /// What the answer speaks of.
+        /// The number that the answer speaks of.
         expected: u64,
-        /// What the points have.
+        /// The value that the points have.
         found: u64,
     },
     /// A coordinate, a radius or a multiplier is NaN or infinite.
@@ -39,15 +39,15 @@ pub enum Error {
     Option {
         /// The option.
         name: &'static str,
-        /// What was given.
+        /// The value that was given.
         value: String,
-        /// What would have been accepted.
+        /// The values that would have been accepted.
         expected: &'static str,
     },
     /// The picture could not be made into pixels.
     #[error("the picture could not be made into PNG: {reason}")]
     Png {
-        /// What the renderer said.
+        /// The message of the renderer.
         reason: String,
     },
     /// The points could not be read.

@@ -91,7 +91,7 @@ impl Figure {
         }
     }
 
-    /// What the picture shows, in sentences, without markup.
+    /// Returns what the picture shows, in sentences, without markup.
     pub fn caption(&self) -> &str {
         match self {
             Figure::Plane(scene) => &scene.caption,

@@ -3,11 +3,11 @@
 //! | you have | you call | you get |
 //! |---|---|---|
 //! | a ball and its points | [`ball_figures`] | scenes of the plane or of space, and plots |
-//! | k centres and their items | [`centers_figures`] | the same, with all balls, what is left out and the core-set |
+//! | k centers and their items | [`centers_figures`] | the same, with all balls, what is left out and the core-set |
 //! | the radius for each of several k | [`elbow_figure`] | a plot of both bounds |
 //! | an ellipsoid and its points | [`ellipsoid_figures`] | scenes of the plane or of space, shadows on pairs of coordinates, and plots |
 //! | a robust ellipsoid and its points | [`robust_figures`] | the same with outliers apart, and the distance of each point |
-//! | an ellipsoid in a polytope, and its half-spaces | [`inscribed_figures`] | scenes of the plane or of space, cuts through the centre, and plots |
+//! | an ellipsoid in a polytope, and its half-spaces | [`inscribed_figures`] | scenes of the plane or of space, cuts through the center, and plots |
 //! | a circle in a polygon, and the ring | [`circle_figures`] | a scene of the plane, with the edges that are touched |
 //! | a triangulation and its points | [`delaunay_figures`] | scenes of the plane or of space, and the Voronoi diagram |
 //! | curves and their points | [`curve_figures`] | scenes of the plane, with the band of noise, outliers and ends |
@@ -48,6 +48,7 @@ mod error;
 mod figure;
 mod html;
 mod inscribed;
+mod item_pass;
 mod marks;
 mod number;
 mod options;
@@ -62,7 +63,6 @@ mod scene2;
 mod scene3;
 mod style;
 mod surface;
-mod survey;
 mod svg;
 mod text;
 
@@ -77,13 +77,13 @@ pub use figure::{Figure, Figures};
 pub use html::{Field, Page, Section, to_html};
 pub use inscribed::inscribed_figures;
 pub use options::DrawOptions;
-pub use plot::{Bar, Level, Plot, Scale, Series, SeriesLook};
+pub use plot::{Bar, Level, Plot, Scale, Series, SeriesStyle};
 #[cfg(feature = "png")]
 pub use png::to_png;
 pub use scene2::{Aspect, Axis, Circle2, Layer2, Point2, Scene2, Shape2, Text2};
 pub use scene3::{
     Layer3, Mesh3, Point3, Projection, Scene3, Shading, Shape3, Sphere3, Surface3, View, Views,
 };
-pub use style::{Look, Style, Theme, Tone};
+pub use style::{LineStyle, Style, Theme, Tone};
 pub use surface::{SurfaceView, UnusedPoints, surface_figures, surface_scene};
 pub use svg::to_svg;

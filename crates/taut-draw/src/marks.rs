@@ -1,12 +1,12 @@
-//! What pictures of balls and ellipsoids have in common: what an answer and its rows must agree in, how large marks are,
+//! The parts that pictures of balls and ellipsoids have in common: what an answer and its rows must agree in, how large marks are,
 //! and what they are called.
 
 use taut_certify::Items;
 
 use crate::Error;
+use crate::item_pass::noun;
 use crate::number::{count, counted, short};
 use crate::scene::Mark;
-use crate::survey::noun;
 
 /// An error unless both numbers are the same.
 pub(crate) fn agree(what: &'static str, expected: usize, found: usize) -> Result<(), Error> {
@@ -77,7 +77,7 @@ pub(crate) fn others_name(items: Items) -> String {
     }
 }
 
-/// What is drawn of all `n` items, where more than so many are not.
+/// Returns what is drawn of all `n` items, where more than so many are not.
 pub(crate) fn drawn_of(drawn: u64, n: u64, thing: &str, which: &str) -> String {
     match n {
         1 => format!(" The one {thing} is drawn."),

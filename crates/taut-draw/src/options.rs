@@ -1,10 +1,10 @@
-//! How to draw an answer.
+//! Options to draw an answer.
 
 use taut_points::shown_number;
 
 use crate::{Axis, Error};
 
-/// How to draw. Write `DrawOptions { max_points: 5_000, ..Default::default() }`.
+/// Options to draw. Write `DrawOptions { max_points: 5_000, ..Default::default() }`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrawOptions {
     /// Most items drawn, at least 1, default 20,000; the support of a ball is always drawn, and the caption names both

@@ -3,24 +3,24 @@
 use taut_certify::PassBounds;
 
 use crate::number::count;
-use crate::{Axis, DrawOptions, Plot, Scale, Series, SeriesLook, Tone};
+use crate::{Axis, DrawOptions, Plot, Scale, Series, SeriesStyle, Tone};
 
-/// What the bounds are bounds of.
+/// The words for the quantity that the bounds enclose.
 pub(crate) struct Words {
     /// "radius"
     pub(crate) quantity: &'static str,
     /// "the smallest radius"
     pub(crate) answer: &'static str,
     pub(crate) gap: Gap,
-    /// What there is a pair of bounds after, in singular and plural, and as the name of an axis.
+    /// The step after which there is a pair of bounds, in singular and plural, and as the name of an axis.
     pub(crate) step: [&'static str; 3],
-    /// What the upper bound is, and what it stands for; the same of the lower.
+    /// The name of the upper bound, and its role; the same of the lower.
     pub(crate) upper: (&'static str, Tone),
     pub(crate) lower: (&'static str, Tone),
 }
 
 impl Words {
-    /// What all shapes around points have in common; the rest is that of a ball.
+    /// The words that all shapes around points have in common; the rest is that of a ball.
     pub(crate) const ENCLOSING: Words = Words {
         quantity: "radius",
         answer: "the smallest radius",
@@ -31,7 +31,7 @@ impl Words {
     };
 }
 
-/// How the two bounds are compared.
+/// The way in which the two bounds are compared.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Gap {
     /// upper/lower − 1, for quantities that are at least 0; no lower bound is a lower bound of 0.
@@ -47,10 +47,10 @@ pub(crate) fn passes(history: &[PassBounds], words: &Words, options: &DrawOption
     }
     let long = history.len() > 200;
     let drawn = chosen(history.len(), 400);
-    let series = |name: &str, tone, look, value: &dyn Fn(usize) -> f64| Series {
+    let series = |name: &str, tone, style, value: &dyn Fn(usize) -> f64| Series {
         name: name.to_owned(),
         tone,
-        look,
+        style,
         points: drawn
             .iter()
             .map(|&i| [(i + 1) as f64, value(i)])
@@ -64,7 +64,7 @@ pub(crate) fn passes(history: &[PassBounds], words: &Words, options: &DrawOption
     } else {
         String::new()
     };
-    let look = if long { SeriesLook::Line } else { SeriesLook::LineAndDots };
+    let style = if long { SeriesStyle::Line } else { SeriesStyle::LineAndDots };
     let plot = |title: String, caption: String, y: Axis, y_scale, series| Plot {
         x_scale: if long { Scale::Log } else { Scale::Linear },
         y_scale,
@@ -72,8 +72,8 @@ pub(crate) fn passes(history: &[PassBounds], words: &Words, options: &DrawOption
         ..Plot::empty(title, caption, [Axis::named(axis), y], options)
     };
     let drawn_as = |tone: Tone| match tone {
-        Tone::Bound if long => SeriesLook::Dashed,
-        _ => look,
+        Tone::Bound if long => SeriesStyle::Dashed,
+        _ => style,
     };
     let gap = |i: usize| match (words.gap, &history[i]) {
         (Gap::Relative, PassBounds { upper: 0.0, .. }) => 0.0,
@@ -120,7 +120,7 @@ pub(crate) fn passes(history: &[PassBounds], words: &Words, options: &DrawOption
             gap_words,
             Axis::named(gap_name),
             Scale::Log,
-            vec![series("", Tone::Third, look, &gap)],
+            vec![series("", Tone::Third, style, &gap)],
         ),
     ]
 }

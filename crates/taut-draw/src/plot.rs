@@ -5,9 +5,9 @@ use crate::{Axis, DrawOptions, Tone};
 /// A chart: series, bars and levels over two axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plot {
-    /// What the chart is of.
+    /// The subject of the chart.
     pub title: String,
-    /// What it shows, in sentences, with every count named.
+    /// A description in sentences, with every count named.
     pub caption: String,
     /// Horizontal axis.
     pub x: Axis,
@@ -56,7 +56,7 @@ impl Plot {
     }
 }
 
-/// How numbers become places on an axis.
+/// The way in which numbers become places on an axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Scale {
     /// Equal differences are equally long.
@@ -71,23 +71,23 @@ pub enum Scale {
 pub struct Series {
     /// The entry in the legend; an empty name makes none.
     pub name: String,
-    /// What it stands for.
+    /// The role of the marks.
     pub tone: Tone,
     /// A curve, dots or both.
-    pub look: SeriesLook,
+    pub style: SeriesStyle,
     /// (x, y) in data units.
     pub points: Vec<[f64; 2]>,
 }
 
 impl Series {
     pub(crate) fn dots(name: String, tone: Tone, points: Vec<[f64; 2]>) -> Self {
-        Series { name, tone, look: SeriesLook::Dots, points }
+        Series { name, tone, style: SeriesStyle::Dots, points }
     }
 }
 
-/// How a series is drawn.
+/// The way in which a series is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum SeriesLook {
+pub enum SeriesStyle {
     /// A curve with a dot at each value.
     #[default]
     LineAndDots,
@@ -106,7 +106,7 @@ pub struct Bar {
     pub span: [f64; 2],
     /// Height, in data units.
     pub height: f64,
-    /// What it stands for.
+    /// The role of the marks.
     pub tone: Tone,
 }
 
@@ -117,7 +117,7 @@ pub enum Level {
     AtX {
         /// Where.
         x: f64,
-        /// What it stands for.
+        /// The role of the marks.
         tone: Tone,
         /// The word beside it.
         label: String,
@@ -126,7 +126,7 @@ pub enum Level {
     AtY {
         /// Where.
         y: f64,
-        /// What it stands for.
+        /// The role of the marks.
         tone: Tone,
         /// The word above it.
         label: String,

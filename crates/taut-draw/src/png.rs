@@ -10,7 +10,7 @@ use std::sync::{Arc, OnceLock};
 
 use resvg::usvg::{self, fontdb};
 
-use crate::svg::{Laid, layers};
+use crate::svg::{PlacedImage, layers};
 use crate::{Error, Figure, Style};
 
 /// Largest number of pixels of a picture: about 256 MiB while it is drawn.
@@ -52,8 +52,7 @@ pub fn to_png(figure: &Figure, style: &Style, scale: f32) -> Result<Vec<u8>, Err
     pixels.encode_png().map_err(|e| wrong(e.to_string()))
 }
 
-/// Draws an image in its place.
-fn lay(laid: &Laid, zoom: tiny_skia::Transform, onto: &mut tiny_skia::Pixmap) -> Option<()> {
+fn lay(laid: &PlacedImage, zoom: tiny_skia::Transform, onto: &mut tiny_skia::Pixmap) -> Option<()> {
     let (width, height) = (laid.image.width, laid.image.height);
     let mut pixels = tiny_skia::Pixmap::new(width as u32, height as u32)?;
     for (pixel, &[r, g, b, a]) in pixels.pixels_mut().iter_mut().zip(&laid.image.pixels) {

@@ -65,7 +65,7 @@ fn axis(dim: usize, k: usize) -> Vec<f64> {
 
 /// Makes two vectors orthonormal; a vector that vanishes becomes the coordinate axis least used by the other.
 fn frame(u: &mut Vec<f64>, v: &mut Vec<f64>) {
-    if !normalise(u) {
+    if !normalize(u) {
         *u = axis(u.len(), 0);
     }
     // Twice, since the first subtraction leaves rounding along u where v was almost parallel.
@@ -74,16 +74,16 @@ fn frame(u: &mut Vec<f64>, v: &mut Vec<f64>) {
         let along = dot(u, v);
         v.iter_mut().zip(u.iter()).for_each(|(x, y)| *x -= along * y);
     }
-    if dot(v, v).sqrt() <= 1e-9 * before || !normalise(v) {
+    if dot(v, v).sqrt() <= 1e-9 * before || !normalize(v) {
         let least = (0..u.len()).min_by(|&a, &b| u[a].abs().total_cmp(&u[b].abs())).unwrap_or(0);
         *v = axis(u.len(), least);
         let along = dot(u, v);
         v.iter_mut().zip(u.iter()).for_each(|(x, y)| *x -= along * y);
-        normalise(v);
+        normalize(v);
     }
 }
 
-fn normalise(v: &mut [f64]) -> bool {
+fn normalize(v: &mut [f64]) -> bool {
     let norm = dot(v, v).sqrt();
     let usable = norm > 0.0 && norm.is_finite();
     if usable {

@@ -1,19 +1,19 @@
 //! Pictures of the plane: layers of marks in data coordinates.
 
-use crate::{DrawOptions, Look, Tone};
+use crate::{DrawOptions, LineStyle, Tone};
 
 /// A picture in the plane, in data coordinates: axes and layers of marks, the first layer lowest.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene2 {
-    /// What the picture is of.
+    /// The subject of the picture.
     pub title: String,
-    /// What it shows, in sentences, with every count named.
+    /// A description in sentences, with every count named.
     pub caption: String,
     /// Horizontal axis.
     pub x: Axis,
     /// Vertical axis.
     pub y: Axis,
-    /// Whether both axes share one scale.
+    /// States whether both axes share one scale.
     pub aspect: Aspect,
     /// The marks.
     pub layers: Vec<Layer2>,
@@ -49,7 +49,7 @@ impl Scene2 {
     }
 }
 
-/// What an axis measures.
+/// The quantity that an axis measures.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Axis {
     /// The name of the quantity; an empty name hides the axis.
@@ -65,7 +65,7 @@ impl Axis {
     }
 }
 
-/// Whether one unit is as long on the vertical axis as on the horizontal one.
+/// States whether one unit is as long on the vertical axis as on the horizontal one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Aspect {
     /// Circles are round.
@@ -80,10 +80,10 @@ pub enum Aspect {
 pub struct Layer2 {
     /// The entry in the legend; an empty name makes none.
     pub name: String,
-    /// What the marks stand for.
+    /// The role of the marks.
     pub tone: Tone,
-    /// How lines and areas are drawn; points and text ignore it.
-    pub look: Look,
+    /// The way in which lines and areas are drawn; points and text ignore it.
+    pub line_style: LineStyle,
     /// The marks.
     pub shape: Shape2,
 }
@@ -114,7 +114,7 @@ pub struct Point2 {
     pub at: [f64; 2],
     /// Radius of the disc, pixels.
     pub size: f64,
-    /// What else to say on hovering; may be empty.
+    /// Further text on hovering; may be empty.
     pub label: String,
 }
 
@@ -123,7 +123,7 @@ pub struct Point2 {
 pub struct Circle2 {
     /// Its number in the input, from 0, shown on hovering.
     pub id: Option<u64>,
-    /// Its centre.
+    /// Its center.
     pub center: [f64; 2],
     /// Its radius, at least 0, in data units.
     pub radius: f64,

@@ -1,21 +1,21 @@
 //! Pictures of space: layers of marks in data coordinates, and the view of them.
 
-use crate::{Axis, DrawOptions, Look, Tone};
+use crate::{Axis, DrawOptions, LineStyle, Tone};
 
 /// A picture in space, in data coordinates: layers of marks and a view.
 ///
 /// In HTML the view is where turning starts; in SVG and PNG it is all there is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene3 {
-    /// What the picture is of.
+    /// The subject of the picture.
     pub title: String,
-    /// What it shows, in sentences, with every count named.
+    /// A description in sentences, with every count named.
     pub caption: String,
     /// The three axes.
     pub axes: [Axis; 3],
     /// The marks.
     pub layers: Vec<Layer3>,
-    /// How space is shown on the plane.
+    /// The way in which space is shown on the plane.
     pub projection: Projection,
     /// Turn of the view around the third axis, degrees.
     pub azimuth: f64,
@@ -49,10 +49,10 @@ impl Scene3 {
     }
 }
 
-/// How space is shown on the plane.
+/// The way in which space is shown on the plane.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Projection {
-    /// What is far is smaller.
+    /// Far objects are smaller.
     #[default]
     Perspective,
     /// Parallel lines stay parallel.
@@ -64,10 +64,10 @@ pub enum Projection {
 pub struct Layer3 {
     /// The entry in the legend; an empty name makes none.
     pub name: String,
-    /// What the marks stand for.
+    /// The role of the marks.
     pub tone: Tone,
-    /// How lines and areas are drawn; points ignore it.
-    pub look: Look,
+    /// The way in which lines and areas are drawn; points ignore it.
+    pub line_style: LineStyle,
     /// The marks.
     pub shape: Shape3,
 }
@@ -98,7 +98,7 @@ pub struct Point3 {
     pub at: [f64; 3],
     /// Radius of the disc, pixels.
     pub size: f64,
-    /// What else to say on hovering; may be empty.
+    /// Further text on hovering; may be empty.
     pub label: String,
 }
 
@@ -107,7 +107,7 @@ pub struct Point3 {
 pub struct Sphere3 {
     /// Its number in the input, from 0, shown on hovering.
     pub id: Option<u64>,
-    /// Its centre.
+    /// Its center.
     pub center: [f64; 3],
     /// Its radius, at least 0, in data units.
     pub radius: f64,
@@ -132,11 +132,11 @@ pub struct Surface3 {
     pub triangles: Vec<[u32; 3]>,
     /// The tone of the side from which triangles run clockwise.
     pub back: Tone,
-    /// How light falls on it.
+    /// The way in which light falls on it.
     pub shading: Shading,
 }
 
-/// How light falls on a surface.
+/// The way in which light falls on a surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Shading {
     /// Each triangle has one shade, so that triangles can be told apart. In SVG few of them are polygons.
@@ -149,7 +149,7 @@ pub enum Shading {
 /// One scene seen from several fixed directions, panel by panel; azimuth and elevation of the scene itself are not used.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Views {
-    /// What is seen; its width and height are those of all panels together.
+    /// The visible scene; its width and height are those of all panels together.
     pub scene: Scene3,
     /// From where, in reading order.
     pub views: Vec<View>,
@@ -158,7 +158,7 @@ pub struct Views {
 /// A direction from which a scene is seen.
 #[derive(Clone, Debug, PartialEq)]
 pub struct View {
-    /// What to call it; stands above the panel.
+    /// The name, which stands above the panel.
     pub name: String,
     /// Turn of the view around the third axis, degrees.
     pub azimuth: f64,

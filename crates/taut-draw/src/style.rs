@@ -1,17 +1,17 @@
-//! Colours by meaning, in a light and a dark theme.
+//! Colors by meaning, in a light and a dark theme.
 //!
-//! *Idea.* A mark names what it stands for ([`Tone`]), never a colour; a renderer writes the tone as a class, and a
-//! theme gives the class its colour. The palette is built on that of Okabe and Ito, which people with the common
-//! forms of colour blindness can tell apart; marks of differing meaning also differ in shape, size or dash.
+//! *Idea.* A mark names what it stands for ([`Tone`]), never a color; a renderer writes the tone as a class, and a
+//! theme gives the class its color. The palette is built on that of Okabe and Ito, which people with the common
+//! forms of color blindness can tell apart; marks of differing meaning also differ in shape, size or dash.
 
-/// How figures are coloured in SVG and PNG. Write `Style { theme: Theme::Dark, ..Default::default() }`.
+/// The way in which figures are colored in SVG and PNG. Write `Style { theme: Theme::Dark, ..Default::default() }`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Style {
     /// Dark ink on white, or light ink on near-black. Default [`Theme::Light`].
     pub theme: Theme,
 }
 
-/// The two sets of colours.
+/// The two sets of colors.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Theme {
     /// For paper and bright screens.
@@ -21,7 +21,7 @@ pub enum Theme {
     Dark,
 }
 
-/// What a mark stands for.
+/// The role of a mark.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Tone {
     /// Input points, of which there are many.
@@ -31,7 +31,7 @@ pub enum Tone {
     Support,
     /// The answer.
     Answer,
-    /// What is proved: a lower bound.
+    /// A proved lower bound.
     Bound,
     /// A second thing to compare with.
     Second,
@@ -39,15 +39,15 @@ pub enum Tone {
     Third,
     /// A fourth thing to compare with.
     Fourth,
-    /// Text and centres.
+    /// Text and centers.
     Ink,
     /// Axes and remarks.
     Muted,
 }
 
-/// How lines and areas are drawn.
+/// The way in which lines and areas are drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Look {
+pub enum LineStyle {
     /// A line.
     #[default]
     Solid,
@@ -89,7 +89,7 @@ impl Tone {
     }
 }
 
-/// Colours beside the tones: the ground, the grid.
+/// Colors beside the tones: the ground, the grid.
 const GROUND: [&str; 2] = ["#ffffff", "#14181d"];
 const GRID: [&str; 2] = ["#e4e8ec", "#2b333b"];
 
@@ -98,7 +98,6 @@ impl Theme {
         pair[usize::from(self == Theme::Dark)]
     }
 
-    /// The colour of a tone.
     pub(crate) fn color(self, tone: Tone) -> &'static str {
         self.pick(match tone {
             Tone::Point => ["#52697c", "#9db2c4"],
@@ -122,7 +121,7 @@ impl Theme {
         out
     }
 
-    /// The classes with the colours of this theme, for a document that stands alone.
+    /// The classes with the colors of this theme, for a document that stands alone.
     pub(crate) fn classes(self) -> String {
         classes(|name| match name {
             "ground" => self.pick(GROUND).into(),

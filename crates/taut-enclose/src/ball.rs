@@ -1,7 +1,7 @@
 //! The minimum enclosing ball of points, of balls or of ellipsoids: one problem, one certificate, four methods.
 //!
 //! A method ([`core_set`], [`thesis`], [`badoiu_clarkson`]) ends with convex multipliers and the pass made from the
-//! centre they mean ([`outcome`]); [`proof`] turns that into an answer and its certificate, whatever the method was.
+//! center they mean ([`outcome`]); [`proof`] turns that into an answer and its certificate, whatever the method was.
 
 mod active_set;
 mod badoiu_clarkson;
@@ -24,14 +24,14 @@ use taut_points::InputError;
 use taut_points::{PointSource, on_threads};
 
 use crate::Error;
-use crate::scan::Scan;
+use crate::item_reader::ItemReader;
 pub use options::{BallMethod, BallOptions};
 pub(crate) use proof::reach_up;
 
 /// The smallest ball that encloses points, balls or ellipsoids, of a source of any size.
 ///
-/// `source` holds n points of dimension d; or n balls, as rows of a centre and a radius ≥ 0; or n ellipsoids, as rows of a
-/// centre m and the lower triangle of a shape matrix S, row by row, for the set {m + v : vv′ ⪯ S}.
+/// `source` holds n points of dimension d; or n balls, as rows of a center and a radius ≥ 0; or n ellipsoids, as rows of a
+/// center m and the lower triangle of a shape matrix S, row by row, for the set {m + v : vv′ ⪯ S}.
 /// [`BallOptions::inputs`] says which; [`Items`] has the details. A ball of radius 0 is a point, and S may be singular.
 ///
 /// The answer holds every input exactly, and its certificate proves that no ball of radius R/(1 + gap) does. The gap is
@@ -79,13 +79,13 @@ fn solve(source: &dyn PointSource, options: &BallOptions<'_>) -> Result<Solution
     if options.inputs == Items::Ellipsoids {
         return of_shapes::solve(source, options, &options.monitor);
     }
-    let mut scan = Scan::new(source, options.inputs, &options.monitor)?;
+    let mut reader = ItemReader::new(source, options.inputs, &options.monitor)?;
     let outcome = match options.method {
-        BallMethod::CoreSet => core_set::solve(&mut scan, options)?,
+        BallMethod::CoreSet => core_set::solve(&mut reader, options)?,
         #[cfg(feature = "conic")]
-        BallMethod::ThesisPure => thesis::pure(&mut scan, options)?,
+        BallMethod::ThesisPure => thesis::pure(&mut reader, options)?,
         #[cfg(feature = "conic")]
-        BallMethod::ThesisFast => thesis::fast(&mut scan, options)?,
+        BallMethod::ThesisFast => thesis::fast(&mut reader, options)?,
         #[cfg(not(feature = "conic"))]
         method @ (BallMethod::ThesisPure | BallMethod::ThesisFast) => {
             return Err(Error::Input(InputError::Option {
@@ -94,7 +94,7 @@ fn solve(source: &dyn PointSource, options: &BallOptions<'_>) -> Result<Solution
                 expected: "core-set or badoiu-clarkson, as this program is built without a conic solver",
             }));
         }
-        BallMethod::BadoiuClarkson => badoiu_clarkson::solve(&mut scan, options)?,
+        BallMethod::BadoiuClarkson => badoiu_clarkson::solve(&mut reader, options)?,
     };
-    proof::prove(&mut scan, outcome, options)
+    proof::prove(&mut reader, outcome, options)
 }

@@ -1,28 +1,28 @@
 //! k equal balls around all items, as small as can be, with a lower bound that others can confirm.
 //!
-//! A method ([`tree`], [`thesis`], a traversal) ends with centres, a core-set and radii that trees over the core-set have shown
+//! A method ([`tree`], [`thesis`], a traversal) ends with centers, a core-set and radii that trees over the core-set have shown
 //! to be too small; [`proof`] proves one of these again, in a form that can be checked, and [`answer`] measures every item from the
-//! centres as they are returned.
+//! centers as they are returned.
 
 mod answer;
 mod cloud;
 mod clusters;
 mod conflict;
 mod depth_first;
-mod few;
 mod item_rows;
 mod items;
 mod nearest;
 mod options;
-mod plain_tree;
 mod proof;
+mod proof_tree;
 mod read;
 mod rows;
 mod small_ball;
 mod start;
+mod subsearch;
 mod thesis;
 mod tree;
-mod walk;
+mod trivial;
 
 use std::collections::BTreeMap;
 
@@ -32,16 +32,16 @@ use taut_certify::{
 use taut_points::{InputError, Monitor, PointSource, on_threads};
 
 use self::cloud::Cloud;
-use self::few::Few;
 use self::item_rows::ItemRows;
 use self::items::Position;
 use self::proof::Proof;
 use self::read::Table;
 use self::start::Start;
-use self::tree::{Found, Shown};
-use crate::apart::claimed;
-use crate::cover::cover_in_two_passes;
+use self::tree::{ProvedBound, SearchResult};
+use self::trivial::TrivialCenters;
 use crate::farthest_first::farthest_first_in_blocks;
+use crate::separated_set::claimed;
+use crate::streaming::centers_in_two_passes;
 use crate::{Error, FarthestFirstOptions};
 pub(crate) use answer::reach_of;
 pub(crate) use nearest::EXACT_DISTANCES;
@@ -57,12 +57,12 @@ const LEAST_PROVED: f64 = f64::from_bits((1023 - 480) << 52);
 const PROOF_FACTOR: u64 = 20;
 const PROOF_NODES: u64 = 10_000;
 
-/// k centres such that no point of `points`, n × d, is farther than `radius` from the nearest, with a radius at most 1 + ε times the
+/// k centers such that no point of `points`, n × d, is farther than `radius` from the nearest, with a radius at most 1 + ε times the
 /// least possible.
 ///
 /// The problem is NP-hard; the time is exponential in k, and proofs are what takes it. In the plane gaps of 1e-6 are proved up to k
 /// of about 12, and 1 % up to about 15; in space 1 % up to about 10. Whatever the k, the search can be stopped
-/// ([`CentersOptions::max_nodes`]) and returns centres with the gap proved so far, at worst that of farthest-first traversal, a
+/// ([`CentersOptions::max_nodes`]) and returns centers with the gap proved so far, at worst that of farthest-first traversal, a
 /// factor of 2 (with weights or outliers there is no such promise). Duplicates, points on a line and k ≥ n are solved as any others.
 ///
 /// *Cost.* Nodes of some 5 to 50 µs in the plane and in space, and of milliseconds in hundreds of dimensions, where for
@@ -103,8 +103,8 @@ pub fn centers(
                 found => return found,
             }
         }
-        if let CentersMethod::Stream(cover) = options.method {
-            return cover_in_two_passes(source, k, options.placement, &cover, monitor);
+        if let CentersMethod::Stream(streaming) = options.method {
+            return centers_in_two_passes(source, k, options.placement, &streaming, monitor);
         }
         solve(source, items, k, options, monitor)
     })
@@ -142,18 +142,18 @@ fn solve(
             expected: "less than the number of items",
         }));
     }
-    let few = |rows: &ItemRows| {
-        let few = Few::of(rows, k, options.outliers as usize)?;
-        Some(few.solution(k, options.placement, options, items, rows.hash))
+    let trivial = |rows: &ItemRows| {
+        let trivial = TrivialCenters::of(rows, k, options.outliers as usize)?;
+        Some(trivial.solution(k, options.placement, options, items, rows.hash))
     };
     if options.placement == Placement::Rows {
-        return match few(&rows) {
+        return match trivial(&rows) {
             Some(found) => Ok(found),
             None => rows::solve(rows, items, k, options, monitor),
         };
     }
     let table = Table::of(rows)?;
-    if let Some(found) = few(&table.rows) {
+    if let Some(found) = trivial(&table.rows) {
         return Ok(found);
     }
     match table.rows.dim {
@@ -172,13 +172,13 @@ fn solve_in<P: Position>(
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Centers>, Error> {
     let cloud = Cloud::<P>::new(table.items());
-    // More centres than items are of no use, but what is proved is proved of as many as were asked for.
+    // More centers than items are of no use, but what is proved is proved of as many as were asked for.
     let asked = k;
     let k = k.min(cloud.len());
     let z = options.outliers as usize;
     let target = (options.epsilon - GAP_MIN).max(GAP_MIN);
     let start = start::start(&cloud, k, z, monitor)?;
-    let apart = start.apart.clone();
+    let separated = start.separated.clone();
     let found = match options.method {
         CentersMethod::Tree => {
             tree::solve(&cloud, start, k, z, target, options.max_nodes, monitor)?
@@ -189,18 +189,18 @@ fn solve_in<P: Position>(
         // Streams are not held in memory, and so do not come here.
         CentersMethod::FarthestFirst | CentersMethod::Stream(_) => of_traversal(start),
     };
-    let (proof, given_up, why) = prove(table, &cloud, &found, apart, k, z, monitor)?;
+    let (proof, given_up, why) = prove(table, &cloud, &found, separated, k, z, monitor)?;
     let answered = answer::answer(table, &cloud, &found.incumbent.centers, z, options.assignment)?;
     finish(table, &cloud, items, asked, options, found, proof, (given_up, why), answered)
 }
 
-/// Centres of the traversal, with its own bound.
-fn of_traversal<P: Position>(start: Start<P>) -> Found<P> {
-    let core_set = start.apart;
+/// Centers of the traversal, with its own bound.
+fn of_traversal<P: Position>(start: Start<P>) -> SearchResult<P> {
+    let core_set = start.separated;
     let (lower, upper, working_set) = (start.lower, start.plain.radius, core_set.len() as u64);
-    Found {
+    SearchResult {
         incumbent: start.plain,
-        shown: vec![],
+        proved: vec![],
         core_set,
         stop: Stop::Converged,
         nodes: 0,
@@ -214,21 +214,21 @@ fn of_traversal<P: Position>(start: Start<P>) -> Found<P> {
 fn prove<P: Position>(
     table: &Table,
     cloud: &Cloud<P>,
-    found: &Found<P>,
-    apart: Vec<u32>,
+    found: &SearchResult<P>,
+    separated: Vec<u32>,
     k: usize,
     z: usize,
     monitor: &Monitor<'_>,
 ) -> Result<(Proof, u64, Option<Stop>), Error> {
-    let plain = match apart.is_empty() {
+    let plain = match separated.is_empty() {
         true => Proof::none(),
-        false => Proof::apart(cloud, apart, monitor)?,
+        false => Proof::separated(cloud, separated, monitor)?,
     };
     let unit = table.scale * table.weight_scale;
     let claim = |lower, core_set: &[u32]| lower_bound(lower, core_set, table, cloud) * unit;
     let mut budget = found.nodes.saturating_mul(PROOF_FACTOR).saturating_add(PROOF_NODES);
     let (mut given_up, mut why) = (0, None);
-    for &Shown { threshold, items } in found.shown.iter().rev() {
+    for &ProvedBound { threshold, items } in found.proved.iter().rev() {
         if threshold <= plain.lower {
             break;
         }
@@ -250,10 +250,10 @@ fn finish<P: Position>(
     items: Items,
     k: usize,
     options: &CentersOptions<'_>,
-    found: Found<P>,
+    found: SearchResult<P>,
     proof: Proof,
     (given_up, why): (u64, Option<Stop>),
-    answered: answer::Answered,
+    answered: answer::ItemReport,
 ) -> Result<Solution<Centers>, Error> {
     let unit = table.scale * table.weight_scale;
     if !(unit > 0.0 && unit.is_finite()) {
@@ -280,7 +280,7 @@ fn finish<P: Position>(
         ("proof_nodes", proof.nodes),
         ("proofs_given_up", given_up),
     ];
-    // What was shown on the way, as far as it is proved in the end.
+    // The bounds shown on the way, as far as they are proved in the end.
     let bounds = |b: &PassBounds| PassBounds {
         lower: (b.lower / unit).min(lower),
         upper: (b.upper / unit).max(radius).min(f64::MAX),
@@ -323,17 +323,17 @@ fn finish<P: Position>(
     Ok(Solution { answer, certificate, trace })
 }
 
-/// What a proof shows, in the units of the rows and less by what rounding there may have added; 0 where it may have added anything.
-fn lower_bound<P: Position>(shown: f64, core_set: &[u32], table: &Table, cloud: &Cloud<P>) -> f64 {
+/// Returns what a proof shows, in the units of the rows and less by what rounding there may have added; 0 where it may have added anything.
+fn lower_bound<P: Position>(proved: f64, core_set: &[u32], table: &Table, cloud: &Cloud<P>) -> f64 {
     let weights = core_set.iter().map(|&item| cloud.items.weight(item as usize));
     let weight = weights.fold(0.0, f64::max);
-    if shown < LEAST_PROVED * weight {
+    if proved < LEAST_PROVED * weight {
         return 0.0;
     }
     let unit = table.scale * table.weight_scale;
-    let lower = shown / unit;
+    let lower = proved / unit;
     claimed(
-        if lower * unit > shown { lower.next_down() } else { lower },
+        if lower * unit > proved { lower.next_down() } else { lower },
         weight / table.weight_scale,
     )
 }

@@ -16,21 +16,21 @@ mod nnls;
 mod of_shapes;
 mod options;
 pub(crate) mod outcome;
-mod pool;
+pub(crate) mod point_reader;
 mod proof;
 mod rounds;
 mod sample;
 mod shortlist;
-pub(crate) mod survey;
 mod whitener;
+mod working_set;
 
 use taut_certify::{Ellipsoid, Items, Solution};
 use taut_points::{Monitor, PointSource, on_threads};
 
-use self::flat::Look;
+use self::flat::RankResult;
 use self::outcome::Outcome;
+use self::point_reader::PointReader;
 use self::sample::Sample;
-use self::survey::Survey;
 use self::whitener::Whitener;
 use crate::Error;
 pub use batch::ellipsoids;
@@ -41,8 +41,8 @@ const ROUNDING: f64 = 5e-15;
 
 /// The ellipsoid of least volume that encloses points, balls or ellipsoids, of a source of any size.
 ///
-/// `source` holds n points of dimension d; or n balls, as rows of a centre and a radius ≥ 0; or n ellipsoids, as rows of a
-/// centre m and the lower triangle of a shape matrix S, row by row, for the set {m + v : vv′ ⪯ S}.
+/// `source` holds n points of dimension d; or n balls, as rows of a center and a radius ≥ 0; or n ellipsoids, as rows of a
+/// center m and the lower triangle of a shape matrix S, row by row, for the set {m + v : vv′ ⪯ S}.
 /// [`EllipsoidOptions::inputs`] says which; [`Items`] has the details. S may be singular.
 ///
 /// The answer holds every input, and its certificate proves that no enclosing ellipsoid has a log-volume less by more
@@ -68,7 +68,7 @@ const ROUNDING: f64 = 5e-15;
 /// assert!((found.answer.log_volume - (4.0 * std::f64::consts::PI).ln()).abs() < 1e-12);
 /// assert!((found.answer.matrix[0][0] - 1.0 / 8.0).abs() < 1e-12);
 ///
-/// // Two unit discs, the centres 2 apart.
+/// // Two unit discs, the centers 2 apart.
 /// let discs = [-1.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0, 0.0, 1.0];
 /// let discs = Points::new(&discs, 5)?;
 /// let options = EllipsoidOptions { inputs: Items::Ellipsoids, ..Default::default() };
@@ -98,25 +98,25 @@ fn solve(
     if options.inputs != Items::Points {
         return of_shapes::solve(source, options, monitor);
     }
-    let mut survey = Survey::new(source, monitor)?;
-    match flat::look(&mut survey, options)? {
-        Look::Flat(found) => Ok(*found),
-        Look::Full(sample, whitener) => {
-            let outcome = method(&mut survey, &sample, whitener, options)?;
-            proof::prove(&mut survey, outcome, options)
+    let mut reader = PointReader::new(source, monitor)?;
+    match flat::decide_rank(&mut reader, options)? {
+        RankResult::Flat(found) => Ok(*found),
+        RankResult::Full(sample, whitener) => {
+            let outcome = method(&mut reader, &sample, whitener, options)?;
+            proof::prove(&mut reader, outcome, options)
         }
     }
 }
 
 /// Solves a set that does not lie in a hyperplane.
 fn method(
-    survey: &mut Survey<'_>,
+    reader: &mut PointReader<'_>,
     sample: &Sample,
     whitener: Whitener,
     options: &EllipsoidOptions<'_>,
 ) -> Result<Outcome, Error> {
     match options.method {
-        EllipsoidMethod::Newton => rounds::solve(survey, sample, whitener, options),
-        _ => first_order::solve(survey, sample, options),
+        EllipsoidMethod::Newton => rounds::solve(reader, sample, whitener, options),
+        _ => first_order::solve(reader, sample, options),
     }
 }

@@ -1,4 +1,4 @@
-//! What an enclosing solver can refuse.
+//! The errors of the enclosing solvers.
 
 use taut_points::{InputError, ReadError, shown_number};
 
@@ -20,8 +20,8 @@ pub enum Error {
         /// Its radius.
         value: f64,
     },
-    /// Balls were announced, but the rows have no room for a centre and a radius.
-    #[error("a ball needs a centre and a radius, but rows have {columns} column")]
+    /// Balls were announced, but the rows have no room for a center and a radius.
+    #[error("a ball needs a center and a radius, but rows have {columns} column")]
     NoRadius {
         /// Columns there are.
         columns: usize,
@@ -72,7 +72,7 @@ pub enum Error {
         "rounding leaves open whether the polytope has an interior: its sides are nearly parallel, or of very different lengths"
     )]
     Undecided,
-    /// Half-spaces that go on for ever.
+    /// A polytope that is unbounded.
     #[error(
         "the polytope is unbounded in the direction {direction:?}: an inscribed ellipsoid needs an end"
     )]
@@ -90,7 +90,7 @@ pub enum Error {
         rows: Vec<u64>,
         /// λ for these, with normals of length 1: Σλᵢaᵢ = 0 and Σλᵢbᵢ ≤ 0, but for rounding.
         multipliers: Vec<f64>,
-        /// What they prove, with all roundings on the safe side: no ball in the polytope has a larger radius, in coordinates
+        /// The radius that they prove, with all roundings on the safe side: no ball in the polytope has a larger radius, in coordinates
         /// in which no axis stands out and the largest offset of a half-space is 1. 0 where there is no point in common.
         radius: f64,
     },
@@ -102,7 +102,7 @@ pub enum Error {
     /// The conic solver of the thesis' methods gave up on a core-set.
     #[error("the conic solver stopped with status {status} on a core-set of {points} points")]
     Conic {
-        /// What it said.
+        /// The status that it reported.
         status: String,
         /// Points it was given.
         points: usize,

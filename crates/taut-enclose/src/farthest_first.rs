@@ -1,9 +1,9 @@
-//! Farthest-first traversal: an order of points whose every beginning is a good set of centres.
+//! Farthest-first traversal: an order of points whose every beginning is a good set of centers.
 //!
 //! *Problem.* For each k ≤ `count` at once, k of n points such that all points are near one of them.
 //! *Idea.* Each next point is the one that is farthest from all before it. That it is so far away proves, with those before
 //! it, that no k balls of half the radius hold all points.
-//! *Guarantee.* The first k points have at most twice the radius of the best k centres, wherever those may be, for every k.
+//! *Guarantee.* The first k points have at most twice the radius of the best k centers, wherever those may be, for every k.
 //! Distances are those of the kernel, and of equal ones the lower row is taken: what is skipped on the way changes nothing.
 //! *How it is fast.* In three ways that skip what cannot matter, [`lazy`] for all points, [`boxes`] in up to three
 //! dimensions, [`rows`] in more; [`blocks`] is for points that are not in memory.
@@ -21,13 +21,13 @@ use taut_certify::Trace;
 use taut_points::{InputError, Monitor, PointSource, Points, PointsHash, Rows, Scalar, on_threads};
 
 use crate::Error;
-use crate::frame::survey;
+use crate::frame::frame_pass;
 use lazy::Job;
 
-/// Up to this many dimensions a box around neighbours says enough about them. Beyond, boxes are nearly as large as the whole.
+/// Up to this many dimensions a box around neighbors says enough about them. Beyond, boxes are nearly as large as the whole.
 const DIM_OF_BOXES_MAX: usize = 3;
 
-/// How to go through the points. Write `FarthestFirstOptions { start: 7, ..Default::default() }`.
+/// Options to go through the points. Write `FarthestFirstOptions { start: 7, ..Default::default() }`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FarthestFirstOptions<'a> {
     /// The row of the first point, below n. Default 0.
@@ -50,7 +50,7 @@ pub struct FarthestFirst {
     pub next: Option<u64>,
     /// The hash of the points.
     pub points_hash: PointsHash,
-    /// How it came about. `passes` counts reads of a part of the points by their share; the counter `distances` says how
+    /// The way in which it came about. `passes` counts reads of a part of the points by their share; the counter `distances` says how
     /// many were evaluated, of the n·count that there are, and `parts` how often a part of the points was looked at.
     pub trace: Trace,
 }
@@ -152,13 +152,13 @@ fn prepare<'a>(
             expected: "the number of a row, from 0 and below the number of rows",
         }));
     }
-    let survey = survey(source, &options.monitor)?;
+    let frame_pass = frame_pass(source, &options.monitor)?;
     Ok(Job {
         source,
         monitor: &options.monitor,
         count,
         start: options.start,
-        frame: survey.frame,
-        points_hash: survey.hash,
+        frame: frame_pass.frame,
+        points_hash: frame_pass.hash,
     })
 }

@@ -21,16 +21,16 @@ const SAFE_EXPONENT: i32 = 200;
 /// 2⁻⁹⁰⁰: squared distances below it have lost digits.
 pub(crate) const SQUARE_MIN: f64 = f64::from_bits((1023 - 900) << 52);
 
-/// How coordinates are brought to the units of a calculation.
+/// The way in which coordinates are brought to the units of a calculation.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Frame {
     scale: f64,
-    /// What is taken away before scaling: the value of a column that has but one, else 0. Empty where nothing is done.
+    /// The vector that is subtracted before scaling: the value of a column that has but one, else 0. Empty where nothing is done.
     shift: Vec<f64>,
 }
 
-/// What a pass over all rows finds.
-pub(crate) struct Survey {
+/// The result of a pass over all rows.
+pub(crate) struct FramePass {
     pub(crate) frame: Frame,
     pub(crate) hash: PointsHash,
 }
@@ -52,7 +52,7 @@ impl Frame {
         Frame { scale, shift }
     }
 
-    /// Whether coordinates stay what they are.
+    /// Returns true if coordinates stay what they are.
     pub(crate) fn is_plain(&self) -> bool {
         self.shift.is_empty()
     }
@@ -97,8 +97,11 @@ impl Frame {
 ///
 /// # Errors
 /// [`Error::Empty`], [`Error::Input`].
-pub(crate) fn survey(source: &dyn PointSource, monitor: &Monitor<'_>) -> Result<Survey, Error> {
-    survey_and(source, monitor, |_| ()).map(|(survey, _)| survey)
+pub(crate) fn frame_pass(
+    source: &dyn PointSource,
+    monitor: &Monitor<'_>,
+) -> Result<FramePass, Error> {
+    survey_and(source, monitor, |_| ()).map(|(frame_pass, _)| frame_pass)
 }
 
 /// The same with something more done to each block of finite rows, and what that gives.
@@ -106,7 +109,7 @@ pub(crate) fn survey_and<R: Send>(
     source: &dyn PointSource,
     monitor: &Monitor<'_>,
     more: impl Fn(&Rows<'_>) -> R + Sync,
-) -> Result<(Survey, Vec<R>), Error> {
+) -> Result<(FramePass, Vec<R>), Error> {
     if source.is_empty() {
         return Err(Error::Empty);
     }
@@ -133,8 +136,8 @@ pub(crate) fn survey_and<R: Send>(
         high.iter_mut().zip(block_high).for_each(|(h, &b)| *h = h.max(b));
     }
     let hash = PointsHash::of_blocks(source.len(), dim, blocks.iter().map(|block| block.0));
-    let survey = Survey { frame: Frame::of(&low, &high), hash };
-    Ok((survey, blocks.into_iter().map(|block| block.2).collect()))
+    let frame_pass = FramePass { frame: Frame::of(&low, &high), hash };
+    Ok((frame_pass, blocks.into_iter().map(|block| block.2).collect()))
 }
 
 /// The least and the greatest value of each column, and whether all values are finite.
@@ -190,7 +193,7 @@ mod tests {
     use super::*;
 
     fn frame_of(values: &[f64], dim: usize) -> Frame {
-        survey(&Points::new(values, dim).unwrap(), &Monitor::silent()).unwrap().frame
+        frame_pass(&Points::new(values, dim).unwrap(), &Monitor::silent()).unwrap().frame
     }
 
     #[test]
@@ -223,7 +226,7 @@ mod tests {
             let mut values = vec![1.0f32; 7 * dim];
             values[4 * dim] = f32::INFINITY;
             values[5 * dim] = f32::NAN;
-            let found = survey(&Points::new(&values, dim).unwrap(), &Monitor::silent());
+            let found = frame_pass(&Points::new(&values, dim).unwrap(), &Monitor::silent());
             assert!(
                 matches!(found, Err(Error::Input(InputError::NonFinite { row: 4, column: 0, .. }))),
                 "{dim}"

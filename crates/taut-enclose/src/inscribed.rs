@@ -1,7 +1,7 @@
 //! The ellipsoid of largest volume inside a polytope.
 //!
-//! *Problem.* {x : aᵢ′x ≤ bᵢ}: maximise ln det G over {c + Gz : |z| ≤ 1} with |G′aᵢ| + aᵢ′c ≤ bᵢ.
-//! *Idea.* An interior point by a linear programme ([`start`]), then Newton steps along the central path, each in the
+//! *Problem.* {x : aᵢ′x ≤ bᵢ}: maximize ln det G over {c + Gz : |z| ≤ 1} with |G′aᵢ| + aᵢ′c ≤ bᵢ.
+//! *Idea.* An interior point by a linear program ([`start`]), then Newton steps along the central path, each in the
 //! frame in which the current ellipsoid is the unit ball, so that no step sees how long the polytope is ([`path`]). The
 //! path gives multipliers; a least-squares correction makes them satisfy their equations to the last digits.
 //! *Guarantee.* The ellipsoid is inside at any moment. The gap is n times the parameter of the path.
@@ -29,7 +29,7 @@ const ROUNDING: f64 = 1e-13;
 /// A multiplier below this part of the largest is taken for that of a half-space that does not touch.
 const MULTIPLIER_RATIO_MIN: f64 = 1e-6;
 
-/// How to look for the inscribed ellipsoid. Write `InscribedOptions { epsilon: 1e-6, ..Default::default() }`.
+/// Options to look for the inscribed ellipsoid. Write `InscribedOptions { epsilon: 1e-6, ..Default::default() }`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InscribedOptions<'a> {
     /// Wanted gap, optimum ≤ log-volume + ε. Range (0, 1), default 1e-9.
@@ -66,7 +66,7 @@ impl HalfSpaces {
 /// larger by more than the gap. The gap is at most [`InscribedOptions::epsilon`] unless
 /// [`Trace::stop`](taut_certify::Trace::stop) says why not.
 ///
-/// *Cost.* Thirty to eighty Newton steps of O(nd⁴ + d⁶), after a linear programme; O(nd + d⁴) memory,
+/// *Cost.* Thirty to eighty Newton steps of O(nd⁴ + d⁶), after a linear program; O(nd + d⁴) memory,
 /// for the half-spaces too, whatever they come from.
 ///
 /// ```
@@ -161,7 +161,7 @@ fn binary_exponent(value: f64) -> i32 {
 }
 
 /// c, G by rows, multipliers of all rows, and how it came about.
-struct Found {
+struct PathResult {
     center: Vec<f64>,
     axes: Vec<f64>,
     lambda: Vec<f64>,
@@ -179,7 +179,7 @@ struct View {
     unit: f64,
 }
 
-/// What a half-space looks like, with twice the digits where numbers cancel.
+/// Returns what a half-space looks like, with twice the digits where numbers cancel.
 fn seen(row: &[f64], center: &[f64], axes: &[f64]) -> View {
     let dim = center.len();
     let mut slack = DoubleDouble::from(row[dim]);
@@ -198,11 +198,11 @@ fn seen(row: &[f64], center: &[f64], axes: &[f64]) -> View {
 /// From the end of the path to an answer: grown until it touches, multipliers corrected for what it is then.
 fn prove(
     sides: &HalfSpaces,
-    found: Found,
+    found: PathResult,
     options: &InscribedOptions<'_>,
 ) -> Result<Solution<InscribedEllipsoid>, Error> {
     let dim = sides.dim;
-    let Found { center, mut axes, lambda, steps, mut stop, history } = found;
+    let PathResult { center, mut axes, lambda, steps, mut stop, history } = found;
     let measure = |axes: &[f64]| {
         sides
             .rows()
@@ -214,7 +214,7 @@ fn prove(
     // entries moves it by more, a wider margin is found.
     let margin = 8.0 * (dim + 8) as f64 * f64::EPSILON;
     let mut wider = margin;
-    path::orthogonalise(&mut axes, dim);
+    path::orthogonalize(&mut axes, dim);
     loop {
         let room = measure(&axes) * (1.0 - wider);
         if !(room > 0.0 && room.is_finite()) || wider > SHRINKAGE_MAX {

@@ -1,15 +1,15 @@
-//! Squared distances of many rows to one centre: the loop in which every enclosing solver spends its time.
+//! Squared distances of many rows to one center: the loop in which every enclosing solver spends its time.
 //!
 //! *Problem.* For each row x of a block, |x − c|² in `f64`, from `f32` or `f64` coordinates, at the speed at which
 //! memory delivers them.
 //! *Idea.* Eight lanes of `f64` ([`Lanes`]), one file per instruction set, chosen at run time. Rows of up to
-//! [`EIGHT_ROWS_MAX`] coordinates are taken eight at a time, which shares the loads of the centre and leaves one
+//! [`EIGHT_ROWS_MAX`] coordinates are taken eight at a time, which shares the loads of the center and leaves one
 //! transposing sum for eight rows; longer rows are taken one at a time with four accumulators.
-//! *Guarantee.* A row's value depends on the row and the centre alone, not on its neighbours or on threads. Its
+//! *Guarantee.* A row's value depends on the row and the center alone, not on its neighbors or on threads. Its
 //! relative error is at most [`relative_error`]. `f32` rows are widened first, so every pass is a certificate:
 //! out of cache this costs nothing, because memory is the bottleneck.
 //! *Trap.* |x|² − 2x·c + |c|² would save a subtraction and lose all digits far from the origin; it is no faster.
-//! A centre that needs more than one `f64` per coordinate is subtracted in two terms, which costs one more load and
+//! A center that needs more than one `f64` per coordinate is subtracted in two terms, which costs one more load and
 //! subtraction, so it is only done where it matters.
 
 pub(crate) mod compensated;
@@ -31,17 +31,16 @@ use lanes::{Lanes, eight_rows, one_row, one_short_row};
 /// hardware prefetchers follow, and rows near a multiple of 4096 bytes fall on the same cache sets.
 const EIGHT_ROWS_MAX: usize = 96;
 
-/// A centre as `high`, or as `high + low` where one `f64` per coordinate is too coarse.
+/// A center as `high`, or as `high + low` where one `f64` per coordinate is too coarse.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Center {
     /// The coordinates, rounded.
     pub(crate) high: Vec<f64>,
-    /// What rounding took away; empty stands for zeros.
+    /// The part that rounding took away; empty stands for zeros.
     pub(crate) low: Vec<f64>,
 }
 
 impl Center {
-    /// Dimension.
     pub(crate) fn dim(&self) -> usize {
         self.high.len()
     }
@@ -101,7 +100,7 @@ unsafe fn all_rows<L: Lanes, T: Scalar>(
         }
     } else {
         for (row, out) in values.chunks_exact(stride).zip(out) {
-            // SAFETY: features are the caller's promise; the slice has as many coordinates as the centre.
+            // SAFETY: features are the caller's promise; the slice has as many coordinates as the center.
             *out = unsafe { one_row::<L, T>(&row[..dim], center) };
         }
     }

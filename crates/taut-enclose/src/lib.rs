@@ -9,10 +9,10 @@
 //! | ellipsoid of least volume around balls, ellipsoids | [`ellipsoid()`] with [`EllipsoidOptions::inputs`] | the same | a dozen passes of O(nd³) |
 //! | one for each of many point sets | [`ellipsoids()`] | the same | that of the sets, shared by all threads |
 //! | ellipsoid of largest volume in a polytope | `inscribed_ellipsoid` (feature `conic`) | optimum ≤ log-volume + ε, proved | some fifty steps of O(nd⁴ + d⁶) |
-//! | centre, scatter and outliers | [`robust_ellipsoid()`] | all proved but that no other points kept would do better | some ten to thirty passes of O(nd²) |
-//! | 2-approximate centres for every k at once | [`farthest_first()`] | radius ≤ 2·lower bound for each k | O(nkd) at worst, a small part of it as a rule |
-//! | k centres of a stream | [`Cover`], or [`centers()`] with [`CentersMethod::Stream`] | radius ≤ 2.96·lower bound, or another factor | O(mkd) for each point, m = 8 guesses; one pass, and one to measure |
-//! | k centres of points in many places | [`Summary`] | radius ≤ 4 times the optimum, less with larger summaries | one pass in each place, and one to measure |
+//! | center, scatter and outliers | [`robust_ellipsoid()`] | all proved but that no other points kept would do better | some ten to thirty passes of O(nd²) |
+//! | 2-approximate centers for every k at once | [`farthest_first()`] | radius ≤ 2·lower bound for each k | O(nkd) at worst, a small part of it as a rule |
+//! | k centers of a stream | [`StreamingCenters`], or [`centers()`] with [`CentersMethod::Stream`] | radius ≤ 2.96·lower bound, or another factor | O(mkd) for each point, m = 8 guesses; one pass, and one to measure |
+//! | k centers of points in many places | [`CoreSetSummary`] | radius ≤ 4 times the optimum, less with larger summaries | one pass in each place, and one to measure |
 //! | a tree of balls | [`sphere_tree()`] | each the smallest around its points | some thirty passes of O(nd) for each level |
 //!
 //! Each takes points in memory or any [`PointSource`](taut_points::PointSource), and one struct of options, where a
@@ -30,26 +30,25 @@
 //!
 //! Not for: distances other than Euclidean.
 
-mod apart;
 mod ball;
 mod centers;
-mod cover;
 mod ellipsoid;
 mod error;
 mod farthest_first;
 mod frame;
 #[cfg(feature = "conic")]
 mod inscribed;
+mod item_reader;
 mod kernel;
 mod robust;
-mod scan;
+mod separated_set;
 mod shapes;
 mod sphere_tree;
+mod streaming;
 mod top;
 
 pub use ball::{BallMethod, BallOptions, ball};
 pub use centers::{CentersMethod, CentersOptions, centers};
-pub use cover::{Cover, CoverOptions, Covered, Summary};
 pub use ellipsoid::{EllipsoidMethod, EllipsoidOptions, ellipsoid, ellipsoids};
 pub use error::Error;
 pub use farthest_first::{FarthestFirst, FarthestFirstOptions, farthest_first};
@@ -57,3 +56,4 @@ pub use farthest_first::{FarthestFirst, FarthestFirstOptions, farthest_first};
 pub use inscribed::{InscribedOptions, inscribed_ellipsoid};
 pub use robust::{RobustOptions, robust_ellipsoid};
 pub use sphere_tree::{SphereNode, SphereTree, SphereTreeOptions, sphere_tree};
+pub use streaming::{CoreSetSummary, StreamingCenters, StreamingOptions, StreamingReport};

@@ -1,4 +1,4 @@
-//! Centre and scatter of most of the points, whatever the others are: MCD, MVE, trimming.
+//! Center and scatter of most of the points, whatever the others are: MCD, MVE, trimming.
 //!
 //! [`search`] finds the rows to keep; [`fit`] goes down to a subspace where many rows lie in one, and weighs outliers
 //! out; what it ends in becomes an answer here.
@@ -28,29 +28,29 @@ use self::fit::{Fit, Placed};
 use crate::Error;
 use crate::ellipsoid::dense::divide_rows;
 use crate::ellipsoid::outcome::log_unit_ball;
-use crate::ellipsoid::survey::Survey;
+use crate::ellipsoid::point_reader::PointReader;
 pub use options::RobustOptions;
 
-/// Centre and scatter of most of n points of dimension d, the tolerance ellipsoid, and the points outside of it.
+/// Center and scatter of most of n points of dimension d, the tolerance ellipsoid, and the points outside of it.
 ///
 /// By default the h = ⌊(n + d + 1)/2⌋ points are sought whose covariance has the least determinant (MCD): wherever
 /// nearly half of the points are, the answer stays bounded, though a denser cluster may win. Points far out in the
-/// metric of the h are then weighed out, and centre and scatter taken of the rest.
+/// metric of the h are then weighed out, and center and scatter taken of the rest.
 ///
-/// *What is proved.* The certificate names the h points; the checker takes their mean and covariance anew, all factors,
+/// *What is proved.* The certificate names the h points; the checker takes their mean and covariance again, all factors,
 /// weights and flags, and that no C-step leads on from them. That no other h points have a lower determinant is *not*
 /// proved: the problem is NP-hard, and like all programs for it this one ends in a local optimum, the best of those
 /// that six rankings and, up to d = 20, 500 simplices lead to. By `mcd`, exchanges of a point kept for one left out,
-/// and small kicks, lead lower still; no C-step and no such exchange of points near the border is left. For `mve` and
+/// and small perturbations, lead lower still; no C-step and no such exchange of points near the border is left. For `mve` and
 /// `trim` it is proved besides that no smaller ellipsoid holds the points kept.
 ///
-/// *Equivariance.* What is minimised is affine equivariant, and so is the answer wherever the starts lead to the same
+/// *Equivariance.* What is minimized is affine equivariant, and so is the answer wherever the starts lead to the same
 /// optimum, as they do on all but small or shapeless sets. The starts themselves are not: rankings look at coordinates
 /// one by one, which only bears shifts and scales, and simplices are drawn by the bits of the points, so that their
 /// order does not matter.
 ///
 /// *Exact fit.* When h points lie in a hyperplane, or a smaller subspace, that is reported, not refused: the answer has
-/// a [`hull`](RobustEllipsoid::hull), centre and scatter are those of the points on it, and all others are flagged.
+/// a [`hull`](RobustEllipsoid::hull), center and scatter are those of the points on it, and all others are flagged.
 ///
 /// *Cost.* By `mcd`, for up to 4000 points: rankings of O(nd² log n), a thousand C-steps on up to 600 points, and some
 /// hundred C-steps of O(nd²) on all. Beyond, starts see a sample of 2000, and all points are read some hundred to two
@@ -87,7 +87,7 @@ fn solve(
     options: &RobustOptions<'_>,
     monitor: &Monitor<'_>,
 ) -> Result<Solution<RobustEllipsoid>, Error> {
-    let mut data = Survey::new(source, monitor)?;
+    let mut data = PointReader::new(source, monitor)?;
     // Names what is not finite before anything is calculated from it.
     data.visit(|_, _| ())?;
     let h = options.kept(data.len() as usize, data.dim());
@@ -115,7 +115,7 @@ fn solve(
 
 /// The answer in the space of the points.
 fn answer(
-    data: &mut Survey<'_>,
+    data: &mut PointReader<'_>,
     placed: &Placed,
     method: RobustMethod,
 ) -> Result<RobustEllipsoid, Error> {
@@ -203,7 +203,7 @@ fn answer(
 
 /// The rows outside the ellipsoid as it is returned, or off the hull.
 fn flagged(
-    data: &mut Survey<'_>,
+    data: &mut PointReader<'_>,
     placed: &Placed,
     (center, tail): (&[f64], &[f64]),
     factor: &[Vec<f64>],
@@ -231,7 +231,7 @@ fn flagged(
 }
 
 fn certificate(
-    data: &Survey<'_>,
+    data: &PointReader<'_>,
     placed: Placed,
     h: usize,
     options: &RobustOptions<'_>,

@@ -62,7 +62,7 @@ impl Shapes {
             Shapes { dim, items, columns, values, hash, factors: vec![], thickenings: vec![] };
         let kind = source.scalar();
         let factors = (0..shapes.len()).into_par_iter().with_min_len(32);
-        let factors: Vec<_> = factors.map(|i| shapes.factorise(i, kind)).collect();
+        let factors: Vec<_> = factors.map(|i| shapes.factorize(i, kind)).collect();
         // The first item refused, not the first that a thread met.
         let factors: Vec<_> = factors.into_iter().collect::<Result<_, _>>()?;
         (shapes.factors, shapes.thickenings) = factors.into_iter().unzip();
@@ -95,12 +95,12 @@ impl Shapes {
         &self.row(i)[..self.dim]
     }
 
-    /// What describes S.
+    /// Returns the coordinates that describe S.
     fn described(&self, i: usize) -> &[f64] {
         &self.row(i)[self.dim..]
     }
 
-    /// Whether S = 0.
+    /// Returns true if S = 0.
     pub(crate) fn is_point(&self, i: usize) -> bool {
         self.described(i).iter().all(|&v| v == 0.0)
     }
@@ -126,7 +126,7 @@ impl Shapes {
         }
     }
 
-    /// √Sⱼⱼ: how far the item reaches from its own centre along axis j.
+    /// √Sⱼⱼ: how far the item reaches from its own center along axis j.
     pub(crate) fn width(&self, i: usize, j: usize) -> f64 {
         match self.items {
             Items::Ellipsoids => {
@@ -144,7 +144,7 @@ impl Shapes {
 
     /// The factor and the thickening of item i. The factor comes from the eigenvectors of D^−½SD^−½, D being the diagonal of S, so that units of
     /// coordinates do not matter. Fails where an eigenvalue is negative beyond rounding.
-    fn factorise(&self, i: usize, kind: ScalarKind) -> Result<(Vec<f64>, f64), Error> {
+    fn factorize(&self, i: usize, kind: ScalarKind) -> Result<(Vec<f64>, f64), Error> {
         let dim = self.dim;
         if self.items == Items::Balls {
             let radius = self.described(i)[0];
@@ -180,7 +180,7 @@ impl Shapes {
             }
         }
         let (values, vectors) = eigen(&mut correlations, dim);
-        // What rounding of the entries can make of an eigenvalue of 0.
+        // The largest value that rounding of the entries can make of an eigenvalue of 0.
         let of_entries = match kind {
             ScalarKind::F32 => 4.0 * dim as f64 * f64::from(f32::EPSILON / 2.0),
             ScalarKind::F64 => 0.0,

@@ -1,4 +1,4 @@
-//! A tree of balls around ever fewer points, from repeated 2-centres.
+//! A tree of balls around ever fewer points, from repeated 2-centers.
 //!
 //! *Problem.* For queries such as "what may this ray meet": balls that hold all points, halves of them, and so on, each as small
 //! as it can be.
@@ -7,7 +7,7 @@
 //! *Guarantee.* Every point is in the ball of every node on the way to it, as exactly as [`ball()`] puts it there; no child is
 //! larger than its parent, but for the gap that is granted to balls. The same tree for any number of threads.
 //! *Trap.* The depth is not logarithmic: points at 1, ½, ¼, … are taken off one by one. It is a loop over levels, not a recursion.
-//! *Reference.* The use of 2-centres that the thesis names (section 2.5); the split goes back to Omohundro, Five Balltree
+//! *Reference.* The use of 2-centers that the thesis names (section 2.5); the split goes back to Omohundro, Five Balltree
 //! Construction Algorithms, ICSI TR-89-063, 1989.
 
 mod split;
@@ -18,10 +18,10 @@ use taut_points::{
     InputError, Monitor, PointSource, Points, ReadError, Rows, Scalar, Scratch, on_threads,
 };
 
-use crate::frame::survey;
+use crate::frame::frame_pass;
 use crate::{BallOptions, Error, ball};
 
-/// How to build the tree. Write `SphereTreeOptions { leaf_size: 1, ..Default::default() }`.
+/// Options to build the tree. Write `SphereTreeOptions { leaf_size: 1, ..Default::default() }`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SphereTreeOptions<'a> {
     /// Most points of a leaf, unless they are all equal. At least 1, default 8.
@@ -122,8 +122,8 @@ impl SphereTreeOptions<'_> {
             let (name, value) = ("leaf_size", "0".into());
             return Err(Error::Input(InputError::Option { name, value, expected: "at least 1" }));
         }
-        // What a row is called, whatever is wrong with it: the balls know rows by their place in a node.
-        survey(source, &self.monitor).map(|_| ())
+        // The name of a row in errors: the balls know rows by their place in a node.
+        frame_pass(source, &self.monitor).map(|_| ())
     }
 }
 

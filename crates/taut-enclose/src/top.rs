@@ -3,10 +3,9 @@
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
-/// An item and how far it reaches from the centre of a pass.
+/// An item and how far it reaches from the center of a pass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Far {
-    /// Row number.
     pub(crate) id: u64,
     /// (|x − c| + r)², with r = 0 for a point.
     pub(crate) reach2: f64,
@@ -70,7 +69,7 @@ impl Top {
     }
 }
 
-/// Towards which face of the cube around the centre an item lies: the coordinate of the largest |xⱼ − cⱼ|, signed.
+/// Towards which face of the cube around the center an item lies: the coordinate of the largest |xⱼ − cⱼ|, signed.
 pub(crate) type Face = (usize, bool);
 
 /// At most two of the farthest items per [`Face`]: without this, many near-copies of one far point fill a batch.

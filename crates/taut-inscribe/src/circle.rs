@@ -30,10 +30,10 @@ use crate::ring::Ring;
 
 use self::distance::Edges;
 
-/// How much farther than the radius a touching edge may be, relative to the radius; rounding of the center comes on top.
+/// The largest excess of the distance of a touching edge over the radius, relative to the radius; rounding of the center comes on top.
 const TOUCHING_SLACK: f64 = 1e-10;
 
-/// How to look for the circle. Write `CircleOptions { epsilon: 1e-6, ..Default::default() }`.
+/// Options to look for the circle. Write `CircleOptions { epsilon: 1e-6, ..Default::default() }`.
 #[derive(Clone)]
 pub struct CircleOptions<'a> {
     /// Proved relative gap to reach, in (0, 1): largest radius ≤ (1 + ε)·radius. Default 1e-9.

@@ -1,4 +1,4 @@
-//! What this crate refuses.
+//! The errors of this crate.
 
 use taut_points::{Cancelled, InputError, ReadError};
 

@@ -1,4 +1,4 @@
-//! Whether a ring meets itself.
+//! Decides whether a ring meets itself.
 //!
 //! *Problem.* Find two edges with a common point, other than neighbors at their common vertex.
 //! *Idea.* The bounding box is split at the middle, along the axis that puts fewer edges into both halves, until a cell has few
@@ -103,7 +103,7 @@ fn segment(ring: &[[f64; 2]], edge: usize) -> Segment {
     [ring[edge], ring[if edge + 1 == ring.len() { 0 } else { edge + 1 }]]
 }
 
-/// Whether two edges, the first of a lower number, have a point in common that they may not have.
+/// Tests whether two edges, the first of a lower number, have a point in common that they may not have.
 fn meet_wrongly(ring: &[[f64; 2]], one: usize, other: usize) -> bool {
     let ([a, b], [c, d]) = (segment(ring, one), segment(ring, other));
     // Edges of a ring of two would be neighbors at both ends, but a ring has three.
@@ -114,12 +114,12 @@ fn meet_wrongly(ring: &[[f64; 2]], one: usize, other: usize) -> bool {
     }
 }
 
-/// Whether the edge from b to c leads back along the edge from a to b.
+/// Tests whether the edge from b to c leads back along the edge from a to b.
 fn folds(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> bool {
     orient(a, b, c).is_zero() && lexicographic(a, b) == lexicographic(c, b)
 }
 
-/// Whether two segments have a point in common.
+/// Returns true if two segments have a point in common.
 fn meet([a, b]: Segment, [c, d]: Segment) -> bool {
     if (0..2).any(|k| a[k].max(b[k]) < c[k].min(d[k]) || c[k].max(d[k]) < a[k].min(b[k])) {
         return false;
@@ -132,7 +132,7 @@ fn meet([a, b]: Segment, [c, d]: Segment) -> bool {
     !on_one_side([a, b], [c, d]) && !on_one_side([c, d], [a, b])
 }
 
-/// Whether a segment meets a closed cell.
+/// Tests whether a segment meets a closed cell.
 pub(crate) fn meets_cell([a, b]: Segment, low: [f64; 2], high: [f64; 2]) -> bool {
     if (0..2).any(|k| a[k].max(b[k]) < low[k] || a[k].min(b[k]) > high[k]) {
         return false;

@@ -1,4 +1,4 @@
-//! How fast a file is read: `cargo run --release -p taut-io --example throughput -- points.csv [COLUMNS]`.
+//! Measures how fast a file is read: `cargo run --release -p taut-io --example throughput -- points.csv [COLUMNS]`.
 //!
 //! Five times from memory, so that the disk does not count; each line is megabytes of the file per second.
 

@@ -1,4 +1,4 @@
-//! What the header of a NumPy array says, for those who move its elements without looking at them.
+//! Reads the header of a NumPy array, for those who move its elements without looking at them.
 //!
 //! *Reference.* NumPy enhancement proposal 1 (the npy format); the array interface protocol, for the names of types.
 
@@ -24,7 +24,7 @@ pub struct NpyArray {
     pub dtype: String,
     /// Bytes of an element, at least 1.
     pub width: usize,
-    /// Whether elements lie in Fortran order: those along the first axis side by side.
+    /// True if elements lie in Fortran order: those along the first axis side by side.
     pub fortran: bool,
     /// Length of each axis.
     pub shape: Vec<u64>,

@@ -71,7 +71,7 @@ impl fmt::Display for Columns {
 }
 
 impl Columns {
-    /// Whether a column is selected by its name, so that the file must have names.
+    /// Returns true if a column is selected by its name, so that the file must have names.
     pub(crate) fn has_names(&self) -> bool {
         self.parts.iter().any(|part| matches!(part, Part::Name(_)))
     }

@@ -22,7 +22,7 @@ pub use draft::remove_unfinished;
 /// A file in the making; see [`create`]. Dropped without [`commit`](Self::commit), it leaves no trace.
 #[derive(Debug)]
 pub struct AtomicFile {
-    shown: String,
+    display: String,
     to: Target,
 }
 
@@ -42,12 +42,12 @@ enum Target {
 pub fn create(path: &Path) -> Result<AtomicFile, Error> {
     if path.as_os_str() == "-" {
         let to = Target::Stdout(BufWriter::new(io::stdout()));
-        return Ok(AtomicFile { shown: "standard output".to_owned(), to });
+        return Ok(AtomicFile { display: "standard output".to_owned(), to });
     }
-    let shown = shown_path(path);
-    let failed = |source| Error::writing(&shown, source);
+    let display = shown_path(path);
+    let failed = |source| Error::writing(&display, source);
     let to = match fs::metadata(path) {
-        Ok(meta) if meta.is_dir() => return Err(Error::Directory { path: shown }),
+        Ok(meta) if meta.is_dir() => return Err(Error::Directory { path: display }),
         Ok(meta) if !meta.is_file() => {
             let file = File::options().write(true).open(path).map_err(failed)?;
             Target::InPlace(BufWriter::new(file))
@@ -61,7 +61,7 @@ pub fn create(path: &Path) -> Result<AtomicFile, Error> {
         }
         Err(_) => rename_to(end_of_links(path), None).map_err(failed)?,
     };
-    Ok(AtomicFile { shown, to })
+    Ok(AtomicFile { display, to })
 }
 
 /// Where links lead that end at no file: it is made there, as the system does when it opens such a link to write.
@@ -86,15 +86,15 @@ pub(crate) fn folder_of_output(path: &Path) -> Option<PathBuf> {
     Some(folder(&behind).to_owned())
 }
 
-/// Whether a file can be made or replaced where `path` says, as far as that shows without doing it; nothing is left.
+/// Tests whether a file can be made or replaced where `path` says, as far as that shows without doing it; nothing is left.
 ///
 /// # Errors
 /// Those of [`create`].
 pub fn check_writable(path: &Path) -> Result<(), Error> {
-    let shown = shown_path(path);
-    let failed = |source| Error::writing(&shown, source);
+    let display = shown_path(path);
+    let failed = |source| Error::writing(&display, source);
     let behind = match fs::metadata(path) {
-        Ok(meta) if meta.is_dir() => return Err(Error::Directory { path: shown }),
+        Ok(meta) if meta.is_dir() => return Err(Error::Directory { path: display }),
         // To open a pipe is to begin with it.
         Ok(meta) if !meta.is_file() => return Ok(()),
         Ok(_) => {
@@ -108,7 +108,6 @@ pub fn check_writable(path: &Path) -> Result<(), Error> {
     Ok(())
 }
 
-/// The folder of a file.
 fn folder(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
@@ -133,7 +132,7 @@ fn rename_to(path: PathBuf, earlier: Option<Permissions>) -> io::Result<Target> 
 impl AtomicFile {
     /// The file as shown to people.
     pub fn path(&self) -> &str {
-        &self.shown
+        &self.display
     }
 
     /// Puts the file in its place, with everything written so far on the disk.
@@ -142,7 +141,7 @@ impl AtomicFile {
     /// [`Error::Replace`], for instance when the disk is full: the earlier file is then as it was. [`Error::Write`] for
     /// a device, a pipe or standard output.
     pub fn commit(self) -> Result<(), Error> {
-        let shown = self.shown;
+        let display = self.display;
         let replaces = matches!(self.to, Target::Rename(..));
         let done = match self.to {
             Target::Stdout(mut out) => out.flush(),
@@ -153,12 +152,12 @@ impl AtomicFile {
                 .and_then(|file| file.publish(&path)),
         };
         done.map_err(|source| match replaces {
-            true => Error::replacing(&shown, source),
-            false => Error::writing(&shown, source),
+            true => Error::replacing(&display, source),
+            false => Error::writing(&display, source),
         })
     }
 
-    /// What it means that writing to this file failed.
+    /// Returns what it means that writing to this file failed.
     ///
     /// Only of a file that would have been replaced can be said that the earlier one stays.
     pub(crate) fn failure(&self) -> fn(&str, io::Error) -> Error {

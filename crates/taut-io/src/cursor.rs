@@ -2,8 +2,8 @@
 
 use std::io::{BufRead, ErrorKind, Read};
 
-use crate::mesh::Building;
-use crate::{Error, MeshPlace};
+use crate::mesh::MeshBuilder;
+use crate::{Error, FilePlace};
 
 /// The longest line of a header that is text.
 const LONGEST_LINE: u64 = 1 << 16;
@@ -13,11 +13,11 @@ pub(crate) struct Cursor<'a> {
     path: &'a str,
     /// Bytes read.
     pub(crate) at: u64,
-    /// Whether the first byte of a number is its highest.
+    /// True if the first byte of a number is its highest.
     pub(crate) big_endian: bool,
 }
 
-/// How a number is stored.
+/// The way in which a number is stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     I8,
@@ -33,7 +33,6 @@ pub(crate) enum Kind {
 }
 
 impl Kind {
-    /// Bytes of a number.
     pub(crate) fn size(self) -> usize {
         match self {
             Kind::I8 | Kind::U8 => 1,
@@ -49,7 +48,7 @@ impl<'a> Cursor<'a> {
         Cursor { stream, path, at: 0, big_endian: false }
     }
 
-    /// What has not been read.
+    /// Returns what has not been read.
     pub(crate) fn into_stream(self) -> Box<dyn BufRead> {
         self.stream
     }
@@ -58,8 +57,8 @@ impl<'a> Cursor<'a> {
     pub(crate) fn fill(
         &mut self,
         bytes: &mut [u8],
-        mesh: &Building<'_>,
-        place: MeshPlace,
+        mesh: &MeshBuilder<'_>,
+        place: FilePlace,
     ) -> Result<(), Error> {
         self.stream.read_exact(bytes).map_err(|source| match source.kind() {
             ErrorKind::UnexpectedEof => mesh.damaged(place, "the file ends here, too early"),
@@ -70,7 +69,12 @@ impl<'a> Cursor<'a> {
     }
 
     /// A number as it is stored, in the lowest bytes.
-    fn raw(&mut self, kind: Kind, mesh: &Building<'_>, place: MeshPlace) -> Result<[u8; 8], Error> {
+    fn raw(
+        &mut self,
+        kind: Kind,
+        mesh: &MeshBuilder<'_>,
+        place: FilePlace,
+    ) -> Result<[u8; 8], Error> {
         let mut bytes = [0; 8];
         let stored = &mut bytes[..kind.size()];
         self.fill(stored, mesh, place)?;
@@ -80,12 +84,11 @@ impl<'a> Cursor<'a> {
         Ok(bytes)
     }
 
-    /// A number as a coordinate.
     pub(crate) fn real(
         &mut self,
         kind: Kind,
-        mesh: &Building<'_>,
-        place: MeshPlace,
+        mesh: &MeshBuilder<'_>,
+        place: FilePlace,
     ) -> Result<f64, Error> {
         let raw = self.raw(kind, mesh, place)?;
         Ok(match kind {
@@ -99,8 +102,8 @@ impl<'a> Cursor<'a> {
     pub(crate) fn whole(
         &mut self,
         kind: Kind,
-        mesh: &Building<'_>,
-        place: MeshPlace,
+        mesh: &MeshBuilder<'_>,
+        place: FilePlace,
     ) -> Result<i64, Error> {
         let raw = self.raw(kind, mesh, place)?;
         Ok(match kind {
@@ -113,8 +116,8 @@ impl<'a> Cursor<'a> {
     pub(crate) fn skip(
         &mut self,
         count: u64,
-        mesh: &Building<'_>,
-        place: MeshPlace,
+        mesh: &MeshBuilder<'_>,
+        place: FilePlace,
     ) -> Result<(), Error> {
         let skipped = std::io::copy(&mut (&mut self.stream).take(count), &mut std::io::sink())
             .map_err(|source| Error::reading(self.path, source))?;
@@ -151,7 +154,7 @@ impl<'a> Cursor<'a> {
         })
     }
 
-    /// What is left, up to `most` bytes.
+    /// Returns what is left, up to `most` bytes.
     pub(crate) fn rest(&mut self, most: u64) -> Result<Vec<u8>, Error> {
         let mut rest = Vec::new();
         (&mut self.stream)

@@ -1,7 +1,7 @@
-//! What can be wrong with a file, said so that a person can mend it: file, row, column, value, remedy.
+//! The errors of files, worded so that a person can mend it: file, row, column, value, remedy.
 
+mod display;
 mod place;
-mod shown;
 mod system;
 
 use std::io;
@@ -10,11 +10,11 @@ use taut_points::ReadError;
 
 use crate::{Compression, Content, Format};
 
-pub use place::{MeshPlace, Place};
-pub(crate) use shown::shown_path;
+pub(crate) use display::shown_path;
+pub use place::{FilePlace, Place};
 
+use display::{Abbreviated, Printable, columns, format_of, names, names_or_extensions};
 use place::Row;
-use shown::{Clean, Few, columns, format_of, names, names_or_extensions};
 
 /// Why points could not be read or a file could not be written.
 #[derive(Debug, thiserror::Error)]
@@ -63,7 +63,7 @@ pub enum Error {
     Read {
         /// The file.
         path: String,
-        /// What the operating system said.
+        /// The error of the operating system.
         source: io::Error,
     },
     /// Writing to a device, a pipe or standard output failed, or a file could not be begun.
@@ -71,7 +71,7 @@ pub enum Error {
     Write {
         /// The file.
         path: String,
-        /// What the operating system said.
+        /// The error of the operating system.
         source: io::Error,
     },
     /// Writing failed; what stood there before is untouched.
@@ -79,7 +79,7 @@ pub enum Error {
     Replace {
         /// The file.
         path: String,
-        /// What the operating system said.
+        /// The error of the operating system.
         source: io::Error,
     },
     /// The temporary file for points that do not fit into memory could not be written.
@@ -91,7 +91,7 @@ pub enum Error {
         path: String,
         /// The folder of the temporary file.
         folder: String,
-        /// What the operating system said.
+        /// The error of the operating system.
         source: io::Error,
     },
     /// Not one byte.
@@ -111,7 +111,7 @@ pub enum Error {
     UnknownOutput {
         /// The file.
         path: String,
-        /// What would be written.
+        /// The content that would be written.
         content: Content,
     },
     /// Neither name nor content tells the format.
@@ -119,13 +119,13 @@ pub enum Error {
     UnknownFormat {
         /// The file.
         path: String,
-        /// What would be read.
+        /// The content that would be read.
         content: Content,
     },
     /// No format has this name.
     #[error("`{name}` is no format; the formats are {}", names(|_| true))]
     FormatName {
-        /// What was asked for.
+        /// The name that was asked for.
         name: String,
     },
     /// Such content is not read from this format.
@@ -135,7 +135,7 @@ pub enum Error {
         path: String,
         /// The format.
         format: Format,
-        /// What was asked for.
+        /// The content that was asked for.
         content: Content,
     },
     /// Such content is not written in this format.
@@ -145,7 +145,7 @@ pub enum Error {
         path: String,
         /// The format.
         format: Format,
-        /// What was given.
+        /// The value that was given.
         content: Content,
     },
     /// A mesh was asked for as content that is none.
@@ -153,7 +153,7 @@ pub enum Error {
     NotMesh {
         /// The file.
         path: String,
-        /// What was asked for.
+        /// The content that was asked for.
         content: Content,
     },
     /// The extension promises normals or colors, which are read but not written.
@@ -187,7 +187,7 @@ pub enum Error {
         path: String,
         /// The compression.
         compression: Compression,
-        /// What the decoder said.
+        /// The error of the decoder.
         source: io::Error,
     },
     /// A row has more or fewer columns than the first.
@@ -203,13 +203,13 @@ pub enum Error {
         found: usize,
         /// Columns of the first.
         expected: usize,
-        /// What sets the number expected.
+        /// The reason for the number expected.
         why: &'static str,
     },
     /// A point of a list column has another dimension than the first.
     #[error(
         "{path}: row {row} of column `{}` is a list of {found} values, but the first has {expected}: all points must have one dimension",
-        Clean(column)
+        Printable(column)
     )]
     RaggedList {
         /// The file.
@@ -230,7 +230,7 @@ pub enum Error {
         place: Place,
         /// The field, shortened if long.
         value: String,
-        /// What to do.
+        /// The remedy.
         hint: &'static str,
     },
     /// A number is NaN, infinite, or too large for its type.
@@ -323,7 +323,7 @@ pub enum Error {
     Columns {
         /// The selection.
         text: String,
-        /// What would have been accepted.
+        /// The values that would have been accepted.
         expected: &'static str,
     },
     /// A column of this number does not exist.
@@ -333,11 +333,11 @@ pub enum Error {
         path: String,
         /// The number asked for.
         number: usize,
-        /// How many there are.
+        /// The number of them.
         width: usize,
     },
     /// A column of this name does not exist.
-    #[error("{path}: there is no column `{}`; there {} {}", Clean(name), if known.len() == 1 { "is" } else { "are" }, Few(known))]
+    #[error("{path}: there is no column `{}`; there {} {}", Printable(name), if known.len() == 1 { "is" } else { "are" }, Abbreviated(known))]
     ColumnName {
         /// The file.
         path: String,
@@ -349,7 +349,7 @@ pub enum Error {
     /// A column was asked for by name, but the file has no names.
     #[error(
         "{path}: column `{}` was asked for by name, but the file has no header: select columns by number, counted from 0",
-        Clean(name)
+        Printable(name)
     )]
     NoNames {
         /// The file.
@@ -358,7 +358,10 @@ pub enum Error {
         name: String,
     },
     /// A selected column does not hold numbers.
-    #[error("{path}: column `{}` holds {kind}, not numbers: select other columns", Clean(column))]
+    #[error(
+        "{path}: column `{}` holds {kind}, not numbers: select other columns",
+        Printable(column)
+    )]
     NotNumeric {
         /// The file.
         path: String,
@@ -370,12 +373,12 @@ pub enum Error {
     /// No column holds numbers, or several could be the points.
     #[error(
         "{path}: {problem} among its columns {}: select the columns that are coordinates",
-        Few(columns)
+        Abbreviated(columns)
     )]
     NoCoordinates {
         /// The file.
         path: String,
-        /// What was looked for in vain.
+        /// The thing that was not found.
         problem: &'static str,
         /// The columns there are, with types.
         columns: Vec<String>,
@@ -388,8 +391,8 @@ pub enum Error {
         /// The format.
         format: Format,
         /// Where, as far as the problem does not say it.
-        place: MeshPlace,
-        /// What is wrong.
+        place: FilePlace,
+        /// The problem.
         problem: String,
     },
     /// A problem of TSPLIB whose coordinates are places on the earth.
@@ -413,9 +416,9 @@ pub enum Error {
         path: String,
         /// The format.
         format: Format,
-        /// What the header says.
+        /// The value that the header claims.
         expected: u64,
-        /// What there is.
+        /// The value found.
         found: u64,
         /// Of what: the word for one, and for more.
         unit: (&'static str, &'static str),
@@ -425,9 +428,9 @@ pub enum Error {
     Array {
         /// The file.
         path: String,
-        /// What it holds.
+        /// The problem with its contents.
         problem: String,
-        /// How to make it points.
+        /// The way to make it points.
         remedy: &'static str,
     },
     /// A part of the file must be held in memory as a whole, and is larger than allowed.
@@ -443,7 +446,7 @@ pub enum Error {
         bytes: u64,
         /// Bytes allowed for it.
         memory: u64,
-        /// What to do.
+        /// The remedy.
         remedy: &'static str,
     },
     /// The system gives no memory for the points.
@@ -500,7 +503,7 @@ pub enum Error {
     Names {
         /// The file.
         path: String,
-        /// How many names.
+        /// The number of names.
         names: usize,
         /// The dimension.
         dim: usize,
@@ -521,10 +524,10 @@ pub enum Error {
         /// The file.
         path: String,
         /// Where.
-        place: MeshPlace,
-        /// What it is.
+        place: FilePlace,
+        /// The problem.
         problem: String,
-        /// How to write it instead.
+        /// The way to write it instead.
         remedy: &'static str,
     },
     /// There is no simplex in a file of a triangulation, or no vertex in that of a surface.
@@ -540,11 +543,11 @@ pub enum Error {
     MeshAttributes {
         /// The file.
         path: String,
-        /// What was given.
+        /// The thing that was given.
         what: &'static str,
-        /// How many of them.
+        /// The number of them.
         found: usize,
-        /// How many vertices there are.
+        /// The number of vertices.
         vertices: usize,
     },
     /// A normal is not finite.

@@ -9,7 +9,7 @@ use std::str::FromStr;
 use crate::Error;
 use table::{Access, Entry, READ_ONLY_EXTENSIONS, TABLE};
 
-/// What a file holds, or is asked for.
+/// The content of a file, or the content that is asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Content {
     /// Points of any dimension.
@@ -131,7 +131,7 @@ impl Format {
         self.access(content).map_or("", |(_, line)| line)
     }
 
-    /// Whether some build reads or writes such content in this format.
+    /// Tests whether some build reads or writes such content in this format.
     pub fn holds(self, content: Content) -> bool {
         self.access(content).is_some()
     }
@@ -141,29 +141,27 @@ impl Format {
         cfg!(feature = "arrow") || !matches!(self, Format::Parquet | Format::Arrow)
     }
 
-    /// Whether this build reads such content from it.
+    /// Returns true if this build reads such content from it.
     pub fn reads(self, content: Content) -> bool {
         let access = self.access(content).map(|(access, _)| access);
         self.is_built() && matches!(access, Some(Access::Read | Access::Both))
     }
 
-    /// Whether this build writes such content to it.
+    /// Returns true if this build writes such content to it.
     pub fn writes(self, content: Content) -> bool {
         let access = self.access(content).map(|(access, _)| access);
         self.is_built() && matches!(access, Some(Access::Write | Access::Both))
     }
 
-    /// Whether anything is read from it.
     pub(crate) fn is_read(self) -> bool {
         self.entry().uses.iter().any(|(_, access, _)| *access != Access::Write)
     }
 
-    /// Whether anything is written to it.
     pub(crate) fn is_written(self) -> bool {
         self.entry().uses.iter().any(|(_, access, _)| *access != Access::Read)
     }
 
-    /// Whether a mesh in it can have simplices of so many vertices; a format of surfaces alone has triangles.
+    /// Returns true if a mesh in it can have simplices of so many vertices; a format of surfaces alone has triangles.
     pub fn holds_simplices(self, width: usize) -> bool {
         match self {
             Format::Ply | Format::Vtu | Format::Parquet => (1..=4).contains(&width),
@@ -172,7 +170,7 @@ impl Format {
         }
     }
 
-    /// Whether it is written as a surface with vertices alone, without any triangle.
+    /// Returns true if it is written as a surface with vertices alone, without any triangle.
     pub fn holds_bare_vertices(self) -> bool {
         use Format::{Glb, Gltf, Obj, Off, Ply};
         matches!(self, Ply | Obj | Off | Glb | Gltf)
@@ -234,7 +232,7 @@ impl FromStr for Format {
     }
 }
 
-/// How a file is compressed as a whole.
+/// The way in which a file is compressed as a whole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Compression {
     /// `.gz`

@@ -53,7 +53,7 @@ impl Input {
     }
 }
 
-/// What every reader is told.
+/// The data that every reader gets.
 pub(crate) struct Job<'a> {
     /// The file as shown to people.
     pub(crate) path: &'a str,
@@ -77,40 +77,40 @@ impl Medium {
             let stream = Box::new(BufReader::with_capacity(1 << 18, io::stdin()));
             return Ok((Medium::Stream(stream), "standard input".to_owned()));
         }
-        let shown = shown_path(path);
-        let failed = |source| Error::reading(&shown, source);
+        let display = shown_path(path);
+        let failed = |source| Error::reading(&display, source);
         let kind = fs::metadata(path).map_err(failed)?;
         if kind.is_dir() {
-            return Err(Error::Directory { path: shown });
+            return Err(Error::Directory { path: display });
         }
         let file = File::open(path).map_err(failed)?;
-        refuse_device(&file, &shown)?;
+        refuse_device(&file, &display)?;
         // A pipe has a path on some systems, but no place to go back to.
         let medium = match kind.is_file() {
             true => Medium::File(file, path.to_owned()),
             false => Medium::Stream(Box::new(BufReader::with_capacity(1 << 18, file))),
         };
-        Ok((medium, shown))
+        Ok((medium, display))
     }
 
     /// The bytes that the compression of the name, or that of the first bytes if `sniff` says so, stands for; and the first
     /// of them, of which there must be one.
     pub(crate) fn decompressed(
         self,
-        shown: &str,
+        display: &str,
         named: Option<Compression>,
         sniff: bool,
     ) -> Result<(Vec<u8>, Medium), Error> {
-        let empty = || Error::Empty { path: shown.to_owned() };
-        let (head, medium) = self.peek(shown)?;
+        let empty = || Error::Empty { path: display.to_owned() };
+        let (head, medium) = self.peek(display)?;
         if head.is_empty() {
             return Err(empty());
         }
         let Some(compression) = named.or(Compression::of_magic(&head).filter(|_| sniff)) else {
             return Ok((head, medium));
         };
-        let stream = compress::decoder(compression, medium.stream(), shown)?;
-        let (head, medium) = Medium::Stream(stream).peek(shown)?;
+        let stream = compress::decoder(compression, medium.stream(), display)?;
+        let (head, medium) = Medium::Stream(stream).peek(display)?;
         if head.is_empty() { Err(empty()) } else { Ok((head, medium)) }
     }
 
@@ -171,16 +171,16 @@ impl Medium {
 
 /// Opens the points of `path`; `-` is standard input.
 ///
-/// What is compressed is told by the extension or by the first bytes. A file that is read in place (npy, raw) must
+/// Compression is recognized by the extension or by the first bytes. A file that is read in place (npy, raw) must
 /// not change while its points are in use.
 ///
 /// # Errors
 /// [`Error`], with file, row, column and value. Values of files that are read in place are not looked at: a solver
 /// reports what it finds there, and [`Input::describe_cell`] says where that is.
 pub fn open(path: &Path, options: &ReadOptions) -> Result<Input, Error> {
-    let (medium, shown) = Medium::open(path)?;
+    let (medium, display) = Medium::open(path)?;
     let name = matches!(medium, Medium::File(..)).then_some(path);
-    open_medium(medium, name, &shown, options)
+    open_medium(medium, name, &display, options)
 }
 
 /// Refuses a device as standard input, which no path would name.
@@ -211,23 +211,23 @@ pub fn open_bytes(bytes: Vec<u8>, name: &str, options: &ReadOptions) -> Result<I
 fn open_medium(
     medium: Medium,
     name: Option<&Path>,
-    shown: &str,
+    display: &str,
     options: &ReadOptions,
 ) -> Result<Input, Error> {
     let (named_format, named_compression) = name.map_or((None, None), Format::of_path);
     let known = options.format.or(named_format.filter(|format| format.holds(Content::Points)));
     // Raw values may begin with any bytes, so only a name says that they are compressed.
     let sniff = known != Some(Format::Raw);
-    let (head, medium) = medium.decompressed(shown, named_compression, sniff)?;
+    let (head, medium) = medium.decompressed(display, named_compression, sniff)?;
     let unknown = || match named_format {
-        Some(format) => Error::not_readable(shown, format, Content::Points),
-        None => Error::UnknownFormat { path: shown.to_owned(), content: Content::Points },
+        Some(format) => Error::not_readable(display, format, Content::Points),
+        None => Error::UnknownFormat { path: display.to_owned(), content: Content::Points },
     };
     let format = known
         .or_else(|| read::format_of_magic(&head))
         .or(name.is_none().then_some(Format::Csv))
         .ok_or_else(unknown)?;
-    let job = Job { path: shown, format, options };
+    let job = Job { path: display, format, options };
     let Decoded { source, columns, numbers } = read::read(&job, medium)?;
-    Ok(Input { source, columns, format, path: shown.to_owned(), numbers })
+    Ok(Input { source, columns, format, path: display.to_owned(), numbers })
 }

@@ -57,7 +57,7 @@ pub use array::NpyArray;
 pub use columns::Columns;
 pub use create::{AtomicFile, check_writable, create, remove_unfinished};
 pub use device::refuse_device;
-pub use error::{Error, MeshPlace, Place};
+pub use error::{Error, FilePlace, Place};
 pub use format::{Compression, Content, Format};
 pub use input::{Input, open, open_bytes};
 pub use limits::LONGEST_LINE;

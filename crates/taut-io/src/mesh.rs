@@ -9,7 +9,7 @@
 //! compared with what is there and never trusted: memory grows with what was read.
 //! *Trap.* Normals and colors are kept where each vertex has one, and only one.
 
-mod building;
+mod builder;
 mod colors;
 mod dxf;
 mod gltf;
@@ -30,7 +30,7 @@ mod xyz;
 use taut_mesh::TriangleMesh;
 use taut_points::PointSource;
 
-pub(crate) use building::{Building, printable};
+pub(crate) use builder::{MeshBuilder, printable};
 pub(crate) use reading::read_stream;
 pub use reading::{open_mesh, open_mesh_bytes};
 pub use writing::{Encoding, MeshOptions, mesh_file, write_mesh};
@@ -107,7 +107,6 @@ impl<'a> MeshView<'a> {
         MeshView { vertices, width, simplices, normals: None, colors: None }
     }
 
-    /// Number of vertices.
     fn vertex_count(&self) -> u64 {
         match self.vertices {
             Vertices::Points(source) => source.len(),
@@ -115,7 +114,6 @@ impl<'a> MeshView<'a> {
         }
     }
 
-    /// Number of simplices.
     fn simplex_count(&self) -> usize {
         self.simplices.len() / self.width
     }
@@ -128,7 +126,6 @@ impl<'a> MeshView<'a> {
         }
     }
 
-    /// The triangles of a surface.
     fn triangles(&self) -> &'a [[u32; 3]] {
         self.simplices.as_chunks().0
     }

@@ -7,17 +7,16 @@ mod literal;
 
 use std::io::{BufRead, ErrorKind, Read};
 
-use crate::{Error, Format, MeshPlace};
+use crate::{Error, FilePlace, Format};
 use literal::Literal;
 
-/// How such a file begins.
+/// The first bytes of such a file.
 pub(crate) const MAGIC: &[u8] = b"\x93NUMPY";
 
-/// What a header says.
 pub(crate) struct NpyHeader {
     /// The type of an element; none of records with fields.
     pub(crate) descr: Option<String>,
-    /// Whether elements along the first axis lie side by side.
+    /// True if elements along the first axis lie side by side.
     pub(crate) fortran: bool,
     /// Length of each axis.
     pub(crate) shape: Vec<u64>,
@@ -93,5 +92,5 @@ fn exact(path: &str, stream: &mut dyn BufRead, bytes: &mut [u8]) -> Result<(), E
 /// The error of a file that is no array.
 pub(crate) fn damaged(path: &str, problem: &str) -> Error {
     let (path, problem) = (path.to_owned(), problem.to_owned());
-    Error::Damaged { path, format: Format::Npy, place: MeshPlace::File, problem }
+    Error::Damaged { path, format: Format::Npy, place: FilePlace::File, problem }
 }

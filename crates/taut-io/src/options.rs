@@ -1,4 +1,4 @@
-//! How to read points.
+//! Options to read points.
 
 use std::path::PathBuf;
 
@@ -6,14 +6,14 @@ use taut_points::ScalarKind;
 
 use crate::{Columns, Format};
 
-/// How to read points. Write `ReadOptions { memory: Some(1 << 30), ..Default::default() }`.
+/// Options to read points. Write `ReadOptions { memory: Some(1 << 30), ..Default::default() }`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReadOptions {
     /// The format; by default that of the extension, or of the first bytes on standard input (CSV if they say nothing).
     pub format: Option<Format>,
     /// The columns that are coordinates, in this order; by default all (of parquet and arrow: all numeric ones).
     pub columns: Option<Columns>,
-    /// Whether the first row of a text file holds names. Default [`Header::Auto`].
+    /// States whether the first row of a text file holds names. Default [`Header::Auto`].
     pub header: Header,
     /// Most bytes of points held in memory; what is larger stays in its file or goes to a temporary one. Default: all.
     ///
@@ -29,7 +29,7 @@ pub struct ReadOptions {
     pub temp_dir: Option<PathBuf>,
 }
 
-/// Whether the first row of a text file holds the names of the columns.
+/// States whether the first row of a text file holds the names of the columns.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Header {
     /// It does if none of its selected fields is a number. Refused are a row with both names and numbers, and one with a
@@ -42,7 +42,7 @@ pub enum Header {
     Absent,
 }
 
-/// How little-endian values without a header lie in a file.
+/// The way in which little-endian values without a header lie in a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct RawLayout {
     /// Dimension d of a point, at least 1.

@@ -14,7 +14,7 @@ use crate::create::AtomicFile;
 use crate::error::shown_path;
 use crate::format::format_to_write;
 use crate::words::put_number;
-use crate::write::Out;
+use crate::write::OutputFile;
 use crate::{Content, Error, Format};
 
 /// Bytes gathered before they are written.
@@ -45,7 +45,7 @@ pub fn polylines_file(
 ) -> Result<AtomicFile, Error> {
     let shown = shown_path(path);
     let (format, compression) = format_to_write(path, &shown, format, Content::Curves)?;
-    let mut text = Text { bytes: Vec::new(), out: Out::create(path, &shown, compression)? };
+    let mut text = Text { bytes: Vec::new(), out: OutputFile::create(path, &shown, compression)? };
     match format {
         Format::Csv => csv::write(curves, &mut text)?,
         Format::GeoJson => geojson::write(curves, &mut text)?,
@@ -58,11 +58,10 @@ pub fn polylines_file(
 /// Text on its way to a file.
 struct Text<'a> {
     bytes: Vec<u8>,
-    out: Out<'a>,
+    out: OutputFile<'a>,
 }
 
 impl Text<'_> {
-    /// Words as they are.
     fn put(&mut self, words: &str) {
         self.bytes.extend_from_slice(words.as_bytes());
     }

@@ -31,7 +31,7 @@ use std::path::Path;
 use taut_points::{FileSource, MappedSource, PointSource, ScalarKind};
 
 #[cfg(feature = "arrow")]
-use crate::MeshPlace;
+use crate::FilePlace;
 use crate::input::{Job, Medium};
 use crate::{Content, Error, Format};
 use crate::{limits, npy_header};
@@ -62,7 +62,6 @@ pub(crate) fn format_of_magic(bytes: &[u8]) -> Option<Format> {
     bytes.starts_with(&[0xff; 4]).then_some(Format::Arrow)
 }
 
-/// Reads `medium` as the format of `job`.
 pub(crate) fn read(job: &Job<'_>, medium: Medium) -> Result<Decoded, Error> {
     match job.format {
         Format::Csv | Format::Tsv | Format::Whitespace => delimited::read(job, medium.stream()),
@@ -142,7 +141,7 @@ fn guarded(job: &Job<'_>, read: impl FnOnce() -> Result<Decoded, Error>) -> Resu
         Err(Error::Damaged {
             path: job.path.to_owned(),
             format: job.format,
-            place: MeshPlace::File,
+            place: FilePlace::File,
             problem: "its decoder stumbled over bytes that contradict each other".to_owned(),
         })
     })

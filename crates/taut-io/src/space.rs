@@ -1,4 +1,4 @@
-//! Whether a file system has room for what is about to be written.
+//! Decides whether a file system has room for what is about to be written.
 //!
 //! *Guarantee.* Only what surely does not fit is refused: the bytes counted are the fewest that the points can take.
 

@@ -2,12 +2,12 @@
 
 use std::io::{BufRead, Read};
 
-use crate::mesh::Building;
-use crate::{Error, MeshPlace};
+use crate::mesh::MeshBuilder;
+use crate::{Error, FilePlace};
 
 /// A line, its comment, and where it stands.
 pub(crate) struct Line<'a> {
-    pub(crate) at: MeshPlace,
+    pub(crate) at: FilePlace,
     /// Without blanks around it; may be empty where there is a comment.
     pub(crate) words: &'a [u8],
     pub(crate) comment: &'a [u8],
@@ -18,11 +18,11 @@ pub(crate) struct Lines {
     stream: Box<dyn BufRead>,
     line: Vec<u8>,
     number: u64,
-    /// Whether a last line without its end is a line.
+    /// True if a last line without its end is a line.
     open: bool,
-    /// Whether a backslash at the end of a line joins the next one to it.
+    /// True if a backslash at the end of a line joins the next one to it.
     joined: bool,
-    /// Whether the last line has no end.
+    /// True if the last line has no end.
     cut: bool,
 }
 
@@ -41,7 +41,7 @@ impl Lines {
     ///
     /// A last line without its end is refused, unless the lines are open-ended: a file that was cut within a number
     /// could look whole.
-    pub(crate) fn advance(&mut self, mesh: &Building<'_>) -> Result<bool, Error> {
+    pub(crate) fn advance(&mut self, mesh: &MeshBuilder<'_>) -> Result<bool, Error> {
         loop {
             self.line.clear();
             loop {
@@ -73,7 +73,7 @@ impl Lines {
                 Some(_) if self.open => self.cut = true,
                 Some(_) => {
                     let problem = "it does not end with a line feed, as if the file were cut short";
-                    return Err(mesh.damaged(MeshPlace::Line(self.number), problem));
+                    return Err(mesh.damaged(FilePlace::Line(self.number), problem));
                 }
             }
             if !self.line.trim_ascii().is_empty() {
@@ -82,14 +82,14 @@ impl Lines {
         }
     }
 
-    /// Whether the last line was one without its end.
+    /// Returns true if the last line was one without its end.
     pub(crate) fn cut(&self) -> bool {
         self.cut
     }
 
     /// Where the line last gone to stands.
-    pub(crate) fn place(&self) -> MeshPlace {
-        MeshPlace::Line(self.number)
+    pub(crate) fn place(&self) -> FilePlace {
+        FilePlace::Line(self.number)
     }
 
     /// The line last gone to, with all its bytes.
@@ -98,7 +98,7 @@ impl Lines {
     }
 
     /// Goes to the next line that holds words.
-    pub(crate) fn skip_comments(&mut self, mesh: &Building<'_>) -> Result<(), Error> {
+    pub(crate) fn skip_comments(&mut self, mesh: &MeshBuilder<'_>) -> Result<(), Error> {
         while self.advance(mesh)? && self.line.trim_ascii_start().starts_with(b"#") {}
         Ok(())
     }
@@ -107,18 +107,16 @@ impl Lines {
     pub(crate) fn current(&self) -> Option<Line<'_>> {
         let end = memchr::memchr(b'#', &self.line).unwrap_or(self.line.len());
         let (words, comment) = self.line.split_at(end);
-        let at = MeshPlace::Line(self.number);
+        let at = FilePlace::Line(self.number);
         let line = Line { at, words: words.trim_ascii(), comment: comment.trim_ascii() };
         (!self.line.is_empty()).then_some(line)
     }
 }
 
-/// The words of a line.
 pub(crate) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
     line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
 }
 
-/// A whole number.
 pub(crate) fn whole(word: &[u8]) -> Option<i64> {
     std::str::from_utf8(word).ok()?.parse().ok()
 }
@@ -155,7 +153,6 @@ pub(crate) fn put_ids(ids: &[u32], first: u64, out: &mut Vec<u8>) {
     out.push(b'\n');
 }
 
-/// Writes a whole number.
 pub(crate) fn put_whole(value: u64, out: &mut Vec<u8>) {
     let mut digits = [0; 20];
     let mut rest = value;

@@ -48,7 +48,7 @@ pub fn write_points(
         return Err(Error::Dimension { path: shown, format, expected: "3", dim: source.dim() });
     }
     check_space(path, &shown, least_bytes(source, format, compression))?;
-    let mut out = Out::create(path, &shown, compression)?;
+    let mut out = OutputFile::create(path, &shown, compression)?;
     let points = Points { source, columns, monitor };
     match format {
         Format::Csv => text::write(&points, b',', &mut out)?,
@@ -65,7 +65,6 @@ pub fn write_points(
     out.finish()?.commit()
 }
 
-/// Points to be written.
 pub(crate) struct Points<'a> {
     pub(crate) source: &'a dyn PointSource,
     pub(crate) columns: &'a [String],
@@ -93,14 +92,14 @@ impl Points<'_> {
 }
 
 /// The file being written, with its name for messages.
-pub(crate) struct Out<'a> {
+pub(crate) struct OutputFile<'a> {
     pub(crate) to: Encoder<AtomicFile>,
     pub(crate) path: &'a str,
-    /// What an error of writing means.
+    /// The meaning of an error of writing.
     pub(crate) failure: fn(&str, std::io::Error) -> Error,
 }
 
-impl<'a> Out<'a> {
+impl<'a> OutputFile<'a> {
     pub(crate) fn create(
         path: &Path,
         shown: &'a str,
@@ -109,7 +108,7 @@ impl<'a> Out<'a> {
         let file = create(path)?;
         let failure = file.failure();
         let to = Encoder::new(compression, file).map_err(|source| failure(shown, source))?;
-        Ok(Out { to, path: shown, failure })
+        Ok(OutputFile { to, path: shown, failure })
     }
 
     /// Ends the compressed stream, if there is one.

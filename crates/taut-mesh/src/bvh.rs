@@ -1,12 +1,12 @@
 //! A tree of boxes over triangles: which triangles may meet, and which is next to a point.
 //!
 //! *Problem.* Of n triangles, list the pairs whose boxes, with sides along the axes, have a point in common.
-//! *Idea.* Halve the triangles at the median of the centres of their boxes along the axis in which these spread most, until
+//! *Idea.* Halve the triangles at the median of the centers of their boxes along the axis in which these spread most, until
 //! few are left; each part knows the box around it. The first triangle of a pair goes down the tree with its own box and
 //! turns back where boxes are apart or all triangles come before it.
 //! *Guarantee.* No pair is missed or listed twice. The depth is at most 32, building takes O(n log n), and the tree depends
 //! on the coordinates and the order of the triangles alone.
-//! *Trap.* Medians of equal centres fall where they may: ties go by number, so that they always fall the same way.
+//! *Trap.* Medians of equal centers fall where they may: ties go by number, so that they always fall the same way.
 //! *Reference.* Ericson, Real-Time Collision Detection, 2005, chapter 6: trees of boxes built from the top.
 
 mod nearest;
@@ -52,8 +52,8 @@ impl Bounds {
         f64::hypot(x, y).hypot(z)
     }
 
-    /// Its centre; halves are added, as a sum could be too large.
-    fn centre(&self) -> [f64; 3] {
+    /// Its center; halves are added, as a sum could be too large.
+    fn center(&self) -> [f64; 3] {
         std::array::from_fn(|k| 0.5 * self.low[k] + 0.5 * self.high[k])
     }
 }
@@ -68,14 +68,11 @@ struct Node {
     second: u32,
 }
 
-/// The tree.
 pub(crate) struct Bvh {
     nodes: Vec<Node>,
     /// The number of the triangle at each place.
     numbers: Vec<u32>,
-    /// Its corners.
     corners: Vec<[[f64; 3]; 3]>,
-    /// Its box.
     bounds: Vec<Bounds>,
 }
 
@@ -86,7 +83,7 @@ impl Bvh {
             .zip(triangles)
             .map(|(slot, (number, corners))| {
                 let bounds = Bounds::around(corners);
-                Item { bounds, centre: bounds.centre(), number: *number, slot }
+                Item { bounds, center: bounds.center(), number: *number, slot }
             })
             .collect();
         let mut nodes = Vec::new();
@@ -135,7 +132,7 @@ impl Bvh {
 
 struct Item {
     bounds: Bounds,
-    centre: [f64; 3],
+    center: [f64; 3],
     number: u32,
     slot: u32,
 }
@@ -148,12 +145,12 @@ fn divide(items: &mut [Item], begin: u32, nodes: &mut Vec<Node>) {
     if items.len() <= LEAF_SIZE {
         return;
     }
-    let centres = Bounds::around(items.iter().map(|item| &item.centre));
-    let spread = |k: usize| centres.high[k] - centres.low[k];
+    let centers = Bounds::around(items.iter().map(|item| &item.center));
+    let spread = |k: usize| centers.high[k] - centers.low[k];
     let axis = (1..3).fold(0, |best, k| if spread(k) > spread(best) { k } else { best });
     let middle = items.len() / 2;
     items.select_nth_unstable_by(middle, |a, b| {
-        a.centre[axis].total_cmp(&b.centre[axis]).then(a.slot.cmp(&b.slot))
+        a.center[axis].total_cmp(&b.center[axis]).then(a.slot.cmp(&b.slot))
     });
     let (first, second) = items.split_at_mut(middle);
     divide(first, begin, nodes);
@@ -191,7 +188,7 @@ mod tests {
     use super::*;
 
     proptest! {
-        /// Whole numbers bring boxes that touch, equal centres and flat boxes.
+        /// Whole numbers bring boxes that touch, equal centers and flat boxes.
         #[test]
         fn pairs_are_those_of_all_boxes(
             soup in prop::collection::vec(prop::collection::vec(0i8..12, 9), 0..60),

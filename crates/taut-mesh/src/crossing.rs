@@ -1,10 +1,10 @@
 //! Where polylines meet themselves or one another.
 //!
-//! *Problem.* Count the pairs of edges with a point in common that they may not have: neighbours along a curve may share their
+//! *Problem.* Count the pairs of edges with a point in common that they may not have: neighbors along a curve may share their
 //! vertex and nothing else, all others nothing at all.
 //! *Idea.* Pairs that share a cell of a grid, in each cell by a sweep over x; exact signs decide.
 //! *Guarantee.* No pair is missed or counted twice, and rounding plays no part. Repeated vertices in a row count as one.
-//! *Trap.* Neighbours can fold back on each other: three points on a line, the middle one at the end.
+//! *Trap.* Neighbors can fold back on each other: three points on a line, the middle one at the end.
 
 use taut_predicates::Sign;
 use taut_predicates::plane::{lexicographic, orient};
@@ -12,7 +12,7 @@ use taut_predicates::plane::{lexicographic, orient};
 use crate::Polyline;
 use crate::grid::{Grid, Segment};
 
-/// The number of pairs of edges that meet though they are not neighbours, or overlap though they are.
+/// The number of pairs of edges that meet though they are not neighbors, or overlap though they are.
 ///
 /// ```
 /// use taut_mesh::{Polyline, crossings};
@@ -32,10 +32,10 @@ pub fn crossings(curves: &[Polyline<'_>]) -> usize {
         ranges.push((first, segments.len() as u32, curve.closed));
     }
     let Some(grid) = Grid::new(&segments) else { return 0 };
-    let neighbours = |i: u32, j: u32| {
+    let neighbors = |i: u32, j: u32| {
         let (first, end, closed) = ranges[curve_of[i as usize] as usize];
         let after = |i: u32, j: u32| j == i + 1 || (closed && i + 1 == end && j == first);
-        // Two edges that close are neighbours at both ends; either view sees them overlap.
+        // Two edges that close are neighbors at both ends; either view sees them overlap.
         if curve_of[i as usize] != curve_of[j as usize] {
             None
         } else if after(i, j) {
@@ -55,7 +55,7 @@ pub fn crossings(curves: &[Polyline<'_>]) -> usize {
         here.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
         for (place, &(_, right, i)) in here.iter().enumerate() {
             for &(_, _, j) in here[place + 1..].iter().take_while(|other| other.0 <= right) {
-                let bad = match neighbours(i, j) {
+                let bad = match neighbors(i, j) {
                     Some((before, after)) => {
                         folds(segments[before as usize], segments[after as usize])
                     }
@@ -72,12 +72,12 @@ pub fn crossings(curves: &[Polyline<'_>]) -> usize {
     meeting.len()
 }
 
-/// Whether the second edge, which begins where the first ends, leads back along it.
+/// Returns true if the second edge, which begins where the first ends, leads back along it.
 fn folds((a, b): Segment, (_, c): Segment) -> bool {
     orient(a, b, c).is_zero() && lexicographic(a, b) == lexicographic(c, b)
 }
 
-/// Whether two segments have a point in common.
+/// Returns true if two segments have a point in common.
 pub(crate) fn meet((a, b): Segment, (c, d): Segment) -> bool {
     if (0..2).any(|k| a[k].max(b[k]) < c[k].min(d[k]) || c[k].max(d[k]) < a[k].min(b[k])) {
         return false;

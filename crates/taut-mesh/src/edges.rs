@@ -1,6 +1,6 @@
 //! Edges that were found beside those that are true, both as pairs of rows.
 
-/// How many edges are in which of two sets.
+/// The numbers of edges in one of two sets and in both.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct EdgeScore {
     /// True edges that were found.
@@ -12,7 +12,7 @@ pub struct EdgeScore {
 }
 
 impl EdgeScore {
-    /// Whether the two sets are the same.
+    /// Returns true if the two sets are the same.
     pub fn exact(&self) -> bool {
         self.false_found == 0 && self.missing == 0
     }

@@ -1,4 +1,4 @@
-//! What can be wrong with a mesh before any geometry begins.
+//! The violations of a mesh before any geometry begins.
 
 /// Why a mesh could not be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -13,9 +13,9 @@ pub enum Error {
         triangle: usize,
         /// Its corner: 0, 1 or 2.
         corner: usize,
-        /// What it names.
+        /// The index that it names.
         index: u32,
-        /// How many vertices there are.
+        /// The number of vertices.
         vertices: usize,
     },
     /// A coordinate is infinite or not a number.
@@ -33,9 +33,9 @@ pub enum Error {
     /// More triangles than can be numbered.
     #[error("{triangles} triangles are too many for one mesh: {most} is the most")]
     TooMany {
-        /// How many there are.
+        /// The number of them.
         triangles: usize,
-        /// How many there may be.
+        /// The largest number that is accepted.
         most: usize,
     },
 }

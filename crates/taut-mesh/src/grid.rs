@@ -5,7 +5,6 @@
 //! *Guarantee.* [`Grid::nearest`] is exact up to rounding: rings of cells are opened until the next is farther than the best.
 //! *Trap.* A point far outside the box would open empty rings first: rings begin at the cell of the box next to it.
 
-/// A segment.
 pub(crate) type Segment = ([f64; 2], [f64; 2]);
 
 /// Segments in the cells they run through.

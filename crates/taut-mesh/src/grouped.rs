@@ -4,7 +4,6 @@
 //! a group takes no time, where one sort of everything would take most of it.
 //! *Guarantee.* O(n + things); within a group, things are in the order in which they came.
 
-/// Things by the number that each has.
 pub(crate) struct Grouped<T> {
     pub(crate) all: Vec<T>,
     /// Where each group ends.
@@ -42,7 +41,6 @@ impl<T: Copy> Grouped<T> {
         groups.enumerate().filter(|(_, group)| !group.is_empty())
     }
 
-    /// Changes each group in itself.
     pub(crate) fn groups_mut(&mut self, mut change: impl FnMut(&mut [T])) {
         let mut begin = 0;
         for &end in &self.ends {

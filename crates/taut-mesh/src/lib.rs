@@ -69,7 +69,7 @@ pub use topology::{BoundaryLoop, Component, Topology, topology};
 pub struct Polyline<'a> {
     /// Its vertices in order.
     pub vertices: &'a [[f64; 2]],
-    /// Whether an edge leads from the last vertex back to the first.
+    /// True if an edge leads from the last vertex back to the first.
     pub closed: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Triangle meshes of space, checked once at the door.
+//! Triangle meshes of space, checked once on construction.
 
 use crate::Error;
 
@@ -59,13 +59,12 @@ impl<'a> TriangleMesh<'a> {
         self.triangles
     }
 
-    /// The three corners of a triangle.
     pub(crate) fn corners(&self, triangle: u32) -> [[f64; 3]; 3] {
         self.triangles[triangle as usize].map(|index| self.vertices[index as usize])
     }
 }
 
-/// Whether a triangle names a vertex twice.
+/// Tests whether a triangle names a vertex twice.
 pub(crate) fn repeats([a, b, c]: [u32; 3]) -> bool {
     a == b || b == c || c == a
 }

@@ -59,7 +59,7 @@ pub fn parents(curves: &[Polyline<'_>]) -> Vec<Option<u32>> {
     parents
 }
 
-/// Whether a loop runs counter-clockwise, by the exact sign of the turn at its leftmost vertex, of several the lowest. Of one that meets
+/// Returns true if a loop runs counter-clockwise, by the exact sign of the turn at its leftmost vertex, of several the lowest. Of one that meets
 /// itself this is all that is said.
 ///
 /// ```
@@ -144,7 +144,7 @@ mod tests {
         assert_eq!(of(&turned), [Some(2), None, Some(1), Some(1), None, Some(4)]);
     }
 
-    /// Diamonds have their vertices on the level of the centres of all others.
+    /// Diamonds have their vertices on the level of the centers of all others.
     #[test]
     fn rays_through_vertices_count_once() {
         let diamond = |x: f64, r: f64| vec![[x, 0.0], [x + r, r], [x + 2.0 * r, 0.0], [x + r, -r]];

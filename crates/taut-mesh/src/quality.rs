@@ -1,4 +1,4 @@
-//! How good found curves are beside the true ones.
+//! Compares found curves with the true ones.
 
 use crate::Polyline;
 use crate::connectivity::{Place, homeomorphic};
@@ -8,7 +8,7 @@ use crate::grid::{Grid, Segment};
 /// Edges are measured by this many samples along the length of the true curves.
 const SAMPLES_PER_LENGTH: f64 = 20_000.0;
 
-/// What [`compare`] measures; all distances in the units of the coordinates.
+/// The measurements of [`compare`]; all distances in the units of the coordinates.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Quality {
     /// Root of the mean square of the distances of found vertices from the true curves.
@@ -25,14 +25,14 @@ pub struct Quality {
     pub loops_found: usize,
     /// Number of true curves.
     pub loops_truth: usize,
-    /// Whether each true curve was found exactly once, from beginning to end and without turning back.
+    /// True if each true curve was found exactly once, from beginning to end and without turning back.
     pub homeomorphic: bool,
     /// Pairs of found edges that meet though they must not.
     pub crossings: usize,
 }
 
 impl Quality {
-    /// Whether the found curves are right in connectivity and do not cross.
+    /// Returns true if the found curves are right in connectivity and do not cross.
     pub fn topology_right(&self) -> bool {
         self.homeomorphic && self.crossings == 0
     }

@@ -23,7 +23,7 @@ use pair::Face;
 /// Triangles that a thread takes at a time.
 const BLOCK: usize = 512;
 
-/// What [`self_intersections`] found.
+/// The result of [`self_intersections`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SelfIntersections {
     /// Pairs of triangles with a point in common that is on no common vertex or edge.
@@ -37,7 +37,7 @@ pub struct SelfIntersections {
 }
 
 impl SelfIntersections {
-    /// Whether the mesh lies in space as it is connected: different points of it in different places. Then no two triangles
+    /// Returns true if the mesh lies in space as it is connected: different points of it in different places. Then no two triangles
     /// meet that should not, and all have an area.
     pub fn is_embedded(&self) -> bool {
         self.pairs == 0 && self.degenerate == 0

@@ -104,7 +104,6 @@ pub(crate) fn tetrahedron() -> Shape {
     Shape::new(&corners, &[[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
 }
 
-/// The unit cube.
 pub(crate) fn cube() -> Shape {
     let corner = |k: u32| [f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2)];
     let faces =

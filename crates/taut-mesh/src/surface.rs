@@ -1,4 +1,4 @@
-//! How far apart two meshes are, and what they share.
+//! Measures how far apart two meshes are, and what they share.
 //!
 //! *Problem.* Given a reference mesh and a result, measure by how much the result strays from the reference, how much of the
 //! reference it misses, and whether it faces the same way.
@@ -24,7 +24,7 @@ pub use shared::Shared;
 /// Samples or vertices that a thread takes at a time, and over which sums are formed.
 const BLOCK: usize = 2048;
 
-/// How finely [`compare_surfaces`] looks. Write `SurfaceOptions { samples: 1_000_000, ..Default::default() }`.
+/// Options of [`compare_surfaces`]. Write `SurfaceOptions { samples: 1_000_000, ..Default::default() }`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SurfaceOptions {
     /// Points laid over each mesh, evenly by area; its vertices are measured beside these. 0 measures vertices alone. Default
@@ -40,7 +40,7 @@ impl Default for SurfaceOptions {
     }
 }
 
-/// What [`compare_surfaces`] measures.
+/// The measurements of [`compare_surfaces`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceQuality {
     /// Length of the diagonal of the smallest box around the triangles of the reference, with sides along the axes. 0 if there
@@ -58,7 +58,7 @@ pub struct SurfaceQuality {
     pub triangles: Shared,
 }
 
-/// How far the points of one mesh are from another mesh.
+/// The distances of the points of one mesh from another mesh.
 ///
 /// From a mesh without triangles everything is infinitely far away; of a mesh without triangles, nothing is.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -169,12 +169,11 @@ fn power_of_two_below(x: f64) -> f64 {
 /// A mesh in a unit of its own, ready to be measured.
 struct Surface {
     triangles: Vec<(u32, [[f64; 3]; 3])>,
-    /// Vertices of triangles.
     vertices: Vec<[f64; 3]>,
     tree: Bvh,
 }
 
-/// What a block of samples or vertices adds up to.
+/// The sums over a block of samples or vertices.
 #[derive(Clone, Copy, Default)]
 struct Sums {
     largest: f64,
@@ -209,7 +208,7 @@ impl Surface {
         Self { triangles, vertices, tree }
     }
 
-    /// How far this one is from another; nothing relative yet.
+    /// Returns how far this one is from another; nothing relative yet.
     fn measure(&self, other: &Surface, options: &SurfaceOptions) -> SurfaceDistance {
         let sampler = Sampler::new(&self.triangles, options);
         let samples = sampler.as_ref().map_or(0, |_| options.samples);

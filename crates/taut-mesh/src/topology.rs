@@ -1,4 +1,4 @@
-//! What a mesh is as a surface: its parts, its borders, its handles, and what keeps it from being a surface.
+//! The topology of a mesh: its parts, its borders, its handles, and what keeps it from being a surface.
 //!
 //! *Problem.* Given triangles on numbered vertices, count edges, borders, components and handles, and name what is not a
 //! manifold. Coordinates play no part but in the lengths of loops.
@@ -20,7 +20,7 @@ use crate::union_find::UnionFind;
 ///
 /// - An *edge* is a pair of vertices that are two corners of a triangle. It is a *boundary* edge if it is so for one triangle,
 ///   *non-manifold* if for more than two.
-/// - The *link* of a vertex is the graph on its neighbours that has an edge for the opposite side of each triangle at the
+/// - The *link* of a vertex is the graph on its neighbors that has an edge for the opposite side of each triangle at the
 ///   vertex. A vertex of a surface has one path or one cycle for a link (one of two edges where a triangle is given twice); all
 ///   others are *non-manifold*, among them the ends of each non-manifold edge.
 /// - A *component* is a largest set of triangles that one can walk through over edges. Two components can share vertices.
@@ -66,7 +66,7 @@ pub struct BoundaryLoop {
     pub edges: usize,
     /// Sum of the lengths of its edges, in the unit of the coordinates.
     pub length: f64,
-    /// Whether it is one cycle: each of its vertices is on two of its edges. So it is on all surfaces.
+    /// True if it is one cycle: each of its vertices is on two of its edges. So it is on all surfaces.
     pub simple: bool,
 }
 
@@ -87,14 +87,14 @@ pub struct Component {
     pub boundary_loops: usize,
     /// χ = vertices − edges + triangles.
     pub euler_characteristic: i64,
-    /// Whether it is a surface: no edge has more than two triangles, and each link is one path or one cycle.
+    /// True if it is a surface: no edge has more than two triangles, and each link is one path or one cycle.
     pub manifold: bool,
-    /// Whether no edge has one triangle only.
+    /// True if no edge has one triangle only.
     pub closed: bool,
-    /// Whether all triangles can be turned such that the two of an edge run along it in opposite directions; edges of more
+    /// True if all triangles can be turned such that the two of an edge run along it in opposite directions; edges of more
     /// than two triangles ask for nothing.
     pub orientable: bool,
-    /// Whether they are so turned as given.
+    /// True if they are so turned as given.
     pub oriented: bool,
     /// With ℓ boundary loops, the number of handles g = (2 − ℓ − χ)/2 if orientable, that of cross-caps 2 − ℓ − χ if not (1
     /// for a Möbius band, 2 for a Klein bottle); `None` if it is not a surface.
@@ -102,17 +102,17 @@ pub struct Component {
 }
 
 impl Topology {
-    /// Whether the mesh is a surface, with or without a boundary: no vertex, and so no edge, is non-manifold.
+    /// Tests whether the mesh is a surface, with or without a boundary: no vertex, and so no edge, is non-manifold.
     pub fn is_manifold(&self) -> bool {
         self.non_manifold_edges == 0 && self.non_manifold_vertices == 0
     }
 
-    /// Whether no edge has one triangle only.
+    /// Returns true if no edge has one triangle only.
     pub fn is_closed(&self) -> bool {
         self.boundary_edges == 0
     }
 
-    /// Whether the two triangles of each edge run along it in opposite directions.
+    /// Returns true if the two triangles of each edge run along it in opposite directions.
     pub fn is_oriented(&self) -> bool {
         self.inconsistent_edges == 0
     }
@@ -237,7 +237,7 @@ fn closed_surface(mesh: &TriangleMesh<'_>) -> Topology {
 }
 
 impl Topology {
-    /// What follows from the counts.
+    /// Draws the conclusions from the counts.
     fn conclude(&mut self) {
         self.components.iter_mut().for_each(Component::conclude);
         self.euler_characteristic = euler(self.vertices, self.edges, self.triangles);
@@ -264,7 +264,7 @@ impl Component {
         }
     }
 
-    /// What follows from the counts.
+    /// Draws the conclusions from the counts.
     fn conclude(&mut self) {
         self.euler_characteristic = euler(self.vertices, self.edges, self.triangles);
         self.closed = self.boundary_edges == 0;
@@ -294,7 +294,7 @@ impl Side {
         self.low / 3
     }
 
-    /// Whether the triangle runs along it from the lower vertex to the higher one.
+    /// Returns true if the triangle runs along it from the lower vertex to the higher one.
     fn rises(&self) -> bool {
         (self.low + 1) % 3 == self.high % 3
     }
@@ -359,7 +359,7 @@ fn opposite(mesh: &TriangleMesh<'_>, corner: u32) -> [u32; 2] {
     [triangle[(k + 1) % 3], triangle[(k + 2) % 3]]
 }
 
-/// Whether a walk along the sides of a link comes back by all of them. A longer link than most have is not looked at.
+/// Tests whether a walk along the sides of a link comes back by all of them. A longer link than most have is not looked at.
 fn is_cycle(link: &[[u32; 2]]) -> bool {
     const LINEAR_SEARCH_MAX: usize = 24;
     if link.len() > LINEAR_SEARCH_MAX {
@@ -412,7 +412,7 @@ fn loops_of_components(
     }
 }
 
-/// What edges say: counts, the triangles by component, triangles of components that cannot be turned right, and which vertices are ends of
+/// Returns what edges say: counts, the triangles by component, triangles of components that cannot be turned right, and which vertices are ends of
 /// an edge of more than two triangles.
 fn edges(mesh: &TriangleMesh<'_>, sides: &Sides) -> (Topology, UnionFind, Vec<u32>, Vec<bool>) {
     let mut found = Topology {
@@ -454,7 +454,7 @@ fn edges(mesh: &TriangleMesh<'_>, sides: &Sides) -> (Topology, UnionFind, Vec<u3
     (found, sets, one_sided, crowded)
 }
 
-/// How many of the triangles at an edge have the vertices of one before them, if the edge has the lowest two.
+/// Returns how many of the triangles at an edge have the vertices of one before them, if the edge has the lowest two.
 fn duplicates(mesh: &TriangleMesh<'_>, edge: &[Side]) -> usize {
     let [low, high] = edge[0].ends;
     let third = |side: &Side| {

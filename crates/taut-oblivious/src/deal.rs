@@ -53,7 +53,6 @@ pub(crate) struct Dealt<'a, T> {
     slots: Vec<u32>,
     /// Which of these is in a slot, or [`NONE`].
     holds: Vec<u32>,
-    /// Slots that are free.
     free: Vec<u32>,
     /// The bucket that is taken next, the block, and the items taken.
     bucket: usize,
@@ -124,7 +123,6 @@ impl<'a, T: Copy> Dealt<'a, T> {
         Self { items, block, rest, ends, first, slots, holds, free, bucket: 0, next: 0, taken: 0 }
     }
 
-    /// Items of a bucket.
     pub(crate) fn size(&self, bucket: usize) -> usize {
         let blocks = self.first[bucket + 1] - self.first[bucket];
         blocks * self.block + self.ends[bucket] - bucket * self.block
@@ -254,7 +252,6 @@ impl<'a, T: Copy> Dealt<'a, T> {
         }
     }
 
-    /// The items in a slot.
     fn slot(&self, slot: u32) -> &[T] {
         let at = slot as usize * self.block;
         if at + self.block <= self.items.len() {

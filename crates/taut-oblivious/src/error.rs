@@ -1,4 +1,4 @@
-//! What can be wrong with a call.
+//! The errors of a call.
 
 /// Why an algorithm of this crate could not be run, or not to its end.
 #[derive(Debug, thiserror::Error)]
@@ -9,9 +9,9 @@ pub enum Error {
     Option {
         /// Which one.
         name: &'static str,
-        /// What was given.
+        /// The value that was given.
         value: String,
-        /// What would have been accepted.
+        /// The values that would have been accepted.
         expected: &'static str,
     },
     /// A coordinate is NaN or infinite.
@@ -21,7 +21,7 @@ pub enum Error {
         row: u64,
         /// Which of its coordinates.
         column: usize,
-        /// What it is.
+        /// The value.
         value: f64,
     },
     /// Arrays of children are not those of one binary tree.
@@ -29,7 +29,7 @@ pub enum Error {
     Tree {
         /// A node where that shows.
         node: u64,
-        /// What is wrong with it.
+        /// The reason for the refusal.
         reason: &'static str,
     },
     /// A file cannot be read or written.
@@ -37,7 +37,7 @@ pub enum Error {
     File {
         /// Which file.
         path: String,
-        /// What the system said.
+        /// The error of the system.
         source: std::io::Error,
     },
     /// A file ends within a record.
@@ -77,9 +77,9 @@ pub enum Error {
     Length {
         /// Which file.
         path: String,
-        /// What it has.
+        /// Its bytes.
         bytes: u64,
-        /// What the header and the elements come to.
+        /// The size of the header and the elements.
         expected: u64,
     },
     /// A check found that a file does not hold what it should.
@@ -87,7 +87,7 @@ pub enum Error {
     Differs {
         /// Which file.
         path: String,
-        /// What was compared.
+        /// The comparison that failed.
         detail: String,
     },
     /// Stopped on request.
@@ -95,7 +95,7 @@ pub enum Error {
     Cancelled(#[from] taut_points::Cancelled),
 }
 
-/// What the system said, in a sentence where it is one of the usual ones.
+/// Returns what the system said, in a sentence where it is one of the usual ones.
 fn said(source: &std::io::Error) -> String {
     use std::io::ErrorKind;
     match source.kind() {

@@ -1,4 +1,4 @@
-//! What can be a key: numbers, by an unsigned word that has their order.
+//! The types that can be keys: numbers, by an unsigned word that has their order.
 //!
 //! *Idea.* Whatever sorts, searches or queues keys compares words and nothing else, so one kernel serves all kinds of keys.
 //! Words are a bijection: unsigned numbers are their own, signed ones have the sign bit flipped, floats are in the total

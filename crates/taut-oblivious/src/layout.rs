@@ -89,7 +89,6 @@ pub fn permute(left: &[u32], right: &[u32], order: TreeOrder) -> Result<Permuted
     Ok(Permuted { order, left, right })
 }
 
-/// The children of a node, those that are there.
 fn children(left: &[u32], right: &[u32], node: u32) -> impl DoubleEndedIterator<Item = u32> {
     [left[node as usize], right[node as usize]].into_iter().filter(|&child| child != NONE)
 }

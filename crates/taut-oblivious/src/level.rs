@@ -59,7 +59,7 @@ const AVX2: u8 = 2;
 #[cfg(all(target_arch = "x86_64", not(miri)))]
 const AVX512: u8 = 3;
 
-/// What the processor said: one of the above, but not that it was not asked.
+/// Returns what the processor said: one of the above, but not that it was not asked.
 #[cfg(all(target_arch = "x86_64", not(miri)))]
 #[inline(always)]
 fn kept() -> u8 {

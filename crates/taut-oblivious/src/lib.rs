@@ -46,7 +46,7 @@ mod sample;
 mod sort;
 mod store;
 
-/// What kernels ask of the machine, for algorithms in other crates: instruction sets, large pages, prefetches, and bytes of
+/// Queries of the machine by kernels, for algorithms in other crates: instruction sets, large pages, prefetches, and bytes of
 /// files by position. It serves the crates of taut and is not stable: any release may change it.
 pub mod machine {
     pub use crate::level::{Avx2, Avx512, Level, prefetch};

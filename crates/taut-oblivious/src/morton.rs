@@ -26,7 +26,7 @@ fn spread_3(x: u32) -> u32 {
     (x | x << 2) & 0x0924_9249
 }
 
-/// What [`morton_key()`] computes, without its checks.
+/// Returns what [`morton_key()`] computes, without its checks.
 #[inline(always)]
 pub(crate) fn key<const D: usize>(cell: [u32; D]) -> u32 {
     let mut key = 0;

@@ -7,7 +7,7 @@
 //! points comes first, which is the one with the smallest number. Equal points are side by side.
 //! Trap: a single grid is not enough. Of a million points with a heavy tail (Kuzmin), nearly all share one cell of
 //! 2¹⁶ × 2¹⁶, and walks through a triangulation built in that order take hundreds of steps instead of three.
-//! Trap: quantising must be monotone and must separate the ends of a box, down to subnormal and up to the largest
+//! Trap: quantizing must be monotone and must separate the ends of a box, down to subnormal and up to the largest
 //! extent, or the descent does not end.
 
 use std::cmp::Ordering;
@@ -204,7 +204,6 @@ mod tests {
         morton_order(points.len(), |i| points[i]).into_iter().map(|i| points[i as usize]).collect()
     }
 
-    /// A seeded shuffle.
     fn shuffled<T: Copy>(items: &[T], seed: u64) -> Vec<T> {
         let mut state = seed | 1;
         let mut keyed: Vec<(u64, T)> = items
@@ -268,7 +267,7 @@ mod tests {
         }
     }
 
-    /// Neighbours in a grid are neighbours in the order: the mean step is hardly longer than a cell.
+    /// Neighbors in a grid are neighbors in the order: the mean step is hardly longer than a cell.
     #[test]
     fn steps_are_short_even_in_a_cluster_far_from_the_rest() {
         let side = if cfg!(miri) { 8 } else { 100 };

@@ -8,7 +8,7 @@
 //! searches of [`kdtree`](crate::kdtree). Not instrumented are the orders of points, samples, `nearest_all`, `permute`, and what
 //! works on files. A test of `taut-reference` compares the machine code of its algorithms with and without these calls.
 
-/// Whether memory is read or written.
+/// States whether memory is read or written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Access {
     /// The content is used.
@@ -23,7 +23,7 @@ pub enum Access {
 /// allocates), [`Probe::lift`] when it frees one, and [`Probe::read`] or [`Probe::write`] as it goes. Local variables
 /// and loop counters live in registers and are not recorded.
 pub trait Probe {
-    /// Whether accesses are recorded; what only prepares an access may be left out where this is false.
+    /// States whether accesses are recorded; what only prepares an access may be left out where this is false.
     const IS_RECORDING: bool;
 
     /// An array of `bytes` bytes at `address` comes into use.

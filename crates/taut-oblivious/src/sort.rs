@@ -92,7 +92,7 @@ fn out_of_ranks<K: Key>(ranks: &mut [u64]) {
     }
 }
 
-/// What a whole input may be.
+/// The order of a whole input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Run {
     /// No rank is below the one before.
@@ -101,7 +101,7 @@ enum Run {
     Falls,
 }
 
-/// Whether the ranks of at least one item only rise or only fall.
+/// Tests whether the ranks of at least one item only rise or only fall.
 fn run<T>(items: &[T], rank: &impl Fn(&T) -> u64) -> Option<Run> {
     // Blocks without an exit in them compile to vectors.
     let (front, back) = (&items[..items.len() - 1], &items[1..]);
@@ -143,5 +143,5 @@ pub fn sort_records_instrumented<T: Copy + Send + Sync, K: Key, P: Probe>(
     key: impl Fn(&T) -> K + Sync,
     probe: &mut P,
 ) {
-    records::sort(records, &|record: &T| rank(key(record)), &records::Rooms::any(), probe);
+    records::sort(records, &|record: &T| rank(key(record)), &records::BucketBuffers::any(), probe);
 }

@@ -1,4 +1,4 @@
-//! What sorting a file allocates, on one thread and on many more than there are processors.
+//! Tests what sorting a file allocates, on one thread and on many more than there are processors.
 
 mod counting;
 

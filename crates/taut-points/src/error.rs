@@ -1,4 +1,4 @@
-//! What can be wrong with a point set before any geometry begins.
+//! The errors of a point set before any geometry begins.
 
 use std::path::PathBuf;
 
@@ -14,7 +14,7 @@ pub enum Error {
     /// The number of values is not a multiple of the dimension.
     #[error("{values} values do not make whole points of dimension {dim}: {rest} are left over")]
     Ragged {
-        /// How many values there are.
+        /// The number of values.
         values: usize,
         /// The dimension asked for.
         dim: usize,
@@ -26,9 +26,9 @@ pub enum Error {
     Parameter {
         /// The parameter.
         name: &'static str,
-        /// What was given.
+        /// The value that was given.
         value: String,
-        /// What would have been accepted.
+        /// The values that would have been accepted.
         expected: &'static str,
     },
     /// A parameter was given that another distribution takes.
@@ -71,7 +71,7 @@ pub enum ReadError {
         first: u64,
         /// Last point of the block.
         last: u64,
-        /// What the operating system said.
+        /// The error of the operating system.
         source: std::io::Error,
     },
     /// The file does not hold as many points as it was said to.
@@ -101,7 +101,7 @@ pub enum ReadError {
     /// That many points at once are more than memory holds.
     #[error("{rows} points of dimension {dim} at once do not fit into memory")]
     TooLarge {
-        /// How many points.
+        /// The number of points.
         rows: u64,
         /// Their dimension.
         dim: usize,
@@ -134,15 +134,15 @@ pub enum InputError {
     Dimension {
         /// Coordinates of a point.
         dim: usize,
-        /// What would have been accepted.
+        /// The values that would have been accepted.
         expected: &'static str,
     },
     /// More points than can be numbered in memory.
     #[error("{points} points are more than the {most} that fit in memory")]
     TooManyPoints {
-        /// How many there are.
+        /// The number of them.
         points: u64,
-        /// How many would have been accepted.
+        /// The largest number that would have been accepted.
         most: u64,
     },
     /// An option is outside its range.
@@ -150,9 +150,9 @@ pub enum InputError {
     Option {
         /// The option.
         name: &'static str,
-        /// What was given.
+        /// The value that was given.
         value: String,
-        /// What would have been accepted.
+        /// The values that would have been accepted.
         expected: &'static str,
     },
     /// The points could not be read.
@@ -164,7 +164,7 @@ pub enum InputError {
 }
 
 impl InputError {
-    /// Whether the fault is in what the caller gave, not in reading it or in a wish to stop.
+    /// Tests whether the fault is in what the caller gave, not in reading it or in a wish to stop.
     pub fn is_fault_of_caller(&self) -> bool {
         !matches!(self, InputError::Read(_) | InputError::Cancelled(_))
     }

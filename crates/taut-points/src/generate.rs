@@ -25,7 +25,6 @@ pub use distribution::{Distribution, Parameters};
 use draw::draw;
 pub use radii::RadiusLaw;
 
-/// Memory for one point.
 fn point_of(dim: usize) -> Result<Vec<f64>, Error> {
     let mut point = Vec::new();
     try_reserve_exact(&mut point, dim).map_err(|_| Error::Parameter {

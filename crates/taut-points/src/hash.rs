@@ -59,7 +59,7 @@ fn step(hash: u64, value: u64) -> u64 {
     hash.wrapping_mul(MULTIPLIER).wrapping_add(value ^ (value >> 32))
 }
 
-/// Spreads the last differences over all bits: the finaliser of SplitMix64 (Steele, Lea, Flood 2014).
+/// Spreads the last differences over all bits: the finalizer of SplitMix64 (Steele, Lea, Flood 2014).
 fn finish(mut h: u64) -> u64 {
     h = (h ^ (h >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
     h = (h ^ (h >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
@@ -137,7 +137,7 @@ pub fn hash_block(rows: &Rows<'_>) -> BlockHash {
 /// The hash of all points of `source`, in one pass.
 ///
 /// # Errors
-/// What reading the points says.
+/// The error of reading the points.
 pub fn hash_points(
     source: &dyn PointSource,
     monitor: &Monitor<'_>,

@@ -23,24 +23,24 @@
 
 mod blocks;
 mod choice;
+mod display;
 mod error;
 pub mod generate;
 mod hash;
 mod monitor;
 mod points;
 mod room;
-mod shown;
 mod source;
 mod threads;
 
 pub use blocks::{Blocks, map_blocks};
 pub use choice::Choice;
+pub use display::shown_number;
 pub use error::{Error, InputError, ReadError};
 pub use generate::{Distribution, GeneratedSource, generate, generate_into};
 pub use hash::{BlockHash, HashFormError, PointsHash, hash_block, hash_points};
 pub use monitor::{Cancelled, Monitor};
 pub use points::{Points, Rows, Scalar, ScalarKind};
 pub use room::{failure_is_handled, try_reserve_exact};
-pub use shown::shown_number;
 pub use source::{FileSource, MappedSource, OwnedPoints, PointSource, Scratch, gather};
 pub use threads::{THREADS_MAX, ThreadsError, check_threads, on_threads, thread_pool};

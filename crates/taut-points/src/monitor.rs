@@ -1,4 +1,4 @@
-//! How a caller watches long work and stops it.
+//! Defines how a caller watches long work and stops it.
 
 use std::fmt;
 use std::ptr;
@@ -9,7 +9,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 #[error("stopped on request")]
 pub struct Cancelled;
 
-/// Watches long work: hears of progress, and can stop it. [`Monitor::silent`] does neither.
+/// Watches long work: receives progress, and can stop it. [`Monitor::silent`] does neither.
 ///
 /// Progress is told in blocks of the pass that is running; it never steers an algorithm.
 #[derive(Clone, Copy, Default)]
@@ -51,7 +51,7 @@ impl PartialEq for Monitor<'_> {
 impl Eq for Monitor<'_> {}
 
 impl Monitor<'_> {
-    /// A monitor that neither hears nor stops anything.
+    /// A monitor that neither reports nor stops anything.
     pub const fn silent() -> Self {
         Monitor { on_points: None, on_pass: None, cancel: None }
     }
@@ -70,7 +70,7 @@ impl Monitor<'_> {
         }
     }
 
-    /// Whether to go on.
+    /// Tests whether to go on.
     ///
     /// # Errors
     /// [`Cancelled`] once the caller asked to stop.

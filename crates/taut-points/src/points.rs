@@ -42,7 +42,7 @@ impl Scalar for f64 {
     }
 }
 
-/// How the coordinates of a source are stored.
+/// The way in which the coordinates of a source are stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ScalarKind {
     /// IEEE 754 single precision.
@@ -97,7 +97,7 @@ impl<'a, T: Scalar> Points<'a, T> {
         self.values.len() / self.dim
     }
 
-    /// Whether there is no point at all.
+    /// Returns true if there is no point at all.
     pub fn is_empty(&self) -> bool {
         self.values.is_empty()
     }
@@ -152,7 +152,7 @@ impl Rows<'_> {
         }
     }
 
-    /// Whether there is no point.
+    /// Returns true if there is no point.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }

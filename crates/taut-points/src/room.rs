@@ -8,7 +8,7 @@ use std::cell::Cell;
 use std::collections::TryReserveError;
 
 thread_local! {
-    /// Whether this thread is within [`try_reserve_exact`].
+    /// States whether this thread is within [`try_reserve_exact`].
     static HANDLED: Cell<bool> = const { Cell::new(false) };
 }
 

@@ -23,7 +23,7 @@ pub trait PointSource: Send + Sync {
     /// Number of points, n.
     fn len(&self) -> u64;
 
-    /// Whether there is no point at all.
+    /// Returns true if there is no point at all.
     fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -31,7 +31,7 @@ pub trait PointSource: Send + Sync {
     /// Dimension, d ≥ 1.
     fn dim(&self) -> usize;
 
-    /// How coordinates are stored.
+    /// Returns how coordinates are stored.
     fn scalar(&self) -> ScalarKind;
 
     /// The points `range.start..range.end`: borrowed where they already are in memory, else read to `scratch`.
@@ -142,7 +142,7 @@ impl<S: PointSource + ?Sized> PointSource for &S {
 /// Copies the points with the given numbers, in that order, widened to `f64`: `ids.len()` × d, row-major.
 ///
 /// # Errors
-/// What [`PointSource::read`] says.
+/// The error of [`PointSource::read`].
 pub fn gather(source: &dyn PointSource, ids: &[u64]) -> Result<Vec<f64>, ReadError> {
     let dim = source.dim();
     let (mut scratch, mut out) = (Scratch::new(), Vec::new());

@@ -119,10 +119,10 @@ fn a_monitor_hears_every_point_and_can_stop() {
     let values = vec![0.0; 200_000];
     let points = Points::new(&values, 1).unwrap();
     let (heard, stop) = (AtomicU64::new(0), AtomicBool::new(false));
-    let hear = |count| {
+    let record = |count| {
         heard.fetch_add(count, Ordering::Relaxed);
     };
-    let monitor = Monitor { on_points: Some(&hear), cancel: Some(&stop), ..Monitor::silent() };
+    let monitor = Monitor { on_points: Some(&record), cancel: Some(&stop), ..Monitor::silent() };
     hash_points(&points, &monitor).unwrap();
     assert_eq!(heard.load(Ordering::Relaxed), 200_000);
     stop.store(true, Ordering::Relaxed);

@@ -97,7 +97,7 @@ fn main() {
             })
         })
         .collect();
-    plane("plane: neighbours on a circle", false, &circle);
+    plane("plane: neighbors on a circle", false, &circle);
     let mixed: Vec<_> = (0..CALLS)
         .map(|_| {
             let (x, y, far) = (random.unit() * 1e-30, random.unit(), random.unit());
@@ -153,7 +153,7 @@ fn main() {
             points
         })
         .collect();
-    space("space: neighbours on a sphere", false, &sphere);
+    space("space: neighbors on a sphere", false, &sphere);
     let mixed: Vec<_> = (0..CALLS)
         .map(|_| {
             let (x, y, z) = (random.unit() * 1e-30, random.unit(), random.unit() * 1e30);
@@ -173,7 +173,7 @@ fn main() {
         ("facets: uniform", &uniform),
         ("facets: unit cubes", &cubes(&mut random, 1.0)),
         ("facets: cubes of 0.1", &cubes(&mut random, 0.1)),
-        ("facets: neighbours on a sphere", &sphere),
+        ("facets: neighbors on a sphere", &sphere),
     ] {
         show(name, inputs, |[a, b, c, _, q]| space::in_equatorial_sphere(a, b, c, q).is_positive());
         println!();
@@ -181,8 +181,8 @@ fn main() {
         println!("   shrunk");
     }
     for (name, inputs) in [
-        ("circumcentres: uniform", &uniform),
-        ("circumcentres: unit cubes", &cubes(&mut random, 1.0)),
+        ("circumcenters: uniform", &uniform),
+        ("circumcenters: unit cubes", &cubes(&mut random, 1.0)),
     ] {
         show(name, inputs, |[a, b, c, d, q]| {
             space::circumcenter_side(a, b, c, d, 0, 0.5 * (a[0] + q[0])).is_positive()

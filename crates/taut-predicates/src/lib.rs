@@ -7,7 +7,7 @@
 //! | the same, never undecided | [`plane::conflict`], [`space::conflict`] | `bool` |
 //! | inside the smallest ball of an edge, a facet | [`plane::in_diametral_circle`], [`space::in_equatorial_sphere`] | [`Sign`] |
 //! | how large the smallest sphere of a facet, or that of a simplex, is beside a given one | [`space::equatorial_radius`], [`space::sphere_radius`] | [`Sign`] |
-//! | where a circumcentre lies | [`plane::circumcenter_side`], [`plane::circumcenter_nearer`] | [`Sign`] |
+//! | where a circumcenter lies | [`plane::circumcenter_side`], [`plane::circumcenter_nearer`] | [`Sign`] |
 //!
 //! ```
 //! use taut_predicates::{Sign, plane};

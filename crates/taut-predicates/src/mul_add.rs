@@ -5,7 +5,7 @@
 //! chooses once per batch, inside a function compiled for that processor. Both give certain signs only, hence
 //! the same meshes.
 
-/// How to compute a·b + c.
+/// The way to compute a·b + c.
 pub trait MulAdd: Copy {
     /// a·b + c, rounded once or twice.
     fn mul_add(a: f64, b: f64, c: f64) -> f64;

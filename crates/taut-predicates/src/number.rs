@@ -15,9 +15,9 @@ pub(crate) type Difference = [f64; 2];
 
 /// A homogeneous polynomial in `K` differences of coordinates, whose sign is a predicate.
 pub(crate) trait Polynomial<const K: usize> {
-    /// How many differences each of its monomials multiplies.
+    /// The number of differences each of its monomials multiplies.
     const DEGREE: u32;
-    /// How many roundings a monomial passes through at most: 1 for a difference, the sum of both sides and 1 for a
+    /// The largest number of roundings that a monomial passes through: 1 for a difference, the sum of both sides and 1 for a
     /// product, the larger side and 1 for a sum. The unit of all error bounds; a test counts again.
     const ROUNDINGS: u32;
 

@@ -37,7 +37,7 @@ pub fn orient(a: Point, b: Point, c: Point) -> Sign {
     orient_exact(a, b, c, &mut Exact::default())
 }
 
-/// Whether q lies inside (positive), on (zero) or outside the circle through a, b and c, which turn
+/// Tests whether q lies inside (positive), on (zero) or outside the circle through a, b and c, which turn
 /// counter-clockwise; if they turn clockwise the sign is the opposite one.
 #[must_use]
 pub fn in_circle(a: Point, b: Point, c: Point, q: Point) -> Sign {
@@ -50,7 +50,7 @@ pub fn in_circle(a: Point, b: Point, c: Point, q: Point) -> Sign {
     in_circle_exact(a, b, c, q, &mut Exact::default())
 }
 
-/// Whether q lies inside the circle through a, b and c, which turn counter-clockwise, after the perturbation that
+/// Returns true if q lies inside the circle through a, b and c, which turn counter-clockwise, after the perturbation that
 /// leaves no ties. The four points must be distinct.
 #[must_use]
 pub fn conflict(a: Point, b: Point, c: Point, q: Point) -> bool {

@@ -14,21 +14,21 @@ pub enum Sign {
 }
 
 impl Sign {
-    /// Whether the number is greater than zero.
+    /// Returns true if the number is greater than zero.
     #[inline]
     #[must_use]
     pub fn is_positive(self) -> bool {
         self == Sign::Positive
     }
 
-    /// Whether the number is less than zero.
+    /// Returns true if the number is less than zero.
     #[inline]
     #[must_use]
     pub fn is_negative(self) -> bool {
         self == Sign::Negative
     }
 
-    /// Whether the number is zero.
+    /// Returns true if the number is zero.
     #[inline]
     #[must_use]
     pub fn is_zero(self) -> bool {

@@ -42,7 +42,7 @@ pub fn orient(a: Point, b: Point, c: Point, d: Point) -> Sign {
     orient_exact(a, b, c, d, &mut Exact::default())
 }
 
-/// Whether q lies inside (positive), on (zero) or outside the sphere through a, b, c and d, whose orientation is
+/// Tests whether q lies inside (positive), on (zero) or outside the sphere through a, b, c and d, whose orientation is
 /// positive; if it is negative the sign is the opposite one.
 #[must_use]
 pub fn in_sphere(a: Point, b: Point, c: Point, d: Point, q: Point) -> Sign {
@@ -55,7 +55,7 @@ pub fn in_sphere(a: Point, b: Point, c: Point, d: Point, q: Point) -> Sign {
     in_sphere_exact(a, b, c, d, q, &mut Exact::default())
 }
 
-/// Whether q lies inside the sphere through a, b, c and d, whose orientation is positive, after the perturbation that
+/// Returns true if q lies inside the sphere through a, b, c and d, whose orientation is positive, after the perturbation that
 /// leaves no ties. The five points must be distinct.
 #[must_use]
 pub fn conflict(a: Point, b: Point, c: Point, d: Point, q: Point) -> bool {

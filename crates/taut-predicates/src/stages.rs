@@ -1,8 +1,8 @@
-//! What a kernel carries from call to call: what it knows of its coordinates, and what its calls took.
+//! The state that a kernel carries from call to call: what it knows of its coordinates, and what its calls took.
 
 use std::ops::AddAssign;
 
-/// How many calls were decided at which stage. Each call counts once in one of the first five.
+/// The numbers of calls decided at each stage. Each call counts once in one of the first five.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Stages {
     /// By a floating-point filter. A kernel that calls the filters itself may add its own count here; the
@@ -39,7 +39,7 @@ impl AddAssign for Stages {
     }
 }
 
-/// What the exact stages know of the input, and what they count.
+/// The knowledge of the exact stages about the input, and what they count.
 ///
 /// *Trap.* A ghost with NaN for coordinates makes every filter answer "uncertain", but it has no exact sign: a kernel
 /// tells ghosts apart before it calls an exact function.

@@ -1,7 +1,7 @@
 //! Every predicate and every stage of it against integers without end, on a million hard cases.
 //!
 //! The oracle shares no formula with the predicates: it expands determinants of absolute coordinates, solves for
-//! circumcentres by Cramer's rule, and perturbs the lifts by numbers that are really there.
+//! circumcenters by Cramer's rule, and perturbs the lifts by numbers that are really there.
 
 mod balls;
 mod cases;
@@ -71,7 +71,7 @@ impl Met {
         }
     }
 
-    /// Whether no answer is rarer than one in so many.
+    /// Returns true if no answer is rarer than one in so many.
     pub(crate) fn is_balanced(&self, one_in: u64) -> bool {
         let least = (self.positive + self.zero + self.negative) / one_in;
         self.positive > least && self.zero > least && self.negative > least

@@ -71,7 +71,7 @@ fn smallest_balls_of_edges_and_facets() {
 
 #[test]
 fn circumcenters_on_cuts() {
-    // Circumcentre (1, 2), radius 5.
+    // Circumcenter (1, 2), radius 5.
     let (a, b, c) = ([4.0, 6.0], [-2.0, 6.0], [5.0, -1.0]);
     for (p, q, r) in [(a, b, c), (b, a, c)] {
         for (axis, at) in [(0, 1.0), (1, 2.0)] {
@@ -84,7 +84,7 @@ fn circumcenters_on_cuts() {
         assert_eq!(plane::circumcenter_nearer(p, q, r, r1, [2.5, 2.0]), Sign::Positive);
         assert_eq!(plane::circumcenter_nearer(p, q, r, [2.5, 2.0], r1), Sign::Negative);
     }
-    // Circumcentre (1, 2, 3), radius 3.
+    // Circumcenter (1, 2, 3), radius 3.
     let (a, b, c, d) = ([2.0, 4.0, 5.0], [4.0, 2.0, 3.0], [1.0, 5.0, 3.0], [-1.0, 1.0, 1.0]);
     for (p, q) in [(a, b), (b, a)] {
         for axis in 0..3 {

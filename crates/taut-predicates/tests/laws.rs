@@ -1,4 +1,4 @@
-//! What has to hold whatever the answer is: moving and scaling a point set, and who asks whom.
+//! Tests what has to hold whatever the answer is: moving and scaling a point set, and who asks whom.
 
 use taut_predicates::{Exact, Sign, Stages, plane, space};
 
@@ -75,7 +75,7 @@ fn moving_and_scaling_change_nothing_in_space() {
 
 /// Two simplices that share a facet ask for each other's apex: both say the same, also where it is a tie.
 #[test]
-fn neighbours_agree() {
+fn neighbors_agree() {
     let (mut random, mut ties) = (Whole(3), 0);
     for _ in 0..100_000 {
         let [a, b, c, q]: [[f64; 2]; 4] = [(); 4].map(|()| random.point(2));

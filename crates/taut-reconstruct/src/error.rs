@@ -1,4 +1,4 @@
-//! What a reconstruction can refuse.
+//! The errors of a reconstruction.
 
 use taut_points::{Cancelled, InputError, ReadError};
 
@@ -9,9 +9,9 @@ pub enum Error {
     /// The points have no volume, so there is no surface around it.
     #[error("{}: a surface needs four points that are on no common plane", span.of(*points))]
     Flat {
-        /// How many there are.
+        /// The number of them.
         points: u64,
-        /// What they have instead.
+        /// The affine hull that they have instead.
         span: Span,
     },
     /// The triangulation that a method stands on could not be built.
@@ -43,7 +43,7 @@ impl From<Cancelled> for Error {
     }
 }
 
-/// What points without a volume are.
+/// The affine hull of points without a volume.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Span {
     /// There is none.
@@ -57,7 +57,6 @@ pub enum Span {
 }
 
 impl Span {
-    /// What so many points are.
     fn of(self, points: u64) -> String {
         match (self, points) {
             (Self::Nothing, _) => "there are no points".to_owned(),

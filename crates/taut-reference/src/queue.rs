@@ -4,11 +4,11 @@
 //! *Idea.* A stack of buckets, smaller keys above: pushing appends to the bucket that the key falls into, popping splits
 //! the topmost bucket at a random pivot until few entries are left, and takes the smallest of those. It is quicksort that
 //! goes only as far as it is asked; almost all buckets are only ever appended to, so they can lie in a file.
-//! *Guarantee.* Keys leave in order. Expected, amortised O(log n) comparisons for each entry, whatever the order of pushes and
+//! *Guarantee.* Keys leave in order. Expected, amortized O(log n) comparisons for each entry, whatever the order of pushes and
 //! pops, and with blocks of B entries and memory for M some O((1/B)·log₂(n/M)) transfers; the order in which equal keys leave
 //! is fixed but not said.
 //! *Why.* Buckets that pops leave behind can be many and small, above all if keys come in groups below all earlier ones. So
-//! neighbours of s₁ and s₂ entries are joined once there are more than 2·log₂ n + 8 buckets, if the a entries above them are
+//! neighbors of s₁ and s₂ entries are joined once there are more than 2·log₂ n + 8 buckets, if the a entries above them are
 //! not fewer than s₁ + s₂; then each second bucket at least doubles what is above, and 2·log₂ n + 2 are left. A bucket of s
 //! entries below a others has the potential s·log₂ s + 6·s·log₂((a + s)/s): a push adds O(1) for each of the O(log n) buckets
 //! and O(log n) for its own, a split releases in the mean what it costs, and a join, which moves the smaller bucket, does too,
@@ -66,22 +66,22 @@ impl<K: Key, V: Copy> PriorityQueue<K, V> {
         self.core.len()
     }
 
-    /// Whether there are none.
+    /// Returns true if there are none.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Adds an entry. Amortised O(log n): a comparison with each of at most 2·log₂ n + 9 pivots, several at a time.
+    /// Adds an entry. Amortized O(log n): a comparison with each of at most 2·log₂ n + 9 pivots, several at a time.
     pub fn push(&mut self, key: K, value: V) {
         never(self.core.push(rank(key), value));
     }
 
-    /// Takes an entry with the smallest key. Amortised, expected O(log n) for each entry that is ever taken.
+    /// Takes an entry with the smallest key. Amortized, expected O(log n) for each entry that is ever taken.
     pub fn pop(&mut self) -> Option<(K, V)> {
         never(self.core.pop()).map(|(rank, value)| (of_rank(rank), value))
     }
 
-    /// The smallest key, and what comes with it. Amortised as [`Self::pop`], which may split buckets.
+    /// The smallest key, and what comes with it. Amortized as [`Self::pop`], which may split buckets.
     pub fn peek(&mut self) -> Option<(K, V)> {
         never(self.core.peek()).map(|(rank, value)| (of_rank(rank), value))
     }
@@ -92,7 +92,6 @@ fn rank<K: Key>(key: K) -> u64 {
     key.word().into()
 }
 
-/// Returns the key with this rank.
 fn of_rank<K: Key>(rank: u64) -> K {
     K::of_word(K::Word::low_bits(rank))
 }
@@ -146,7 +145,7 @@ impl<K: Key, V: Pod> SpillingQueue<K, V> {
         self.core.len()
     }
 
-    /// Whether there are none.
+    /// Returns true if there are none.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }

@@ -1,4 +1,4 @@
-//! What is allocated while queues that spill run.
+//! Tests what is allocated while queues that spill run.
 
 #[path = "../../taut-oblivious/tests/counting/mod.rs"]
 mod counting;

@@ -2,7 +2,7 @@
 
 use taut_points::InputError;
 
-/// What the functions of this crate refuse. Each error says where the fault is, its value, and what would be accepted.
+/// The errors of this crate. Each error says where the fault is, its value, and what would be accepted.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum Error {

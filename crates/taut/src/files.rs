@@ -40,19 +40,19 @@ pub struct StoredMatrix {
     pub width: usize,
     /// Bytes of the file before the first element.
     pub offset: u64,
-    /// Whether elements of a column lie side by side (Fortran order), not those of a row.
+    /// True if elements of a column lie side by side (Fortran order), not those of a row.
     pub by_columns: bool,
     /// In an `.npy` file the type of an element as the header has it: `<f8`.
     pub dtype: Option<String>,
 }
 
 impl StoredMatrix {
-    /// Whether the order of elements is that of columns, and not that of rows too.
+    /// Returns true if the order of elements is that of columns, and not that of rows too.
     fn turned(&self) -> bool {
         self.by_columns && self.rows > 1 && self.columns > 1
     }
 
-    /// What to transpose for a file with the transpose, row by row.
+    /// Returns what to transpose for a file with the transpose, row by row.
     pub fn matrix(&self) -> FileMatrix {
         let Self { rows, columns, width, offset, .. } = *self;
         match self.turned() {
@@ -63,7 +63,7 @@ impl StoredMatrix {
         }
     }
 
-    /// What the file with the transpose, row by row after `output_offset` bytes, is then said to be.
+    /// Returns what the file with the transpose, row by row after `output_offset` bytes, is then said to be.
     pub fn transpose(&self, output_offset: u64) -> TransposedFile {
         TransposedFile {
             rows: self.rows,

@@ -1,21 +1,21 @@
-//! Tight shapes around, through and inside point sets, with proof: every tool behind one door.
+//! Tight shapes around, through and inside point sets, with proof: every tool in one crate.
 //!
 //! | you want | call | promise | more |
 //! |---|---|---|---|
 //! | the smallest ball around points, balls or ellipsoids | [`ball()`] | R ≤ (1 + ε)·R*, proved | [`enclose`] |
 //! | k-center: minimize the largest distance to the nearest center, for points or balls | [`centers()`] | radius ≤ (1 + ε) times the least, proved; with outliers, weights, or among the points | [`enclose`] |
-//! | centres for every k at once, of any number of points | [`farthest_first()`] | at most twice the least radius, for each k | [`enclose`] |
-//! | k centres of a stream, or of points in many places | [`enclose::Cover`], [`enclose::Summary`] | a factor of the least radius, both bounds told | [`enclose`] |
+//! | centers for every k at once, of any number of points | [`farthest_first()`] | at most twice the least radius, for each k | [`enclose`] |
+//! | k centers of a stream, or of points in many places | [`enclose::StreamingCenters`], [`enclose::Summary`] | a factor of the least radius, both bounds told | [`enclose`] |
 //! | a tree of balls | [`sphere_tree()`] | each the smallest around its points | [`enclose`] |
 //! | the ellipsoid of least volume around points, balls or ellipsoids | [`ellipsoid()`] | log-volume ≤ least + ε, proved | [`enclose`] |
 //! | one for each of many point sets | [`ellipsoids()`] | the same | [`enclose`] |
 //! | the ellipsoid of largest volume in a polytope | [`inscribed_ellipsoid()`] | optimum ≤ log-volume + ε, proved | [`enclose`] |
 //! | the largest circle in a simple polygon | [`inscribed_circle()`] | largest radius ≤ (1 + ε)·radius, proved | [`inscribe`] |
-//! | centre and scatter of most points, and the outliers | [`robust_ellipsoid()`] | all but the choice of points proved; that choice a local optimum | [`enclose`] |
+//! | center and scatter of most points, and the outliers | [`robust_ellipsoid()`] | all but the choice of points proved; that choice a local optimum | [`enclose`] |
 //! | the Delaunay triangulation of points in the plane or in space | [`delaunay()`] | exact, a function of the point set alone, proved | [mod@delaunay] |
 //! | the same, to walk around in; Voronoi cells, alpha complexes, nearest points | [`delaunay::Plane`], [`delaunay::Space`] | the same | [mod@delaunay] |
 //! | constrained edges | [`delaunay::Plane::constrained`] | exact, Delaunay as far as they let it be | [mod@delaunay] |
-//! | rows in an order where neighbours are near each other | [`spatial_order()`] | a function of the point set alone, proved | [mod@delaunay] |
+//! | rows in an order where neighbors are near each other | [`spatial_order()`] | a function of the point set alone, proved | [mod@delaunay] |
 //! | files sorted or transposed that memory does not hold, samples, orders, nearest points | [mod@oblivious] | each with its own | [mod@oblivious], [`files`] |
 //! | the curves that noisy points were sampled from | [`curve()`] | no crossings; each point within the band told or named as an outlier; whether sampling was dense enough | [mod@reconstruct] |
 //! | the curves through points without noise, a short tour through points | [`curve()`] with a [`CurveMethod`] | what each is known for, a bound beside the tour | [mod@reconstruct] |
@@ -66,7 +66,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Few centres for many points, and the proof that no others do much better:
+//! Few centers for many points, and the proof that no others do much better:
 //!
 //! ```
 //! let towns = taut::Points::new(&[0.0, 0.0, 0.0, 2.0, 9.0, 0.0, 9.0, 1.0], 2)?;
@@ -105,13 +105,13 @@
 //! ```
 //!
 //! Nothing but names lives here, and in [`files`] what joins two crates that do not know each other; each crate behind the
-//! door can be used on its own. Files are read and written by `taut-io`, pictures drawn by `taut-draw`, and the command `taut`
+//! façade can be used on its own. Files are read and written by `taut-io`, pictures drawn by `taut-draw`, and the command `taut`
 //! is the crate `taut-cli`.
 //!
 //! Two cargo features, both on by default, switch areas off: `reconstruct` (curves and surfaces) and `conic` (inscribed
 //! ellipsoids and the methods of the thesis for balls, which need a conic solver).
 //!
-//! Not for: distances other than Euclidean, or weights other than those of centres.
+//! Not for: distances other than Euclidean, or weights other than those of centers.
 #![forbid(unsafe_code)]
 
 mod error;

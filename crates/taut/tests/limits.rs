@@ -8,7 +8,7 @@ use taut::{
     FarthestFirstOptions, Points, RobustOptions, SphereTreeOptions, SurfaceOptions,
 };
 
-/// What a function says of an option that it refuses.
+/// Returns the error of a function that refuses an option.
 fn refused<T, E: Display>(done: Result<T, E>) -> String {
     match done {
         Ok(_) => panic!("not refused"),

@@ -1,6 +1,6 @@
-//! The rules of the house that a machine can check: who may import whom, what a file may hold.
+//! The rules of the architecture that a machine can check: who may import whom, what a file may hold.
 //!
-//! `ARCHITECTURE.md` draws the floors; the table below is the same picture for `cargo metadata`.
+//! `ARCHITECTURE.md` draws the layers; the table below is the same picture for `cargo metadata`.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -9,8 +9,11 @@ use std::process::Command;
 
 use serde_json::Value;
 
-/// The floor of each package, the threshold below the ground: an arrow may only go to a lower one.
-const FLOORS: [(&str, i32); 16] = [
+#[path = "tidy/vocabulary.rs"]
+mod vocabulary;
+
+/// The layer of each package: an arrow may only go to a lower one.
+const LAYERS: [(&str, i32); 16] = [
     ("taut-points", -1),
     ("taut-certify", 0),
     ("taut-io", 0),
@@ -29,11 +32,11 @@ const FLOORS: [(&str, i32); 16] = [
     ("taut-python", 4),
 ];
 
-/// The arrows that stay on one floor.
-const LEVEL: [(&str, &str); 3] =
+/// The arrows that stay in one layer.
+const SAME_LAYER: [(&str, &str); 3] =
     [("taut-mesh", "taut-predicates"), ("taut-io", "taut-mesh"), ("taut-certify", "taut-mesh")];
 
-/// Tools beside the house, which nothing imports: they may import everything.
+/// Tools beside the layers, which nothing imports: they may import everything.
 const TOOLS: [&str; 2] = ["bench", "fuzz"];
 
 /// The crates with named kernels, where `unsafe` is denied but can be allowed with a reason.
@@ -47,19 +50,21 @@ const KERNELS: [&str; 6] = [
 ];
 
 /// Words that cannot be searched for and say nothing: no constant has one of them as its whole name.
-const BARE_WORDS: [&str; 86] = [
-    "AHEAD", "ALIKE", "ASKED", "BESIDE", "CLEAR", "CLOSE", "COARSE", "COARSER", "DENSE", "DENSER",
-    "DOUBTFUL", "DRAWN", "END", "ENOUGH", "EVEN", "FALL", "FAR", "FARTHER", "FARTHEST", "FEW",
-    "FEWEST", "FINE", "FINEST", "FIRST", "FLATTER", "FORGIVEN", "GAIN", "GOOD", "GROWTH", "HALF",
-    "HUGE", "LARGE", "LARGEST", "LAST", "LATER", "LEAST", "LESS", "LONG", "LONGEST", "LOOSE",
-    "MANY", "MIDDLE", "MORE", "MOST", "NAMED", "NARROW", "NEAR", "NEARLY", "NEXT", "NOTHING",
-    "OFTEN", "OUT", "PATIENCE", "QUICK", "REACH", "RISE", "ROOM", "ROUGH", "RUNS", "SAFE",
-    "SELDOM", "SHORT", "SHORTER", "SHORTEST", "SHOWN", "SLACK", "SMALL", "SMALLEST", "SOME",
-    "SPARE", "SPARSE", "STALE", "STEPS", "SURE", "TIMES", "TINY", "TOGETHER", "TURNS", "TWICE",
-    "USEFUL", "VAIN", "WIDE", "WIDER", "WIDEST", "WITHIN", "WORTH",
+const BARE_WORDS: [&str; 109] = [
+    "AHEAD", "ALIKE", "ALMOST", "ASKED", "BARELY", "BESIDE", "BIG", "BRIEF", "CLEAR", "CLOSE",
+    "COARSE", "COARSER", "DEEP", "DEEPEST", "DENSE", "DENSER", "DOUBTFUL", "DRAWN", "END",
+    "ENOUGH", "EVEN", "FALL", "FAR", "FARTHER", "FARTHEST", "FAST", "FEW", "FEWEST", "FINE",
+    "FINEST", "FIRST", "FLATTER", "FORGIVEN", "FURTHER", "GAIN", "GOOD", "GREAT", "GROWTH", "HALF",
+    "HIGH", "HIGHEST", "HUGE", "LARGE", "LARGEST", "LAST", "LATER", "LEAST", "LESS", "LITTLE",
+    "LONG", "LONGEST", "LOOSE", "LOW", "LOWEST", "MANY", "MIDDLE", "MORE", "MOST", "MUCH", "NAMED",
+    "NARROW", "NEAR", "NEARLY", "NEXT", "NOTHING", "OFTEN", "OUT", "PATIENCE", "PLENTY", "QUICK",
+    "RARE", "REACH", "RISE", "ROOM", "ROUGH", "RUNS", "SAFE", "SELDOM", "SEVERAL", "SHORT",
+    "SHORTER", "SHORTEST", "SHOWN", "SLACK", "SLOW", "SMALL", "SMALLEST", "SOME", "SPARE",
+    "SPARSE", "STALE", "STEEP", "STEPS", "SURE", "THICK", "THIN", "TIGHT", "TIMES", "TINY",
+    "TOGETHER", "TURNS", "TWICE", "USEFUL", "VAIN", "WIDE", "WIDER", "WIDEST", "WITHIN", "WORTH",
 ];
 
-/// Functions at the root of the façade, at most: one for each noun, and room for those to come.
+/// Functions at the root of the façade, at most: one for each noun, and some for those to come.
 const FACADE_FUNCTIONS_MAX: usize = 14;
 
 /// Names at the root of the façade, at most; all others are in the modules.
@@ -78,7 +83,7 @@ struct Package {
     name: String,
     /// Roots of its library and its programs.
     roots: Vec<PathBuf>,
-    /// What it is built from; what only its tests use is left out, as a test may call upstairs.
+    /// The packages that it is built from; what only its tests use is left out, as a test may call a higher layer.
     imports: Vec<String>,
     /// All it names from outside the workspace, tests included.
     outside: Vec<String>,
@@ -121,9 +126,9 @@ fn packages() -> Vec<Package> {
 
 #[test]
 fn arrows_only_go_down() {
-    let floors = BTreeMap::from(FLOORS);
-    let floor = |name: &str| {
-        *floors.get(name).unwrap_or_else(|| panic!("{name} has no floor: give it one above"))
+    let layers = BTreeMap::from(LAYERS);
+    let layer = |name: &str| {
+        *layers.get(name).unwrap_or_else(|| panic!("{name} has no layer: give it one above"))
     };
     let packages = packages();
     assert!(packages.len() >= 9, "cargo metadata shows the whole workspace");
@@ -134,10 +139,10 @@ fn arrows_only_go_down() {
         for import in &package.imports {
             let (from, to) = (package.name.as_str(), import.as_str());
             assert!(
-                floor(from) > floor(to) || LEVEL.contains(&(from, to)),
-                "{from} (floor {}) imports {to} (floor {}): move the type downstairs",
-                floor(from),
-                floor(to)
+                layer(from) > layer(to) || SAME_LAYER.contains(&(from, to)),
+                "{from} (layer {}) imports {to} (layer {}): move the type to a lower layer",
+                layer(from),
+                layer(to)
             );
         }
     }
@@ -255,7 +260,7 @@ fn constants_are_found() {
     assert_eq!(constants_of("const SMALL_GAP: f64 = 1e-6; // SMALL"), ["SMALL_GAP"]);
 }
 
-/// What a program sees at the root of `taut`: the functions, and all names.
+/// Returns what a program sees at the root of `taut`: the functions, and all names.
 fn public_names(source: &str) -> (Vec<String>, Vec<String>) {
     let (mut functions, mut names) = (vec![], vec![]);
     let items = source.split(';').flat_map(|item| item.split_once("pub ").map(|(_, item)| item));

@@ -34,7 +34,6 @@ enum Numbers {
     Short(Vec<u32>),
 }
 
-/// A list in the making.
 pub(super) struct List<'py> {
     numbers: Numbers,
     /// Where each row ends, if the elements are rows.

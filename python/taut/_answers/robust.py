@@ -104,7 +104,7 @@ class RobustVerdict(Record):
     Attributes
     ----------
     objective : float
-        What the method minimises, of the points kept, as found here.
+        What the method minimizes, of the points kept, as found here.
     enclosure : EllipsoidVerdict or None
         By "mve" and "trim", what was proved of the ellipsoid around the points kept.
     wanted : int

@@ -75,7 +75,7 @@ pub(crate) struct Compensated {
     pub(crate) low: f64,
     /// Sum of the sizes of all that was added to `low`.
     pub(crate) size: f64,
-    /// How many numbers were added to `low`, or more.
+    /// The number of numbers that were added to `low`, or more.
     pub(crate) steps: usize,
 }
 
@@ -129,7 +129,7 @@ impl Compensated {
         Compensated { sum: -self.sum, low: -self.low, ..self }
     }
 
-    /// What was summed up.
+    /// Returns what was summed up.
     pub(crate) fn known(self) -> Known {
         let (high, low) = two_sum(self.sum, self.low);
         // The least normal number makes up for a bound that underflows.

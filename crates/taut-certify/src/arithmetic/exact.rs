@@ -11,7 +11,6 @@ use std::cmp::Ordering;
 /// The highest bit of one product lies below 2·971 + 2·53 + 2148 + 1 = 4197; 64 bits for carries, rounded up.
 const LIMBS: usize = 68;
 
-/// The exact sum of products.
 pub(crate) struct ExactSum {
     positive: [u64; LIMBS],
     negative: [u64; LIMBS],

@@ -1,9 +1,9 @@
-//! Numbers that can also be divided: one factorisation serves plain and doubled precision.
+//! Numbers that can also be divided: one factorization serves plain and doubled precision.
 
 use super::double_double::{U, two_product, two_sum};
 use super::ring::{DoubleDouble, Ring};
 
-/// What linear algebra is made of. Each operation is off by at most `ROUNDOFF` of its result, but for underflow.
+/// The operations of linear algebra. Each operation is off by at most `ROUNDOFF` of its result, but for underflow.
 pub(crate) trait Field: Ring + Copy {
     const ROUNDOFF: f64;
     fn of(value: f64) -> Self;
@@ -14,7 +14,7 @@ pub(crate) trait Field: Ring + Copy {
     fn root(&self) -> Self;
     /// The product with a power of two, exactly.
     fn scaled(&self, power: f64) -> Self;
-    /// The nearest `f64`, or a neighbour of it.
+    /// The nearest `f64`, or a neighbor of it.
     fn rounded(&self) -> f64;
 }
 
@@ -102,7 +102,7 @@ impl Field for DoubleDouble {
 /// a matrix whose entries differ from M by at most (n + 4)·2·`ROUNDOFF`·|L|·D·|Lᵀ|, which, where all pivots are
 /// positive, has a norm of at most (n + 4)·4·`ROUNDOFF`·tr M (Higham, Accuracy and Stability of Numerical Algorithms,
 /// section 10.1). Costs n³/3 operations.
-pub(crate) fn factorise<N: Field>(lower: &mut [N], n: usize) -> bool {
+pub(crate) fn factorize<N: Field>(lower: &mut [N], n: usize) -> bool {
     let start = |row: usize| row * (row + 1) / 2;
     let mut products = vec![N::of(0.0); n];
     for i in 0..n {
@@ -164,12 +164,12 @@ mod tests {
     }
 
     #[test]
-    fn a_matrix_is_factorised_and_an_indefinite_one_refused() {
+    fn a_matrix_is_factorized_and_an_indefinite_one_refused() {
         // The lower triangle of L·D·Lᵀ for L = [1; 2 1; 3 4 1] and D = (2, 3, 5).
         let mut matrix = [2.0, 4.0, 11.0, 6.0, 24.0, 71.0].map(DoubleDouble::of);
-        assert!(factorise(&mut matrix, 3));
+        assert!(factorize(&mut matrix, 3));
         assert_eq!(matrix.map(|value| value.rounded()), [2.0, 2.0, 3.0, 3.0, 4.0, 5.0]);
-        assert!(!factorise(&mut [1.0, 2.0, 4.0], 2));
-        assert!(!factorise(&mut [1.0, f64::NAN, 4.0], 2));
+        assert!(!factorize(&mut [1.0, 2.0, 4.0], 2));
+        assert!(!factorize(&mut [1.0, f64::NAN, 4.0], 2));
     }
 }

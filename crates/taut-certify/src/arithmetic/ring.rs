@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use super::double_double::{two_product, two_sum};
 use super::integer::parts;
 
-/// What a determinant is made of.
+/// The operations of a determinant.
 pub(crate) trait Ring: Clone {
     fn plus(&self, other: &Self) -> Self;
     fn minus(&self, other: &Self) -> Self;

@@ -1,13 +1,13 @@
 //! The checker of the ball, in arithmetic of its own.
 //!
-//! *Problem.* Given rows pᵢ with radii rᵢ (0 for points), a ball of centre c and radius R, and multipliers λᵢ > 0 on a
+//! *Problem.* Given rows pᵢ with radii rᵢ (0 for points), a ball of center c and radius R, and multipliers λᵢ > 0 on a
 //! few rows, prove L ≤ R* ≤ R, where R* is the radius of the smallest ball that encloses all rows.
 //! *Upper bound.* |pᵢ − c| + rᵢ ≤ R for every row, decided exactly: [`enclosure`].
 //! *Lower bound.* With W = Σλᵢ, p̄ = Σλᵢpᵢ/W, r̄ = Σλᵢrᵢ/W and V = Σλᵢ(|pᵢ − p̄|² − (rᵢ − r̄)²)/W, every enclosing ball has
-//! radius at least r̄ + √V if V ≥ 0, and at least r̄ in any case. Proof: let the ball of centre x and radius ρ enclose
+//! radius at least r̄ + √V if V ≥ 0, and at least r̄ in any case. Proof: let the ball of center x and radius ρ enclose
 //! all rows. Then |pᵢ − x|² ≤ (ρ − rᵢ)² with ρ ≥ rᵢ; averaged with weights λᵢ/W the left side is
 //! |x − p̄|² + Σλᵢ|pᵢ − p̄|²/W and the right side (ρ − r̄)² + Σλᵢ(rᵢ − r̄)²/W, so V ≤ (ρ − r̄)² with ρ ≥ r̄.
-//! *In which form.* Averages about p̄ and r̄ can be taken about any other centre and radius. About c and R themselves,
+//! *In which form.* Averages about p̄ and r̄ can be taken about any other center and radius. About c and R themselves,
 //! with tᵢ = |pᵢ − c|² − (R − rᵢ)², g = R − r̄ and
 //!
 //! > σ = |p̄ − c|² − Σλᵢtᵢ/W,  V = g² − σ,  so  L = r̄ + √V = R − x  with  x = σ / (g + √(g² − σ)).
@@ -16,7 +16,7 @@
 //! from small numbers and without cancellation, for balls that touch from inside just as for points: [`lower_bound`].
 //! Where the root does not exist, x = g. And x ≤ R − rᵢ, as no enclosing ball is smaller than what it encloses.
 //! *Ellipsoids.* Both bounds in [`ellipsoids`].
-//! *Order.* Structure, then one pass (finite rows, hash, enclosure), then the support rows as that pass read them (centre, gap).
+//! *Order.* Structure, then one pass (finite rows, hash, enclosure), then the support rows as that pass read them (center, gap).
 //! *Scale.* Where squares could leave the range of `f64`, differences pᵢ − c are multiplied by the power of two that
 //! brings R to [1, 2): exactly, but for what underflows beside R.
 //! *Tolerances.* Enclosure has none. The others only ask that stated numbers are what they are said to be, up to the
@@ -36,7 +36,7 @@ use self::enclosure::Enclosure;
 use super::{Ball, BallCertificate};
 use crate::{CheckError, Items, Verdict, Violation};
 
-/// How much the gap claimed may fall short of the gap proved, relatively and in units of 1.
+/// The amount by which the gap claimed may fall short of the gap proved, relatively and in units of 1.
 ///
 /// A solver finds its gap as R/L − 1 in arithmetic of its own: a few units in the last place of the quotient, 4e-16,
 /// and a relative error of the gap, for which 1e-9 is ample. As a radius that is larger by a factor 1 + 1e-9 raises

@@ -1,23 +1,23 @@
-//! The checker of centres, in arithmetic of its own.
+//! The checker of centers, in arithmetic of its own.
 //!
-//! *Problem.* Given rows, at most k centres, a radius R, rows left out, a core-set X and a bound L, prove L ≤ R* ≤ R, where R*
-//! is the least radius of k equal balls, with their centres anywhere or at rows, that hold all rows but so many.
-//! *Upper bound.* Each row that counts is at most R from a centre, decided exactly: [`enclosure`].
-//! *Lower bound.* No k balls of a radius less than L hold all of X but so many of its rows. Balls that held all rows but z
+//! *Problem.* Given rows, at most k centers, a radius R, rows left out, a core-set X and a bound L, prove L ≤ R* ≤ R, where R*
+//! is the least radius of k equal balls, with their centers anywhere or at rows, that hold all rows except z.
+//! *Upper bound.* Each row that counts is at most R from a center, decided exactly: [`enclosure`].
+//! *Lower bound.* No k balls of a radius less than L hold all of X except z of its rows. Balls that held all rows but z
 //! would; so R* ≥ L. There are two proofs: a separated set, more than k + z rows no two of which fit in one ball, and the
 //! log of a branch and bound search, which is replayed ([`replay`]). An [`oracle`] refutes balls: with bounds on all that is
-//! rounded where centres are free ([`free`]), exactly where they are rows ([`rows`]).
+//! rounded where centers are free ([`free`]), exactly where they are rows ([`rows`]).
 //! *Order.* Structure and the gap between the bounds, one pass (finite rows, hash, balls, assignment), then the
-//! lower bound, from the rows of the core-set as that pass read them. Centres among the rows may take one pass more, which
+//! lower bound, from the rows of the core-set as that pass read them. Centers among the rows may take one pass more, which
 //! hashes all rows again.
 //! *Tolerances.* The balls have none. The gap claimed may differ from that of the two bounds as quotients differ by
-//! rounding. An assignment may name any of centres that are equally near but for rounding.
+//! rounding. An assignment may name any of centers that are equally near but for rounding.
 
+mod center_tree;
 mod core;
 mod distance;
 mod enclosure;
 mod free;
-mod halves;
 mod item;
 mod meter;
 mod oracle;
@@ -49,17 +49,17 @@ pub(super) fn check(
     let kept = Enclosure::of(answer, kind).check(source, certificate, monitor)?;
     are_rows(answer, kind, &kept)?;
     let (lower, upper) = (answer.lower_bound, answer.radius);
-    let mut verdict = CentersVerdict { lower, upper, gap, nodes: 0 };
+    let mut verdict = CentersVerdict { lower, upper, gap, branches: 0 };
     if lower > 0.0 {
         let rows: Vec<f64> =
             certificate.core_set.iter().flat_map(|&id| kept.row(id)).copied().collect();
         let core = Core::of(&rows, source.dim(), kind, lower);
-        verdict.nodes = prove(&core, kind, certificate, source, monitor)?;
+        verdict.branches = prove(&core, kind, certificate, source, monitor)?;
     }
     Ok(verdict)
 }
 
-/// Centres among the rows are the rows they are said to be, to the last bit.
+/// Centers among the rows are the rows they are said to be, to the last bit.
 fn are_rows(answer: &Centers, kind: Kind, kept: &KeptRows) -> Result<(), CheckError> {
     for (center, (&row, place)) in answer.rows.iter().zip(&answer.centers).enumerate() {
         if kind.item(kept.row(row)).position != place {
@@ -93,7 +93,7 @@ fn prove(
     };
     let mut meter = Meter::of(monitor);
     match &certificate.proof {
-        LowerBound::Apart => {
+        LowerBound::Separated => {
             if rows as u64 <= certificate.k.saturating_add(outliers) {
                 return refused(CentersViolation::TooFew { rows, outliers });
             }

@@ -1,14 +1,14 @@
-//! What can be wrong with centres.
+//! The violations of centers.
 
-/// Why centres or their certificate are wrong.
+/// Why centers or their certificate are wrong.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CentersViolation {
     /// There are no items.
-    #[error("there are no rows: centres need at least one")]
+    #[error("there are no rows: centers need at least one")]
     Empty,
     /// The certificate speaks of ellipsoids.
-    #[error("the items are said to be ellipsoids: centres are of points or of balls")]
+    #[error("the items are said to be ellipsoids: centers are of points or of balls")]
     Ellipsoids,
     /// The certificate speaks of balls with weights.
     #[error("the items are said to be balls with weights: points alone can have weights")]
@@ -27,32 +27,32 @@ pub enum CentersViolation {
         /// Its weight.
         value: f64,
     },
-    /// There are no centres, or more than were asked for.
-    #[error("there are {found} centres: expected at least 1 and at most k = {k}")]
+    /// There are no centers, or more than were asked for.
+    #[error("there are {found} centers: expected at least 1 and at most k = {k}")]
     Count {
-        /// Centres there are.
+        /// Centers there are.
         found: usize,
-        /// Most centres.
+        /// Most centers.
         k: u64,
     },
-    /// A centre has another dimension than the points.
-    #[error("centre {center} has {found} coordinates, but the points have dimension {expected}")]
+    /// A center has another dimension than the points.
+    #[error("center {center} has {found} coordinates, but the points have dimension {expected}")]
     Dimension {
-        /// Centre, from 0.
+        /// Center, from 0.
         center: usize,
         /// Its coordinates.
         found: usize,
         /// Dimension of the points.
         expected: usize,
     },
-    /// A centre is not the row it is said to be.
-    #[error("centre {center} is said to be point {row}, {problem}")]
+    /// A center is not the row it is said to be.
+    #[error("center {center} is said to be point {row}, {problem}")]
     Row {
-        /// Centre, from 0.
+        /// Center, from 0.
         center: usize,
         /// The row it is said to be.
         row: u64,
-        /// What is wrong with that.
+        /// The reason for the refusal.
         problem: &'static str,
     },
     /// More rows are left out than may be.
@@ -74,41 +74,41 @@ pub enum CentersViolation {
     /// The gap between the bounds is larger than the gap claimed.
     #[error("the bounds are {found:e} apart, relatively; the certificate claims {claimed:e}")]
     Gap {
-        /// What the certificate says.
+        /// The value that the certificate claims.
         claimed: f64,
         /// `radius / lower_bound − 1`, rounded up.
         found: f64,
     },
     /// An item that counts lies in none of the balls.
     #[error(
-        "point {row} reaches {distance:?} from centre {center}, the next, outside the radius {radius:?} by {excess:e}"
+        "point {row} reaches {distance:?} from center {center}, the next, outside the radius {radius:?} by {excess:e}"
     )]
     Outside {
         /// The first such row, from 0.
         row: u64,
-        /// The centre next to it, from 0.
+        /// The center next to it, from 0.
         center: usize,
-        /// How far it reaches from there.
+        /// The distance that it reaches from there.
         distance: f64,
         /// The claimed radius.
         radius: f64,
         /// distance − radius.
         excess: f64,
     },
-    /// An item is assigned to a centre that does not exist.
-    #[error("point {row} is assigned to centre {center}, but there are not so many")]
+    /// An item is assigned to a center that does not exist.
+    #[error("point {row} is assigned to center {center}, but there are not so many")]
     NoSuchCenter {
         /// The first such row, from 0.
         row: u64,
-        /// The centre named.
+        /// The center named.
         center: u32,
     },
-    /// An item is assigned to a centre that is not the nearest.
-    #[error("point {row} is assigned to centre {center}, but centre {nearer} is nearer to it")]
+    /// An item is assigned to a center that is not the nearest.
+    #[error("point {row} is assigned to center {center}, but center {nearer} is nearer to it")]
     Assignment {
         /// The first such row, from 0.
         row: u64,
-        /// The centre named.
+        /// The center named.
         center: u32,
         /// One that is nearer.
         nearer: usize,
@@ -120,7 +120,7 @@ pub enum CentersViolation {
         position: usize,
         /// The row it names.
         row: u64,
-        /// What is wrong with that.
+        /// The reason for the refusal.
         problem: &'static str,
     },
     /// The core-set is larger than a proof of its kind may have.
@@ -160,7 +160,7 @@ pub enum CentersViolation {
         entry: usize,
         /// The item it gives.
         item: u32,
-        /// What is wrong with that.
+        /// The reason for the refusal.
         problem: &'static str,
     },
     /// The log of branches ends where a node is neither refuted nor branched on.
@@ -185,12 +185,12 @@ pub enum CentersViolation {
         /// Bytes that are granted.
         most: u64,
     },
-    /// The places that centres among the rows can take are too many to be held.
+    /// The places that centers among the rows can take are too many to be held.
     #[error(
-        "centres among the rows cannot be judged by so large a core-set: what each row is near to takes more than {most} bytes"
+        "centers among the rows cannot be judged by so large a core-set: what each row is near to takes more than {most} bytes"
     )]
     Memory {
-        /// What is granted.
+        /// The largest value that is accepted.
         most: u64,
     },
 }

@@ -20,10 +20,10 @@ use crate::arithmetic::U;
 use crate::hashed_pass::{WantedRows, all_finite, hashed_pass};
 use crate::{CheckError, Violation};
 
-/// How much the gap claimed may fall short of the gap proved, relatively and absolutely.
+/// The amount by which the gap claimed may fall short of the gap proved, relatively and absolutely.
 const GAP_SLACK: (f64, f64) = (1e-9, 4e-15);
 
-/// How much farther than the radius a touching edge may be, relative to the radius.
+/// The largest excess of the distance of a touching edge over the radius, relative to the radius.
 const TOUCHING_SLACK: f64 = 1e-9;
 
 pub(super) fn check(

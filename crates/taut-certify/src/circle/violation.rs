@@ -1,4 +1,4 @@
-//! What can be wrong with an inscribed circle.
+//! The violations of an inscribed circle.
 
 use crate::Fault;
 
@@ -35,7 +35,7 @@ pub enum CircleViolation {
     Touching {
         /// Position in the list, from 0.
         position: usize,
-        /// What is wrong with it.
+        /// The reason for the refusal.
         problem: &'static str,
     },
     /// The subdivision is not one of the bounding box.
@@ -43,23 +43,23 @@ pub enum CircleViolation {
     Tree {
         /// Position in the tree, from 0.
         position: usize,
-        /// What is wrong with it.
+        /// The reason for the refusal.
         problem: &'static str,
     },
-    /// The reason for a cell is malformed.
+    /// A cell is malformed.
     #[error("entry {leaf} of the leaves {problem}")]
     Leaf {
         /// Position in the list, from 0.
         leaf: usize,
-        /// What is wrong with it.
+        /// The reason for the refusal.
         problem: &'static str,
     },
     /// The gap proved is larger than the gap claimed.
     #[error("the leaves prove a gap of {proved:e}, the certificate claims {claimed:e}")]
     Gap {
-        /// What the certificate says.
+        /// The value that the certificate claims.
         claimed: f64,
-        /// What the checker finds.
+        /// The result of the checker.
         proved: f64,
     },
 }

@@ -1,6 +1,6 @@
 //! The checker of curves, in arithmetic of its own.
 //!
-//! *Problem.* Given rows and polylines, prove that no two edges meet but neighbours at their vertex, that every row but the
+//! *Problem.* Given rows and polylines, prove that no two edges meet but neighbors at their vertex, that every row but the
 //! outliers is within the band, and judge whether the rows sample the polylines densely enough beside their features.
 //! *Simplicity.* By exact signs over pairs of edges whose boxes meet: [`simple`].
 //! *Band.* The distance to the nearest edge, rounded up, or equality with a vertex where vertices are rows: [`band`].

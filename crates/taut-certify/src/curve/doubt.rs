@@ -95,16 +95,16 @@ pub enum CurveDoubt {
         /// How dense they are between two bands, over the sparser of those.
         share: f64,
     },
-    /// Rows lie off the curve to the side their neighbours lie on, as samples of a curve that winds about it would.
+    /// Rows lie off the curve to the side their neighbors lie on, as samples of a curve that winds about it would.
     #[error(
-        "the rows beside curve {curve}, after vertex {vertex}, follow each other about it: differences of neighbours make {share:.2} of what chance would"
+        "the rows beside curve {curve}, after vertex {vertex}, follow each other about it: differences of neighbors make {share:.2} of what chance would"
     )]
     Winding {
         /// Curve, from 0.
         curve: usize,
         /// The vertex after which they lie, from 0.
         vertex: usize,
-        /// Mean squared difference of neighbours over twice the variance.
+        /// Mean squared difference of neighbors over twice the variance.
         share: f64,
     },
     /// Too many rows are said to be outliers.

@@ -50,7 +50,7 @@ pub enum CurveViolation {
         /// The other vertex.
         other_vertex: usize,
     },
-    /// Two edges meet that are no neighbours, or neighbours elsewhere than at their vertex.
+    /// Two edges meet that are no neighbors, or neighbors elsewhere than at their vertex.
     #[error("edge {edge} of curve {curve} meets edge {other_edge} of curve {other}")]
     Crossing {
         /// Curve, from 0.

@@ -40,7 +40,7 @@ use super::{Ellipsoid, EllipsoidCertificate, EllipsoidVerdict};
 use crate::arithmetic::U;
 use crate::{CheckError, Violation};
 
-/// How much the gap claimed may fall short of the gap proved, relatively and for each dimension.
+/// The amount by which the gap claimed may fall short of the gap proved, relatively and for each dimension.
 ///
 /// A solver finds its gap in arithmetic of its own, from an ellipsoid of which each axis is rounded by a few units in the
 /// last place.

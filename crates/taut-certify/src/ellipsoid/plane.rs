@@ -1,4 +1,4 @@
-//! Whether some rows are *the* support of an ellipse: decided by exact arithmetic, without any tolerance.
+//! Decides whether some rows are *the* support of an ellipse: by exact arithmetic, without any tolerance.
 //!
 //! *Problem.* The smallest ellipse of points in the plane is that of three to five of them, of which none can be spared
 //! (a basis). Given rows that are said to be those, prove it from the input alone.
@@ -18,7 +18,7 @@ use taut_points::{Monitor, PointSource, gather, map_blocks};
 use self::basis::Basis;
 use crate::{CheckError, Violation};
 
-/// What exact arithmetic proved of the support of an ellipse.
+/// The facts that exact arithmetic proved of the support of an ellipse.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct EllipseSupport {
     /// Three to five rows; none can be spared, and their smallest ellipse is that of all points.

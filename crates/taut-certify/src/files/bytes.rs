@@ -13,9 +13,9 @@ impl<T: Read + Seek> Data for T {}
 
 /// The files to judge.
 pub struct Files<'a> {
-    /// What was read, if it is there to be compared.
+    /// The input that was read, if it is there to be compared.
     pub input: Option<&'a mut dyn Data>,
-    /// What was written.
+    /// The output that was written.
     pub output: &'a mut dyn Data,
 }
 

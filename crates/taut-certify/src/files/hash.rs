@@ -34,7 +34,7 @@ fn fold(a: u64, b: u64) -> u64 {
     low ^ high
 }
 
-/// What is left of a record after some of its words.
+/// The rest of a record after some of its words.
 struct Lanes {
     low: u64,
     high: u64,

@@ -19,7 +19,7 @@ impl<A: FileAnswer> FileSolution<A> {
     /// Writes the document to `out`. It ends without a line feed.
     ///
     /// # Errors
-    /// What `out` says.
+    /// The error that `out` returns.
     pub fn write_json(&self, out: impl io::Write) -> io::Result<()> {
         write_document(A::KIND, &self.answer, &self.certificate, &self.trace, out)
     }

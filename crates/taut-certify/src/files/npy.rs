@@ -12,12 +12,12 @@ use super::{FileCheckError, FileViolation};
 
 pub(super) use names::{is_same_type, width};
 
-/// How such a file begins.
+/// The first bytes of such a file.
 const MAGIC: &[u8; 6] = b"\x93NUMPY";
 /// A header is looked at if it has at most this many bytes.
 const HEADER_BYTES_MAX: u64 = 1 << 16;
 
-/// What a header says.
+/// The contents of a header.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Header {
     pub(super) dtype: String,
@@ -29,7 +29,7 @@ pub(super) struct Header {
 }
 
 impl Header {
-    /// Whether the text is the one that NumPy writes for what it says: readers need not be lenient.
+    /// Returns true if the text is the one that NumPy writes for what it says: readers need not be lenient.
     pub(super) fn is_plain(&self) -> bool {
         let Self { dtype, fortran, shape, text, .. } = self;
         let order = if *fortran { "True" } else { "False" };
@@ -39,7 +39,7 @@ impl Header {
     }
 }
 
-/// Whether a file begins as one with such a header.
+/// Tests whether a file begins as one with such a header.
 pub(super) fn begins(source: &mut Source<'_>) -> Result<bool, FileCheckError> {
     let mut start = [0; MAGIC.len()];
     if source.length < start.len() as u64 {
@@ -49,7 +49,6 @@ pub(super) fn begins(source: &mut Source<'_>) -> Result<bool, FileCheckError> {
     Ok(start == *MAGIC)
 }
 
-/// Reads the header of a file.
 pub(super) fn header(source: &mut Source<'_>) -> Result<Header, FileCheckError> {
     let file = source.which;
     let wrong = |problem: &str| FileViolation::Header { file, problem: problem.to_owned() };

@@ -21,13 +21,13 @@ use super::{FileAnswer, FileCheckError, FileVerdict, FileViolation, Files, Which
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a sample: an object with of and drawn")]
 pub struct DrawnSample {
-    /// How many numbers there were to choose from: 0 to `of` − 1.
+    /// The number of numbers to choose from: 0 to `of` − 1.
     pub of: u64,
-    /// How many were drawn.
+    /// The number of draws.
     pub drawn: u64,
 }
 
-/// What reproduces the numbers.
+/// The data that reproduce the numbers.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "the certificate of a sample: an object with seed")]
 pub struct SampleCertificate {

@@ -13,7 +13,7 @@ use taut_points::Monitor;
 use super::bytes::Source;
 use super::{FileAnswer, FileCheckError, FileVerdict, FileViolation, Files, Hash128, WhichFile};
 
-/// How the bytes of a key compare.
+/// The way in which the bytes of a key compare.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum KeyKind {
@@ -40,11 +40,11 @@ pub struct SortedFile {
     pub width: u64,
     /// The bytes of a record that are the key: the first, and the one after the last.
     pub key: [u64; 2],
-    /// What these bytes mean.
+    /// The meaning of these bytes.
     pub key_kind: KeyKind,
 }
 
-/// What proves which records a sorted file holds.
+/// The proof of which records a sorted file holds.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "the certificate of a sorted file: an object with hash")]
 pub struct SortCertificate {

@@ -35,7 +35,7 @@ pub struct TransposedFile {
     pub columns: u64,
     /// Bytes of an element, at least 1.
     pub width: u64,
-    /// How the elements of the input lie.
+    /// The way in which the elements of the input lie.
     pub order: ElementOrder,
     /// Bytes of the input before its first element; it ends with the last.
     pub input_offset: u64,
@@ -47,7 +47,7 @@ pub struct TransposedFile {
     pub dtype: Option<String>,
 }
 
-/// What proves which matrix it is.
+/// The proof of which matrix it is.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(
     deny_unknown_fields,

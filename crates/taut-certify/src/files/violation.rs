@@ -1,4 +1,4 @@
-//! What a checker of files says.
+//! The verdicts and violations of checkers of files.
 
 use std::fmt;
 use std::io;
@@ -34,7 +34,7 @@ pub enum FileViolation {
         what: &'static str,
         /// Its value.
         value: String,
-        /// What would have been accepted.
+        /// The values that would have been accepted.
         expected: &'static str,
     },
     /// A file has another length than what it should hold.
@@ -95,7 +95,7 @@ pub enum FileViolation {
     Header {
         /// Which file.
         file: WhichFile,
-        /// What it says.
+        /// The message.
         problem: String,
     },
     /// A line is not the number that the seed gives.
@@ -105,9 +105,9 @@ pub enum FileViolation {
         file: WhichFile,
         /// The line, from 1.
         line: u64,
-        /// What it says; "nothing" behind the last.
+        /// The text found; "nothing" behind the last.
         found: String,
-        /// What should be there; "nothing" behind the last.
+        /// The text expected; "nothing" behind the last.
         expected: String,
     },
 }
@@ -127,7 +127,7 @@ pub enum FileCheckError {
     Read {
         /// Which file.
         file: WhichFile,
-        /// What the system said.
+        /// The error of the system.
         source: io::Error,
     },
     /// Stopped on request.

@@ -20,7 +20,7 @@ use crate::ellipsoid::check::frame::Frame;
 use crate::hashed_pass::{KeptRows, WantedRows, all_finite, hashed_pass};
 use crate::{CheckError, Ellipsoid, Violation};
 
-/// How much the gap claimed may fall short of the gap proved, relatively and for each dimension: as for ellipsoids.
+/// The amount by which the gap claimed may fall short of the gap proved, relatively and for each dimension: as for ellipsoids.
 const GAP_SLACK: (f64, f64) = (1e-9, 2e-15);
 
 pub(super) fn check(

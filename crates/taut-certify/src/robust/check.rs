@@ -1,10 +1,10 @@
 //! The checker of robust ellipsoids, in arithmetic of its own.
 //!
-//! *Problem.* Given points, a list of those kept, centre, scatter and flags: are they what the method makes of the
+//! *Problem.* Given points, a list of those kept, center, scatter and flags: are they what the method makes of the
 //! points kept, and do the points kept leave nothing to improve by a C-step?
 //! *Idea.* Everything is judged in the frame of the answer, y = F(x − c), where scatters are nearly multiples of I. Each
-//! pass hashes what it reads ([`scan`]).
-//! 1. Doubled precision: moments of the rows kept and of those not weighed out. From these: centre, scatter, objective;
+//! pass hashes what it reads ([`passes`]).
+//! 1. Doubled precision: moments of the rows kept and of those not weighed out. From these: center, scatter, objective;
 //!    factors by series of their own ([`factors`]). A hull must be as thin as that of an ellipsoid by itself.
 //! 2. Flags: exactly the rows outside, but for what evaluating |F(x − c)| in `f64` may be off by.
 //! 3. By `mve` and `trim`, the checker of ellipsoids judges that around the rows kept.
@@ -19,7 +19,7 @@
 mod cursor;
 mod factors;
 mod lists;
-mod scan;
+mod passes;
 mod scatter;
 mod slack;
 mod sums;
@@ -27,7 +27,7 @@ mod sums;
 use taut_points::{Monitor, PointSource};
 
 use self::factors::{beyond, consistency, quantile, small_sample};
-use self::scan::{Around, Scan};
+use self::passes::{KeptMetric, Passes};
 use self::slack::Slack;
 use self::sums::Metric;
 use super::{RobustCertificate, RobustEllipsoid, RobustMethod, RobustVerdict, Unweighted};
@@ -45,7 +45,7 @@ const ENCLOSURE_GAP_MAX: f64 = 0.011;
 /// A hull that was laid through some rows may be stated wider by up to this factor, so that it holds others as near to
 /// it.
 const HULL_WIDENING_MAX: f64 = 4.0;
-/// What 1 − level may be off by beside its last digits: `level` and the probability of a quantile are numbers near 1.
+/// The error of 1 − level beside its last digits: `level` and the probability of a quantile are numbers near 1.
 const LEVEL_TOLERANCE: f64 = 4e-16;
 
 pub(super) fn check(
@@ -63,15 +63,15 @@ pub(super) fn check(
         hull.check(&frame)?;
     }
     let log_volume = agreement::log_volume(&ellipsoid, &frame)?.value;
-    let scan = Scan { answer, certificate, frame: &frame, hull: hull.as_ref() };
+    let passes = Passes { answer, certificate, frame: &frame, hull: hull.as_ref() };
     let n = source.len();
     monitor.pass(1, n);
-    let sums = scan.moments(source, monitor)?;
+    let sums = passes.moments(source, monitor)?;
     if let Some(hull) = &hull {
         hull.is_flat_for(&sums.extents, &sums.coordinates, HULL_WIDENING_MAX)?;
     }
     monitor.pass(2, n);
-    let flag_excess = scan.flags(source, monitor)?;
+    let flag_excess = passes.flags(source, monitor)?;
     let (rank, slack) = (frame.rank, Slack::of(&frame, &sums.extents));
     let is_trimmed = certificate.method == RobustMethod::Trim;
 
@@ -80,7 +80,7 @@ pub(super) fn check(
     // S = (F′F)⁻¹/border.
     let border = if is_trimmed { 1.0 / certificate.raw_scale } else { certificate.cutoff };
     scatter::check(answer, &frame, hull.as_ref(), border, slack.of_shapes)?;
-    // ln det S and what was minimised, from ln |det F|, or that of F within the hull.
+    // ln det S and what was minimized, from ln |det F|, or that of F within the hull.
     let log_factor = agreement::log_unit_ball(rank).iter().sum::<f64>() - log_volume;
     let log_det = if rank == 0 { 0.0 } else { -2.0 * log_factor - rank as f64 * border.ln() };
     let agree_in_logarithm = |what: &str, claimed: f64, found: f64| {
@@ -123,13 +123,13 @@ pub(super) fn check(
             (Some(frame), _) => {
                 // What is proved of its volume does not tell ellipsoids within the gap apart.
                 let gap = enclosure.map_or(0.0, |proved| proved.gap);
-                Some(Around::Ellipsoid { frame, inside: 1.0 - ON_BORDER - gap })
+                Some(KeptMetric::Ellipsoid { frame, inside: 1.0 - ON_BORDER - gap })
             }
-            (None, raw) => raw.as_ref().map(Around::Moments),
+            (None, raw) => raw.as_ref().map(KeptMetric::Moments),
         };
         if let Some(around) = around {
             monitor.pass(if enclosure.is_some() { 4 } else { 3 }, n);
-            scan.distances(source, monitor, &around, &slack)?;
+            passes.distances(source, monitor, &around, &slack)?;
         }
     }
     Ok(RobustVerdict {
@@ -145,7 +145,7 @@ pub(super) fn check(
     })
 }
 
-/// Whether the reason why points are not weighed anew, if one is given, may be true; and then the lists and factors are
+/// Tests whether the reason why points are not weighed again, if one is given, may be true; and then the lists and factors are
 /// those of the points kept.
 fn reweighting(
     certificate: &RobustCertificate,
@@ -177,7 +177,7 @@ fn agree(what: &str, claimed: f64, found: f64, tolerance: f64) -> Result<(), Vio
     if agrees { Ok(()) } else { Err(Violation::Estimate { what: what.into(), claimed, found }) }
 }
 
-/// Whether quantile and factors are those of the literature.
+/// Tests whether quantile and factors are those of the literature.
 fn factors(
     certificate: &RobustCertificate,
     rows: u64,
@@ -226,7 +226,7 @@ fn factors(
     }
 }
 
-/// Whether the answer is the ellipsoid around the rows kept, with F′F divided by `factor`.
+/// Tests whether the answer is the ellipsoid around the rows kept, with F′F divided by `factor`.
 fn same(
     answer: &RobustEllipsoid,
     enclosure: &Enclosure,
@@ -242,7 +242,7 @@ fn same(
         || (slack == 0.0 && one.center_tail != other.center_tail)
     {
         return Err(Violation::Estimate {
-            what: "the first coordinate of the centre".into(),
+            what: "the first coordinate of the center".into(),
             claimed: one.center[0],
             found: other.center[0],
         });

@@ -1,4 +1,4 @@
-//! What shows that a triangle of a surface has an empty ball.
+//! The data that show that a triangle of a surface has an empty ball.
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 
@@ -14,7 +14,7 @@ pub enum Apex {
     /// A facet of the convex hull: no point is beyond its plane, and none of those in the plane is inside the circle. Then all large
     /// enough balls beyond the plane are empty.
     Hull,
-    /// The smallest ball of all, with its centre in the plane of the triangle.
+    /// The smallest ball of all, with its center in the plane of the triangle.
     Gabriel,
 }
 

@@ -44,7 +44,7 @@ use super::{
 };
 use crate::CheckError;
 
-/// How far a displacement may be from the one claimed, relatively, for those who round on another way.
+/// The largest deviation of a displacement from the one claimed, relatively, for those who round on another way.
 const DISPLACEMENT_SLACK: f64 = 1e-9;
 
 pub(super) fn check(

@@ -14,7 +14,7 @@ pub enum SurfaceDoubt {
     NonManifoldEdge {
         /// Its ends.
         edge: [u32; 2],
-        /// How many there are.
+        /// The number of them.
         triangles: usize,
     },
     /// The triangles at a vertex are more than one fan.
@@ -56,7 +56,7 @@ pub enum SurfaceDoubt {
     Inward {
         /// The first such component.
         component: usize,
-        /// How many closed components it lies within.
+        /// The number of closed components it lies within.
         depth: usize,
     },
     /// It is not claimed that triangles are Delaunay triangles.

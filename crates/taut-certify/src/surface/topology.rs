@@ -1,4 +1,4 @@
-//! What triangles are as a surface, in numbers.
+//! The topology of triangles, in numbers.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 ///
 /// - An *edge* is a pair of rows that are two corners of a triangle. It is a *boundary* edge if it is so for one triangle,
 ///   *non-manifold* if for more than two.
-/// - The *link* of a vertex is the graph on its neighbours that has an edge for the opposite side of each triangle at the vertex. A
+/// - The *link* of a vertex is the graph on its neighbors that has an edge for the opposite side of each triangle at the vertex. A
 ///   vertex of a surface has one path or one cycle for a link; all others are *non-manifold*, among them the ends of each
 ///   non-manifold edge.
 /// - A *component* is a largest set of triangles that one can walk through over edges. Two components can share vertices.
@@ -58,7 +58,7 @@ pub struct SurfaceComponent {
     pub triangles: u64,
     /// Its boundary loops.
     pub boundary_loops: u64,
-    /// Whether all triangles can be turned such that the two of an edge run along it in opposite directions; edges of more than
+    /// True if all triangles can be turned such that the two of an edge run along it in opposite directions; edges of more than
     /// two triangles ask for nothing.
     pub orientable: bool,
     /// With ℓ boundary loops and χ = vertices − edges + triangles, the number of handles (2 − ℓ − χ)/2 if orientable, that of
@@ -69,17 +69,17 @@ pub struct SurfaceComponent {
 }
 
 impl SurfaceTopology {
-    /// Whether no edge has one triangle only.
+    /// Returns true if no edge has one triangle only.
     pub fn is_closed(&self) -> bool {
         self.boundary_edges == 0
     }
 
-    /// Whether it is a surface, with or without a boundary: no vertex, and so no edge, is non-manifold.
+    /// Tests whether it is a surface, with or without a boundary: no vertex, and so no edge, is non-manifold.
     pub fn is_manifold(&self) -> bool {
         self.non_manifold_edges == 0 && self.non_manifold_vertices == 0
     }
 
-    /// Whether the two triangles of each edge run along it in opposite directions.
+    /// Returns true if the two triangles of each edge run along it in opposite directions.
     pub fn is_oriented(&self) -> bool {
         self.inconsistent_edges == 0
     }

@@ -1,4 +1,4 @@
-//! What can be wrong with a surface.
+//! The violations of a surface.
 
 use super::SurfaceDoubt;
 
@@ -15,7 +15,7 @@ pub enum SurfaceViolation {
     /// There are more triangles than numbers of corners have room for.
     #[error("there are {triangles} triangles: a third of 2^32 is the most")]
     TooMany {
-        /// How many there are.
+        /// The number of them.
         triangles: usize,
     },
     /// A corner is no row.
@@ -25,7 +25,7 @@ pub enum SurfaceViolation {
         triangle: usize,
         /// 0, 1 or 2.
         corner: usize,
-        /// What it names.
+        /// The row that it names.
         row: u32,
         /// Rows there are.
         rows: u64,
@@ -55,7 +55,7 @@ pub enum SurfaceViolation {
         position: usize,
         /// The row.
         row: u32,
-        /// What is wrong with that.
+        /// The reason for the refusal.
         problem: &'static str,
     },
     /// A row is neither the vertex of a triangle nor listed as unused.
@@ -77,7 +77,7 @@ pub enum SurfaceViolation {
     Interior {
         /// The first such row.
         row: u32,
-        /// What it is.
+        /// The problem.
         problem: &'static str,
     },
     /// A number of the topology is wrong.
@@ -85,9 +85,9 @@ pub enum SurfaceViolation {
     Topology {
         /// The number in question.
         what: String,
-        /// What the answer says.
+        /// The value that the answer claims.
         claimed: String,
-        /// What the triangles give.
+        /// The value that the triangles give.
         found: String,
     },
     /// The surface is to be closed, but an edge has one triangle only.
@@ -154,9 +154,9 @@ pub enum SurfaceViolation {
     /// The largest distance of a vertex from its row is not as claimed.
     #[error("vertices are up to {found:e} from their rows, the certificate claims {claimed:e}")]
     Displacement {
-        /// What the certificate says.
+        /// The value that the certificate claims.
         claimed: f64,
-        /// What there is, rounded up.
+        /// The value found, rounded up.
         found: f64,
     },
 }

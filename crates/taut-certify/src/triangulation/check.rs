@@ -1,6 +1,6 @@
 //! The proof that a list of simplices is *the* Delaunay triangulation of a list of points, in one linear pass.
 //!
-//! *Problem.* Given n rows, simplices by row numbers, the neighbours of each, the facets of the hull and the duplicates:
+//! *Problem.* Given n rows, simplices by row numbers, the neighbors of each, the facets of the hull and the duplicates:
 //! is each part what it is said to be? Every step below is exact.
 //! 1. *Vertices.* Each row is a vertex of a simplex, or is listed as a duplicate: equal to an earlier row that is a
 //!    vertex. [`sites`]
@@ -9,7 +9,7 @@
 //!    else it is listed on the hull, and the hull has no others. [`facets`]
 //! 4. *Hull.* The facets of the hull form one closed surface that bounds a convex body and winds around it once.
 //!    [`polygon`], [`polyhedron`]
-//! 5. *Emptiness.* Across each inner facet the far vertex of the neighbour is outside the circumsphere; where it lies on
+//! 5. *Emptiness.* Across each inner facet the far vertex of the neighbor is outside the circumsphere; where it lies on
 //!    it, the perturbation that makes the triangulation unique puts it outside. [`signs`]
 //!
 //! *Tiling, from 1 to 4.* Let c(p) be the number of simplices that contain p, for p on no facet. When p crosses a facet
@@ -106,7 +106,7 @@ pub(super) fn check(
     Err(MeshViolation::Fingerprint { claimed, found }.into())
 }
 
-/// Lists hold whole rows, and as many neighbours as vertices or none.
+/// Lists hold whole rows, and as many neighbors as vertices or none.
 fn lengths(
     answer: &Triangulation,
     certificate: &TriangulationCertificate,
@@ -121,7 +121,7 @@ fn lengths(
         ),
         ("the list of hull facets", &answer.hull, rows(&answer.hull, width)),
         (
-            "the list of neighbours",
+            "the list of neighbors",
             &certificate.neighbors,
             if certificate.neighbors.is_empty() { 0 } else { answer.simplices.len() },
         ),

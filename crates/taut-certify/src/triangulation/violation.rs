@@ -1,4 +1,4 @@
-//! What can be wrong with a triangulation.
+//! The violations of a triangulation.
 
 use std::fmt;
 
@@ -12,7 +12,7 @@ pub enum MeshViolation {
         "the triangulation is of dimension {claimed}, but the points have dimension {found}: expected 2 or 3, and the same"
     )]
     Dimension {
-        /// What the answer says.
+        /// The value that the answer claims.
         claimed: u8,
         /// Dimension of the points.
         found: usize,
@@ -26,19 +26,19 @@ pub enum MeshViolation {
     /// The affine hull of the points has another dimension.
     #[error("the hull of the points is {}, but the answer says {}", Hull(*found), Hull(*claimed))]
     HullDimension {
-        /// What the answer says.
+        /// The value that the answer claims.
         claimed: Option<u8>,
-        /// What the points have.
+        /// The value that the points have.
         found: Option<u8>,
     },
     /// A count of the certificate is wrong.
     #[error("the certificate counts {claimed} {what}, there are {found}")]
     Count {
-        /// What is counted.
+        /// The objects that are counted.
         what: &'static str,
-        /// What the certificate says.
+        /// The value that the certificate claims.
         claimed: u64,
-        /// What there is.
+        /// The value found.
         found: u64,
     },
     /// An id is no row of the points.
@@ -64,9 +64,9 @@ pub enum MeshViolation {
         position: usize,
         /// The point.
         row: u32,
-        /// What it is said to equal.
+        /// The row that it is said to equal.
         first: u32,
-        /// What is wrong with that.
+        /// The reason for the refusal.
         problem: &'static str,
     },
     /// A simplex is flat or turned the wrong way round.
@@ -75,16 +75,16 @@ pub enum MeshViolation {
         /// The simplex.
         simplex: usize,
     },
-    /// The neighbour named across a facet does not share it, or does not know of it.
+    /// The neighbor named across a facet does not share it, or does not know of it.
     #[error("simplex {simplex} names simplex {neighbor} across facet {facet}: {problem}")]
     Neighbor {
         /// The simplex.
         simplex: usize,
         /// Its facet.
         facet: usize,
-        /// The neighbour it names.
+        /// The neighbor it names.
         neighbor: u32,
-        /// What is wrong with that.
+        /// The reason for the refusal.
         problem: &'static str,
     },
     /// A facet belongs to more than two simplices, or to two on the same side.
@@ -140,7 +140,7 @@ pub enum MeshViolation {
         neighbor: usize,
         /// The point.
         row: u32,
-        /// Whether the point lies on the sphere.
+        /// True if the point lies on the sphere.
         tie: bool,
     },
     /// Simplex `position` of the chain of collinear points does not continue it.
@@ -152,14 +152,14 @@ pub enum MeshViolation {
     /// The simplices have another fingerprint than the certificate says.
     #[error("the simplices have fingerprint {found}, the certificate says {claimed}")]
     Fingerprint {
-        /// What the certificate says.
+        /// The value that the certificate claims.
         claimed: super::Fingerprint,
-        /// What they have.
+        /// The value of the points.
         found: super::Fingerprint,
     },
 }
 
-/// How the hull of points is spoken of.
+/// The words for the hull of points.
 struct Hull(Option<u8>);
 
 impl fmt::Display for Hull {
@@ -187,10 +187,10 @@ impl fmt::Display for Ids<'_> {
 fn conflict(simplex: usize, neighbor: usize, row: u32, tie: bool) -> String {
     match tie {
         false => format!(
-            "point {row}, of simplex {neighbor}, lies inside the circumsphere of its neighbour, simplex {simplex}"
+            "point {row}, of simplex {neighbor}, lies inside the circumsphere of its neighbor, simplex {simplex}"
         ),
         true => format!(
-            "point {row}, of simplex {neighbor}, lies on the circumsphere of its neighbour, simplex {simplex}, and the \
+            "point {row}, of simplex {neighbor}, lies on the circumsphere of its neighbor, simplex {simplex}, and the \
              perturbation puts it inside"
         ),
     }

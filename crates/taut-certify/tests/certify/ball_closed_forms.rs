@@ -111,7 +111,7 @@ fn circles() {
 
 #[test]
 fn two_balls_inside_one() {
-    // (|c₁ − c₂| + r₁ + r₂)/2 = (5 + 1 + 2)/2; the centre lies 3 from the first and 2 from the second.
+    // (|c₁ − c₂| + r₁ + r₂)/2 = (5 + 1 + 2)/2; the center lies 3 from the first and 2 from the second.
     let case = balls("two balls", &[0.0, 0.0, 1.0, 3.0, 4.0, 2.0], 3, &[0, 1], &[0.4, 0.6]);
     accept(&case, 4.0);
 }
@@ -159,7 +159,7 @@ fn any_scale() {
     let unit = points("scale", &flat, 2, &support, &lambda);
     for scale in [1e300, 1.7e308, 1e150, 1e62, 1e-62, 1e-150, 1e-290, 2f64.powi(-1021)] {
         let values: Vec<f64> = flat.iter().map(|v| v * scale).collect();
-        // The fractions round correctly at any scale only where f64 does; so the centre is scaled, too, and the
+        // The fractions round correctly at any scale only where f64 does; so the center is scaled, too, and the
         // radius is enlarged by two ulps, which the gap then says.
         let mut case = Case { values, ..unit.clone() };
         let points = taut_points::Points::new(&case.values, 2).unwrap();
@@ -183,7 +183,7 @@ fn any_scale() {
 #[test]
 fn subnormal_points() {
     let least = f64::from_bits(1);
-    // 0, 2 and 4 times the least number: centre 2, radius 2.
+    // 0, 2 and 4 times the least number: center 2, radius 2.
     let values = [0.0, 2.0 * least, 4.0 * least];
     let mut case = points("subnormal", &[0.0, 2.0, 4.0], 1, &[0, 2], &[0.5, 0.5]);
     case.values = values.to_vec();
@@ -237,7 +237,7 @@ fn gaps_agree_with_fractions() {
         if items == Items::Balls {
             values.iter_mut().skip(columns - 1).step_by(columns).for_each(|r| *r = r.abs());
         }
-        let lambda = common::normalised(&[1.0, 2.0, 3.0, 5.0]);
+        let lambda = common::normalized(&[1.0, 2.0, 3.0, 5.0]);
         let case = certify("weak", &values, columns, items, &[0, 3, 4, 9], &lambda, false);
         let verdict = case.check().unwrap();
         let claimed = case.solution.certificate.gap;

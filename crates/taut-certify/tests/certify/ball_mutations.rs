@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use common::{Case, brute_force, certify, normalised, numbers};
+use common::{Case, brute_force, certify, normalized, numbers};
 use taut_certify::{CheckError, Items, Violation};
 use taut_points::PointsHash;
 
@@ -24,9 +24,9 @@ fn valid() -> Vec<Case> {
     let far: Vec<f64> = numbers(16, 4).iter().map(|v| v + 1e5).collect();
     smallest("far away", &far, 2, true);
     let simplex: Vec<f64> = (0..36).map(|i| if i / 6 == i % 6 { 1.0 } else { 0.0 }).collect();
-    let lambda = normalised(&[1.0; 6]);
+    let lambda = normalized(&[1.0; 6]);
     all.push(certify("simplex", &simplex, 6, Items::Points, &[0, 1, 2, 3, 4, 5], &lambda, false));
-    let lambda = normalised(&[5.0, 1.0, 2.0, 4.0]);
+    let lambda = normalized(&[5.0, 1.0, 2.0, 4.0]);
     all.push(certify("weak", &numbers(90, 6), 3, Items::Points, &[1, 4, 5, 29], &lambda, false));
     let mut balls = numbers(80, 9);
     balls.iter_mut().skip(3).step_by(4).for_each(|r| *r = 0.2 * r.abs());
@@ -81,7 +81,7 @@ fn numbers_of_the_answer(damage: &mut Damage<'_>) {
             for step in [1e-9, 1e-7, 1e-4, 1.0] {
                 let moved = solution.answer.center[j] + sign * step * radius;
                 if solution.answer.center_tail.is_empty() {
-                    damage.to("centre moved", |case| case.solution.answer.center[j] = moved);
+                    damage.to("center moved", |case| case.solution.answer.center[j] = moved);
                 } else {
                     damage.to("tail moved", |case| {
                         case.solution.answer.center_tail[j] += sign * step * radius;
@@ -93,14 +93,14 @@ fn numbers_of_the_answer(damage: &mut Damage<'_>) {
             // Beside a radius that is not small, an ulp is what writing the tail down may cost.
             let next = solution.answer.center[j].next_up();
             if next - solution.answer.center[j] > 1e-12 * radius {
-                damage.to("centre moved by an ulp", |case| {
+                damage.to("center moved by an ulp", |case| {
                     case.solution.answer.center[j] = next;
                 });
             }
             damage.to("tail not finite", |case| case.solution.answer.center_tail[j] = f64::NAN);
         }
         for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX] {
-            damage.to("centre not finite", |case| case.solution.answer.center[j] = value);
+            damage.to("center not finite", |case| case.solution.answer.center[j] = value);
         }
     }
     for value in [f64::NAN, f64::INFINITY, -1e-300, -1.0] {
@@ -191,8 +191,8 @@ fn lengths(damage: &mut Damage<'_>) {
         case.solution.certificate.support.clear();
         case.solution.certificate.multipliers.clear();
     });
-    damage.to("centre too long", |case| case.solution.answer.center.push(0.0));
-    damage.to("centre too short", |case| {
+    damage.to("center too long", |case| case.solution.answer.center.push(0.0));
+    damage.to("center too short", |case| {
         case.solution.answer.center.pop();
     });
     damage.to("tail of another length", |case| {

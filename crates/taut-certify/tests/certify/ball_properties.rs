@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use common::{Case, brute_force, certify, is_inside, normalised, truth};
+use common::{Case, brute_force, certify, is_inside, normalized, truth};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use taut_certify::{Ball, BallCertificate, CheckError, Items, Solution, Trace, Violation};
@@ -10,7 +10,7 @@ use taut_points::{Monitor, Points, hash_points};
 
 use crate::common;
 
-/// The first row outside according to the checker; the centre and gap may be as wrong as they like.
+/// The first row outside according to the checker; the center and gap may be as wrong as they like.
 fn first_outside(values: &[f64], columns: usize, items: Items, ball: Ball) -> Option<u64> {
     let points = Points::new(values, columns).unwrap();
     let certificate = BallCertificate {
@@ -79,7 +79,7 @@ proptest! {
         agree(&values, 3, Items::Points, ball);
     }
 
-    /// Rows whose distance is the radius to within ulps, with a tail of the centre or without, near 0 or far away.
+    /// Rows whose distance is the radius to within ulps, with a tail of the center or without, near 0 or far away.
     #[test]
     fn nearly_cospherical(
         directions in vec(-1.0f64..1.0, 8..80), shift in prop_oneof![Just(0.0), Just(3.0), Just(1e8), Just(1e15)],
@@ -159,7 +159,7 @@ proptest! {
             values.iter_mut().skip(columns - 1).step_by(columns).for_each(|r| *r = r.abs() * radii);
         }
         let support: Vec<u64> = (0..weights.len() as u64).collect();
-        let case = certify("any", &values, columns, items, &support, &normalised(&weights), tail);
+        let case = certify("any", &values, columns, items, &support, &normalized(&weights), tail);
         let claimed = case.solution.certificate.gap;
         if claimed.is_infinite() {
             let refused = matches!(case.violation(), Violation::Number { .. });
@@ -231,7 +231,7 @@ fn smallest_balls_by_brute_force_are_accepted() {
 fn single_precision_is_judged_the_same() {
     let narrow: Vec<f32> = common::numbers(3000, 3).iter().map(|&v| v as f32).collect();
     let wide: Vec<f64> = narrow.iter().map(|&v| v.into()).collect();
-    let lambda = normalised(&[0.3, 0.3, 0.4]);
+    let lambda = normalized(&[0.3, 0.3, 0.4]);
     let case = certify("narrow", &wide, 10, Items::Points, &[1, 7, 100], &lambda, false);
     let points = Points::new(&narrow, 10).unwrap();
     assert_eq!(case.solution.check(&points).unwrap(), case.check().unwrap());

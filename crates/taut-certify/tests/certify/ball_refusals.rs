@@ -39,7 +39,7 @@ fn negative_radii_are_named() {
 }
 
 #[test]
-fn balls_need_a_column_for_the_centre() {
+fn balls_need_a_column_for_the_center() {
     let mut case = square();
     case.solution.certificate.items = Items::Balls;
     case.solution.answer.center.clear();
@@ -53,7 +53,7 @@ fn a_tail_is_what_rounding_left_over() {
     let mut case = square();
     assert_eq!(case.solution.answer.center_tail, [0.0, 0.0]);
     case.check().unwrap();
-    // The same centre, split in another way.
+    // The same center, split in another way.
     case.solution.answer.center[0] = 0.25;
     case.solution.answer.center_tail[0] = 0.25;
     assert!(

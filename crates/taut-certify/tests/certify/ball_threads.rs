@@ -1,6 +1,6 @@
 //! The verdict does not depend on the number of threads.
 
-use common::{Case, certify, normalised};
+use common::{Case, certify, normalized};
 use taut_certify::{CheckError, Items};
 use taut_points::{Monitor, Points, hash_points};
 
@@ -26,7 +26,7 @@ fn the_verdict_is_the_same_for_every_number_of_threads() {
     // 30,000 rows of 7 make 4 blocks; many rows of every block lie outside the second ball.
     let mut values = common::numbers(210_000, 11);
     let support = [5, 77, 2000, 2999];
-    let lambda = normalised(&[1.0, 2.0, 2.0, 3.0]);
+    let lambda = normalized(&[1.0, 2.0, 2.0, 3.0]);
     // Multipliers stand on the first rows, so few rows are enough to make the certificate by fractions.
     let mut case =
         certify("threads", &values[..21_000], 7, Items::Points, &support, &lambda, false);

@@ -18,7 +18,7 @@ struct Known {
 }
 
 impl Known {
-    /// Whether no k balls of a radius less than `bound` hold these rows but z.
+    /// Returns true if no k balls of a radius less than `bound` hold these rows but z.
     fn is_bound(&self, core: &[u64], k: usize, z: usize, bound: f64) -> bool {
         let rows = core.iter().fold(0, |all, &row| all | 1 << row);
         best(&self.radii, rows, k, z).radius >= bound
@@ -60,7 +60,7 @@ fn valid() -> Vec<Known> {
             if core.len() == k + z + 1 {
                 let pair = |i: usize, j: usize| radii[1 << core[i] | 1 << core[j]] >= lower;
                 if (0..core.len()).all(|i| (0..i).all(|j| pair(i, j))) {
-                    let case = make(kind, &found, LowerBound::Apart);
+                    let case = make(kind, &found, LowerBound::Separated);
                     all.push(Known { case, radii: radii.clone(), k, z });
                 }
             }
@@ -172,7 +172,7 @@ fn core(case: &Case) -> Vec<u64> {
     case.solution.certificate.core_set.clone()
 }
 
-/// Whether some row that counts is clearly outside.
+/// Returns true if some row that counts is clearly outside.
 fn is_outside(case: &Case) -> bool {
     let answer = &case.solution.answer;
     (0..case.task.len()).filter(|&i| !answer.outliers.contains(&(i as u64))).any(|i| {
@@ -190,13 +190,13 @@ fn centers(damage: &mut Damage<'_>) {
                 let mut moved = case.clone();
                 moved.solution.answer.centers[center][column] += step;
                 if is_outside(&moved) || case.task.placement == Placement::Rows {
-                    damage.to("centre moved", |case| *case = moved);
+                    damage.to("center moved", |case| *case = moved);
                 }
             }
             for value in [f64::NAN, f64::INFINITY, f64::MAX] {
-                damage.to("centre not finite or far", |case| {
+                damage.to("center not finite or far", |case| {
                     case.solution.answer.centers[center][column] = value;
-                    // Without the far centre, some row must be outside or the bound of k is wrong.
+                    // Without the far center, some row must be outside or the bound of k is wrong.
                     case.solution.answer.radius *= 1.0 - 1e-9;
                 });
             }
@@ -204,17 +204,17 @@ fn centers(damage: &mut Damage<'_>) {
         let mut fewer = case.clone();
         fewer.solution.answer.centers.remove(center);
         if is_outside(&fewer) {
-            damage.to("centre dropped", |case| *case = fewer);
+            damage.to("center dropped", |case| *case = fewer);
         }
-        damage.to("centre too long", |case| {
+        damage.to("center too long", |case| {
             case.solution.answer.centers[center].push(0.0);
         });
-        damage.to("centre too short", |case| {
+        damage.to("center too short", |case| {
             case.solution.answer.centers[center].pop();
         });
     }
-    damage.to("no centres", |case| case.solution.answer.centers.clear());
-    damage.to("centres beyond k", |case| {
+    damage.to("no centers", |case| case.solution.answer.centers.clear());
+    damage.to("centers beyond k", |case| {
         let first = case.solution.answer.centers[0].clone();
         case.solution.answer.centers.resize(case.solution.certificate.k as usize + 1, first);
     });
@@ -223,14 +223,14 @@ fn centers(damage: &mut Damage<'_>) {
         for center in 0..count {
             let own = case.solution.answer.rows[center];
             for row in (0..n + 2).chain([u64::MAX]).filter(|&row| row != own) {
-                damage.to("row of a centre", |case| case.solution.answer.rows[center] = row);
+                damage.to("row of a center", |case| case.solution.answer.rows[center] = row);
             }
         }
         damage.to("rows missing", |case| case.solution.answer.rows.clear());
-        damage.to("centres free", |case| case.solution.certificate.placement = Placement::Free);
+        damage.to("centers free", |case| case.solution.certificate.placement = Placement::Free);
     } else {
-        damage.to("rows of free centres", |case| case.solution.answer.rows = vec![0; count]);
-        damage.to("centres at rows", |case| case.solution.certificate.placement = Placement::Rows);
+        damage.to("rows of free centers", |case| case.solution.answer.rows = vec![0; count]);
+        damage.to("centers at rows", |case| case.solution.certificate.placement = Placement::Rows);
     }
 }
 

@@ -16,7 +16,7 @@ fn all_proofs(name: &str, task: &Task, exactness: f64) {
             let found = best(&radii, all, k, z);
             let name = format!("{name}, k = {k}, z = {z}");
             if found.radius <= 0.0 {
-                let proof = (vec![], LowerBound::Apart);
+                let proof = (vec![], LowerBound::Separated);
                 let case = Case::of(&name, task, &found, (k, z), (1.0, 0.0), proof);
                 let verdict = case.check().unwrap_or_else(|e| panic!("{name}: {e}\n{case:?}"));
                 assert_eq!((verdict.lower, verdict.upper, verdict.gap), (0.0, 0.0, 0.0));
@@ -45,7 +45,7 @@ fn branches(
     };
     let case = make(least, &items);
     let verdict = case.check().unwrap_or_else(|e| panic!("{name}: {e}\n{case:?}"));
-    assert_eq!((verdict.nodes, verdict.lower), (items.len() as u64, least));
+    assert_eq!((verdict.branches, verdict.lower), (items.len() as u64, least));
     // No log proves more than is true.
     make(found.radius * (1.0 + 1e-6), &items).violation();
     for length in 0..items.len() {
@@ -78,12 +78,12 @@ fn apart(
     }
     let core: Vec<u64> = members(group).map(|i| i as u64).collect();
     let make = |lower: f64, core: &[u64]| {
-        let proof = (core.to_vec(), LowerBound::Apart);
+        let proof = (core.to_vec(), LowerBound::Separated);
         Case::of(name, task, found, (k, z), (2.0, lower), proof)
     };
     let case = make(bound * (1.0 - exactness), &core);
     let verdict = case.check().unwrap_or_else(|e| panic!("{name}: {e}\n{case:?}"));
-    assert_eq!(verdict.nodes, 0);
+    assert_eq!(verdict.branches, 0);
     let violation = make(bound * (1.0 + 1e-6), &core).violation();
     assert!(matches!(violation, Violation::Centers(CentersViolation::NotApart { .. })), "{name}");
     let violation = make(bound * (1.0 - exactness), &core[1..]).violation();
@@ -115,7 +115,7 @@ proptest! {
 
     /// Ties at the bound itself are decided exactly.
     #[test]
-    fn centres_among_the_rows(values in prop::collection::vec(-6i32..7, 2..17), weights in prop::collection::vec(1i32..4, 8)) {
+    fn centers_among_the_rows(values in prop::collection::vec(-6i32..7, 2..17), weights in prop::collection::vec(1i32..4, 8)) {
         let values: Vec<f64> = values[..values.len() / 2 * 2].iter().map(|&v| v.into()).collect();
         let rows = Task { placement: Placement::Rows, ..Task::points(&values, 2) };
         all_proofs("rows", &rows, 1e-15);

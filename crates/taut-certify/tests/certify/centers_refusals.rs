@@ -1,4 +1,4 @@
-//! What is refused by name, closed forms, the assignment, and documents.
+//! Tests what is refused by name, closed forms, the assignment, and documents.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -13,7 +13,7 @@ use taut_points::{Monitor, Points, PointsHash, ReadError, hash_points};
 
 use crate::common;
 
-/// k centres at these places, of this radius.
+/// k centers at these places, of this radius.
 fn by_hand(
     points: &Points<'_, f64>,
     centers: &[&[f64]],
@@ -59,13 +59,13 @@ fn integer_corners_have_no_gap_at_all() {
     let square = [0.0, 0.0, 2.0, 0.0, 0.0, 2.0, 2.0, 2.0];
     let points = Points::new(&square, 2).unwrap();
     let centers: [&[f64]; 3] = [&[1.0, 0.0], &[0.0, 2.0], &[2.0, 2.0]];
-    let found = by_hand(&points, &centers, (1.0, 1.0), &[0, 1, 2, 3], LowerBound::Apart);
+    let found = by_hand(&points, &centers, (1.0, 1.0), &[0, 1, 2, 3], LowerBound::Separated);
     let verdict = found.check(&points).unwrap();
-    assert_eq!((verdict.lower, verdict.upper, verdict.gap, verdict.nodes), (1.0, 1.0, 0.0, 0));
+    assert_eq!((verdict.lower, verdict.upper, verdict.gap, verdict.branches), (1.0, 1.0, 0.0, 0));
     let branches = LowerBound::Branches { items: vec![0, 1, 2, 3] };
     let replayed = by_hand(&points, &centers, (1.0, 1.0), &[0, 1, 2, 3], branches);
     let verdict = replayed.check(&points).unwrap();
-    assert_eq!((verdict.gap, verdict.nodes), (0.0, 4));
+    assert_eq!((verdict.gap, verdict.branches), (0.0, 4));
     // An ulp more is not so.
     let mut more = found.clone();
     (more.answer.lower_bound, more.answer.radius) = (1f64.next_up(), 1f64.next_up());
@@ -74,12 +74,12 @@ fn integer_corners_have_no_gap_at_all() {
 }
 
 #[test]
-fn one_centre_is_the_smallest_ball() {
+fn one_center_is_the_smallest_ball() {
     // 3-4-5: the hypotenuse of 10 is a diameter.
     let values = [0.0, 0.0, 6.0, 0.0, 6.0, 8.0, 3.0, 4.0];
     let points = Points::new(&values, 2).unwrap();
     let center: [&[f64]; 1] = [&[3.0, 4.0]];
-    let found = by_hand(&points, &center, (5.0, 5.0), &[0, 2], LowerBound::Apart);
+    let found = by_hand(&points, &center, (5.0, 5.0), &[0, 2], LowerBound::Separated);
     assert_eq!(found.check(&points).unwrap().gap, 0.0);
     // An equilateral triangle, of radius 1/√3.
     let values = [0.0, 0.0, 1.0, 0.0, 0.5, 3f64.sqrt() / 2.0];
@@ -90,7 +90,7 @@ fn one_centre_is_the_smallest_ball() {
     let branches = LowerBound::Branches { items: vec![0, 1, 2] };
     let found = by_hand(&points, &center, bounds, &[0, 1, 2], branches);
     assert!(found.check(&points).unwrap().gap < 2e-13);
-    let found = by_hand(&points, &center, bounds, &[0, 1], LowerBound::Apart);
+    let found = by_hand(&points, &center, bounds, &[0, 1], LowerBound::Separated);
     assert_eq!(refusal(&found, &points), CentersViolation::NotApart { first: 0, second: 1 });
 }
 
@@ -99,11 +99,11 @@ fn nothing_is_to_be_proved_of_zero() {
     let values = [1.0, 2.0, 1.0, 2.0, 3.0, 4.0];
     let points = Points::new(&values, 2).unwrap();
     let centers: [&[f64]; 2] = [&[1.0, 2.0], &[3.0, 4.0]];
-    let mut found = by_hand(&points, &centers, (0.0, 0.0), &[], LowerBound::Apart);
+    let mut found = by_hand(&points, &centers, (0.0, 0.0), &[], LowerBound::Separated);
     found.certificate.gap = 0.0;
     assert_eq!(found.check(&points).unwrap().gap, 0.0);
     // Where the bound alone is 0, the gap is as large as a number can be.
-    let mut found = by_hand(&points, &centers, (1.0, 0.0), &[], LowerBound::Apart);
+    let mut found = by_hand(&points, &centers, (1.0, 0.0), &[], LowerBound::Separated);
     assert_eq!(found.check(&points).unwrap().gap, f64::INFINITY);
     found.certificate.gap = 1e300;
     assert!(matches!(refusal(&found, &points), CentersViolation::Gap { .. }));
@@ -114,7 +114,7 @@ fn a_bound_of_minus_zero_is_no_number() {
     let values = [0.0, 0.0, 1.0, 0.0];
     let points = Points::new(&values, 2).unwrap();
     for lower in [-0.0, -1.0] {
-        let mut found = by_hand(&points, &[&[0.0, 0.0]], (1e6, lower), &[], LowerBound::Apart);
+        let mut found = by_hand(&points, &[&[0.0, 0.0]], (1e6, lower), &[], LowerBound::Separated);
         found.certificate.gap = 0.0;
         match found.check(&points) {
             Err(CheckError::Rejected(Violation::Number { what, .. })) => {
@@ -146,7 +146,7 @@ fn weights_far_apart_prove_nothing() {
     }
 }
 
-/// The heavy point fixes one centre; the others are 2 apart.
+/// The heavy point fixes one center; the others are 2 apart.
 #[test]
 fn weights_far_apart_do_not_hide_what_is_apart() {
     let rows = [0.0, 1e150, 1.0, 1e-150, 3.0, 1e-150];
@@ -154,7 +154,8 @@ fn weights_far_apart_do_not_hide_what_is_apart() {
     let centers: [&[f64]; 2] = [&[0.0], &[2.0]];
     for (lower, is_bound) in [(0.999e-150, true), (1.001e-150, false)] {
         let radius = 1e-150 * (1.0 + 1e-2);
-        let mut found = by_hand(&points, &centers, (radius, lower), &[0, 1, 2], LowerBound::Apart);
+        let mut found =
+            by_hand(&points, &centers, (radius, lower), &[0, 1, 2], LowerBound::Separated);
         found.certificate.weights = true;
         assert_eq!(found.check(&points).is_ok(), is_bound, "{lower}: {:?}", found.check(&points));
     }
@@ -164,7 +165,7 @@ fn weights_far_apart_do_not_hide_what_is_apart() {
 fn rows_that_are_no_items_are_named() {
     let check = |values: &[f64], change: &dyn Fn(&mut Solution<Centers>)| {
         let points = Points::new(values, 2).unwrap();
-        let mut found = by_hand(&points, &[&[0.0]], (9.0, 0.0), &[], LowerBound::Apart);
+        let mut found = by_hand(&points, &[&[0.0]], (9.0, 0.0), &[], LowerBound::Separated);
         change(&mut found);
         match found.check(&points) {
             Err(CheckError::Rejected(violation)) => violation,
@@ -185,11 +186,11 @@ fn rows_that_are_no_items_are_named() {
 }
 
 #[test]
-fn equally_near_centres_are_all_right_and_others_are_not() {
+fn equally_near_centers_are_all_right_and_others_are_not() {
     let values = [0.0, 0.0, 4.0, 0.0, 2.0, 0.0, 2.0, 1.0];
     let points = Points::new(&values, 2).unwrap();
     let centers: [&[f64]; 2] = [&[0.0, 0.0], &[4.0, 0.0]];
-    let mut found = by_hand(&points, &centers, (3.0, 1.0), &[0, 1, 2], LowerBound::Apart);
+    let mut found = by_hand(&points, &centers, (3.0, 1.0), &[0, 1, 2], LowerBound::Separated);
     for middle in [[0, 0], [0, 1], [1, 0], [1, 1]] {
         found.answer.assignment = vec![0, 1, middle[0], middle[1]];
         found.check(&points).unwrap();
@@ -219,7 +220,7 @@ fn a_proof_that_is_stopped_ends() {
     let radius = 1.0 / 3f64.sqrt();
     let branches = LowerBound::Branches { items: vec![0, 1] };
     for (placement, radius) in [(Placement::Free, radius * (1.0 + 1e-15)), (Placement::Rows, 1.0)] {
-        for proof in [LowerBound::Apart, branches.clone()] {
+        for proof in [LowerBound::Separated, branches.clone()] {
             let center: &[f64] = match placement {
                 Placement::Free => &[0.5, radius / 2.0],
                 Placement::Rows => &[0.0, 0.0],
@@ -257,9 +258,9 @@ fn a_deep_log_takes_no_stack() {
     assert_eq!(violation, CentersViolation::LogEnds { branches: 1024 });
 }
 
-/// 5000 rows and 200 centres, of which each row finds one by way of lists.
+/// 5000 rows and 200 centers, of which each row finds one by way of lists.
 #[test]
-fn many_centres_hold_many_rows() {
+fn many_centers_hold_many_rows() {
     let values = numbers(3 * 5000, 9);
     let points = Points::new(&values, 3).unwrap();
     let centers: Vec<&[f64]> = values.chunks(3).take(200).collect();
@@ -272,7 +273,7 @@ fn many_centres_hold_many_rows() {
     let (row, radius) =
         nearest.iter().map(|n| n.1).enumerate().max_by(|a, b| a.1.total_cmp(&b.1)).unwrap();
     let make = |radius: f64| {
-        let mut found = by_hand(&points, &centers, (radius, 0.0), &[], LowerBound::Apart);
+        let mut found = by_hand(&points, &centers, (radius, 0.0), &[], LowerBound::Separated);
         found.answer.assignment = nearest.iter().map(|n| n.0 as u32).collect();
         found
     };
@@ -324,7 +325,7 @@ fn any_solution() -> impl Strategy<Value = Solution<Centers>> {
                 gap,
                 core_set,
                 proof: match proof {
-                    0 => LowerBound::Apart,
+                    0 => LowerBound::Separated,
                     _ => LowerBound::Branches { items: items_of_log },
                 },
                 points_hash: PointsHash(hash),
@@ -401,7 +402,7 @@ fn fields_that_no_proof_has_are_named() {
     let values = [0.0, 0.0, 4.0, 0.0];
     let points = Points::new(&values, 2).unwrap();
     for (proof, by) in
-        [(LowerBound::Apart, "apart"), (LowerBound::Branches { items: vec![0] }, "branches")]
+        [(LowerBound::Separated, "apart"), (LowerBound::Branches { items: vec![0] }, "branches")]
     {
         let found = by_hand(&points, &[&[2.0, 0.0]], (2.0, 2.0), &[0, 1], proof);
         let text = found.to_json();
@@ -418,7 +419,7 @@ fn fields_that_no_proof_has_are_named() {
 fn a_proof_that_is_left_to_the_checker_is_refused_by_name() {
     let values = [0.0, 0.0, 4.0, 0.0];
     let points = Points::new(&values, 2).unwrap();
-    let found = by_hand(&points, &[&[2.0, 0.0]], (2.0, 2.0), &[0, 1], LowerBound::Apart);
+    let found = by_hand(&points, &[&[2.0, 0.0]], (2.0, 2.0), &[0, 1], LowerBound::Separated);
     let text = found.to_json().replacen("\"by\": \"apart\"", "\"by\": \"search\"", 1);
     let error = AnySolution::from_json(&text).unwrap_err().to_string();
     assert!(error.contains("solve again to get a proof that lists its branches"), "{error}");

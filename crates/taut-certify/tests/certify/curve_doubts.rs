@@ -84,7 +84,7 @@ fn rings_beside_each_other_are_no_band() {
     assert_eq!(judged(circle(1.0, 300), &one, 0.1, one.len()).unwrap().doubt, None);
 }
 
-/// A few hundred rows of two rings a third as far apart as those are wide, or of normal noise with centres five deviations apart.
+/// A few hundred rows of two rings a third as far apart as those are wide, or of normal noise with centers five deviations apart.
 #[test]
 fn few_rows_of_two_rings_are_no_band() {
     let normal = |radius: f64, seed: u64| -> Loop {

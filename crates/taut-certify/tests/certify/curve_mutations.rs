@@ -168,7 +168,7 @@ fn degenerate_inputs_are_judged() {
     }
 }
 
-/// What a change to a valid case is called, and whether it is refused for the right reason.
+/// The name of a change to a valid case, and whether it is refused for the right reason.
 type Damage = (&'static str, fn(&mut Case, usize), fn(&Violation) -> bool);
 
 /// Damage that takes a number, to be done in many places.
@@ -200,7 +200,7 @@ const DAMAGE: [Damage; 22] = [
         |v| curve_violation(v, |v| matches!(v, CurveViolation::Vertices { .. })),
     ),
     (
-        "equal neighbours",
+        "equal neighbors",
         |c, k| {
             let one = curve(c, k);
             let (at, n) = (k % one.vertices.len(), one.vertices.len());

@@ -39,7 +39,7 @@ impl Random {
 
 type Loop = Vec<[f64; 2]>;
 
-/// What the checker says of closed polylines, rows farther off than `reach` being outliers.
+/// Returns what the checker says of closed polylines, rows farther off than `reach` being outliers.
 fn judged(loops: &[Loop], rows: &[f64], reach: f64) -> Result<CurveVerdict, CheckError> {
     let points = Points::new(rows, 2).unwrap();
     let far = |p: &[f64]| loops.iter().all(|vertices| distance(vertices, [p[0], p[1]]) > reach);

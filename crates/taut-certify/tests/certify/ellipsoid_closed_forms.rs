@@ -3,7 +3,7 @@
 use common::ellipsoids::{
     certify, cross_polytope, cube, embedded, log_unit_ball, orthonormal, polygon, simplex, uniform,
 };
-use common::{normalised, numbers};
+use common::{normalized, numbers};
 
 use crate::common;
 
@@ -144,7 +144,7 @@ fn one_point_is_an_ellipsoid_of_dimension_zero() {
 fn any_multipliers_prove_what_the_formula_says() {
     // The square with weights (1, 1, 2, 4)/8: Σ by hand.
     let values = cube(2);
-    let u = normalised(&[1.0, 1.0, 2.0, 4.0]);
+    let u = normalized(&[1.0, 1.0, 2.0, 4.0]);
     let case = certify("square", &values, 2, &[0, 1, 2, 3], &u);
     // Means: x has −1 at rows 0 and 2; y has −1 at rows 0 and 1.
     let (mx, my): (f64, f64) = ((1.0 - 1.0 + 4.0 - 2.0) / 8.0, (6.0 - 2.0) / 8.0);

@@ -4,7 +4,7 @@
 use common::ellipsoids::{
     Case, certify, certify_but, hash, orthonormal, solve, solved, transposed_product,
 };
-use common::{exact, normalised, numbers};
+use common::{exact, normalized, numbers};
 use num_rational::BigRational;
 use num_traits::{ToPrimitive, Zero};
 use proptest::prelude::*;
@@ -78,7 +78,7 @@ proptest! {
     fn the_gap_is_the_true_one(dim in 1usize..5, extra in 0usize..6, seed in any::<u64>(), offset in prop_oneof![Just(0.0), Just(1e6)]) {
         let n = dim + 1 + extra;
         let values: Vec<f64> = numbers(n * dim, seed).iter().map(|v| v + offset).collect();
-        let u = normalised(&numbers(n, seed ^ 1).iter().map(|v| 0.1 + v * v).collect::<Vec<_>>());
+        let u = normalized(&numbers(n, seed ^ 1).iter().map(|v| 0.1 + v * v).collect::<Vec<_>>());
         let support: Vec<u64> = (0..n as u64).collect();
         let case = certify("random", &values, dim, &support, &u);
         let verdict = case.verdict();

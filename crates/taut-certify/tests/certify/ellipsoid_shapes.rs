@@ -1,7 +1,7 @@
 //! Balls and ellipsoids as items: reach by brute force, bounds by points of the items, closed forms.
 
 use common::ellipsoids::{Case, dot, hash, log_unit_ball, solve, transposed_product};
-use common::{normalised, numbers};
+use common::{normalized, numbers};
 use proptest::prelude::*;
 use taut_certify::{Ellipsoid, EllipsoidCertificate, Items, Solution, Trace, Violation};
 
@@ -53,7 +53,7 @@ fn signed_units(dim: usize) -> Vec<Vec<f64>> {
     (0..2 * dim).map(unit).collect()
 }
 
-/// A centre and the lower triangle of diag(axes²).
+/// A center and the lower triangle of diag(axes²).
 fn row(center: &[f64], axes: &[f64]) -> Vec<f64> {
     let mut row = center.to_vec();
     for j in 0..axes.len() {
@@ -144,14 +144,14 @@ proptest! {
 
     /// A random ellipsoid within the unit ball, scaled so that it just touches: accepted, and refused when 1e-6 larger.
     #[test]
-    fn the_reach_is_that_of_brute_force(dim in 1usize..6, seed in any::<u64>(), flat in any::<bool>(), centred in any::<bool>()) {
+    fn the_reach_is_that_of_brute_force(dim in 1usize..6, seed in any::<u64>(), flat in any::<bool>(), centerd in any::<bool>()) {
         let random = numbers(dim * dim + dim, seed);
         let mut root: Vec<Vec<f64>> = random[..dim * dim].chunks(dim).map(<[f64]>::to_vec).collect();
         if flat {
             root.iter_mut().for_each(|row| row[dim - 1] = 0.0);
         }
         let center: Vec<f64> =
-            random[dim * dim..].iter().map(|v| if centred { 0.0 } else { *v }).collect();
+            random[dim * dim..].iter().map(|v| if centerd { 0.0 } else { *v }).collect();
         let unit = aligned(Items::Points, &vec![0.0; dim], &vec![1.0; dim], &[0], &[1.0], &[], 0.0).solution.answer;
         let reach = reach_by_climbing(&unit, &center, &root, seed ^ 5);
         prop_assume!(reach > 1e-3);
@@ -199,15 +199,15 @@ proptest! {
     }
 }
 
-/// Two discs of different size: the smallest ellipse is symmetric about the line of their centres, and any certificate
+/// Two discs of different size: the smallest ellipse is symmetric about the line of their centers, and any certificate
 /// is at least as large as what its own touching points say.
 #[test]
-fn weights_that_favour_one_side_prove_less() {
+fn weights_that_favor_one_side_prove_less() {
     let units = signed_units(2);
     let values: Vec<f64> = units.iter().flat_map(|e| row(e, &[0.5, 0.5])).collect();
     let support = [0, 1, 2, 3];
     let best = aligned(Items::Ellipsoids, &values, &[1.5, 1.5], &support, &[0.25; 4], &units, 1e3);
-    let skew = normalised(&[1.0, 2.0, 3.0, 4.0]);
+    let skew = normalized(&[1.0, 2.0, 3.0, 4.0]);
     let worse = aligned(Items::Ellipsoids, &values, &[1.5, 1.5], &support, &skew, &units, 1e3);
     assert!(best.verdict().gap < 1e-14 && worse.verdict().gap > 0.05);
 }

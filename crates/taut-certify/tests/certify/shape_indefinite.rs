@@ -95,9 +95,9 @@ fn no_direction_makes_an_ellipse_look_necessary() {
     }
 }
 
-/// The reach of an item is found, or refused, however far from the item the centre is said to be.
+/// The reach of an item is found, or refused, however far from the item the center is said to be.
 #[test]
-fn a_centre_at_the_end_of_the_range_is_refused_in_time() {
+fn a_center_at_the_end_of_the_range_is_refused_in_time() {
     for far in [1e155, 1e200, 1e308] {
         let values = [0.0, 0.0, 1.0, 2.0, 1.0, 0.5];
         let factor = vec![vec![0.4, 0.0], vec![0.1, 0.3]];

@@ -130,7 +130,7 @@ fn triangles_with_empty_balls_do_meet_now_and_then() {
     assert!(meet > all / 10 && meet < all * 9 / 10, "{meet} of {all}");
 }
 
-/// What is wrong with a pair of triangles, their rows, and the two.
+/// The problem of a pair of triangles, their rows, and the two.
 type Pair = (&'static str, Vec<Point>, [[u32; 3]; 2]);
 
 /// Pairs of triangles that share more than their common vertices, of every kind.

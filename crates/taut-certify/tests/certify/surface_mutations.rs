@@ -72,7 +72,7 @@ fn triangles_that_are_changed_are_refused() {
             damage.refused("a triangle turned over, with its topology", |case| {
                 case.answer().triangles[t] = [a, c, b];
                 case.topology();
-                // Alone it has no neighbour to disagree with.
+                // Alone it has no neighbor to disagree with.
                 assert!(!case.solution.answer.topology.is_oriented());
             });
             damage.refused("a triangle twice", |case| {
@@ -145,7 +145,7 @@ fn numbers_that_are_changed_are_refused() {
 
 /// An apex is accepted just where fractions find its ball empty.
 #[test]
-fn apexes_that_are_changed_are_judged_anew() {
+fn apexes_that_are_changed_are_judged_again() {
     for (name, case) in valid() {
         let places = case.places();
         let unused = &case.solution.answer.unused;

@@ -14,7 +14,7 @@ fn is_accepted(case: &Case) {
     assert_eq!(verdict.fingerprint, case.solution.certificate.fingerprint, "{}", case.name);
     let mut without = case.solution.clone();
     without.certificate.neighbors.clear();
-    assert_eq!(without.check(&case.points()).unwrap(), verdict, "{}: neighbours found", case.name);
+    assert_eq!(without.check(&case.points()).unwrap(), verdict, "{}: neighbors found", case.name);
     for solution in [&case.solution, &without] {
         match AnySolution::from_json(&solution.to_json()) {
             Ok(AnySolution::Triangulation(again)) => assert_eq!(again, *solution),
@@ -49,8 +49,8 @@ fn grids_and_lattices() {
     is_accepted(&solved("thirds, which are no grid", &thirds, 2));
     let octahedron = [1., 0., 0., -1., 0., 0., 0., 1., 0., 0., -1., 0., 0., 0., 1., 0., 0., -1.];
     is_accepted(&solved("octahedron", &octahedron, 3));
-    let with_centre = [octahedron.as_slice(), &[0.0; 3]].concat();
-    is_accepted(&solved("octahedron with its centre", &with_centre, 3));
+    let with_center = [octahedron.as_slice(), &[0.0; 3]].concat();
+    is_accepted(&solved("octahedron with its center", &with_center, 3));
 }
 
 #[test]
@@ -157,8 +157,8 @@ fn extreme_coordinates() {
     let mixed = [-0.0, 0.0, 1e300, 0.0, 0.0, 1e-300, 1.0, 1.0, -1e-310, -1e300, 0.0, -0.0];
     is_accepted(&solved("mixed", &mixed, 2));
     let near: Vec<f64> = dice.grid(18, 3).iter().map(|x| 1.0 + x * f64::EPSILON).collect();
-    is_accepted(&solved("neighbours at 1, in the plane", &near, 2));
-    is_accepted(&solved("neighbours at 1, in space", &near, 3));
+    is_accepted(&solved("neighbors at 1, in the plane", &near, 2));
+    is_accepted(&solved("neighbors at 1, in space", &near, 3));
 }
 
 /// Points named in reports against other programs.

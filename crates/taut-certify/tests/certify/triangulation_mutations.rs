@@ -51,7 +51,7 @@ impl Damage<'_> {
         self.made.push((kind, case));
     }
 
-    /// The change alone, and the change with neighbours, counts and fingerprint that fit it.
+    /// The change alone, and the change with neighbors, counts and fingerprint that fit it.
     fn in_both_ways(&mut self, kind: &'static str, change: impl Fn(&mut Triangulation)) {
         self.to(kind, |case| change(&mut case.solution.answer));
         self.to(kind, |case| {
@@ -169,7 +169,7 @@ fn flips(damage: &mut Damage<'_>) {
             changed.hull = hull_of(&changed.simplices, width);
             assert_ne!(set(&changed), original);
             damage.to("flip", |case| case.solution = certify(&case.values, changed.clone()));
-            damage.to("flip, and no neighbours", |case| {
+            damage.to("flip, and no neighbors", |case| {
                 case.solution = certify(&case.values, changed);
                 case.solution.certificate.neighbors.clear();
             });
@@ -270,11 +270,11 @@ fn certificate(damage: &mut Damage<'_>) {
         for other in (0..count + 1).chain([u32::MAX - 1, u32::MAX]) {
             if other != case.solution.certificate.neighbors[k] {
                 damage
-                    .to("neighbour changed", |case| case.solution.certificate.neighbors[k] = other);
+                    .to("neighbor changed", |case| case.solution.certificate.neighbors[k] = other);
             }
         }
     }
-    damage.to("a neighbour too many", |case| case.solution.certificate.neighbors.push(0));
+    damage.to("a neighbor too many", |case| case.solution.certificate.neighbors.push(0));
     for bit in 0..128 {
         damage.to("bit of the fingerprint", |case| {
             case.solution.certificate.fingerprint.0 ^= 1 << bit
@@ -315,7 +315,7 @@ fn one_ulp_is_judged_by_what_it_changes() {
     let mut dice = Dice(12);
     // Away from 0, beside which an ulp makes fractions of thousands of digits.
     let cases = [
-        solved("square and centre", &[1., 1., 3., 1., 1., 3., 3., 3., 2., 2.], 2),
+        solved("square and center", &[1., 1., 3., 1., 1., 3., 3., 3., 2., 2.], 2),
         solved("lattice", &[1., 1., 2., 1., 3., 1., 1., 2., 2., 2., 3., 2.], 2),
         solved("in the plane", &dice.numbers(12), 2),
         solved("in space", &dice.numbers(15), 3),

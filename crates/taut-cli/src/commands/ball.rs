@@ -21,10 +21,10 @@ Example: taut ball points.csv -o ball.json --draw ball.svg && taut verify ball.j
 pub(crate) struct Args {
     #[command(flatten)]
     points: Points,
-    /// Rows are balls: the coordinates of a centre, then the radius
+    /// Rows are balls: the coordinates of a center, then the radius
     #[arg(long)]
     balls: bool,
-    /// Rows are ellipsoids {m + v : vvᵀ ⪯ S}: the coordinates of the centre m, then the lower triangle of the shape
+    /// Rows are ellipsoids {m + v : vvᵀ ⪯ S}: the coordinates of the center m, then the lower triangle of the shape
     /// matrix S, row by row; all are held in memory
     #[arg(long, conflicts_with_all = ["balls", "draw"])]
     ellipsoids: bool,
@@ -96,7 +96,7 @@ impl Args {
     }
 }
 
-/// What the rows are, by the options of that name.
+/// Returns the kind of the inputs, by the options of that name.
 pub(crate) fn items(balls: bool, ellipsoids: bool) -> Items {
     match (balls, ellipsoids) {
         (_, true) => Items::Ellipsoids,

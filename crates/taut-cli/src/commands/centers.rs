@@ -1,4 +1,4 @@
-//! `taut centers`: k equal balls around all points but so many, as small as can be.
+//! `taut centers`: k equal balls around all points except z, as small as can be.
 
 use anyhow::bail;
 use taut::certify::Centers;
@@ -14,11 +14,11 @@ use crate::pipeline::{self, Find, Input, Output, OutputOptions};
 use crate::reports;
 use crate::watch::Watch;
 
-/// Find k centres such that the farthest point is as near to one of them as can be, with proof.
+/// Find k centers such that the farthest point is as near to one of them as can be, with proof.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-The search takes time exponential in k: seconds for ten centres in the plane, and for twenty a --max-nodes or a larger
---epsilon is wise. farthest-first takes any number of centres, and stream files larger than memory.
+The search takes time exponential in k: seconds for ten centers in the plane, and for twenty a --max-nodes or a larger
+--epsilon is wise. farthest-first takes any number of centers, and stream files larger than memory.
 Exit: 0 reached · 1 the check failed · 2 bad input or usage, nothing written ·
       3 stopped early by the budget of nodes, of the search or of its proof, or where rounding hides the gap
         that was asked for;
@@ -28,7 +28,7 @@ Example: taut centers points.csv -k 5 -o centers.json --draw centers.svg && taut
 pub(crate) struct Args {
     #[command(flatten)]
     points: Points,
-    /// Most centres, at least 1
+    /// Most centers, at least 1
     #[arg(short, long = "k", value_name = "K", required_unless_present = "elbow")]
     k: Option<usize>,
     /// Instead of one k all of a range, both ends included: a table of radius and lower bound by k; -o writes it as CSV,
@@ -46,7 +46,7 @@ pub(crate) struct Args {
         long, value_name = "NAME", default_value = CentersMethod::default().name(), value_parser = choice::<CentersMethod>()
     )]
     method: CentersMethod,
-    /// Centres are points of the input, not anywhere in space
+    /// Centers are points of the input, not anywhere in space
     #[arg(long)]
     discrete: bool,
     /// Most points that may be left out
@@ -55,13 +55,13 @@ pub(crate) struct Args {
     /// The last column holds weights w > 0: a point counts with w times its distance
     #[arg(long, conflicts_with = "balls")]
     weights: bool,
-    /// Rows are balls: the coordinates of a centre, then the radius; each is to lie in one of the k
+    /// Rows are balls: the coordinates of a center, then the radius; each is to lie in one of the k
     #[arg(long)]
     balls: bool,
-    /// Most nodes of the search, then the best centres so far are given with their gap
+    /// Most nodes of the search, then the best centers so far are given with their gap
     #[arg(long, value_name = "N", default_value_t = CentersOptions::default().max_nodes)]
     max_nodes: u64,
-    /// Say for each point in the JSON which centre is next to it
+    /// Say for each point in the JSON which center is next to it
     #[arg(long)]
     assignment: bool,
     #[command(flatten)]
@@ -129,7 +129,7 @@ impl Args {
         }
     }
 
-    /// What some methods do not do, in the words of the command line.
+    /// Returns what some methods do not do, in the words of the command line.
     fn check_method(&self) -> anyhow::Result<()> {
         let asked = [
             ("--discrete", self.discrete),
@@ -140,11 +140,11 @@ impl Args {
         ];
         let (names, knows) = match self.method {
             CentersMethod::Thesis => {
-                (&["--discrete", "--weights", "--outliers"][..], "free centres of points and balls")
+                (&["--discrete", "--weights", "--outliers"][..], "free centers of points and balls")
             }
             CentersMethod::Stream(_) => (
                 &["--balls", "--weights", "--outliers", "--assignment"][..],
-                "centres of points alone, which it does not look at again",
+                "centers of points alone, which it does not look at again",
             ),
             _ => return Ok(()),
         };

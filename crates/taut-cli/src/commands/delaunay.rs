@@ -51,7 +51,7 @@ pub(crate) struct Args {
     /// Print the JSON instead of the summary
     #[arg(long, help_heading = "Writing")]
     json: bool,
-    /// Leave the neighbours out of the JSON, which makes it half as large and its check slower
+    /// Leave the neighbors out of the JSON, which makes it half as large and its check slower
     #[arg(long, help_heading = "Writing")]
     no_neighbors: bool,
     /// Write the facets of the convex hull as a mesh
@@ -73,7 +73,7 @@ pub(crate) struct Args {
     effort: Effort,
 }
 
-/// What side outputs of a triangulation are made from.
+/// The data for the side outputs of a triangulation.
 pub(crate) struct Extra {
     built: Built,
     complex: Option<alpha::Complex>,

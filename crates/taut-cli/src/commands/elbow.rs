@@ -1,6 +1,6 @@
 //! `taut centers --elbow`: the radius for each of a range of k, as a table, a file and a plot.
 //!
-//! *Idea.* Centres for k are centres for k + 1, and what no k + 1 balls can do no k can: searches that were stopped are mended by
+//! *Idea.* Centers for k are centers for k + 1, and what no k + 1 balls can do no k can: searches that were stopped are mended by
 //! those beside them, so that neither the radius nor the bound ever rises with k. A radius of 0 ends the range.
 
 use anyhow::bail;
@@ -42,7 +42,7 @@ pub(crate) fn range(text: &str) -> Result<Range, String> {
     }
 }
 
-/// What was found for one k.
+/// The result for one k.
 #[derive(Clone, Debug, PartialEq)]
 struct Row {
     step: ElbowStep,
@@ -73,7 +73,7 @@ impl Row {
         }
     }
 
-    /// Whether this k has the gap that was asked for; a search beside it may have helped.
+    /// Tests whether this k has the gap that was asked for; a search beside it may have helped.
     fn ended(&self, epsilon: f64) -> Outcome {
         match self.gap() {
             Some(gap) if gap <= epsilon => Outcome::Done,
@@ -82,7 +82,7 @@ impl Row {
     }
 }
 
-/// Gives each k what those beside it have proved for it: the radius of fewer centres, the bound of more.
+/// Gives each k what those beside it have proved for it: the radius of fewer centers, the bound of more.
 fn carry_over(rows: &mut [Row]) {
     for i in 1..rows.len() {
         rows[i].step.radius = rows[i].step.radius.min(rows[i - 1].step.radius);
@@ -168,7 +168,7 @@ pub(crate) fn run(
 
 fn title(points: &Opened, items: Items) -> String {
     let around = counted(points.source().len(), noun(items));
-    format!("Radius by number of centres of {around}")
+    format!("Radius by number of centers of {around}")
 }
 
 /// Where the range ended before its last k.
@@ -277,7 +277,7 @@ mod tests {
     }
 
     #[test]
-    fn neighbours_mend_what_a_budget_left() {
+    fn neighbors_mend_what_a_budget_left() {
         let row = |k, radius, lower_bound, stop| Row {
             step: ElbowStep { k, radius, lower_bound },
             stop,

@@ -29,10 +29,10 @@ Example: taut ellipsoid points.csv -o ellipsoid.json --draw ellipsoid.html &&
 pub(crate) struct Args {
     #[command(flatten)]
     points: Points,
-    /// Rows are balls: the coordinates of a centre, then the radius; all are held in memory, and newton is the one method
+    /// Rows are balls: the coordinates of a center, then the radius; all are held in memory, and newton is the one method
     #[arg(long)]
     balls: bool,
-    /// Rows are ellipsoids {m + v : vvᵀ ⪯ S}: the coordinates of the centre m, then the lower triangle of the shape
+    /// Rows are ellipsoids {m + v : vvᵀ ⪯ S}: the coordinates of the center m, then the lower triangle of the shape
     /// matrix S, row by row; all are held in memory, and newton is the one method
     #[arg(long, conflicts_with = "balls")]
     ellipsoids: bool,
@@ -91,9 +91,9 @@ impl Find for Enclosing<'_> {
 }
 
 /// The ellipsoid of most of the points.
-struct OfMost<'a>(&'a Args, RobustOptions<'static>);
+struct RobustSolver<'a>(&'a Args, RobustOptions<'static>);
 
-impl Find for OfMost<'_> {
+impl Find for RobustSolver<'_> {
     type Answer = RobustEllipsoid;
     type Extra = ();
 
@@ -128,7 +128,7 @@ impl Find for OfMost<'_> {
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
         match self.robust()? {
-            Some(options) => pipeline::run(&OfMost(self, options)),
+            Some(options) => pipeline::run(&RobustSolver(self, options)),
             None => pipeline::run(&Enclosing(self)),
         }
     }

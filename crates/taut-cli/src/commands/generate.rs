@@ -25,7 +25,7 @@ use crate::watch::Watch;
 Points are written as they are drawn, so there may be more of them than memory holds.
 Example: taut generate normal -n 10000 -d 300 -o normal.npy && taut ball normal.npy")]
 pub(crate) struct Args {
-    /// What the points are drawn from
+    /// The distribution that the points are drawn from
     #[arg(value_parser = distributions())]
     distribution: String,
     /// Number of points, at least 1
@@ -55,7 +55,7 @@ pub(crate) struct Args {
     /// Angle by which a grid is turned in the plane of the first two axes [default: 0]
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
     angle: Option<f64>,
-    /// How often a spiral goes around, at least 0 [default: 10]
+    /// The number of turns of a spiral, at least 0 [default: 10]
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     turns: Option<f64>,
     /// Standard deviation of the noise of a torus, at least 0 [default: 0.0001]; of a curve the largest shift off it, in units of
@@ -192,7 +192,7 @@ impl Args {
     }
 }
 
-/// What the generator refused, under the name that the command line gives it.
+/// Returns what the generator refused, under the name that the command line gives it.
 fn refused(error: Error) -> anyhow::Error {
     match error {
         Error::Parameter { name, value, expected } => wrong_option(name, &value, expected),

@@ -16,15 +16,15 @@ use crate::exit::Outcome;
 /// Sort, transpose and sample more than memory holds; order points; count cache misses.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-`sort` and `transpose` stay within a limit on memory. What is written appears whole or not at all.
+`sort` and `transpose` stay within a limit on memory. Subcommands is written appears whole or not at all.
 Example: taut memory sort records.bin --width 32 --memory 256M -o sorted.bin")]
 pub(crate) struct Args {
     #[command(subcommand)]
-    what: What,
+    what: Subcommands,
 }
 
 #[derive(Debug, Subcommand)]
-enum What {
+enum Subcommands {
     Sort(sort::Args),
     Transpose(transpose::Args),
     Sample(sample::Args),
@@ -35,11 +35,11 @@ enum What {
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
         match &self.what {
-            What::Sort(args) => args.run(),
-            What::Transpose(args) => args.run(),
-            What::Sample(args) => args.run(),
-            What::Order(args) => args.run(),
-            What::Simulate(args) => args.run(),
+            Subcommands::Sort(args) => args.run(),
+            Subcommands::Transpose(args) => args.run(),
+            Subcommands::Sample(args) => args.run(),
+            Subcommands::Order(args) => args.run(),
+            Subcommands::Simulate(args) => args.run(),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Radii for generated centres: points become balls.
+//! Radii for generated centers: points become balls.
 //!
 //! *Idea.* The radius of ball i is a function of one uniform number, drawn from the generator that draws points, as
 //! the only coordinate of its point i under a seed of its own. So ball i depends on the seed and i alone.
@@ -10,19 +10,19 @@ use taut::points::Distribution;
 use taut::points::generate::RadiusLaw;
 use taut::points::{Error, GeneratedSource, Points, ReadError, Rows, Scalar, ScalarKind, Scratch};
 
-/// Generated centres with generated radii in a last column.
+/// Generated centers with generated radii in a last column.
 pub(crate) struct Balls {
-    centres: GeneratedSource,
+    centers: GeneratedSource,
     lots: GeneratedSource,
     law: RadiusLaw,
 }
 
 impl Balls {
-    pub(crate) fn new(centres: GeneratedSource, seed: u64, law: RadiusLaw) -> Result<Self, Error> {
-        // The generator keys its streams by the seed, so any other seed is independent of that of the centres.
+    pub(crate) fn new(centers: GeneratedSource, seed: u64, law: RadiusLaw) -> Result<Self, Error> {
+        // The generator keys its streams by the seed, so any other seed is independent of that of the centers.
         let lots =
-            GeneratedSource::new(Distribution::Uniform, centres.len(), 1, !seed, ScalarKind::F64)?;
-        Ok(Balls { centres, lots, law })
+            GeneratedSource::new(Distribution::Uniform, centers.len(), 1, !seed, ScalarKind::F64)?;
+        Ok(Balls { centers, lots, law })
     }
 
     fn view<'a, T: Scalar>(
@@ -30,14 +30,14 @@ impl Balls {
         range: Range<u64>,
         scratch: &'a mut Scratch,
     ) -> Result<Rows<'a>, ReadError> {
-        let (mut of_centres, mut of_lots) = (Scratch::new(), Scratch::new());
+        let (mut of_centers, mut of_lots) = (Scratch::new(), Scratch::new());
         let first = range.start;
-        let centres = self.centres.read(range.clone(), &mut of_centres)?;
+        let centers = self.centers.read(range.clone(), &mut of_centers)?;
         let lots = self.lots.read(range, &mut of_lots)?;
-        let (dim, mut row, mut lot) = (self.dim(), vec![0.0; self.centres.dim()], [0.0]);
-        let values: &mut [T] = scratch.values(centres.len() as u64, dim)?;
+        let (dim, mut row, mut lot) = (self.dim(), vec![0.0; self.centers.dim()], [0.0]);
+        let values: &mut [T] = scratch.values(centers.len() as u64, dim)?;
         for (i, out) in values.chunks_exact_mut(dim).enumerate() {
-            centres.copy_row(i, &mut row);
+            centers.copy_row(i, &mut row);
             lots.copy_row(i, &mut lot);
             let ball = row.iter().copied().chain([self.law.radius(lot[0])]);
             for (column, (value, drawn)) in out.iter_mut().zip(ball).enumerate() {
@@ -55,16 +55,16 @@ impl Balls {
 
 impl PointSource for Balls {
     fn len(&self) -> u64 {
-        self.centres.len()
+        self.centers.len()
     }
 
     fn dim(&self) -> usize {
-        // The centres have refused a dimension that cannot grow by 1.
-        self.centres.dim() + 1
+        // The centers have refused a dimension that cannot grow by 1.
+        self.centers.dim() + 1
     }
 
     fn scalar(&self) -> ScalarKind {
-        self.centres.scalar()
+        self.centers.scalar()
     }
 
     fn read<'a>(
@@ -84,8 +84,8 @@ mod tests {
     use super::*;
 
     fn balls(law: &str, n: u64) -> Balls {
-        let centres = GeneratedSource::new(Distribution::Normal, n, 2, 7, ScalarKind::F64).unwrap();
-        Balls::new(centres, 7, law.parse().unwrap()).unwrap()
+        let centers = GeneratedSource::new(Distribution::Normal, n, 2, 7, ScalarKind::F64).unwrap();
+        Balls::new(centers, 7, law.parse().unwrap()).unwrap()
     }
 
     #[test]
@@ -100,17 +100,17 @@ mod tests {
     }
 
     #[test]
-    fn a_ball_depends_on_its_number_alone_and_keeps_its_centre() {
+    fn a_ball_depends_on_its_number_alone_and_keeps_its_center() {
         let (few, many) = (balls("uniform:0:1", 5), balls("uniform:0:1", 5000));
         let of = |balls: &Balls, ids: &[u64]| taut::points::gather(balls, ids).unwrap();
         assert_eq!(of(&few, &[4, 0]), of(&many, &[4, 0]));
-        assert_eq!(of(&many, &[4321])[..2], taut::points::gather(&many.centres, &[4321]).unwrap());
+        assert_eq!(of(&many, &[4321])[..2], taut::points::gather(&many.centers, &[4321]).unwrap());
     }
 
     #[test]
     fn a_radius_beyond_its_type_is_named() {
-        let centres = GeneratedSource::new(Distribution::Normal, 5, 2, 7, ScalarKind::F32).unwrap();
-        let balls = Balls::new(centres, 7, RadiusLaw::Equal(1e300)).unwrap();
+        let centers = GeneratedSource::new(Distribution::Normal, 5, 2, 7, ScalarKind::F32).unwrap();
+        let balls = Balls::new(centers, 7, RadiusLaw::Equal(1e300)).unwrap();
         let refused = balls.read(3..5, &mut Scratch::new()).unwrap_err().to_string();
         assert!(refused.starts_with("coordinate 2 of point 3"), "{refused}");
     }

@@ -1,4 +1,4 @@
-//! The options of `taut ellipsoid --robust`: centre, scatter and outliers of most of the points.
+//! The options of `taut ellipsoid --robust`: center, scatter and outliers of most of the points.
 
 use anyhow::bail;
 use taut::{RobustMethod, RobustOptions};

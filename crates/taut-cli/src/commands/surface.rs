@@ -24,7 +24,7 @@ use crate::watch::Watch;
 #[command(after_help = "\
 Certified means: an oriented manifold of Delaunay triangles that meets itself nowhere. Where that cannot be said, the reason is
 told, and the exit code is 0 all the same.
-A mesh has the points as vertices, in their order, used or not; normals and colours of a ply, obj, off or xyz file go with them.
+A mesh has the points as vertices, in their order, used or not; normals and colors of a ply, obj, off or xyz file go with them.
 Exit: 0 done · 1 the check failed · 2 bad input or usage, nothing written
 Example: taut surface bunny.ply -o bunny.stl
          taut surface points.csv -o surface.json --draw surface.html && taut verify surface.json points.csv")]
@@ -42,7 +42,7 @@ pub(crate) struct Args {
     /// Of tree, close everything, as the boundary of bodies; the default
     #[arg(long)]
     closed: bool,
-    /// Take noise out of the points first: leave outliers out and move each other point onto the sheet that its neighbours show
+    /// Take noise out of the points first: leave outliers out and move each other point onto the sheet that its neighbors show
     #[arg(long)]
     denoise: bool,
     /// With --denoise, how many nearest points show the sheet of a point, itself among them; from 4 to 1000 [default: 24]
@@ -262,7 +262,6 @@ impl Args {
     }
 }
 
-/// The coordinates of all points.
 fn places(points: &Opened) -> anyhow::Result<Vec<[f64; 3]>> {
     let source: &dyn PointSource = points.source();
     let mut scratch = Scratch::new();

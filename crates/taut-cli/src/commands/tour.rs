@@ -55,7 +55,7 @@ impl Args {
         let mut outcome = Outcome::Done;
         let mut sections = Vec::new();
         // Where the page goes to standard output, nothing else does.
-        let say = |line: &str| match self.effort.quiet || writing::is_stream(&self.out) {
+        let print_line = |line: &str| match self.effort.quiet || writing::is_stream(&self.out) {
             true => Ok(()),
             false => writing::print(line.as_bytes()),
         };
@@ -76,7 +76,7 @@ impl Args {
             if !stop.verified {
                 outcome = Outcome::CheckFailed;
             }
-            say(&format!(
+            print_line(&format!(
                 "{heading:<37}{:<44} verified {verified:<4} {}\n",
                 stop.summary,
                 seconds(clock.elapsed())
@@ -119,7 +119,6 @@ impl Args {
     }
 }
 
-/// What came of a station.
 struct Stop {
     section: Section,
     summary: String,
@@ -325,7 +324,7 @@ fn surfaces(station: &Station, points: &Opened, watch: &Watch) -> anyhow::Result
 /// The triangulation with the other diagonal in the first two triangles that share an edge.
 fn with_an_edge_turned(found: &Solution<Triangulation>) -> Solution<Triangulation> {
     let mut doctored = found.clone();
-    // Without neighbours the checker finds them by itself, as in a file of bare triangles.
+    // Without neighbors the checker finds them by itself, as in a file of bare triangles.
     let neighbors = std::mem::take(&mut doctored.certificate.neighbors);
     let simplices = &mut doctored.answer.simplices;
     let Some(facet) = neighbors.iter().position(|&across| across != NO_NEIGHBOR) else {

@@ -82,7 +82,6 @@ impl Args {
 }
 
 impl Args {
-    /// Opens the one file of points.
     fn open_points(&self) -> anyhow::Result<Opened> {
         match &self.files[..] {
             [path] => self.reading.open(path),
@@ -149,7 +148,7 @@ impl Args {
     }
 }
 
-/// How the vertices of a mesh are not the points, if they are not: ids would then mean something else.
+/// Returns how the vertices of a mesh are not the points, if they are not: ids would then mean something else.
 fn other_vertices(mesh: &Mesh, file: &str, points: &Opened) -> anyhow::Result<Option<String>> {
     // Parquet holds ids alone.
     let vertices = &mesh.vertices;
@@ -224,7 +223,6 @@ pub(crate) fn read_answer(path: &Path, points: &Path) -> anyhow::Result<AnySolut
     }
 }
 
-/// Reads an answer of any kind.
 fn read_document(path: &Path, points: &Path) -> anyhow::Result<AnyDocument> {
     if writing::is_stream(path) && writing::is_stream(points) {
         bail!("only one of answer and points can be standard input: give a file for the other")

@@ -22,7 +22,7 @@ const CHUNK: usize = 1 << 18;
 /// Deepest nesting of an answer; its reader goes no deeper either.
 const DEPTH_MAX: u32 = 128;
 
-/// What is said where the files may have been named in the wrong order.
+/// The remark for the case that the files may have been named in the wrong order.
 pub(crate) const ORDER: &str = "the answer comes first, then the points";
 
 /// Reads the answer in the file `path`; `-` is standard input.
@@ -86,7 +86,7 @@ fn whole(
 /// The mark that some editors put before UTF-8.
 const MARK: [u8; 3] = [0xef, 0xbb, 0xbf];
 
-/// How far the text of one JSON object has come.
+/// The progress through the text of one JSON object.
 #[derive(Default)]
 struct Outline {
     /// Objects and arrays that are open.

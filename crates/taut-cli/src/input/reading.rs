@@ -1,4 +1,4 @@
-//! How points are read, the same for every subcommand that reads some.
+//! Defines how points are read, the same for every subcommand that reads some.
 
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -25,7 +25,7 @@ pub(crate) struct Reading {
     /// Columns that are coordinates, by name, number from 0 or range: x,y,z or 0-2,5 or 1- [default: all]
     #[arg(long, value_name = "LIST")]
     columns: Option<Columns>,
-    /// Whether the first row of a text file holds names
+    /// States whether the first row of a text file holds names
     #[arg(long, value_name = "WHEN", default_value = "auto", value_parser = header())]
     header: Header,
     /// Most memory for points, such as 512M or 2GiB; what is larger is read from disk [default: all]
@@ -42,7 +42,6 @@ pub(crate) struct Reading {
     raw_offset: Option<u64>,
 }
 
-/// A parser of the names of formats.
 pub(crate) fn formats(
     usable: fn(Format, Content) -> bool,
 ) -> impl TypedValueParser<Value = Format> {
@@ -52,7 +51,6 @@ pub(crate) fn formats(
     PossibleValuesParser::new(names).try_map(|name| name.parse::<Format>())
 }
 
-/// A parser of the names of number types.
 pub(crate) fn scalar() -> impl TypedValueParser<Value = ScalarKind> {
     PossibleValuesParser::new(["f32", "f64"]).map(|name| match name.as_str() {
         "f32" => ScalarKind::F32,
@@ -121,7 +119,7 @@ impl Opened {
         self.input.columns.iter().take(dim).cloned().collect()
     }
 
-    /// What a solver refused, with the place in the file, which it cannot know.
+    /// Returns what a solver refused, with the place in the file, which it cannot know.
     pub(crate) fn explain(&self, error: impl Into<taut::Error>) -> anyhow::Error {
         match error.into() {
             taut::Error::Input(error) => self.explain_input(error),
@@ -130,7 +128,7 @@ impl Opened {
         }
     }
 
-    /// What any solver refuses.
+    /// Returns what any solver refuses.
     fn explain_input(&self, error: InputError) -> anyhow::Error {
         match error {
             InputError::NonFinite { row, column, value } => self.not_finite(row, column, value),
@@ -146,7 +144,7 @@ impl Opened {
         }
     }
 
-    /// What is refused of balls, ellipsoids, weights and half-spaces.
+    /// Returns what is refused of balls, ellipsoids, weights and half-spaces.
     fn explain_enclosing(&self, error: SolveError) -> anyhow::Error {
         let last = self.input.source.dim() - 1;
         match error {
@@ -157,7 +155,7 @@ impl Opened {
                 shown_number(value)
             ),
             SolveError::NoRadius { .. } => anyhow!(
-                "{}: a ball needs a centre and a radius, at least two columns, but there is one: leave out --balls \
+                "{}: a ball needs a center and a radius, at least two columns, but there is one: leave out --balls \
                  or choose more with --columns",
                 self.name()
             ),
@@ -173,7 +171,7 @@ impl Opened {
                 self.name()
             ),
             SolveError::NoShape { columns } => anyhow!(
-                "{}: ellipsoids in dimension d have d(d + 3)/2 columns, 2, 5, 9, 14, …, the centre and the lower \
+                "{}: ellipsoids in dimension d have d(d + 3)/2 columns, 2, 5, 9, 14, …, the center and the lower \
                  triangle of the shape matrix, but there are {columns}: leave out --ellipsoids or choose others with \
                  --columns",
                 self.name()
@@ -197,7 +195,7 @@ impl Opened {
                 self.row(row)
             ),
             SolveError::Unbounded { direction } => anyhow!(
-                "{}: the polytope goes on for ever in the direction {}, so no ellipsoid in it is the largest: add \
+                "{}: the polytope is unbounded in the direction {}, so no ellipsoid in it is the largest: add \
                  half-spaces that end it",
                 self.name(),
                 coordinates(&direction, 1.0)
@@ -252,7 +250,7 @@ impl Opened {
         }
     }
 
-    /// What went wrong while the points were read again.
+    /// Returns what went wrong while the points were read again.
     pub(crate) fn reading_failed(&self, error: ReadError) -> anyhow::Error {
         match error {
             // These name the file themselves.
@@ -262,7 +260,7 @@ impl Opened {
     }
 }
 
-/// What a library says of an option, under the name that the command line gives it.
+/// Returns what a library says of an option, under the name that the command line gives it.
 pub(crate) fn wrong_option(name: &str, value: &str, expected: &str) -> anyhow::Error {
     anyhow!("option `--{}` is {value}: expected {expected}", name.replace('_', "-"))
 }

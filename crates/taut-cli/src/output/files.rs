@@ -151,9 +151,8 @@ fn shown(file: WhichFile, input: Option<&Path>, output: &Path) -> String {
     }
 }
 
-/// What there is to say of one kind of file.
 pub(crate) trait FileSummary: FileAnswer + Sized {
-    /// What was proved, in one line, and the fields.
+    /// Returns what was proved, in one line, and the fields.
     fn claims(found: &FileSolution<Self>, verdict: &FileVerdict) -> (String, Vec<Field>);
 }
 

@@ -45,7 +45,6 @@ pub(crate) fn count(value: u64) -> String {
     grouped
 }
 
-/// A count with its noun.
 pub(crate) fn counted(value: u64, noun: &str) -> String {
     format!("{} {noun}{}", count(value), if value == 1 { "" } else { "s" })
 }
@@ -76,7 +75,7 @@ pub(crate) fn coordinates(point: &[f64], size: f64) -> String {
     }
 }
 
-/// Whether [`coordinates`] leaves some out.
+/// Returns true if [`coordinates`] leaves some out.
 pub(crate) fn abridged(point: &[f64]) -> bool {
     coordinates(point, 0.0).ends_with("…)")
 }

@@ -27,7 +27,7 @@ pub(crate) struct PictureOptions {
     /// Which picture to draw to SVG or PNG, from 1: the scene comes first, then plots
     #[arg(long, value_name = "N", default_value_t = 1)]
     figure: usize,
-    /// Colours of SVG and PNG; HTML follows the reader
+    /// Colors of SVG and PNG; HTML follows the reader
     #[arg(long, value_name = "NAME", default_value = "light", value_parser = themes())]
     theme: Theme,
     /// Width, pixels, from 240 to 10000
@@ -142,7 +142,6 @@ fn png() -> anyhow::Result<Picture> {
     bail!("this build of taut draws no PNG: draw SVG or HTML, or build it with the feature `png`")
 }
 
-/// What drawing refused of these points.
 pub(crate) fn refused(error: DrawError, points: &Opened) -> anyhow::Error {
     match error {
         DrawError::Read(error) => points.reading_failed(error),

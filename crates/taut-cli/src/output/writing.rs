@@ -40,7 +40,7 @@ pub(crate) fn check_writable(outputs: &[&Path], inputs: &[&Path]) -> anyhow::Res
     Ok(files.copied().try_for_each(taut_io::check_writable)?)
 }
 
-/// Whether two outputs would end up in one place, there already or not.
+/// Tests whether two outputs would end up in one place, there already or not.
 fn same_place(one: &Path, other: &Path) -> bool {
     let place = |path: &Path| -> Option<PathBuf> {
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
@@ -49,12 +49,12 @@ fn same_place(one: &Path, other: &Path) -> bool {
     one == other || same_file(one, other) || place(one).is_some_and(|one| Some(one) == place(other))
 }
 
-/// Whether `-` is meant, standard input or output.
+/// Tests whether `-` is meant, standard input or output.
 pub(crate) fn is_stream(path: &Path) -> bool {
     path == Path::new("-")
 }
 
-/// Whether writing to the regular file `output` would replace what is read from `input`.
+/// Returns true if writing to the regular file `output` would replace what is read from `input`.
 fn same_file(output: &Path, input: &Path) -> bool {
     let input = if is_stream(input) { Path::new("/dev/stdin") } else { input };
     let (Ok(to), Ok(from)) = (output.metadata(), input.metadata()) else { return false };
@@ -122,7 +122,7 @@ impl Outputs {
         self.files.push(file);
     }
 
-    /// Whether no file is prepared.
+    /// Returns true if no file is prepared.
     pub(crate) fn is_empty(&self) -> bool {
         self.files.is_empty()
     }
@@ -165,7 +165,7 @@ pub(crate) fn print(bytes: &[u8]) -> anyhow::Result<()> {
     unless_closed(out.write_all(bytes).and_then(|()| out.flush()))
 }
 
-/// What it means how writing to standard output went.
+/// Returns what it means how writing to standard output went.
 pub(crate) fn unless_closed(written: std::io::Result<()>) -> anyhow::Result<()> {
     match written {
         // Whoever reads has enough: that changes neither what is written to files nor how the command ends.
@@ -179,12 +179,12 @@ pub(crate) fn print_error(words: &str) {
     print_line(&format!("taut: {}", printable(words)));
 }
 
-/// Says a line on standard error, if anybody can hear it: nothing depends on that.
+/// Writes a line to standard error; nothing depends on whether anybody reads it.
 pub(crate) fn print_line(line: &str) {
     writeln!(std::io::stderr(), "{line}").ok();
 }
 
-/// What a terminal can show as it is: names in files may hold characters that would command it.
+/// Returns what a terminal can show as it is: names in files may hold characters that would command it.
 pub(crate) fn printable(words: &str) -> String {
     let mut shown = String::with_capacity(words.len());
     for c in words.chars() {

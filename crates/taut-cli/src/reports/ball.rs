@@ -1,4 +1,4 @@
-//! What is said about a ball.
+//! The report about a ball.
 
 use taut::certify::Ball;
 use taut::points::PointSource;
@@ -6,7 +6,7 @@ use taut::{Items, Solution};
 
 use crate::output::numbers::{count, counted, exact, gap};
 use crate::reports::{
-    Claims, Field, Report, Summary, centre, gap_and_verified, inputs, noun, stopped,
+    Claims, Field, Report, Summary, center, gap_and_verified, inputs, noun, stopped,
 };
 
 impl Summary for Ball {
@@ -32,7 +32,7 @@ impl Summary for Ball {
         let [gap, verified] = gap_and_verified(proved, certificate.gap, verified);
         vec![
             Field::new("radius", exact(answer.radius)),
-            centre(&answer.center, answer.radius),
+            center(&answer.center, answer.radius),
             gap,
             verified,
             Field::new("method", &*trace.method).remark(stopped(trace.stop)),

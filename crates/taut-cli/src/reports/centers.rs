@@ -1,4 +1,4 @@
-//! What is said about centres.
+//! The report about centers.
 
 use taut::certify::Centers;
 use taut::certify::{CentersCertificate, LowerBound, Placement};
@@ -8,33 +8,33 @@ use taut::{Items, Solution};
 use crate::output::numbers::{abridged, coordinates, count, counted, exact, gap};
 use crate::reports::{Claims, Field, Report, Summary, noun, rows_of, share, stopped};
 
-/// The coordinates of at most this many centres are shown; more are in the JSON.
+/// The coordinates of at most this many centers are shown; more are in the JSON.
 const SHOWN_CENTERS_MAX: usize = 20;
 
 impl Summary for Centers {
-    const FOUND: &'static str = "the centres found";
+    const FOUND: &'static str = "the centers found";
 
     fn title(report: &Report<'_, Self>) -> String {
         let certificate = &report.found.certificate;
-        let centres = match certificate.placement {
-            Placement::Free => counted(certificate.k, "centre"),
-            Placement::Rows => format!("{} among them", counted(certificate.k, "centre")),
+        let centers = match certificate.placement {
+            Placement::Free => counted(certificate.k, "center"),
+            Placement::Rows => format!("{} among them", counted(certificate.k, "center")),
         };
         let items = items_of(certificate, report.points.source().len(), Self::dim(report));
-        format!("{items}: {centres}")
+        format!("{items}: {centers}")
     }
 
     fn fields(report: &Report<'_, Self>) -> Vec<Field> {
         let (answer, certificate) = (&report.found.answer, &report.found.certificate);
         let (trace, noun) = (&report.found.trace, noun(certificate.items));
-        let mut fields = report.centres();
+        let mut fields = report.centers();
         let [radius, lower] = [answer.radius, answer.lower_bound].map(exact);
         let counts = if answer.outliers.is_empty() { "" } else { " that counts" };
         fields.extend([
             Field::new("radius", radius)
-                .remark(format!("no {noun}{counts} is farther from the centre next to it")),
+                .remark(format!("no {noun}{counts} is farther from the center next to it")),
             Field::new("lower bound", &*lower)
-                .remark(format!("no {} have a smaller radius", counted(certificate.k, "centre"))),
+                .remark(format!("no {} have a smaller radius", counted(certificate.k, "center"))),
         ]);
         fields.push(match &report.verdict {
             Some(proved) => gap_of(answer, proved.gap),
@@ -50,7 +50,7 @@ impl Summary for Centers {
         }
         fields.push(Field::new("method", &*trace.method).remark(stopped(trace.stop)));
         let proof = match certificate.proof {
-            LowerBound::Apart => "no two of which fit in one ball".to_owned(),
+            LowerBound::Separated => "no two of which fit in one ball".to_owned(),
             LowerBound::Branches { ref items } => {
                 format!("with {} of a search", counted_branches(items.len() as u64))
             }
@@ -92,18 +92,18 @@ impl Summary for Centers {
         let (k, radius) = (count(certificate.k), exact(found.answer.radius));
         let fields = vec![
             Field::proved(
-                "centres",
+                "centers",
                 format!("{}, {placement}", count(found.answer.centers.len() as u64)),
             )
             .remark(format!("of at most {k}")),
             left_out,
             Field::proved("bracket", bracket),
             Field::proved("gap", gap(proved.gap)).remark("relative, from the points alone"),
-            Field::new("branches", count(proved.nodes)).remark("replayed for the lower bound"),
+            Field::new("branches", count(proved.branches)).remark("replayed for the lower bound"),
         ];
         Claims {
             what: format!(
-                "centres, k = {k}, {placement}, of radius {radius}, around {items}{rests_on}"
+                "centers, k = {k}, {placement}, of radius {radius}, around {items}{rests_on}"
             ),
             gap: Some(proved.gap),
             fields,
@@ -112,8 +112,8 @@ impl Summary for Centers {
 }
 
 impl Report<'_, Centers> {
-    /// A line for each of the first centres: its place, of which row it is, how many are next to it.
-    fn centres(&self) -> Vec<Field> {
+    /// A line for each of the first centers: its place, of which row it is, how many are next to it.
+    fn centers(&self) -> Vec<Field> {
         let answer = &self.found.answer;
         let mut sizes = vec![0u64; answer.centers.len()];
         for &center in &answer.assignment {
@@ -124,8 +124,8 @@ impl Report<'_, Centers> {
         let mut fields = Vec::new();
         for (j, center) in answer.centers.iter().enumerate().take(SHOWN_CENTERS_MAX) {
             let name = match j {
-                0 if answer.centers.len() == 1 => "centre",
-                0 => "centres",
+                0 if answer.centers.len() == 1 => "center",
+                0 => "centers",
                 _ => "",
             };
             let mut place = coordinates(center, answer.radius);
@@ -166,7 +166,6 @@ fn counted_branches(branches: u64) -> String {
     format!("{} branch{}", count(branches), if branches == 1 { "" } else { "es" })
 }
 
-/// What the rows are, and how many.
 fn items_of(certificate: &CentersCertificate, rows: u64, dim: usize) -> String {
     let items = counted(rows, noun(certificate.items));
     let weights = if certificate.weights { " with weights" } else { "" };

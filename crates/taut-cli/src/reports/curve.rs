@@ -1,4 +1,4 @@
-//! What is said about curves.
+//! The report about curves.
 
 use taut::certify::Curve;
 use taut::certify::CurveVerdict;
@@ -105,7 +105,7 @@ impl Summary for Curve {
     }
 }
 
-/// How many, and of which kind: "3 curves".
+/// Returns how many, and of which kind: "3 curves".
 pub(crate) fn curves_of(found: &Solution<Curve>) -> String {
     match (&found.certificate.tour, &found.answer.curves[..]) {
         (Some(_), [tour]) => if tour.closed { "a tour" } else { "a path" }.to_owned(),
@@ -113,7 +113,7 @@ pub(crate) fn curves_of(found: &Solution<Curve>) -> String {
     }
 }
 
-/// Whether the sampling is dense enough, and of a tour how short it is.
+/// Tests whether the sampling is dense enough, and of a tour how short it is.
 fn judged(verdict: &CurveVerdict) -> Vec<Field> {
     let mut fields = vec![match &verdict.doubt {
         None => {

@@ -1,4 +1,4 @@
-//! What is said about an ellipsoid.
+//! The report about an ellipsoid.
 
 use taut::certify::Ellipsoid;
 use taut::certify::Stop;
@@ -7,7 +7,7 @@ use taut::{EllipsoidMethod, Solution};
 
 use crate::output::numbers::{count, counted, exact, gap};
 use crate::reports::{
-    Claims, Field, Report, Summary, centre, gap_and_verified, inputs, noun, stopped,
+    Claims, Field, Report, Summary, center, gap_and_verified, inputs, noun, stopped,
 };
 
 impl Summary for Ellipsoid {
@@ -27,7 +27,7 @@ impl Summary for Ellipsoid {
     fn fields(report: &Report<'_, Self>) -> Vec<Field> {
         let (answer, certificate) = (&report.found.answer, &report.found.certificate);
         let trace = &report.found.trace;
-        // The points may lie far from the origin: digits of the centre count beside the extent of the ellipsoid.
+        // The points may lie far from the origin: digits of the center count beside the extent of the ellipsoid.
         let longest = answer.factor.iter().flatten().fold(0.0f64, |m, f| m.max(f.abs()));
         let size = if longest > 0.0 { 1.0 / longest } else { 1.0 };
         let volume = Field::new("log-volume", exact(answer.log_volume));
@@ -45,7 +45,7 @@ impl Summary for Ellipsoid {
         let verified = format!("every {} is inside, and the gap is proved", report.noun());
         let [gap, verified] = gap_and_verified(proved, certificate.gap, verified);
         let support = count(certificate.support.len() as u64);
-        let mut fields = vec![volume, centre(&answer.center, size), gap, verified];
+        let mut fields = vec![volume, center(&answer.center, size), gap, verified];
         if !certificate.left_out.is_empty() {
             fields.push(Field::new(
                 "left out",

@@ -1,4 +1,4 @@
-//! What is said about an ellipsoid inside a polytope.
+//! The report about an ellipsoid inside a polytope.
 
 use taut::Solution;
 use taut::certify::InscribedEllipsoid;
@@ -6,7 +6,7 @@ use taut::certify::Stop;
 use taut::points::PointSource;
 
 use crate::output::numbers::{count, counted, exact, gap};
-use crate::reports::{Claims, Field, Report, Summary, centre, gap_and_verified, stopped};
+use crate::reports::{Claims, Field, Report, Summary, center, gap_and_verified, stopped};
 
 impl Summary for InscribedEllipsoid {
     const FOUND: &'static str = "the ellipsoid found";
@@ -20,7 +20,7 @@ impl Summary for InscribedEllipsoid {
     fn fields(report: &Report<'_, Self>) -> Vec<Field> {
         let (answer, certificate) = (&report.found.answer, &report.found.certificate);
         let trace = &report.found.trace;
-        // Digits of the centre count beside the extent of the ellipsoid.
+        // Digits of the center count beside the extent of the ellipsoid.
         let widest = answer.axes.iter().flatten().fold(0.0f64, |m, g| m.max(g.abs()));
         let proved = report.verdict.as_ref().map(|proved| {
             let upper = exact(proved.upper);
@@ -34,7 +34,7 @@ impl Summary for InscribedEllipsoid {
         let [gap, verified] = gap_and_verified(proved, certificate.gap, verified);
         vec![
             Field::new("log-volume", exact(answer.log_volume)),
-            centre(&answer.center, if widest > 0.0 { widest } else { 1.0 }),
+            center(&answer.center, if widest > 0.0 { widest } else { 1.0 }),
             gap,
             verified,
             Field::new("method", &*trace.method).remark(ended),

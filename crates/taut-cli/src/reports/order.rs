@@ -1,4 +1,4 @@
-//! What is said about an order of points.
+//! The report about an order of points.
 
 use taut::certify::OrderVerdict;
 use taut::certify::{Order, OrderCurve};

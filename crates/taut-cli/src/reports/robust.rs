@@ -1,11 +1,11 @@
-//! What is said about a robust ellipsoid.
+//! The report about a robust ellipsoid.
 
 use taut::certify::RobustEllipsoid;
 use taut::points::PointSource;
 use taut::{RobustMethod, Solution};
 
 use crate::output::numbers::{count, counted, exact, gap};
-use crate::reports::{Claims, Field, Report, Summary, centre, rows_of};
+use crate::reports::{Claims, Field, Report, Summary, center, rows_of};
 
 impl Summary for RobustEllipsoid {
     const FOUND: &'static str = "the ellipsoid found";
@@ -28,7 +28,7 @@ impl Summary for RobustEllipsoid {
             _ => format!("of the ellipsoid that holds {} of normal points", certificate.level),
         };
         let mut fields = vec![
-            centre(&answer.center, size),
+            center(&answer.center, size),
             Field::new("log-det", exact(answer.log_det)).remark("of the scatter"),
             Field::new("log-volume", exact(answer.log_volume)).remark(border),
             Field::new("kept", format!("{} of {}", count(certificate.kept), counted(n, "point"))),
@@ -41,7 +41,7 @@ impl Summary for RobustEllipsoid {
             );
             fields.push(
                 Field::new("exact fit", format!("{on} in a flat of dimension {rank}"))
-                    .remark("centre and scatter are theirs, and all others are outliers"),
+                    .remark("center and scatter are theirs, and all others are outliers"),
             );
         }
         fields.push(match &report.verdict {

@@ -1,4 +1,4 @@
-//! What is said about a surface.
+//! The report about a surface.
 
 use taut::certify::Surface;
 use taut::certify::{SurfaceVerdict, Unused};
@@ -90,7 +90,7 @@ impl Summary for Surface {
         _source: &dyn PointSource,
     ) -> Claims {
         let word = |is| if is { "yes" } else { "no" };
-        // What a word means is said where it is so.
+        // The meaning of a word is printed where the word holds.
         let shown = |name, is, meaning: &str| match is {
             true => Field::proved(name, word(is)).remark(meaning),
             false => Field::proved(name, word(is)),
@@ -149,7 +149,7 @@ impl Report<'_, Surface> {
     }
 }
 
-/// What kind it is: "a closed surface with 8 handles".
+/// Returns what kind it is: "a closed surface with 8 handles".
 pub(crate) fn surface_of(found: &Solution<Surface>) -> String {
     let topology = &found.answer.topology;
     match (&topology.components[..], topology.genus) {
@@ -184,7 +184,7 @@ fn unused(rows: &Unused) -> Vec<Field> {
     lists.map(|(name, rows)| rows_of(name, &wide(rows))).collect()
 }
 
-/// Whether the surface is all that one could ask for; of which points, where some are left out.
+/// Tests whether the surface is all that one could ask for; of which points, where some are left out.
 fn certified(verdict: &SurfaceVerdict) -> Field {
     match &verdict.doubt {
         None => {

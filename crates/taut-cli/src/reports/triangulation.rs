@@ -1,4 +1,4 @@
-//! What is said about a triangulation.
+//! The report about a triangulation.
 
 use taut::certify::Triangulation;
 use taut::certify::TriangulationVerdict;
@@ -76,7 +76,7 @@ impl Summary for Triangulation {
     }
 }
 
-/// What the checker proved, where there is nothing but simplices.
+/// Returns what the checker proved, where there is nothing but simplices.
 pub(crate) fn claims_of_triangulation(
     verdict: &TriangulationVerdict,
     rows: u64,

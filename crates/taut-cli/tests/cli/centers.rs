@@ -1,14 +1,14 @@
 //! `taut centers`: the summary, the JSON, the table by k, and how runs end.
 
-use crate::desk::Desk;
+use crate::test_folder::TestFolder;
 
-/// Two groups of four, at (0, 0) to (0, 2) and (9, 0) to (9, 1): two centres have radius 1.
+/// Two groups of four, at (0, 0) to (0, 2) and (9, 0) to (9, 1): two centers have radius 1.
 const TOWNS: &str = "x,y\n0,0\n0,2\n9,0\n9,1\n0,1\n9,0.5\n";
 
-fn desk() -> Desk {
-    let desk = Desk::new();
-    desk.put("towns.csv", TOWNS);
-    desk
+fn folder() -> TestFolder {
+    let folder = TestFolder::new();
+    folder.put("towns.csv", TOWNS);
+    folder
 }
 
 fn close(value: &serde_json::Value, wanted: f64) {
@@ -18,13 +18,13 @@ fn close(value: &serde_json::Value, wanted: f64) {
 
 #[test]
 fn the_summary_names_every_number() {
-    let run = desk().taut("centers towns.csv -k 2 --epsilon 1e-6").ends(0).says(&[
-        "6 points in 2 dimensions: 2 centres\n",
-        "\n  centres     (",
+    let run = folder().taut("centers towns.csv -k 2 --epsilon 1e-6").ends(0).stdout_has(&[
+        "6 points in 2 dimensions: 2 centers\n",
+        "\n  centers     (",
         "(0, 1)\n",
         "\n  radius      1",
         "\n  lower bound ",
-        "no 2 centres have a smaller radius\n",
+        "no 2 centers have a smaller radius\n",
         "\n  gap         ",
         "\n  verified    yes; every point is in a ball, and the gap is proved\n",
         "\n  method      tree; converged\n",
@@ -39,9 +39,9 @@ fn the_summary_names_every_number() {
 
 #[test]
 fn the_json_is_one_document_with_the_names_at_the_door() {
-    let desk = desk();
+    let folder = folder();
     let line = "centers towns.csv -k 2 --epsilon 1e-6 --assignment";
-    let run = desk.taut(&format!("{line} --json -o centers.json")).ends(0);
+    let run = folder.taut(&format!("{line} --json -o centers.json")).ends(0);
     let document = run.json();
     assert_eq!(document["kind"], "centers");
     let answer = &document["answer"];
@@ -53,37 +53,37 @@ fn the_json_is_one_document_with_the_names_at_the_door() {
     assert_eq!(next.len(), 6);
     assert!(next[0] == next[1] && next[0] == next[4] && next[2] == next[3] && next[0] != next[2]);
     assert_eq!(document["certificate"]["k"], 2);
-    assert_eq!(desk.text("centers.json"), run.out);
+    assert_eq!(folder.text("centers.json"), run.out);
     for option in ["-o -", "--json --threads 1", "--json --threads 3"] {
-        assert_eq!(desk.taut(&format!("{line} {option}")).ends(0).out, run.out, "{option}");
+        assert_eq!(folder.taut(&format!("{line} {option}")).ends(0).out, run.out, "{option}");
     }
-    let quiet = desk.taut(&format!("{line} --quiet -o quiet.json")).ends(0);
+    let quiet = folder.taut(&format!("{line} --quiet -o quiet.json")).ends(0);
     assert_eq!((quiet.out.as_str(), quiet.err.as_str()), ("", ""));
-    assert_eq!(desk.text("quiet.json"), run.out);
-    let run = desk.taut("centers towns.csv -k 2 --no-verify").ends(0);
+    assert_eq!(folder.text("quiet.json"), run.out);
+    let run = folder.taut("centers towns.csv -k 2 --no-verify").ends(0);
     assert!(run.out.contains("not checked") && !run.out.contains("yes"), "{}", run.out);
 }
 
 #[test]
 fn answers_are_verified_and_lies_rejected() {
-    let desk = desk();
-    desk.taut("centers towns.csv -k 2 --epsilon 1e-6 -o centers.json").ends(0);
-    desk.taut("verify centers.json towns.csv --epsilon 1e-6").ends(0).says(&[
+    let folder = folder();
+    folder.taut("centers towns.csv -k 2 --epsilon 1e-6 -o centers.json").ends(0);
+    folder.taut("verify centers.json towns.csv --epsilon 1e-6").ends(0).stdout_has(&[
         "Verified within a gap of ",
-        ": centres, k = 2, anywhere, of radius 1",
+        ": centers, k = 2, anywhere, of radius 1",
         ", around 6 points in 2 dimensions\n",
-        "\n  centres   2, anywhere; proved: of at most 2\n",
+        "\n  centers   2, anywhere; proved: of at most 2\n",
         "\n  left out  none; proved\n",
         " ≤ least radius ≤ ",
         "\n  branches ",
     ]);
-    desk.taut("verify centers.json towns.csv --epsilon 1e-30").ends(1).says(&["Rejected"]);
-    let sound: serde_json::Value = serde_json::from_str(&desk.text("centers.json")).unwrap();
+    folder.taut("verify centers.json towns.csv --epsilon 1e-30").ends(1).stdout_has(&["Rejected"]);
+    let sound: serde_json::Value = serde_json::from_str(&folder.text("centers.json")).unwrap();
     let lie = |change: &dyn Fn(&mut serde_json::Value)| {
         let mut document = sound.clone();
         change(&mut document);
-        desk.put("lie.json", document.to_string());
-        desk.taut("verify lie.json towns.csv").ends(1).says(&["Rejected: "]).out
+        folder.put("lie.json", document.to_string());
+        folder.taut("verify lie.json towns.csv").ends(1).stdout_has(&["Rejected: "]).out
     };
     let smaller = lie(&|found| {
         for key in ["radius", "lower_bound"] {
@@ -102,114 +102,129 @@ fn answers_are_verified_and_lies_rejected() {
     lie(&|found| found["answer"]["centers"][0] = serde_json::json!([0.0, 1.0, 2.0]));
     lie(&|found| found["certificate"]["core_set"] = serde_json::json!([0]));
     lie(&|found| found["certificate"]["k"] = 1.into());
-    desk.put("other.csv", TOWNS.replace("9,1", "9,1.25"));
-    desk.taut("verify centers.json other.csv").ends(1).says(&["Rejected: other.csv", "hash"]);
-    desk.put("short.csv", "0\n1\n");
-    desk.taut("verify centers.json short.csv").ends(1).says(&["short.csv does not belong to"]);
+    folder.put("other.csv", TOWNS.replace("9,1", "9,1.25"));
+    folder
+        .taut("verify centers.json other.csv")
+        .ends(1)
+        .stdout_has(&["Rejected: other.csv", "hash"]);
+    folder.put("short.csv", "0\n1\n");
+    folder
+        .taut("verify centers.json short.csv")
+        .ends(1)
+        .stdout_has(&["short.csv does not belong to"]);
 }
 
 #[test]
-fn centres_among_the_points_are_named_by_their_rows() {
-    let desk = desk();
-    desk.taut("centers towns.csv -k 2 --discrete --epsilon 0 --assignment -o centers.json")
+fn centers_among_the_points_are_named_by_their_rows() {
+    let folder = folder();
+    folder
+        .taut("centers towns.csv -k 2 --discrete --epsilon 0 --assignment -o centers.json")
         .ends(0)
-        .says(&["2 centres among them\n", "(0, 1); row 5, next to 3 points\n", "(9, "]);
-    let found: serde_json::Value = serde_json::from_str(&desk.text("centers.json")).unwrap();
+        .stdout_has(&["2 centers among them\n", "(0, 1); row 5, next to 3 points\n", "(9, "]);
+    let found: serde_json::Value = serde_json::from_str(&folder.text("centers.json")).unwrap();
     // Of the places around (9, 0.5) each is near enough to the others.
     let mut rows: Vec<u64> =
         found["answer"]["rows"].as_array().unwrap().iter().map(|r| r.as_u64().unwrap()).collect();
     rows.sort_unstable();
     assert!([[2, 4], [3, 4], [4, 5]].iter().any(|pair| rows == pair), "{rows:?}");
     close(&found["answer"]["radius"], 1.0);
-    desk.taut("verify centers.json towns.csv")
+    folder
+        .taut("verify centers.json towns.csv")
         .ends(0)
-        .says(&["\n  centres   2, among the points; proved: of at most 2\n"]);
+        .stdout_has(&["\n  centers   2, among the points; proved: of at most 2\n"]);
 }
 
 #[test]
 fn outliers_weights_and_balls_are_asked_for() {
-    let desk = desk();
-    desk.put("far.csv", format!("{TOWNS}500,0\n"));
-    desk.taut("centers far.csv -k 2 --outliers 1 --epsilon 1e-6 -o out.json").ends(0).says(&[
-        "\n  left out    1; row 7\n",
-        "no point that counts is farther",
-        "\n  radius      1",
-    ]);
-    desk.taut("verify out.json far.csv")
+    let folder = folder();
+    folder.put("far.csv", format!("{TOWNS}500,0\n"));
+    folder.taut("centers far.csv -k 2 --outliers 1 --epsilon 1e-6 -o out.json").ends(0).stdout_has(
+        &["\n  left out    1; row 7\n", "no point that counts is farther", "\n  radius      1"],
+    );
+    folder
+        .taut("verify out.json far.csv")
         .ends(0)
-        .says(&["\n  left out  1 (14 %); proved: of at most 1 point\n"]);
-    desk.put("heavy.csv", "x,w\n0,2\n3,1\n");
-    desk.taut("centers heavy.csv -k 1 --weights --epsilon 1e-9 -o heavy.json")
+        .stdout_has(&["\n  left out  1 (14 %); proved: of at most 1 point\n"]);
+    folder.put("heavy.csv", "x,w\n0,2\n3,1\n");
+    folder
+        .taut("centers heavy.csv -k 1 --weights --epsilon 1e-9 -o heavy.json")
         .ends(0)
-        .says(&["2 points with weights in 1 dimension: 1 centre\n", "\n  centre      (1"]);
-    let found: serde_json::Value = serde_json::from_str(&desk.text("heavy.json")).unwrap();
+        .stdout_has(&["2 points with weights in 1 dimension: 1 center\n", "\n  center      (1"]);
+    let found: serde_json::Value = serde_json::from_str(&folder.text("heavy.json")).unwrap();
     close(&found["answer"]["radius"], 2.0);
-    desk.taut("verify heavy.json heavy.csv")
+    folder
+        .taut("verify heavy.json heavy.csv")
         .ends(0)
-        .says(&[", around 2 points with weights in 1 dimension\n"]);
-    desk.put("discs.csv", "x,y,r\n0,0,1\n4,0,2\n100,0,3\n");
-    desk.taut("centers discs.csv -k 2 --balls --epsilon 1e-9 -o discs.json")
+        .stdout_has(&[", around 2 points with weights in 1 dimension\n"]);
+    folder.put("discs.csv", "x,y,r\n0,0,1\n4,0,2\n100,0,3\n");
+    folder
+        .taut("centers discs.csv -k 2 --balls --epsilon 1e-9 -o discs.json")
         .ends(0)
-        .says(&["3 balls in 2 dimensions: 2 centres\n", "every ball is in a ball"]);
-    let found: serde_json::Value = serde_json::from_str(&desk.text("discs.json")).unwrap();
+        .stdout_has(&["3 balls in 2 dimensions: 2 centers\n", "every ball is in a ball"]);
+    let found: serde_json::Value = serde_json::from_str(&folder.text("discs.json")).unwrap();
     close(&found["answer"]["radius"], 3.5);
-    desk.taut("verify discs.json discs.csv").ends(0).says(&[", around 3 balls in 2 dimensions\n"]);
+    folder
+        .taut("verify discs.json discs.csv")
+        .ends(0)
+        .stdout_has(&[", around 3 balls in 2 dimensions\n"]);
 }
 
 #[test]
 fn all_methods_end_in_a_proof() {
-    let desk = Desk::new();
-    desk.taut("generate clusters -n 500 -d 2 --seed 3 -o points.npy").ends(0);
+    let folder = TestFolder::new();
+    folder.taut("generate clusters -n 500 -d 2 --seed 3 -o points.npy").ends(0);
     for (method, most) in [
         ("tree", "0.01"),
         ("thesis", "0.01"),
         ("farthest-first", "1.000000001"),
         ("stream", "1.97"),
     ] {
-        desk.taut(&format!("centers points.npy -k 4 --method {method} -o found.json"))
+        folder
+            .taut(&format!("centers points.npy -k 4 --method {method} -o found.json"))
             .ends(0)
-            .says(&[&format!("\n  method      {method}; converged\n"), "verified    yes"]);
-        desk.taut(&format!("verify found.json points.npy --epsilon {most}")).ends(0);
+            .stdout_has(&[&format!("\n  method      {method}; converged\n"), "verified    yes"]);
+        folder.taut(&format!("verify found.json points.npy --epsilon {most}")).ends(0);
     }
 }
 
-/// Two passes, one to look and one to measure; centres that are rows are named on request.
+/// Two passes, one to look and one to measure; centers that are rows are named on request.
 #[test]
 fn a_stream_is_read_twice() {
-    let desk = Desk::new();
-    desk.taut("generate uniform -n 100000 -d 3 --seed 4 -o points.npy").ends(0);
-    desk.taut("centers points.npy -k 7 --method stream --discrete -o found.json").ends(0).says(&[
-        "\n  passes      2\n",
-        "; row ",
-        "verified    yes",
-    ]);
-    desk.taut("verify found.json points.npy --epsilon 1.97").ends(0);
+    let folder = TestFolder::new();
+    folder.taut("generate uniform -n 100000 -d 3 --seed 4 -o points.npy").ends(0);
+    folder
+        .taut("centers points.npy -k 7 --method stream --discrete -o found.json")
+        .ends(0)
+        .stdout_has(&["\n  passes      2\n", "; row ", "verified    yes"]);
+    folder.taut("verify found.json points.npy --epsilon 1.97").ends(0);
 }
 
 #[test]
 fn a_stop_by_the_budget_of_nodes_tells_the_gap_it_reached() {
-    let desk = Desk::new();
-    desk.taut("generate normal -n 500 -d 2 --seed 3 -o points.npy").ends(0);
-    desk.taut("centers points.npy -k 9 --epsilon 1e-6 --max-nodes 3 -o found.json")
+    let folder = TestFolder::new();
+    folder.taut("generate normal -n 500 -d 2 --seed 3 -o points.npy").ends(0);
+    folder
+        .taut("centers points.npy -k 9 --epsilon 1e-6 --max-nodes 3 -o found.json")
         .ends(3)
-        .says(&["stopped early by the budget of nodes", "verified    yes"]);
-    desk.taut("verify found.json points.npy").ends(0);
+        .stdout_has(&["stopped early by the budget of nodes", "verified    yes"]);
+    folder.taut("verify found.json points.npy").ends(0);
     let quick = "centers points.npy --elbow 8..9 --epsilon 1e-6 --max-nodes 3";
-    desk.taut(quick).ends(3).says(&["stopped early"]);
+    folder.taut(quick).ends(3).stdout_has(&["stopped early"]);
 }
 
 #[test]
 fn the_elbow_is_a_table_a_file_and_a_plot() {
-    let desk = desk();
-    desk.taut("centers towns.csv --elbow 1..6 --epsilon 1e-6 -o elbow.csv --draw elbow.svg")
+    let folder = folder();
+    folder
+        .taut("centers towns.csv --elbow 1..6 --epsilon 1e-6 -o elbow.csv --draw elbow.svg")
         .ends(0)
-        .says(&[
-            "Radius by number of centres of 6 points\n",
+        .stdout_has(&[
+            "Radius by number of centers of 6 points\n",
             "\n  k  radius",
             "\n  2  1 ",
             "verified",
         ]);
-    let table = desk.text("elbow.csv");
+    let table = folder.text("elbow.csv");
     let rows: Vec<Vec<f64>> = table
         .lines()
         .skip(1)
@@ -222,38 +237,40 @@ fn the_elbow_is_a_table_a_file_and_a_plot() {
     assert!(rows.iter().all(|row| row[2] <= row[1] && row[1] <= (1.0 + 1e-6) * row[2]));
     assert!(rows.iter().all(|row| (0.0..=1e-6).contains(&row[3])));
     assert_eq!((rows[1][1], rows[5][1], rows[5][2]), (1.0, 0.0, 0.0));
-    let picture = desk.text("elbow.svg");
-    for part in ["Radius by number of centres", "radius found", "lower bound: proved"] {
+    let picture = folder.text("elbow.svg");
+    for part in ["Radius by number of centers", "radius found", "lower bound: proved"] {
         assert!(picture.contains(part), "{part}");
     }
-    desk.taut("centers towns.csv --elbow 2..3 --draw elbow.html --quiet").ends(0);
-    assert!(desk.text("elbow.html").contains("k = 3"));
-    let run = desk.taut("centers towns.csv --elbow 2..3 -o -").ends(0);
+    folder.taut("centers towns.csv --elbow 2..3 --draw elbow.html --quiet").ends(0);
+    assert!(folder.text("elbow.html").contains("k = 3"));
+    let run = folder.taut("centers towns.csv --elbow 2..3 -o -").ends(0);
     assert!(run.out.starts_with("k,radius,") && run.out.lines().count() == 3, "{}", run.out);
 }
 
 #[test]
 fn the_elbow_ends_where_the_radius_does_and_says_how_far_it_is() {
-    let desk = desk();
-    let run = desk
+    let folder = folder();
+    let run = folder
         .taut("centers towns.csv --elbow 4..900 --epsilon 1e-6 -o elbow.csv --progress always")
         .ends(0)
-        .says(&["\n  ended     at k = 6; the radius is 0, and is for every larger k\n"]);
-    assert_eq!(desk.text("elbow.csv").lines().count(), 4);
+        .stdout_has(&["\n  ended     at k = 6; the radius is 0, and is for every larger k\n"]);
+    assert_eq!(folder.text("elbow.csv").lines().count(), 4);
     for part in ["k = 4: radius 0.", "k = 5: radius 0.", "k = 6: radius 0, gap 0; converged"] {
         assert!(run.err.contains(part), "{part} in {}", run.err);
     }
-    let run = desk.taut("centers towns.csv --elbow 1..1001").ends(2);
+    let run = folder.taut("centers towns.csv --elbow 1..1001").ends(2);
     assert!(run.err.contains("at most 1000 values of k"), "{}", run.err);
 }
 
-/// Searches that are stopped at once may end with a larger radius than those for fewer centres; the table does not.
+/// Searches that are stopped at once may end with a larger radius than those for fewer centers; the table does not.
 #[test]
 fn the_elbow_never_rises() {
-    let desk = Desk::new();
-    desk.taut("generate uniform -n 300 -d 2 --seed 5 -o points.npy").ends(0);
-    desk.taut("centers points.npy --elbow 1..30 --epsilon 1e-6 --max-nodes 0 -o elbow.csv").ends(3);
-    let table = desk.text("elbow.csv");
+    let folder = TestFolder::new();
+    folder.taut("generate uniform -n 300 -d 2 --seed 5 -o points.npy").ends(0);
+    folder
+        .taut("centers points.npy --elbow 1..30 --epsilon 1e-6 --max-nodes 0 -o elbow.csv")
+        .ends(3);
+    let table = folder.text("elbow.csv");
     let column = |i: usize| -> Vec<f64> {
         table.lines().skip(1).map(|line| line.split(',').nth(i).unwrap().parse().unwrap()).collect()
     };
@@ -266,38 +283,38 @@ fn the_elbow_never_rises() {
 }
 
 #[test]
-fn centres_are_drawn_with_their_circles_and_what_is_left_out() {
-    let desk = desk();
-    desk.put("far.csv", format!("{TOWNS}500,0\n"));
-    desk.taut("centers far.csv -k 2 --outliers 1 -o found.json --draw found.svg").ends(0);
-    let picture = desk.text("found.svg");
+fn centers_are_drawn_with_their_circles_and_what_is_left_out() {
+    let folder = folder();
+    folder.put("far.csv", format!("{TOWNS}500,0\n"));
+    folder.taut("centers far.csv -k 2 --outliers 1 -o found.json --draw found.svg").ends(0);
+    let picture = folder.text("found.svg");
     for part in
-        ["Centres of 7 points, k = 2, d = 2", "the 2 circles", "core-set (", "left out (1 point)"]
+        ["Centers of 7 points, k = 2, d = 2", "the 2 circles", "core-set (", "left out (1 point)"]
     {
         assert!(picture.contains(part), "{part}");
     }
     assert!(!picture.contains("NaN"));
-    desk.taut("draw found.json far.csv -o again.svg").ends(0);
-    assert_eq!(desk.text("again.svg"), picture);
-    desk.put("other.csv", TOWNS);
-    desk.taut("draw found.json other.csv -o other.svg").ends(1).complains(&["other.csv"]);
-    desk.taut("generate normal -n 200 -d 3 -o space.npy").ends(0);
-    desk.taut("centers space.npy -k 3 --epsilon 0.1 --draw space.html").ends(0);
-    assert!(desk.text("space.html").contains("the 3 spheres"));
-    desk.taut("generate normal -n 200 -d 6 -o six.npy").ends(0);
-    desk.taut("centers six.npy -k 2 --method farthest-first --draw six.svg").ends(0);
-    assert!(desk.text("six.svg").contains("shadows of the balls"));
-    assert!(!desk.files().contains(&"other.svg".to_owned()));
+    folder.taut("draw found.json far.csv -o again.svg").ends(0);
+    assert_eq!(folder.text("again.svg"), picture);
+    folder.put("other.csv", TOWNS);
+    folder.taut("draw found.json other.csv -o other.svg").ends(1).stderr_has(&["other.csv"]);
+    folder.taut("generate normal -n 200 -d 3 -o space.npy").ends(0);
+    folder.taut("centers space.npy -k 3 --epsilon 0.1 --draw space.html").ends(0);
+    assert!(folder.text("space.html").contains("the 3 spheres"));
+    folder.taut("generate normal -n 200 -d 6 -o six.npy").ends(0);
+    folder.taut("centers six.npy -k 2 --method farthest-first --draw six.svg").ends(0);
+    assert!(folder.text("six.svg").contains("shadows of the balls"));
+    assert!(!folder.files().contains(&"other.svg".to_owned()));
 }
 
 #[test]
 fn wrong_input_and_options_are_named_and_nothing_is_written() {
-    let desk = desk();
-    desk.put("nan.csv", TOWNS.replace("9,1", "9,NaN"));
-    desk.put("hole.csv", "x,y,r\n0,0,1\n1,1,-2\n");
-    desk.put("light.csv", "x,w\n0,1\n1,0\n");
-    desk.put("one.csv", "x\n1\n2\n");
-    desk.put("found.json", "earlier");
+    let folder = folder();
+    folder.put("nan.csv", TOWNS.replace("9,1", "9,NaN"));
+    folder.put("hole.csv", "x,y,r\n0,0,1\n1,1,-2\n");
+    folder.put("light.csv", "x,w\n0,1\n1,0\n");
+    folder.put("one.csv", "x\n1\n2\n");
+    folder.put("found.json", "earlier");
     for (line, parts) in [
         ("towns.csv", &["-k"][..]),
         ("towns.csv -k 0", &["`--k` is 0", "at least 1"]),
@@ -320,9 +337,9 @@ fn wrong_input_and_options_are_named_and_nothing_is_written() {
         ("one.csv -k 1 --balls", &["one.csv", "at least two columns", "--balls"]),
         ("gone.csv -k 1", &["gone.csv"]),
     ] {
-        let run = desk.taut(&format!("centers {line} -o found.json")).ends(2);
+        let run = folder.taut(&format!("centers {line} -o found.json")).ends(2);
         assert!(parts.iter().all(|part| run.err.contains(part)), "{parts:?} in {run:?}");
         assert_eq!(run.out, "", "{line}");
     }
-    assert_eq!(desk.text("found.json"), "earlier");
+    assert_eq!(folder.text("found.json"), "earlier");
 }

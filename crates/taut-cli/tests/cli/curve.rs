@@ -2,9 +2,9 @@
 
 use serde_json::Value;
 
-use crate::desk::Desk;
+use crate::test_folder::TestFolder;
 
-/// Points of circles, each with a centre, a radius and a number.
+/// Points of circles, each with a center, a radius and a number.
 fn circles(list: &[([f64; 2], f64, usize)]) -> String {
     let mut text = String::from("x,y\n");
     for &([x, y], r, n) in list {
@@ -27,10 +27,10 @@ fn islands() -> String {
     ])
 }
 
-fn desk() -> Desk {
-    let desk = Desk::new();
-    desk.put("islands.csv", islands());
-    desk
+fn folder() -> TestFolder {
+    let folder = TestFolder::new();
+    folder.put("islands.csv", islands());
+    folder
 }
 
 fn document(text: &str) -> Value {
@@ -39,7 +39,7 @@ fn document(text: &str) -> Value {
 
 #[test]
 fn the_summary_names_every_number() {
-    let run = desk().taut("curve islands.csv --method hnn-crust").ends(0).says(&[
+    let run = folder().taut("curve islands.csv --method hnn-crust").ends(0).stdout_has(&[
         "490 points in the plane: 5 curves\n",
         "\n  curves    5; 5 closed, 0 open\n",
         "\n  vertices  490; each is a point of the input\n",
@@ -55,9 +55,9 @@ fn the_summary_names_every_number() {
 
 #[test]
 fn the_json_is_one_document_with_the_names_at_the_door() {
-    let desk = desk();
+    let folder = folder();
     let line = "curve islands.csv --method nn-crust --places";
-    let run = desk.taut(&format!("{line} --json -o curve.json")).ends(0);
+    let run = folder.taut(&format!("{line} --json -o curve.json")).ends(0);
     let found = run.json();
     assert_eq!(found["kind"], "curve");
     let curves = found["answer"]["curves"].as_array().unwrap();
@@ -71,33 +71,33 @@ fn the_json_is_one_document_with_the_names_at_the_door() {
     }
     assert_eq!(found["answer"]["noise"], 0.0);
     assert_eq!(found["answer"]["places"].as_array().unwrap().len(), 490);
-    assert_eq!(desk.text("curve.json"), run.out);
+    assert_eq!(folder.text("curve.json"), run.out);
     for option in ["-o -", "--json --threads 1", "--json --threads 3"] {
-        assert_eq!(desk.taut(&format!("{line} {option}")).ends(0).out, run.out, "{option}");
+        assert_eq!(folder.taut(&format!("{line} {option}")).ends(0).out, run.out, "{option}");
     }
-    let quiet = desk.taut(&format!("{line} --quiet -o quiet.json")).ends(0);
+    let quiet = folder.taut(&format!("{line} --quiet -o quiet.json")).ends(0);
     assert_eq!((quiet.out.as_str(), quiet.err.as_str()), ("", ""));
-    assert_eq!(desk.text("quiet.json"), run.out);
-    let run = desk.taut("curve islands.csv --method nn-crust --no-verify").ends(0);
+    assert_eq!(folder.text("quiet.json"), run.out);
+    let run = folder.taut("curve islands.csv --method nn-crust --no-verify").ends(0);
     assert!(run.out.contains("not checked"), "{}", run.out);
 }
 
 #[test]
 fn answers_are_verified_and_lies_rejected() {
-    let desk = desk();
-    desk.taut("curve islands.csv --method nn-crust -o curve.json").ends(0);
-    desk.taut("verify curve.json islands.csv").ends(0).says(&[
+    let folder = folder();
+    folder.taut("curve islands.csv --method nn-crust -o curve.json").ends(0);
+    folder.taut("verify curve.json islands.csv").ends(0).stdout_has(&[
         "Verified: 5 curves through ",
         "\n  band      0; proved: no point is farther off\n",
         "\n  simple    yes; proved: no two edges meet, by exact predicates\n",
         "\n  certified yes; evidence: sampled at ε ≤ 0.",
     ]);
-    let sound = document(&desk.text("curve.json"));
+    let sound = document(&folder.text("curve.json"));
     let lie = |change: &dyn Fn(&mut Value)| {
         let mut found = sound.clone();
         change(&mut found);
-        desk.put("lie.json", found.to_string());
-        desk.taut("verify lie.json islands.csv").ends(1).says(&["Rejected: "]);
+        folder.put("lie.json", found.to_string());
+        folder.taut("verify lie.json islands.csv").ends(1).stdout_has(&["Rejected: "]);
     };
     lie(&|found| found["answer"]["curves"][0]["vertices"][0][0] = 0.25.into());
     lie(&|found| {
@@ -113,57 +113,69 @@ fn answers_are_verified_and_lies_rejected() {
     lie(&|found| found["certificate"]["sampling_ratio"] = 1e-6.into());
     let mut open = sound.clone();
     open["answer"]["curves"][0]["closed"] = false.into();
-    desk.put("lie.json", open.to_string());
-    desk.taut("verify lie.json islands.csv")
+    folder.put("lie.json", open.to_string());
+    folder
+        .taut("verify lie.json islands.csv")
         .ends(1)
-        .says(&["Rejected: lie.json: the sampling ratio"]);
-    desk.put("other.csv", islands() + "9,9\n");
-    desk.taut("verify curve.json other.csv").ends(1).says(&["Rejected: other.csv", "hash"]);
-    desk.put("space.csv", "0,0,0\n1,1,1\n");
-    desk.taut("verify curve.json space.csv").ends(1).says(&["space.csv does not belong to"]);
+        .stdout_has(&["Rejected: lie.json: the sampling ratio"]);
+    folder.put("other.csv", islands() + "9,9\n");
+    folder.taut("verify curve.json other.csv").ends(1).stdout_has(&["Rejected: other.csv", "hash"]);
+    folder.put("space.csv", "0,0,0\n1,1,1\n");
+    folder
+        .taut("verify curve.json space.csv")
+        .ends(1)
+        .stdout_has(&["space.csv does not belong to"]);
 }
 
 /// Half a circle has ends, so nothing can be certified, which is no failure.
 #[test]
 fn what_is_not_certified_says_why() {
-    let desk = Desk::new();
+    let folder = TestFolder::new();
     let mut half = String::new();
     for i in 0..=60 {
         let t = std::f64::consts::PI * f64::from(i) / 60.0;
         half += &format!("{},{}\n", t.cos(), t.sin());
     }
-    desk.put("half.csv", half);
+    folder.put("half.csv", half);
     for ends in ["", " --open"] {
-        desk.taut(&format!("curve half.csv --method nn-crust{ends} -o half.json")).ends(0).says(&[
-            "\n  curves    1; open\n",
-            "\n  certified no; evidence: curve 0 has ends, which may be those of a gap\n",
-        ]);
-        desk.taut("verify half.json half.csv")
+        folder
+            .taut(&format!("curve half.csv --method nn-crust{ends} -o half.json"))
             .ends(0)
-            .says(&["certified no; evidence: curve 0 has ends"]);
+            .stdout_has(&[
+                "\n  curves    1; open\n",
+                "\n  certified no; evidence: curve 0 has ends, which may be those of a gap\n",
+            ]);
+        folder
+            .taut("verify half.json half.csv")
+            .ends(0)
+            .stdout_has(&["certified no; evidence: curve 0 has ends"]);
     }
 }
 
 #[test]
 fn tours_come_with_a_bound() {
-    let desk = desk();
-    desk.taut("curve islands.csv --method tour -o tour.json").ends(0).says(&[
+    let folder = folder();
+    folder.taut("curve islands.csv --method tour -o tour.json").ends(0).stdout_has(&[
         "490 points in the plane: a tour\n",
         "\n  tour gap  ",
         "length over its lower bound, less 1\n",
     ]);
-    desk.taut("verify tour.json islands.csv --epsilon 0.1")
+    folder
+        .taut("verify tour.json islands.csv --epsilon 0.1")
         .ends(0)
-        .says(&[": a tour through 490 points in the plane\n"]);
-    desk.taut("verify tour.json islands.csv --epsilon 1e-9").ends(1).says(&["a gap of "]);
-    desk.taut("curve islands.csv --method tour --open").ends(0).says(&["in the plane: a path\n"]);
+        .stdout_has(&[": a tour through 490 points in the plane\n"]);
+    folder.taut("verify tour.json islands.csv --epsilon 1e-9").ends(1).stdout_has(&["a gap of "]);
+    folder
+        .taut("curve islands.csv --method tour --open")
+        .ends(0)
+        .stdout_has(&["in the plane: a path\n"]);
 }
 
 #[test]
 fn geojson_has_holes_and_turns_by_the_right_hand_rule() {
-    let desk = desk();
-    desk.taut("curve islands.csv --method hnn-crust -o islands.geojson").ends(0);
-    let found = document(&desk.text("islands.geojson"));
+    let folder = folder();
+    folder.taut("curve islands.csv --method hnn-crust -o islands.geojson").ends(0);
+    let found = document(&folder.text("islands.geojson"));
     assert_eq!(found["type"], "FeatureCollection");
     let features = found["features"].as_array().unwrap();
     let mut rings_of: Vec<usize> = Vec::new();
@@ -187,14 +199,14 @@ fn geojson_has_holes_and_turns_by_the_right_hand_rule() {
 /// The vertices in the csv and in the path are those of the JSON, to the last bit.
 #[test]
 fn files_of_curves_hold_the_vertices() {
-    let desk = desk();
-    desk.put("line.csv", "0,0.1\n1,0.2\n2,1e-7\n3,0.1\n");
+    let folder = folder();
+    folder.put("line.csv", "0,0.1\n1,0.2\n2,1e-7\n3,0.1\n");
     for (points, method) in [("islands.csv", "nn-crust"), ("line.csv", "nn-crust")] {
         let line = format!("curve {points} --method {method}");
-        desk.taut(&format!("{line} -o a.json --path a.svg")).ends(0);
-        desk.taut(&format!("{line} -o a.csv")).ends(0);
-        desk.taut(&format!("{line} -o a.csv.gz")).ends(0);
-        let found = document(&desk.text("a.json"));
+        folder.taut(&format!("{line} -o a.json --path a.svg")).ends(0);
+        folder.taut(&format!("{line} -o a.csv")).ends(0);
+        folder.taut(&format!("{line} -o a.csv.gz")).ends(0);
+        let found = document(&folder.text("a.json"));
         let mut rows: Vec<[f64; 4]> = Vec::new();
         for (number, curve) in found["answer"]["curves"].as_array().unwrap().iter().enumerate() {
             let closed = f64::from(u8::from(curve["closed"] == true));
@@ -204,14 +216,14 @@ fn files_of_curves_hold_the_vertices() {
             }
         }
         let numbers: Vec<f64> = rows.iter().flat_map(|&[_, _, x, y]| [x, y]).collect();
-        let text = desk.text("a.csv");
+        let text = folder.text("a.csv");
         assert_eq!(text.lines().next(), Some("curve,closed,x,y"));
         let parsed =
             |line: &str| -> Vec<f64> { line.split(',').map(|x| x.parse().unwrap()).collect() };
         let read: Vec<Vec<f64>> = text.lines().skip(1).map(parsed).collect();
         assert_eq!(read, rows);
-        assert!(desk.bytes("a.csv.gz").starts_with(&[0x1f, 0x8b]));
-        let svg = desk.text("a.svg");
+        assert!(folder.bytes("a.csv.gz").starts_with(&[0x1f, 0x8b]));
+        let svg = folder.text("a.svg");
         let path = svg.split(" d=\"").nth(1).unwrap().split('"').next().unwrap();
         let drawn: Vec<f64> = path
             .split(|c: char| c.is_whitespace() || "MLZ".contains(c))
@@ -223,26 +235,26 @@ fn files_of_curves_hold_the_vertices() {
         let closed = closed.filter(|curve| curve["closed"] == true).count();
         assert_eq!(path.matches('Z').count(), closed);
     }
-    desk.taut("curve line.csv --method nn-crust -o line.geojson").ends(0);
-    assert!(desk.text("line.geojson").contains("\"LineString\""));
+    folder.taut("curve line.csv --method nn-crust -o line.geojson").ends(0);
+    assert!(folder.text("line.geojson").contains("\"LineString\""));
     // Curves are points again.
-    desk.taut("ball a.csv --columns x,y").ends(0);
+    folder.taut("ball a.csv --columns x,y").ends(0);
 }
 
 #[test]
 fn pictures_are_drawn_now_and_later() {
-    let desk = desk();
-    desk.taut("curve islands.csv --method corners -o a.json --draw a.svg").ends(0);
-    desk.taut("draw a.json islands.csv -o b.svg").ends(0);
-    assert_eq!(desk.text("a.svg"), desk.text("b.svg"));
-    assert!(desk.text("a.svg").contains("5 closed curves"));
-    desk.taut("draw a.json islands.csv -o b.html").ends(0);
-    assert!(desk.text("b.html").contains("curves"));
+    let folder = folder();
+    folder.taut("curve islands.csv --method corners -o a.json --draw a.svg").ends(0);
+    folder.taut("draw a.json islands.csv -o b.svg").ends(0);
+    assert_eq!(folder.text("a.svg"), folder.text("b.svg"));
+    assert!(folder.text("a.svg").contains("5 closed curves"));
+    folder.taut("draw a.json islands.csv -o b.html").ends(0);
+    assert!(folder.text("b.html").contains("curves"));
 }
 
 #[test]
 fn few_points_are_no_error() {
-    let desk = Desk::new();
+    let folder = TestFolder::new();
     for (name, points) in [
         ("one.csv", "1,2\n"),
         ("copies.csv", "1,2\n1,2\n1,2\n"),
@@ -251,7 +263,7 @@ fn few_points_are_no_error() {
         ("line.csv", "0,0\n3,3\n1,1\n2,2\n"),
         ("far.csv", "0,0\n1e150,0\n0,1e150\n1e150,1e150\n"),
     ] {
-        desk.put(name, points);
+        folder.put(name, points);
         for method in [
             "auto",
             "crust",
@@ -264,20 +276,22 @@ fn few_points_are_no_error() {
         ] {
             for extension in ["json", "csv", "geojson"] {
                 let out = format!("out.{extension}");
-                desk.taut(&format!("curve {name} --method {method} -o {out} --path p.svg")).ends(0);
+                folder
+                    .taut(&format!("curve {name} --method {method} -o {out} --path p.svg"))
+                    .ends(0);
             }
-            desk.taut(&format!("curve {name} --method {method} --draw p.svg")).ends(0);
+            folder.taut(&format!("curve {name} --method {method} --draw p.svg")).ends(0);
         }
     }
 }
 
 #[test]
 fn what_is_wrong_is_named() {
-    let desk = desk();
-    desk.put("nan.csv", "x,y\n0,0\n1,nan\n");
-    desk.put("space.csv", "0,0,0\n1,1,1\n");
-    desk.put("one.csv", "0\n1\n");
-    desk.put("none.csv", "x,y\n");
+    let folder = folder();
+    folder.put("nan.csv", "x,y\n0,0\n1,nan\n");
+    folder.put("space.csv", "0,0,0\n1,1,1\n");
+    folder.put("one.csv", "0\n1\n");
+    folder.put("none.csv", "x,y\n");
     for (line, parts) in [
         ("curve nan.csv", &["nan.csv: row 2 (line 3), column 1 (`y`)", "must be finite"][..]),
         ("curve space.csv", &["space.csv: points have 3 coordinates: expected 2", "--columns"]),
@@ -298,28 +312,29 @@ fn what_is_wrong_is_named() {
         ("curve islands.csv --draw a.svg --path a.svg", &["named for two outputs"]),
         ("curve islands.csv -o nowhere/a.json", &["nowhere/a.json"]),
     ] {
-        let before = desk.files();
-        desk.taut(line).ends(2).complains(parts);
-        assert_eq!(desk.files(), before, "{line}");
+        let before = folder.files();
+        folder.taut(line).ends(2).stderr_has(parts);
+        assert_eq!(folder.files(), before, "{line}");
     }
-    let run = desk.taut("curve islands.csv --method splines").ends(2);
+    let run = folder.taut("curve islands.csv --method splines").ends(2);
     assert!(run.err.contains("splines") && run.err.contains("hnn-crust"), "{}", run.err);
-    let run = desk.taut("curve").ends(2);
+    let run = folder.taut("curve").ends(2);
     assert!(run.err.contains("POINTS"), "{}", run.err);
 }
 
 #[test]
 fn threads_and_the_order_of_rows_change_nothing() {
-    let desk = desk();
+    let folder = folder();
     let mut rows: Vec<String> = islands().lines().skip(1).map(str::to_owned).collect();
     rows.reverse();
     rows.rotate_left(123);
-    desk.put("other.csv", format!("x,y\n{}\n", rows.join("\n")));
+    folder.put("other.csv", format!("x,y\n{}\n", rows.join("\n")));
     for method in ["hnn-crust", "corners", "tour"] {
         let write = |input: &str, threads: usize| {
-            desk.taut(&format!("curve {input} --method {method} --threads {threads} -o a.csv"))
+            folder
+                .taut(&format!("curve {input} --method {method} --threads {threads} -o a.csv"))
                 .ends(0);
-            desk.text("a.csv")
+            folder.text("a.csv")
         };
         let one = write("islands.csv", 1);
         assert_eq!(write("islands.csv", 3), one, "{method}");
@@ -330,16 +345,16 @@ fn threads_and_the_order_of_rows_change_nothing() {
 /// The sample of the tour: three loops, two of them within the third, and an open wave, with noise.
 #[test]
 fn the_sample_has_four_curves() {
-    let desk = Desk::new();
-    desk.put("loops.csv", include_bytes!("../../samples/loops.csv"));
-    desk.taut("curve loops.csv -o loops.json --draw loops.html").ends(0).says(&[
+    let folder = TestFolder::new();
+    folder.put("loops.csv", include_bytes!("../../samples/loops.csv"));
+    folder.taut("curve loops.csv -o loops.json --draw loops.html").ends(0).stdout_has(&[
         "1068 points in the plane: 4 curves\n",
         "\n  curves    4; 3 closed, 1 open\n",
         "half the width of its band, as estimated\n",
     ]);
-    desk.taut("verify loops.json loops.csv").ends(0).says(&["Verified: 4 curves through "]);
-    desk.taut("curve loops.csv -o loops.geojson").ends(0);
-    let found = document(&desk.text("loops.geojson"));
+    folder.taut("verify loops.json loops.csv").ends(0).stdout_has(&["Verified: 4 curves through "]);
+    folder.taut("curve loops.csv -o loops.geojson").ends(0);
+    let found = document(&folder.text("loops.geojson"));
     let kinds: Vec<(&str, usize)> = found["features"]
         .as_array()
         .unwrap()

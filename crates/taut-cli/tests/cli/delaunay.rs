@@ -1,20 +1,20 @@
 //! `taut delaunay`: the summary, every kind of file, and `taut verify` and `taut draw` of what it wrote.
 
-use crate::desk::Desk;
+use crate::test_folder::TestFolder;
 
-/// A square with its centre, and its first corner again.
+/// A square with its center, and its first corner again.
 const SQUARE: &str = "x,y\n0,0\n2,0\n2,2\n0,2\n1,1\n0,0\n";
 
-fn desk() -> Desk {
-    let desk = Desk::new();
-    desk.put("points.csv", SQUARE);
-    desk
+fn folder() -> TestFolder {
+    let folder = TestFolder::new();
+    folder.put("points.csv", SQUARE);
+    folder
 }
 
 #[test]
 fn the_summary_names_every_number() {
-    let desk = desk();
-    let run = desk.taut("delaunay points.csv").ends(0).says(&[
+    let folder = folder();
+    let run = folder.taut("delaunay points.csv").ends(0).stdout_has(&[
         "Delaunay triangulation of 6 points in the plane\n",
         "\n  sites     5; 1 point equals an earlier one\n",
         "\n  simplices 4 triangles\n",
@@ -27,91 +27,98 @@ fn the_summary_names_every_number() {
         "checking ",
     ]);
     assert_eq!(run.err, "");
-    assert_eq!(desk.files(), ["points.csv"]);
-    let quiet = desk.taut("delaunay points.csv -q").ends(0);
+    assert_eq!(folder.files(), ["points.csv"]);
+    let quiet = folder.taut("delaunay points.csv -q").ends(0);
     assert_eq!((quiet.out.as_str(), quiet.err.as_str()), ("", ""));
-    desk.taut("delaunay points.csv --no-verify").ends(0).says(&["verified  not checked\n"]);
+    folder.taut("delaunay points.csv --no-verify").ends(0).stdout_has(&["verified  not checked\n"]);
 }
 
 #[test]
 fn the_json_has_the_names_at_the_door() {
-    let desk = desk();
-    let run = desk.taut("delaunay points.csv --json -o mesh.json").ends(0);
+    let folder = folder();
+    let run = folder.taut("delaunay points.csv --json -o mesh.json").ends(0);
     let document = run.json();
     assert_eq!(document["kind"], "delaunay");
     let answer = &document["answer"];
     assert_eq!(answer["duplicates"], serde_json::json!([[5, 0]]));
     assert_eq!(answer["simplices"].as_array().unwrap().len(), 4);
     assert_eq!(answer["hull"].as_array().unwrap().len(), 4);
-    assert_eq!(desk.text("mesh.json"), run.out);
-    assert_eq!(desk.taut("delaunay points.csv -o -").ends(0).out, run.out);
-    desk.taut("verify mesh.json points.csv").ends(0).says(&[
+    assert_eq!(folder.text("mesh.json"), run.out);
+    assert_eq!(folder.taut("delaunay points.csv -o -").ends(0).out, run.out);
+    folder.taut("verify mesh.json points.csv").ends(0).stdout_has(&[
         "Verified: the Delaunay triangulation of 6 points in the plane\n",
         "\n  sites     5; proved: distinct points\n",
     ]);
-    desk.taut("delaunay points.csv -o short.json --no-neighbors").ends(0);
-    assert!(desk.bytes("short.json").len() < desk.bytes("mesh.json").len());
-    desk.taut("verify short.json points.csv").ends(0);
+    folder.taut("delaunay points.csv -o short.json --no-neighbors").ends(0);
+    assert!(folder.bytes("short.json").len() < folder.bytes("mesh.json").len());
+    folder.taut("verify short.json points.csv").ends(0);
 }
 
 #[test]
 fn every_format_of_meshes_is_written_and_verified() {
-    let desk = Desk::new();
-    desk.put("points.csv", SQUARE);
-    desk.taut("generate normal -n 300 -d 3 -o space.npy").ends(0);
+    let folder = TestFolder::new();
+    folder.put("points.csv", SQUARE);
+    folder.taut("generate normal -n 300 -d 3 -o space.npy").ends(0);
     let built = |name: &str| cfg!(feature = "arrow") || name != "parquet";
     for name in ["ply", "obj", "off", "vtu", "parquet", "ply.gz"] {
         if built(name) {
-            desk.taut(&format!("delaunay points.csv -o mesh.{name}")).ends(0);
-            desk.taut(&format!("verify mesh.{name} points.csv"))
+            folder.taut(&format!("delaunay points.csv -o mesh.{name}")).ends(0);
+            folder
+                .taut(&format!("verify mesh.{name} points.csv"))
                 .ends(0)
-                .says(&["Verified", "5; proved: distinct"]);
+                .stdout_has(&["Verified", "5; proved: distinct"]);
         }
     }
     for name in ["ply", "vtu", "parquet"] {
         if built(name) {
-            desk.taut(&format!("delaunay space.npy -o mesh.{name} --hull hull.obj")).ends(0);
-            desk.taut(&format!("verify mesh.{name} space.npy")).ends(0).says(&["in space"]);
+            folder.taut(&format!("delaunay space.npy -o mesh.{name} --hull hull.obj")).ends(0);
+            folder.taut(&format!("verify mesh.{name} space.npy")).ends(0).stdout_has(&["in space"]);
         }
     }
-    assert!(desk.text("hull.obj").starts_with("# 300 vertices, "));
-    desk.taut("delaunay space.npy -o mesh.off").ends(2).complains(&[
+    assert!(folder.text("hull.obj").starts_with("# 300 vertices, "));
+    folder.taut("delaunay space.npy -o mesh.off").ends(2).stderr_has(&[
         "mesh.off",
         "hold no tetrahedra",
         "ply, vtu",
     ]);
-    desk.taut("delaunay points.csv -o mesh.svg").ends(2).complains(&["--draw mesh.svg"]);
-    desk.taut("delaunay points.csv -o mesh.stl").ends(2).complains(&["mesh.stl", ".ply"]);
-    desk.taut("delaunay points.csv --hull hull.json").ends(2).complains(&["hull.json"]);
-    desk.taut("delaunay points.csv --voronoi cells.ply").ends(2).complains(&[".geojson"]);
+    folder.taut("delaunay points.csv -o mesh.svg").ends(2).stderr_has(&["--draw mesh.svg"]);
+    folder.taut("delaunay points.csv -o mesh.stl").ends(2).stderr_has(&["mesh.stl", ".ply"]);
+    folder.taut("delaunay points.csv --hull hull.json").ends(2).stderr_has(&["hull.json"]);
+    folder.taut("delaunay points.csv --voronoi cells.ply").ends(2).stderr_has(&[".geojson"]);
 }
 
 #[test]
 fn wrong_meshes_are_rejected_and_broken_ones_refused() {
-    let desk = desk();
-    desk.taut("delaunay points.csv -o mesh.off").ends(0);
-    let mesh = desk.text("mesh.off");
-    // Both diagonals of the square go through its centre, so a triangle of three corners covers it.
+    let folder = folder();
+    folder.taut("delaunay points.csv -o mesh.off").ends(0);
+    let mesh = folder.text("mesh.off");
+    // Both diagonals of the square go through its center, so a triangle of three corners covers it.
     let last = mesh.lines().last().unwrap();
-    desk.put("wrong.off", mesh.replace(last, "3 0 1 2"));
-    desk.taut("verify wrong.off points.csv").ends(1).says(&["Rejected: wrong.off: "]);
-    desk.put("moved.csv", SQUARE.replace("1,1", "1,1.5"));
-    desk.taut("verify mesh.off moved.csv").ends(1).says(&[
+    folder.put("wrong.off", mesh.replace(last, "3 0 1 2"));
+    folder.taut("verify wrong.off points.csv").ends(1).stdout_has(&["Rejected: wrong.off: "]);
+    folder.put("moved.csv", SQUARE.replace("1,1", "1,1.5"));
+    folder.taut("verify mesh.off moved.csv").ends(1).stdout_has(&[
         "Rejected: moved.csv does not belong to mesh.off: vertex 4 is another than point 4",
     ]);
-    desk.put("fewer.csv", "0,0\n2,0\n2,2\n");
-    desk.taut("verify mesh.off fewer.csv").ends(1).says(&["there are 3 points, but 6 vertices"]);
-    desk.put("cut.off", &mesh[..mesh.len() - 3]);
-    desk.taut("verify cut.off points.csv").ends(2).complains(&["cut.off", "line "]);
-    desk.put("nan.csv", SQUARE.replace("1,1", "1,NaN"));
-    desk.taut("verify mesh.off nan.csv").ends(2).complains(&["nan.csv", "row 5", "NaN"]);
-    desk.taut("verify missing.ply points.csv").ends(2).complains(&["missing.ply", "no such file"]);
+    folder.put("fewer.csv", "0,0\n2,0\n2,2\n");
+    folder
+        .taut("verify mesh.off fewer.csv")
+        .ends(1)
+        .stdout_has(&["there are 3 points, but 6 vertices"]);
+    folder.put("cut.off", &mesh[..mesh.len() - 3]);
+    folder.taut("verify cut.off points.csv").ends(2).stderr_has(&["cut.off", "line "]);
+    folder.put("nan.csv", SQUARE.replace("1,1", "1,NaN"));
+    folder.taut("verify mesh.off nan.csv").ends(2).stderr_has(&["nan.csv", "row 5", "NaN"]);
+    folder
+        .taut("verify missing.ply points.csv")
+        .ends(2)
+        .stderr_has(&["missing.ply", "no such file"]);
 }
 
 #[test]
 fn doctored_json_is_rejected() {
-    let desk = desk();
-    desk.taut("delaunay points.csv -o mesh.json").ends(0);
+    let folder = folder();
+    folder.taut("delaunay points.csv -o mesh.json").ends(0);
     for (place, value) in [
         ("/answer/simplices/0/0", serde_json::json!(5)),
         ("/answer/hull", serde_json::json!([[0, 1]])),
@@ -122,23 +129,24 @@ fn doctored_json_is_rejected() {
         ("/certificate/fingerprint", serde_json::json!("0".repeat(32))),
     ] {
         let mut document: serde_json::Value =
-            serde_json::from_str(&desk.text("mesh.json")).unwrap();
+            serde_json::from_str(&folder.text("mesh.json")).unwrap();
         *document.pointer_mut(place).unwrap() = value;
-        desk.put("doctored.json", document.to_string());
-        let run = desk.taut("verify doctored.json points.csv");
+        folder.put("doctored.json", document.to_string());
+        let run = folder.taut("verify doctored.json points.csv");
         // Rows that do not fit the dimension are no answer at all.
         let code = if place.ends_with("dimension") { 2 } else { 1 };
         run.ends(code);
     }
-    desk.put("changed.csv", SQUARE.replace("1,1", "1,1.25"));
-    desk.taut("verify mesh.json changed.csv")
+    folder.put("changed.csv", SQUARE.replace("1,1", "1,1.25"));
+    folder
+        .taut("verify mesh.json changed.csv")
         .ends(1)
-        .says(&["does not belong to mesh.json", "hash"]);
+        .stdout_has(&["does not belong to mesh.json", "hash"]);
 }
 
 #[test]
 fn flat_points_are_an_answer() {
-    let desk = Desk::new();
+    let folder = TestFolder::new();
     for (points, sites, said) in [
         ("1,1\n1,1\n", 1, ["simplices 1 point\n", "all points are equal\n"]),
         ("0,0\n2,2\n1,1\n", 3, ["simplices 2 edges\n", "dimension 1; all points are on a line\n"]),
@@ -150,66 +158,76 @@ fn flat_points_are_an_answer() {
         ("0,0,0\n1,1,1\n", 2, ["simplices 1 edge\n", "dimension 1; all points are on a line\n"]),
     ] {
         let sites = format!("\n  sites     {sites}; proved: distinct points\n");
-        desk.put("flat.csv", points);
-        desk.taut("delaunay flat.csv -o flat.json --draw flat.svg")
+        folder.put("flat.csv", points);
+        folder
+            .taut("delaunay flat.csv -o flat.json --draw flat.svg")
             .ends(0)
-            .says(&said)
-            .says(&["verified  yes"]);
-        desk.taut("verify flat.json flat.csv").ends(0);
+            .stdout_has(&said)
+            .stdout_has(&["verified  yes"]);
+        folder.taut("verify flat.json flat.csv").ends(0);
         for mesh in ["flat.vtu", "flat.ply", "flat.obj", "flat.off"] {
-            desk.taut(&format!("delaunay flat.csv -o {mesh}")).ends(0);
-            desk.taut(&format!("verify {mesh} flat.csv")).ends(0).says(&["Verified", &sites]);
+            folder.taut(&format!("delaunay flat.csv -o {mesh}")).ends(0);
+            folder
+                .taut(&format!("verify {mesh} flat.csv"))
+                .ends(0)
+                .stdout_has(&["Verified", &sites]);
         }
     }
-    desk.put("line.csv", "0,0\n2,2\n1,1\n");
-    desk.put("over.off", "OFF\n3 2 0\n0 0 0\n2 2 0\n1 1 0\n2 0 1\n2 2 1\n");
-    desk.taut("verify over.off line.csv").ends(1).says(&["Rejected: over.off: "]);
-    desk.put("flat.csv", "1,1\n1,1\n");
-    desk.taut("delaunay flat.csv --hull hull.ply").ends(2).complains(&["all points are equal"]);
+    folder.put("line.csv", "0,0\n2,2\n1,1\n");
+    folder.put("over.off", "OFF\n3 2 0\n0 0 0\n2 2 0\n1 1 0\n2 0 1\n2 2 1\n");
+    folder.taut("verify over.off line.csv").ends(1).stdout_has(&["Rejected: over.off: "]);
+    folder.put("flat.csv", "1,1\n1,1\n");
+    folder.taut("delaunay flat.csv --hull hull.ply").ends(2).stderr_has(&["all points are equal"]);
 }
 
 #[test]
 fn bad_input_is_named() {
-    let desk = Desk::new();
-    desk.put("nan.csv", "x,y\n0,0\n1,inf\n");
-    desk.taut("delaunay nan.csv").ends(2).complains(&["nan.csv", "row 2", "`y`", "inf"]);
-    desk.put("nan.f64", [0.0, 1.0, 2.0, f64::NAN].map(f64::to_le_bytes).concat());
-    desk.taut("delaunay nan.f64 --raw-dim 2 --raw-type f64").ends(2).complains(&[
+    let folder = TestFolder::new();
+    folder.put("nan.csv", "x,y\n0,0\n1,inf\n");
+    folder.taut("delaunay nan.csv").ends(2).stderr_has(&["nan.csv", "row 2", "`y`", "inf"]);
+    folder.put("nan.f64", [0.0, 1.0, 2.0, f64::NAN].map(f64::to_le_bytes).concat());
+    folder.taut("delaunay nan.f64 --raw-dim 2 --raw-type f64").ends(2).stderr_has(&[
         "nan.f64",
         "row 2",
         "column 1",
         "--columns",
     ]);
-    desk.taut("generate normal -n 10 -d 4 -o four.csv").ends(0);
-    desk.taut("delaunay four.csv").ends(2).complains(&["four.csv", "4 coordinates", "--columns"]);
-    desk.taut("delaunay four.csv --columns 0,2").ends(0);
-    desk.put("line.csv", "0\n1\n");
-    desk.taut("delaunay line.csv")
+    folder.taut("generate normal -n 10 -d 4 -o four.csv").ends(0);
+    folder.taut("delaunay four.csv").ends(2).stderr_has(&[
+        "four.csv",
+        "4 coordinates",
+        "--columns",
+    ]);
+    folder.taut("delaunay four.csv --columns 0,2").ends(0);
+    folder.put("line.csv", "0\n1\n");
+    folder
+        .taut("delaunay line.csv")
         .ends(2)
-        .complains(&["1 coordinate: expected 2, the plane, or 3, space"]);
-    desk.put("empty.csv", "");
-    desk.taut("delaunay empty.csv -o mesh.json").ends(2).complains(&["empty.csv is empty"]);
-    desk.put("points.csv", SQUARE);
-    desk.taut("delaunay points.csv -o points.csv.json --order none").ends(2);
-    desk.taut("delaunay points.csv -o points.csv").ends(2).complains(&["points.csv"]);
+        .stderr_has(&["1 coordinate: expected 2, the plane, or 3, space"]);
+    folder.put("empty.csv", "");
+    folder.taut("delaunay empty.csv -o mesh.json").ends(2).stderr_has(&["empty.csv is empty"]);
+    folder.put("points.csv", SQUARE);
+    folder.taut("delaunay points.csv -o points.csv.json --order none").ends(2);
+    folder.taut("delaunay points.csv -o points.csv").ends(2).stderr_has(&["points.csv"]);
     for alpha in ["-1", "NaN", "much"] {
-        desk.taut(&format!("delaunay points.csv --alpha {alpha}")).ends(2);
+        folder.taut(&format!("delaunay points.csv --alpha {alpha}")).ends(2);
     }
-    desk.taut("delaunay points.csv --alpha-out a.ply").ends(2);
+    folder.taut("delaunay points.csv --alpha-out a.ply").ends(2);
     assert_eq!(
-        desk.files(),
+        folder.files(),
         ["empty.csv", "four.csv", "line.csv", "nan.csv", "nan.f64", "points.csv"]
     );
 }
 
 #[test]
 fn neither_threads_nor_order_nor_seed_change_a_byte() {
-    let desk = Desk::new();
-    desk.taut("generate normal -n 40000 -d 2 -o plane.npy").ends(0);
-    desk.taut("generate normal -n 5000 -d 3 -o space.npy").ends(0);
+    let folder = TestFolder::new();
+    folder.taut("generate normal -n 40000 -d 2 -o plane.npy").ends(0);
+    folder.taut("generate normal -n 5000 -d 3 -o space.npy").ends(0);
     for points in ["plane.npy", "space.npy"] {
         let answer = |options: &str| {
-            let document = desk.taut(&format!("delaunay {points} --json {options}")).ends(0).json();
+            let document =
+                folder.taut(&format!("delaunay {points} --json {options}")).ends(0).json();
             (document["answer"].clone(), document["certificate"].clone())
         };
         let first = answer("--threads 1");
@@ -223,10 +241,10 @@ fn neither_threads_nor_order_nor_seed_change_a_byte() {
 
 #[test]
 fn voronoi_cells_fill_the_box() {
-    let desk = desk();
-    desk.taut("delaunay points.csv --voronoi cells.geojson").ends(0);
-    let cells: serde_json::Value = serde_json::from_str(&desk.text("cells.geojson")).unwrap();
-    assert_eq!(desk.taut("delaunay points.csv --voronoi -").ends(0).json(), cells);
+    let folder = folder();
+    folder.taut("delaunay points.csv --voronoi cells.geojson").ends(0);
+    let cells: serde_json::Value = serde_json::from_str(&folder.text("cells.geojson")).unwrap();
+    assert_eq!(folder.taut("delaunay points.csv --voronoi -").ends(0).json(), cells);
     let features = cells["features"].as_array().unwrap();
     assert_eq!((features.len(), &cells["type"]), (5, &"FeatureCollection".into()));
     let mut area = 0.0;
@@ -239,38 +257,40 @@ fn voronoi_cells_fill_the_box() {
     }
     // The square, and a tenth of its side on each side.
     assert!((area - 2.4 * 2.4).abs() < 1e-12, "{area}");
-    desk.put("space.csv", "0,0,0\n1,0,0\n0,1,0\n0,0,1\n1,1,1\n");
-    desk.taut("delaunay space.csv --voronoi cells.json").ends(0);
-    let cells: serde_json::Value = serde_json::from_str(&desk.text("cells.json")).unwrap();
+    folder.put("space.csv", "0,0,0\n1,0,0\n0,1,0\n0,0,1\n1,1,1\n");
+    folder.taut("delaunay space.csv --voronoi cells.json").ends(0);
+    let cells: serde_json::Value = serde_json::from_str(&folder.text("cells.json")).unwrap();
     assert_eq!(cells["cells"].as_array().unwrap().len(), 5);
     assert_eq!(cells["low"], serde_json::json!([-0.1, -0.1, -0.1]));
 }
 
 #[test]
 fn the_alpha_complex_is_counted_and_written() {
-    let desk = desk();
-    desk.taut("delaunay points.csv --alpha 1 --alpha-out a.off --alpha-boundary b.obj").ends(0).says(&[
+    let folder = folder();
+    folder.taut("delaunay points.csv --alpha 1 --alpha-out a.off --alpha-boundary b.obj").ends(0).stdout_has(&[
         "\n  alpha     4 triangles of radius at most 1; 4 facets on their boundary, 0 more on their own\n",
     ]);
-    desk.taut("verify a.off points.csv").ends(0);
-    assert!(desk.text("b.obj").starts_with("# 6 vertices, 4 simplices\n"));
+    folder.taut("verify a.off points.csv").ends(0);
+    assert!(folder.text("b.obj").starts_with("# 6 vertices, 4 simplices\n"));
     // Half the side is too short for a triangle, but not for the spokes.
-    desk.taut("delaunay points.csv --alpha 0.8")
+    folder
+        .taut("delaunay points.csv --alpha 0.8")
         .ends(0)
-        .says(&["\n  alpha     0 triangles", "4 more on their own"]);
+        .stdout_has(&["\n  alpha     0 triangles", "4 more on their own"]);
 }
 
 #[test]
 fn draw_draws_what_delaunay_draws() {
-    let desk = desk();
-    desk.taut("delaunay points.csv -o mesh.json --draw at-once.svg").ends(0);
-    desk.taut("draw mesh.json points.csv -o later.svg").ends(0);
-    assert_eq!(desk.text("at-once.svg"), desk.text("later.svg"));
-    desk.taut("draw mesh.json points.csv -o mesh.html").ends(0);
-    let page = desk.text("mesh.html");
+    let folder = folder();
+    folder.taut("delaunay points.csv -o mesh.json --draw at-once.svg").ends(0);
+    folder.taut("draw mesh.json points.csv -o later.svg").ends(0);
+    assert_eq!(folder.text("at-once.svg"), folder.text("later.svg"));
+    folder.taut("draw mesh.json points.csv -o mesh.html").ends(0);
+    let page = folder.text("mesh.html");
     assert!(page.contains("Voronoi diagram of 6 points") && page.contains("convex hull"));
-    desk.put("changed.csv", SQUARE.replace("1,1", "1,1.25"));
-    desk.taut("draw mesh.json changed.csv -o no.svg")
+    folder.put("changed.csv", SQUARE.replace("1,1", "1,1.25"));
+    folder
+        .taut("draw mesh.json changed.csv -o no.svg")
         .ends(1)
-        .complains(&["rejected, so not drawn"]);
+        .stderr_has(&["rejected, so not drawn"]);
 }

@@ -1,74 +1,79 @@
 //! `taut inscribe ellipsoid`: found, proved, drawn; polytopes without one named with the reason and the rows.
 
-use crate::desk::Desk;
+use crate::test_folder::TestFolder;
 
 /// The rectangle [0, 4] × [0, 2].
 const SIDES: &str = "a,b,most\n1,0,4\n-1,0,0\n0,1,2\n0,-1,0\n";
 
-fn desk() -> Desk {
-    let desk = Desk::new();
-    desk.put("sides.csv", SIDES);
-    desk
+fn folder() -> TestFolder {
+    let folder = TestFolder::new();
+    folder.put("sides.csv", SIDES);
+    folder
 }
 
 #[test]
 fn the_largest_ellipse_in_a_rectangle_is_that_of_its_half_widths() {
-    let desk = desk();
-    desk.taut("inscribe ellipsoid sides.csv -o inside.json --draw inside.svg").ends(0).says(&[
-        "Largest ellipsoid inside 4 half-spaces in 2 dimensions\n",
-        "\n  log-volume 1.837877",
-        "\n  centre     (2, 1)\n",
-        "\n  gap        ",
-        "no ellipsoid inside has a log-volume above 1.837877",
-        "\n  verified   yes; ",
-        "\n  support    4 half-spaces",
-        "checking ",
-    ]);
-    let found: serde_json::Value = serde_json::from_str(&desk.text("inside.json")).unwrap();
+    let folder = folder();
+    folder
+        .taut("inscribe ellipsoid sides.csv -o inside.json --draw inside.svg")
+        .ends(0)
+        .stdout_has(&[
+            "Largest ellipsoid inside 4 half-spaces in 2 dimensions\n",
+            "\n  log-volume 1.837877",
+            "\n  center     (2, 1)\n",
+            "\n  gap        ",
+            "no ellipsoid inside has a log-volume above 1.837877",
+            "\n  verified   yes; ",
+            "\n  support    4 half-spaces",
+            "checking ",
+        ]);
+    let found: serde_json::Value = serde_json::from_str(&folder.text("inside.json")).unwrap();
     assert_eq!(found["kind"], "inscribed-ellipsoid");
     let near =
         |value: &serde_json::Value, wanted: f64| (value.as_f64().unwrap() - wanted).abs() < 1e-5;
     let answer = &found["answer"];
     assert!(near(&answer["center"][0], 2.0) && near(&answer["center"][1], 1.0), "{answer}");
     assert!(near(&answer["axes"][0][0], 2.0) && near(&answer["axes"][1][1], 1.0), "{answer}");
-    let picture = desk.text("inside.svg");
+    let picture = folder.text("inside.svg");
     for part in ["4 half-spaces, d = 2", "polytope", "touching (4 half-spaces)"] {
         assert!(picture.contains(part), "{part}");
     }
-    desk.taut("verify inside.json sides.csv --epsilon 1e-9")
+    folder
+        .taut("verify inside.json sides.csv --epsilon 1e-9")
         .ends(0)
-        .says(&[": inscribed ellipsoid of log-volume 1.837877"]);
-    desk.taut("draw inside.json sides.csv -o again.svg").ends(0);
-    assert_eq!(desk.text("again.svg"), picture);
+        .stdout_has(&[": inscribed ellipsoid of log-volume 1.837877"]);
+    folder.taut("draw inside.json sides.csv -o again.svg").ends(0);
+    assert_eq!(folder.text("again.svg"), picture);
 }
 
 #[test]
 fn the_json_is_one_document_wherever_it_goes() {
-    let desk = desk();
-    let all = desk.taut("inscribe ellipsoid sides.csv --json").ends(0).out;
-    assert_eq!(desk.taut("inscribe ellipsoid sides.csv -o -").ends(0).out, all);
-    assert_eq!(desk.taut("inscribe ellipsoid sides.csv --json --threads 1").ends(0).out, all);
-    assert_eq!(desk.pipe(SIDES, "inscribe ellipsoid - --json").ends(0).out, all);
-    let run = desk.taut("inscribe ellipsoid sides.csv --quiet -o inside.json").ends(0);
+    let folder = folder();
+    let all = folder.taut("inscribe ellipsoid sides.csv --json").ends(0).out;
+    assert_eq!(folder.taut("inscribe ellipsoid sides.csv -o -").ends(0).out, all);
+    assert_eq!(folder.taut("inscribe ellipsoid sides.csv --json --threads 1").ends(0).out, all);
+    assert_eq!(folder.pipe(SIDES, "inscribe ellipsoid - --json").ends(0).out, all);
+    let run = folder.taut("inscribe ellipsoid sides.csv --quiet -o inside.json").ends(0);
     assert_eq!((run.out.as_str(), run.err.as_str()), ("", ""));
-    assert_eq!(desk.text("inside.json"), all);
-    let run = desk.taut("inscribe ellipsoid sides.csv --no-verify").ends(0);
+    assert_eq!(folder.text("inside.json"), all);
+    let run = folder.taut("inscribe ellipsoid sides.csv --no-verify").ends(0);
     assert!(run.out.contains("not checked") && !run.out.contains("yes"), "{}", run.out);
 }
 
 #[test]
 fn a_budget_and_rounding_end_with_the_gap_they_reached() {
-    let desk = desk();
-    desk.taut("inscribe ellipsoid sides.csv --max-steps 3 -o part.json --draw part.svg")
+    let folder = folder();
+    folder
+        .taut("inscribe ellipsoid sides.csv --max-steps 3 -o part.json --draw part.svg")
         .ends(3)
-        .says(&["stopped early by the budget of steps", "verified   yes"]);
-    desk.taut("verify part.json sides.csv").ends(0);
-    desk.taut("verify part.json sides.csv --epsilon 1e-6").ends(1).says(&["Rejected: "]);
+        .stdout_has(&["stopped early by the budget of steps", "verified   yes"]);
+    folder.taut("verify part.json sides.csv").ends(0);
+    folder.taut("verify part.json sides.csv --epsilon 1e-6").ends(1).stdout_has(&["Rejected: "]);
     // The ellipse also touches where it has no part: thinner gaps than rounding allows are not worse ones.
-    desk.put("five.csv", format!("{SIDES}1,1,5\n"));
+    folder.put("five.csv", format!("{SIDES}1,1,5\n"));
     for epsilon in ["1e-14", "1e-300"] {
         let line = format!("inscribe ellipsoid five.csv --epsilon {epsilon} --json");
-        let gap = desk.taut(&line).ends(3).json()["certificate"]["gap"].as_f64().unwrap();
+        let gap = folder.taut(&line).ends(3).json()["certificate"]["gap"].as_f64().unwrap();
         assert!(gap < 1e-12, "{epsilon}: {gap:e}");
     }
 }
@@ -76,11 +81,11 @@ fn a_budget_and_rounding_end_with_the_gap_they_reached() {
 /// Points of a regular polytope around the origin, in each dimension that pictures know.
 #[test]
 fn pictures_of_every_dimension_hold_what_they_name() {
-    let desk = Desk::new();
+    let folder = TestFolder::new();
     for (dim, parts) in [
         (1, &["no meaning", "touching (3 half-spaces)"][..]),
-        (3, &["touching (7 half-spaces)", "centre"]),
-        (5, &["Cuts through the centre", "column 4"]),
+        (3, &["touching (7 half-spaces)", "center"]),
+        (5, &["Cuts through the center", "column 4"]),
         (9, &["6 of 9 coordinates"]),
     ] {
         let side = |j: usize, sign: i32| {
@@ -89,27 +94,27 @@ fn pictures_of_every_dimension_hold_what_they_name() {
         };
         let sides: Vec<String> =
             (0..dim).flat_map(|j| [side(j, 1), side(j, -1)]).chain([side(0, 1)]).collect();
-        desk.put("box.csv", sides.join("\n"));
-        desk.taut("inscribe ellipsoid box.csv --draw box.html --draw box.html -q").ends(2);
-        desk.taut("inscribe ellipsoid box.csv -o box.json --draw box.html -q").ends(0);
-        desk.taut("draw box.json box.csv -o box.svg").ends(0);
-        let picture = desk.text("box.svg");
+        folder.put("box.csv", sides.join("\n"));
+        folder.taut("inscribe ellipsoid box.csv --draw box.html --draw box.html -q").ends(2);
+        folder.taut("inscribe ellipsoid box.csv -o box.json --draw box.html -q").ends(0);
+        folder.taut("draw box.json box.csv -o box.svg").ends(0);
+        let picture = folder.text("box.svg");
         for part in parts {
             // Words are wrapped in captions.
             assert!(part.split(' ').all(|word| picture.contains(word)), "{dim}: {part}");
         }
         assert!(!picture.contains("NaN"), "{dim}");
-        assert!(desk.text("box.html").contains("log-volume"));
+        assert!(folder.text("box.html").contains("log-volume"));
     }
 }
 
 #[test]
 fn polytopes_without_a_largest_ellipsoid_are_named_with_the_rows() {
-    let desk = desk();
+    let folder = folder();
     let around = "1,0,1\n-1,0,1\n0,1,1\n0,-1,1\n";
-    desk.put("earlier.json", "earlier");
+    folder.put("earlier.json", "earlier");
     for (name, contents, parts) in [
-        ("strip", "0,1,1\n0,-1,1\n", &["strip.csv", "goes on for ever", "(1, 0)"][..]),
+        ("strip", "0,1,1\n0,-1,1\n", &["strip.csv", "is unbounded", "(1, 0)"][..]),
         ("empty", &format!("{around}1,0,-2\n"), &["empty.csv", "no interior point", "rows 2, 5"]),
         (
             "flat",
@@ -133,18 +138,18 @@ fn polytopes_without_a_largest_ellipsoid_are_named_with_the_rows() {
         ("head", "a,b,c\n", &["head.csv", "no row"]),
     ] {
         let file = format!("{name}.csv");
-        desk.put(&file, contents);
+        folder.put(&file, contents);
         let line = format!("inscribe ellipsoid {file} -o earlier.json --draw new.svg");
-        let run = desk.taut(&line).ends(2).complains(parts);
+        let run = folder.taut(&line).ends(2).stderr_has(parts);
         assert_eq!(run.out, "");
-        assert_eq!(desk.text("earlier.json"), "earlier", "{name}");
+        assert_eq!(folder.text("earlier.json"), "earlier", "{name}");
     }
-    assert!(!desk.files().contains(&"new.svg".to_owned()));
+    assert!(!folder.files().contains(&"new.svg".to_owned()));
 }
 
 #[test]
 fn wrong_options_are_named() {
-    let desk = desk();
+    let folder = folder();
     for (line, parts) in [
         ("sides.csv --epsilon 0", &["--epsilon` is 0", "(0, 1)"][..]),
         ("sides.csv --epsilon 1", &["--epsilon` is 1", "(0, 1)"]),
@@ -156,9 +161,9 @@ fn wrong_options_are_named() {
         ("sides.csv -o x.json --draw ./x.json", &["pictures are"]),
         ("missing.csv", &["missing.csv: no such file"]),
     ] {
-        desk.taut(&format!("inscribe ellipsoid {line}")).ends(2).complains(parts);
+        folder.taut(&format!("inscribe ellipsoid {line}")).ends(2).stderr_has(parts);
     }
-    assert!(desk.taut("inscribe").ends(2).err.contains("ellipsoid"));
-    assert_eq!(desk.files(), ["sides.csv"]);
-    assert_eq!(desk.text("sides.csv"), SIDES);
+    assert!(folder.taut("inscribe").ends(2).err.contains("ellipsoid"));
+    assert_eq!(folder.files(), ["sides.csv"]);
+    assert_eq!(folder.text("sides.csv"), SIDES);
 }

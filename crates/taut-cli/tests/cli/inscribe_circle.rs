@@ -1,20 +1,20 @@
 //! `taut inscribe circle`: found, proved, drawn; rings that are no polygon refused by row.
 
-use crate::desk::Desk;
+use crate::test_folder::TestFolder;
 
 /// An L, whose largest circle touches the reflex corner: radius 2√2/(1 + √2).
 const L: &str = "x,y\n0,0\n3,0\n3,2\n2,2\n2,3\n0,3\n";
 
-fn desk() -> Desk {
-    let desk = Desk::new();
-    desk.put("ring.csv", L);
-    desk
+fn folder() -> TestFolder {
+    let folder = TestFolder::new();
+    folder.put("ring.csv", L);
+    folder
 }
 
 #[test]
 fn the_largest_circle_in_an_l_touches_its_corner() {
-    let desk = desk();
-    desk.taut("inscribe circle ring.csv -o circle.json --draw circle.svg").ends(0).says(&[
+    let folder = folder();
+    folder.taut("inscribe circle ring.csv -o circle.json --draw circle.svg").ends(0).stdout_has(&[
         "Largest circle in a polygon of 6 points\n",
         "\n  radius",
         "1.17157287",
@@ -24,76 +24,88 @@ fn the_largest_circle_in_an_l_touches_its_corner() {
         "rows 1, 3, 4, 6",
         "checking ",
     ]);
-    let found: serde_json::Value = serde_json::from_str(&desk.text("circle.json")).unwrap();
+    let found: serde_json::Value = serde_json::from_str(&folder.text("circle.json")).unwrap();
     assert_eq!(found["kind"], "inscribed-circle");
     assert_eq!(found["certificate"]["touching"], serde_json::json!([0, 2, 3, 5]));
-    let picture = desk.text("circle.svg");
+    let picture = folder.text("circle.svg");
     for part in ["polygon of 6 points", "largest circle", "touching edges"] {
         assert!(picture.contains(part), "{part}");
     }
-    desk.taut("verify circle.json ring.csv --epsilon 1.1e-9").ends(0).says(&[
+    folder.taut("verify circle.json ring.csv --epsilon 1.1e-9").ends(0).stdout_has(&[
         ": inscribed circle of radius 1.17157287",
         "≤ largest radius ≤",
         "proved: of circles with their center inside by the even-odd rule",
     ]);
-    desk.taut("draw circle.json ring.csv -o again.svg").ends(0);
-    assert_eq!(desk.text("again.svg"), picture);
+    folder.taut("draw circle.json ring.csv -o again.svg").ends(0);
+    assert_eq!(folder.text("again.svg"), picture);
 }
 
 #[test]
 fn geojson_and_other_points_are_read_alike() {
-    let desk = desk();
+    let folder = folder();
     let ring = "[[0,0],[3,0],[3,2],[2,2],[2,3],[0,3],[0,0]]";
     let polygon = format!("{{\"type\": \"Polygon\", \"coordinates\": [{ring}]}}");
-    desk.put(
+    folder.put(
         "ring.geojson",
         format!("{{\"type\": \"Feature\", \"properties\": {{}}, \"geometry\": {polygon}}}"),
     );
-    desk.taut("inscribe circle ring.geojson -o circle.json").ends(0).says(&["1.17157287"]);
-    desk.taut("verify circle.json ring.geojson").ends(0);
+    folder.taut("inscribe circle ring.geojson -o circle.json").ends(0).stdout_has(&["1.17157287"]);
+    folder.taut("verify circle.json ring.geojson").ends(0);
     // The closing vertex is a row of its own.
-    desk.taut("verify circle.json ring.csv").ends(1).says(&["the data changed"]);
-    desk.put("holes.geojson", polygon.replace("]]]", "]], [[1,1],[1.5,1],[1,1.5],[1,1]]]"));
-    desk.taut("inscribe circle holes.geojson").ends(2).complains(&["holes.geojson", "has a hole"]);
-    let all = desk.taut("inscribe circle ring.csv --json").ends(0).out;
-    assert_eq!(desk.pipe(L, "inscribe circle - --json").ends(0).out, all);
-    assert_eq!(desk.taut("inscribe circle ring.csv -o - --threads 1").ends(0).out, all);
+    folder.taut("verify circle.json ring.csv").ends(1).stdout_has(&["the data changed"]);
+    folder.put("holes.geojson", polygon.replace("]]]", "]], [[1,1],[1.5,1],[1,1.5],[1,1]]]"));
+    folder
+        .taut("inscribe circle holes.geojson")
+        .ends(2)
+        .stderr_has(&["holes.geojson", "has a hole"]);
+    let all = folder.taut("inscribe circle ring.csv --json").ends(0).out;
+    assert_eq!(folder.pipe(L, "inscribe circle - --json").ends(0).out, all);
+    assert_eq!(folder.taut("inscribe circle ring.csv -o - --threads 1").ends(0).out, all);
 }
 
 #[test]
 fn a_changed_answer_is_rejected_with_its_row() {
-    let desk = desk();
-    desk.taut("inscribe circle ring.csv -o circle.json").ends(0);
-    let text = desk.text("circle.json");
+    let folder = folder();
+    folder.taut("inscribe circle ring.csv -o circle.json").ends(0);
+    let text = folder.text("circle.json");
     let mut found: serde_json::Value = serde_json::from_str(&text).unwrap();
     found["answer"]["radius"] = 1.2.into();
-    desk.put("larger.json", found.to_string());
-    desk.taut("verify larger.json ring.csv").ends(1).says(&["Rejected: ", "less than the radius"]);
+    folder.put("larger.json", found.to_string());
+    folder
+        .taut("verify larger.json ring.csv")
+        .ends(1)
+        .stdout_has(&["Rejected: ", "less than the radius"]);
     found["answer"]["radius"] = 1.0.into();
-    desk.put("smaller.json", found.to_string());
-    desk.taut("verify smaller.json ring.csv").ends(1).says(&["Rejected: smaller.json"]);
+    folder.put("smaller.json", found.to_string());
+    folder.taut("verify smaller.json ring.csv").ends(1).stdout_has(&["Rejected: smaller.json"]);
 }
 
 #[test]
 fn rings_that_are_no_polygon_are_refused() {
-    let desk = Desk::new();
-    desk.put("bow.csv", "0,0\n2,2\n2,0\n0,2\n");
-    desk.taut("inscribe circle bow.csv -o circle.json").ends(2).complains(&[
+    let folder = TestFolder::new();
+    folder.put("bow.csv", "0,0\n2,2\n2,0\n0,2\n");
+    folder.taut("inscribe circle bow.csv -o circle.json").ends(2).stderr_has(&[
         "bow.csv: the edge from point 0 to point 1 meets the edge from point 2 to point 3",
     ]);
-    assert_eq!(desk.files(), ["bow.csv"]);
-    desk.put("two.csv", "0,0\n2,2\n0,0\n");
-    desk.taut("inscribe circle two.csv").ends(2).complains(&["has 2 distinct vertices"]);
-    desk.put("space.csv", "0,0,1\n2,2,1\n0,1,0\n");
-    desk.taut("inscribe circle space.csv")
+    assert_eq!(folder.files(), ["bow.csv"]);
+    folder.put("two.csv", "0,0\n2,2\n0,0\n");
+    folder.taut("inscribe circle two.csv").ends(2).stderr_has(&["has 2 distinct vertices"]);
+    folder.put("space.csv", "0,0,1\n2,2,1\n0,1,0\n");
+    folder
+        .taut("inscribe circle space.csv")
         .ends(2)
-        .complains(&["points have 3 coordinates", "--columns"]);
-    desk.put("ring.csv", L);
-    desk.taut("inscribe circle ring.csv --epsilon 0")
+        .stderr_has(&["points have 3 coordinates", "--columns"]);
+    folder.put("ring.csv", L);
+    folder
+        .taut("inscribe circle ring.csv --epsilon 0")
         .ends(2)
-        .complains(&["option `--epsilon` is 0"]);
-    desk.taut("inscribe circle ring.csv --max-cells 0").ends(2).complains(&["`--max-cells` is 0"]);
-    desk.taut("inscribe circle ring.csv --max-cells 1")
+        .stderr_has(&["option `--epsilon` is 0"]);
+    folder
+        .taut("inscribe circle ring.csv --max-cells 0")
+        .ends(2)
+        .stderr_has(&["`--max-cells` is 0"]);
+    folder
+        .taut("inscribe circle ring.csv --max-cells 1")
         .ends(3)
-        .says(&["within the budget of cells"]);
+        .stdout_has(&["within the budget of cells"]);
 }

@@ -1,25 +1,25 @@
 //! `taut draw`, `taut ball --draw` and `taut tour`.
 
-use crate::desk::Desk;
+use crate::test_folder::TestFolder;
 
-fn solved() -> Desk {
-    let desk = Desk::new();
-    desk.put("points.csv", "a,b\n0,0\n2,0\n1,0.5\n");
-    desk.taut("ball points.csv --epsilon 0 -o ball.json").ends(0);
-    desk
+fn solved() -> TestFolder {
+    let folder = TestFolder::new();
+    folder.put("points.csv", "a,b\n0,0\n2,0\n1,0.5\n");
+    folder.taut("ball points.csv --epsilon 0 -o ball.json").ends(0);
+    folder
 }
 
 #[test]
 fn each_kind_of_picture_is_drawn() {
-    let desk = solved();
-    desk.taut("draw ball.json points.csv -o ball.svg").ends(0);
-    assert!(desk.text("ball.svg").starts_with("<svg"));
+    let folder = solved();
+    folder.taut("draw ball.json points.csv -o ball.svg").ends(0);
+    assert!(folder.text("ball.svg").starts_with("<svg"));
     if cfg!(feature = "png") {
-        desk.taut("draw ball.json points.csv -o ball.png").ends(0);
-        assert!(desk.bytes("ball.png").starts_with(b"\x89PNG\r\n\x1a\n"));
+        folder.taut("draw ball.json points.csv -o ball.png").ends(0);
+        assert!(folder.bytes("ball.png").starts_with(b"\x89PNG\r\n\x1a\n"));
     }
-    desk.taut("draw ball.json points.csv -o ball.html").ends(0);
-    let page = desk.text("ball.html");
+    folder.taut("draw ball.json points.csv -o ball.html").ends(0);
+    let page = folder.text("ball.html");
     for part in [
         "<!doctype html>",
         "Smallest ball around 3 points in 2 dimensions",
@@ -32,45 +32,50 @@ fn each_kind_of_picture_is_drawn() {
 
 #[test]
 fn ball_draws_what_draw_draws() {
-    let desk = solved();
-    desk.taut("ball points.csv --epsilon 0 --draw at-once.svg").ends(0);
-    desk.taut("draw ball.json points.csv -o later.svg").ends(0);
-    assert_eq!(desk.text("at-once.svg"), desk.text("later.svg"));
+    let folder = solved();
+    folder.taut("ball points.csv --epsilon 0 --draw at-once.svg").ends(0);
+    folder.taut("draw ball.json points.csv -o later.svg").ends(0);
+    assert_eq!(folder.text("at-once.svg"), folder.text("later.svg"));
 }
 
 #[test]
 fn further_figures_and_the_dark_are_a_choice() {
-    let desk = solved();
-    desk.taut("draw ball.json points.csv -o 1.svg").ends(0);
-    desk.taut("draw ball.json points.csv -o 2.svg --figure 2").ends(0);
-    desk.taut("draw ball.json points.csv -o dark.svg --theme dark").ends(0);
-    assert_ne!(desk.text("1.svg"), desk.text("2.svg"));
-    assert_ne!(desk.text("1.svg"), desk.text("dark.svg"));
-    desk.taut("draw ball.json points.csv -o 99.svg --figure 99")
+    let folder = solved();
+    folder.taut("draw ball.json points.csv -o 1.svg").ends(0);
+    folder.taut("draw ball.json points.csv -o 2.svg --figure 2").ends(0);
+    folder.taut("draw ball.json points.csv -o dark.svg --theme dark").ends(0);
+    assert_ne!(folder.text("1.svg"), folder.text("2.svg"));
+    assert_ne!(folder.text("1.svg"), folder.text("dark.svg"));
+    folder
+        .taut("draw ball.json points.csv -o 99.svg --figure 99")
         .ends(2)
-        .complains(&["--figure", "99"]);
-    desk.taut("draw ball.json points.csv -o thin.svg --width 1").ends(2).complains(&["--width"]);
+        .stderr_has(&["--figure", "99"]);
+    folder.taut("draw ball.json points.csv -o thin.svg --width 1").ends(2).stderr_has(&["--width"]);
 }
 
 #[test]
 fn what_does_not_fit_its_points_is_not_drawn() {
-    let desk = solved();
-    desk.put("changed.csv", "0,0\n2,0\n1,0.25\n");
-    desk.put("ball.svg", "earlier picture");
-    desk.taut("draw ball.json changed.csv -o ball.svg").ends(1).complains(&["changed.csv", "hash"]);
-    assert_eq!(desk.text("ball.svg"), "earlier picture");
-    desk.taut("draw ball.json changed.csv -o ball.svg --no-verify").ends(0);
-    desk.taut("draw ball.json points.csv -o ball.gif").ends(2).complains(&["ball.gif", ".svg"]);
+    let folder = solved();
+    folder.put("changed.csv", "0,0\n2,0\n1,0.25\n");
+    folder.put("ball.svg", "earlier picture");
+    folder
+        .taut("draw ball.json changed.csv -o ball.svg")
+        .ends(1)
+        .stderr_has(&["changed.csv", "hash"]);
+    assert_eq!(folder.text("ball.svg"), "earlier picture");
+    folder.taut("draw ball.json changed.csv -o ball.svg --no-verify").ends(0);
+    folder.taut("draw ball.json points.csv -o ball.gif").ends(2).stderr_has(&["ball.gif", ".svg"]);
 }
 
 #[test]
 fn the_tour_shows_and_verifies_every_tool() {
-    let desk = Desk::new();
-    let run = desk.taut("tour --samples samples").ends(0).says(&["verified yes", "tour.html"]);
+    let folder = TestFolder::new();
+    let run =
+        folder.taut("tour --samples samples").ends(0).stdout_has(&["verified yes", "tour.html"]);
     let stations = run.out.lines().filter(|line| line.contains(" verified yes ")).count();
     assert_eq!(stations, 15, "{}", run.out);
-    assert_eq!(desk.files(), ["samples", "tour.html"]);
-    let page = desk.text("tour.html");
+    assert_eq!(folder.files(), ["samples", "tour.html"]);
+    let page = folder.text("tour.html");
     for part in [
         "Points in the plane",
         "Points in space",
@@ -88,7 +93,7 @@ fn the_tour_shows_and_verifies_every_tool() {
         "Most of the points: outliers",
         "an outlier less",
         "lacks point 149",
-        "Near to all: k centres",
+        "Near to all: k centers",
         "taut centers europe.csv -k 8",
         "From within: a polytope",
         "a millionth longer",
@@ -108,12 +113,12 @@ fn the_tour_shows_and_verifies_every_tool() {
     for tool in ["ball", "ellipsoid", "centers", "inscribe ellipsoid", "delaunay", "surface"] {
         for line in page.lines().filter_map(|line| line.split(&format!("taut {tool} ")).nth(1)) {
             let words = line.split('<').next().unwrap().trim();
-            desk.taut(&format!("{tool} samples/{words} --quiet")).ends(0);
+            folder.taut(&format!("{tool} samples/{words} --quiet")).ends(0);
         }
     }
-    let run = desk.taut("tour -o -").ends(0);
+    let run = folder.taut("tour -o -").ends(0);
     assert_eq!((run.out.as_str(), run.err.as_str()), (page.as_str(), ""));
-    let again = Desk::new();
+    let again = TestFolder::new();
     again.taut("tour --threads 1 --quiet").ends(0);
     assert_eq!(again.text("tour.html"), page);
 }

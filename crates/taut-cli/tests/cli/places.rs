@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 use liblzma::read::XzDecoder;
 
-use crate::desk::Desk;
+use crate::test_folder::TestFolder;
 
 /// The file of this name; says that it is not there if so.
 fn found(name: &str) -> Option<PathBuf> {
@@ -21,14 +21,16 @@ fn found(name: &str) -> Option<PathBuf> {
 }
 
 /// Triangulates the points and judges the mesh that was written. `sites` is what the summary says of them.
-fn is_verified(desk: &Desk, points: &str, sites: &str) {
-    desk.taut(&format!("delaunay {points} -o mesh.ply"))
+fn is_verified(folder: &TestFolder, points: &str, sites: &str) {
+    folder
+        .taut(&format!("delaunay {points} -o mesh.ply"))
         .ends(0)
-        .says(&[&format!("\n  sites     {sites}\n"), "\n  verified  yes; "]);
+        .stdout_has(&[&format!("\n  sites     {sites}\n"), "\n  verified  yes; "]);
     let distinct = sites.split(';').next().unwrap();
-    desk.taut(&format!("verify mesh.ply {points}"))
+    folder
+        .taut(&format!("verify mesh.ply {points}"))
         .ends(0)
-        .says(&["Verified", &format!("\n  sites     {distinct}; proved: distinct points\n")]);
+        .stdout_has(&["Verified", &format!("\n  sites     {distinct}; proved: distinct points\n")]);
 }
 
 #[test]
@@ -38,16 +40,16 @@ fn county_borders_are_verified() {
     XzDecoder::new(BufReader::new(File::open(file).unwrap())).read_to_string(&mut text).unwrap();
     // Its first line is a remark, and no header of two columns.
     let (_, rows) = text.split_once('\n').unwrap();
-    let desk = Desk::new();
-    desk.put("counties.csv", rows);
-    is_verified(&desk, "counties.csv", "33,416; 13,149 points equal an earlier one");
+    let folder = TestFolder::new();
+    folder.put("counties.csv", rows);
+    is_verified(&folder, "counties.csv", "33,416; 13,149 points equal an earlier one");
 }
 
 #[test]
 fn towns_are_verified() {
     let Some(file) = found("geonames_cities1000.csv.xz") else { return };
     let sites = "135,182; 51 points equal an earlier one";
-    is_verified(&Desk::new(), &format!("{} --columns lon,lat", file.display()), sites);
+    is_verified(&TestFolder::new(), &format!("{} --columns lon,lat", file.display()), sites);
 }
 
 #[test]
@@ -56,6 +58,6 @@ fn places_of_tsplib_are_verified() {
     {
         let Some(file) = found(name) else { continue };
         let points = file.display().to_string();
-        is_verified(&Desk::new(), &points, &format!("{sites}; no two points are equal"));
+        is_verified(&TestFolder::new(), &points, &format!("{sites}; no two points are equal"));
     }
 }

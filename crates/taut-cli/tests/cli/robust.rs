@@ -1,6 +1,6 @@
-//! `taut ellipsoid --robust`: centre, scatter and outliers, and their proof.
+//! `taut ellipsoid --robust`: center, scatter and outliers, and their proof.
 
-use crate::desk::Desk;
+use crate::test_folder::TestFolder;
 
 /// A grid of 5 × 5 around (2, 2), and six rows where somebody's hand slipped: rows 26 to 31.
 fn grid() -> String {
@@ -9,15 +9,15 @@ fn grid() -> String {
     std::iter::once("x,y\n".to_owned()).chain(inside).chain(outside).collect()
 }
 
-fn desk() -> Desk {
-    let desk = Desk::new();
-    desk.put("points.csv", grid());
-    desk
+fn folder() -> TestFolder {
+    let folder = TestFolder::new();
+    folder.put("points.csv", grid());
+    folder
 }
 
 #[test]
 fn outliers_are_named_and_all_is_verified() {
-    let desk = desk();
+    let folder = folder();
     let rows = "\n  outliers   6; rows 26, 27, 28, 29, 30, 31\n";
     for (line, parts) in [
         ("mcd", ["\n  kept       17 of 31 points\n", rows, "C-step", "of normal points"]),
@@ -31,44 +31,47 @@ fn outliers_are_named_and_all_is_verified() {
         ),
     ] {
         let line = format!("ellipsoid points.csv --robust {line} -o robust.json");
-        desk.taut(&line).ends(0).says(&[
+        folder.taut(&line).ends(0).stdout_has(&[
             "Robust ellipsoid of 31 points in 2 dimensions\n",
-            "\n  centre     (2, 2)\n",
+            "\n  center     (2, 2)\n",
             "\n  log-det    ",
             "\n  verified   yes; ",
             "checking ",
         ]);
-        desk.taut(&line).ends(0).says(&parts);
-        let found: serde_json::Value = serde_json::from_str(&desk.text("robust.json")).unwrap();
+        folder.taut(&line).ends(0).stdout_has(&parts);
+        let found: serde_json::Value = serde_json::from_str(&folder.text("robust.json")).unwrap();
         assert_eq!(found["kind"], "robust-ellipsoid");
         assert_eq!(found["answer"]["flagged"], serde_json::json!([25, 26, 27, 28, 29, 30]));
-        desk.taut("verify robust.json points.csv").ends(0).says(&[
+        folder.taut("verify robust.json points.csv").ends(0).stdout_has(&[
             "Verified",
             ": robust ellipsoid by ",
             "of 31 points in 2 dimensions\n",
             " 6; proved: exactly the points outside",
         ]);
-        desk.put("other.csv", grid().replacen("0,0\n", "0,0.5\n", 1));
-        desk.taut("verify robust.json other.csv").ends(1).says(&["Rejected: other.csv"]);
+        folder.put("other.csv", grid().replacen("0,0\n", "0,0.5\n", 1));
+        folder.taut("verify robust.json other.csv").ends(1).stdout_has(&["Rejected: other.csv"]);
     }
 }
 
 #[test]
 fn the_json_is_one_document_wherever_it_goes() {
-    let desk = desk();
-    let all = desk.taut("ellipsoid points.csv --robust mcd --json").ends(0).out;
-    assert_eq!(desk.taut("ellipsoid points.csv --robust mcd -o -").ends(0).out, all);
-    assert_eq!(desk.taut("ellipsoid points.csv --robust mcd --json --threads 1").ends(0).out, all);
-    let run = desk.taut("ellipsoid points.csv --robust mcd --quiet -o robust.json").ends(0);
+    let folder = folder();
+    let all = folder.taut("ellipsoid points.csv --robust mcd --json").ends(0).out;
+    assert_eq!(folder.taut("ellipsoid points.csv --robust mcd -o -").ends(0).out, all);
+    assert_eq!(
+        folder.taut("ellipsoid points.csv --robust mcd --json --threads 1").ends(0).out,
+        all
+    );
+    let run = folder.taut("ellipsoid points.csv --robust mcd --quiet -o robust.json").ends(0);
     assert_eq!((run.out.as_str(), run.err.as_str()), ("", ""));
-    assert_eq!(desk.text("robust.json"), all);
-    let run = desk.taut("ellipsoid points.csv --robust mcd --no-verify").ends(0);
+    assert_eq!(folder.text("robust.json"), all);
+    let run = folder.taut("ellipsoid points.csv --robust mcd --no-verify").ends(0);
     assert!(run.out.contains("not checked") && !run.out.contains("yes"), "{}", run.out);
 }
 
 #[test]
 fn outliers_are_drawn_apart_beside_the_ellipsoid() {
-    let desk = desk();
+    let folder = folder();
     for (method, parts) in [
         ("mcd", &["tolerance ellipsoid, 97.5 %", "outliers (6 points)", "17 points kept"][..]),
         ("mve", &["tolerance ellipsoid, 97.5 %", "smallest around the points kept"]),
@@ -76,68 +79,73 @@ fn outliers_are_drawn_apart_beside_the_ellipsoid() {
     ] {
         let line =
             format!("ellipsoid points.csv --robust {method} -o robust.json --draw robust.svg");
-        desk.taut(&line).ends(0);
-        let picture = desk.text("robust.svg");
+        folder.taut(&line).ends(0);
+        let picture = folder.text("robust.svg");
         for part in parts {
             assert!(picture.contains(part), "{method}: {part}");
         }
         assert!(!picture.contains("NaN"), "{method}");
-        desk.taut("draw robust.json points.csv -o again.svg").ends(0);
-        assert_eq!(desk.text("again.svg"), picture, "{method}");
+        folder.taut("draw robust.json points.csv -o again.svg").ends(0);
+        assert_eq!(folder.text("again.svg"), picture, "{method}");
         // Rows far out ask for a look from near by; then come the distances.
-        desk.taut("draw robust.json points.csv -o close.svg --figure 2").ends(0);
-        assert!(desk.text("close.svg").contains("from near by"), "{method}");
-        assert!(desk.text("close.svg").contains("6 outliers lie beyond the picture"), "{method}");
-        desk.taut("draw robust.json points.csv -o far.svg --figure 3").ends(0);
-        assert!(desk.text("far.svg").contains("Distances in the metric"), "{method}");
-        desk.taut("draw robust.json points.csv -o far.svg --figure 4").ends(2);
+        folder.taut("draw robust.json points.csv -o close.svg --figure 2").ends(0);
+        assert!(folder.text("close.svg").contains("from near by"), "{method}");
+        assert!(folder.text("close.svg").contains("6 outliers lie beyond the picture"), "{method}");
+        folder.taut("draw robust.json points.csv -o far.svg --figure 3").ends(0);
+        assert!(folder.text("far.svg").contains("Distances in the metric"), "{method}");
+        folder.taut("draw robust.json points.csv -o far.svg --figure 4").ends(2);
     }
-    desk.put("other.csv", grid().replacen("0,0\n", "0,0.5\n", 1));
-    desk.taut("draw robust.json other.csv -o other.svg").ends(1).complains(&["other.csv"]);
-    assert!(!desk.files().contains(&"other.svg".to_owned()));
+    folder.put("other.csv", grid().replacen("0,0\n", "0,0.5\n", 1));
+    folder.taut("draw robust.json other.csv -o other.svg").ends(1).stderr_has(&["other.csv"]);
+    assert!(!folder.files().contains(&"other.svg".to_owned()));
 }
 
 #[test]
 fn a_lie_about_the_outliers_is_found() {
-    let desk = desk();
-    desk.taut("ellipsoid points.csv --robust mcd -o robust.json").ends(0);
-    let mut lie: serde_json::Value = serde_json::from_str(&desk.text("robust.json")).unwrap();
+    let folder = folder();
+    folder.taut("ellipsoid points.csv --robust mcd -o robust.json").ends(0);
+    let mut lie: serde_json::Value = serde_json::from_str(&folder.text("robust.json")).unwrap();
     lie["answer"]["flagged"] = serde_json::json!([25, 26, 27, 28, 29]);
-    desk.put("lie.json", lie.to_string());
-    desk.taut("verify lie.json points.csv")
+    folder.put("lie.json", lie.to_string());
+    folder
+        .taut("verify lie.json points.csv")
         .ends(1)
-        .says(&["Rejected: points.csv, row 31: ", "point 30"]);
+        .stdout_has(&["Rejected: points.csv, row 31: ", "point 30"]);
 }
 
 #[test]
 fn the_level_moves_the_border_and_the_coverage_the_count() {
-    let desk = desk();
+    let folder = folder();
     let volume = |line: &str| {
-        let run = desk.taut(&format!("ellipsoid points.csv --robust mcd --json {line}")).ends(0);
+        let run = folder.taut(&format!("ellipsoid points.csv --robust mcd --json {line}")).ends(0);
         run.json()["answer"]["log_volume"].as_f64().unwrap()
     };
     assert!(volume("--level 0.5") < volume("") && volume("") < volume("--level 0.9999"));
-    desk.taut("ellipsoid points.csv --robust mcd --coverage 1")
+    folder
+        .taut("ellipsoid points.csv --robust mcd --coverage 1")
         .ends(0)
-        .says(&["\n  kept       31 of 31 points\n"]);
+        .stdout_has(&["\n  kept       31 of 31 points\n"]);
 }
 
 #[test]
 fn exact_fits_are_reported() {
-    let desk = Desk::new();
+    let folder = TestFolder::new();
     let line: String = (0..20).map(|i| format!("{i},{i}\n")).collect();
-    desk.put("line.csv", line + "0,7\n3,100\n");
-    desk.taut("ellipsoid line.csv --robust mcd -o robust.json").ends(0).says(&[
+    folder.put("line.csv", line + "0,7\n3,100\n");
+    folder.taut("ellipsoid line.csv --robust mcd -o robust.json").ends(0).stdout_has(&[
         "\n  exact fit  20 of 22 points in a flat of dimension 1; ",
         "\n  outliers   2; rows 21, 22\n",
     ]);
-    desk.taut("verify robust.json line.csv").ends(0).says(&["\n  dimension     1; proved\n"]);
+    folder
+        .taut("verify robust.json line.csv")
+        .ends(0)
+        .stdout_has(&["\n  dimension     1; proved\n"]);
 }
 
 #[test]
 fn wrong_input_and_options_are_named() {
-    let desk = desk();
-    desk.put("nan.csv", grid().replacen("0,0\n", "0,NaN\n", 1));
+    let folder = folder();
+    folder.put("nan.csv", grid().replacen("0,0\n", "0,NaN\n", 1));
     for (line, parts) in [
         ("nan.csv --robust mcd", &["nan.csv", "row 1", "column 1", "`y`", "NaN"][..]),
         ("points.csv --robust mcd --coverage 0.4", &["--coverage` is 0.4", "[0.5, 1]"]),
@@ -150,9 +158,9 @@ fn wrong_input_and_options_are_named() {
         ("points.csv --robust mcd --balls", &["--balls"]),
         ("points.csv --robust mcd --method newton", &["--method"]),
     ] {
-        let run = desk.taut(&format!("ellipsoid {line} -o found.json")).ends(2);
+        let run = folder.taut(&format!("ellipsoid {line} -o found.json")).ends(2);
         assert!(parts.iter().all(|part| run.err.contains(part)), "{parts:?} in {run:?}");
         assert_eq!(run.out, "", "{line}");
     }
-    assert_eq!(desk.files(), ["nan.csv", "points.csv"]);
+    assert_eq!(folder.files(), ["nan.csv", "points.csv"]);
 }

@@ -1,6 +1,6 @@
 //! The USPS digits, where the folder `TAUT_DATA` holds them as `usps_train.csv.xz`: a label, then 256 values.
 
-use crate::desk::Desk;
+use crate::test_folder::TestFolder;
 
 #[test]
 fn usps_has_the_radius_of_the_literature() {
@@ -12,9 +12,9 @@ fn usps_has_the_radius_of_the_literature() {
         );
         return;
     };
-    let desk = Desk::new();
+    let folder = TestFolder::new();
     let run =
-        desk.taut(&format!("ball {} --columns 1- --epsilon 0 --json", file.display())).ends(0);
+        folder.taut(&format!("ball {} --columns 1- --epsilon 0 --json", file.display())).ends(0);
     let radius = run.json()["answer"]["radius"].as_f64().unwrap();
     assert!((radius - 13.479_343_686).abs() <= 1e-8, "{radius}");
     assert_eq!(run.json()["answer"]["center"].as_array().unwrap().len(), 256);

@@ -1,27 +1,27 @@
 //! `taut verify`: proves, or rejects and says why.
 
-use crate::desk::Desk;
+use crate::test_folder::TestFolder;
 
 const SQUARE: &str = "x,y\n0,0\n2,0\n2,2\n0,2\n1,1.5\n";
 
-fn solved() -> Desk {
-    let desk = Desk::new();
-    desk.put("points.csv", SQUARE);
-    desk.taut("ball points.csv --epsilon 0 -o ball.json").ends(0);
-    desk
+fn solved() -> TestFolder {
+    let folder = TestFolder::new();
+    folder.put("points.csv", SQUARE);
+    folder.taut("ball points.csv --epsilon 0 -o ball.json").ends(0);
+    folder
 }
 
 /// Changes the answer by a function of its JSON.
-fn doctor(desk: &Desk, change: impl Fn(&mut serde_json::Value)) {
-    let mut document = serde_json::from_str(&desk.text("ball.json")).unwrap();
+fn doctor(folder: &TestFolder, change: impl Fn(&mut serde_json::Value)) {
+    let mut document = serde_json::from_str(&folder.text("ball.json")).unwrap();
     change(&mut document);
-    desk.put("doctored.json", document.to_string());
+    folder.put("doctored.json", document.to_string());
 }
 
 #[test]
 fn a_true_answer_is_proved_with_its_bracket() {
-    let desk = solved();
-    let run = desk.taut("verify ball.json points.csv").ends(0).says(&[
+    let folder = solved();
+    let run = folder.taut("verify ball.json points.csv").ends(0).stdout_has(&[
         "Verified within a gap of ",
         ": ball of radius 1.41421356",
         " points in 2 dimensions\n",
@@ -31,23 +31,23 @@ fn a_true_answer_is_proved_with_its_bracket() {
         "; proved: relative, from the points alone\n",
     ]);
     assert_eq!(run.err, "");
-    let quiet = desk.taut("verify ball.json points.csv --quiet").ends(0);
+    let quiet = folder.taut("verify ball.json points.csv --quiet").ends(0);
     assert_eq!((quiet.out.as_str(), quiet.err.as_str()), ("", ""));
 }
 
 #[test]
 fn either_input_may_be_standard_input_but_not_both() {
-    let desk = solved();
-    desk.pipe(desk.text("ball.json"), "verify - points.csv").ends(0).says(&["Verified"]);
-    desk.pipe(SQUARE, "verify ball.json -").ends(0).says(&["Verified"]);
-    desk.pipe("", "verify - -").ends(2).complains(&["only one"]);
+    let folder = solved();
+    folder.pipe(folder.text("ball.json"), "verify - points.csv").ends(0).stdout_has(&["Verified"]);
+    folder.pipe(SQUARE, "verify ball.json -").ends(0).stdout_has(&["Verified"]);
+    folder.pipe("", "verify - -").ends(2).stderr_has(&["only one"]);
 }
 
 #[test]
 fn changed_data_is_known_by_its_hash() {
-    let desk = solved();
-    desk.put("changed.csv", SQUARE.replace("1.5", "1.25"));
-    desk.taut("verify ball.json changed.csv").ends(1).says(&[
+    let folder = solved();
+    folder.put("changed.csv", SQUARE.replace("1.5", "1.25"));
+    folder.taut("verify ball.json changed.csv").ends(1).stdout_has(&[
         "Rejected: changed.csv does not belong to ball.json",
         "hash",
         "data changed",
@@ -56,85 +56,90 @@ fn changed_data_is_known_by_its_hash() {
 
 #[test]
 fn a_smaller_radius_leaves_a_point_outside() {
-    let desk = solved();
-    doctor(&desk, |ball| {
+    let folder = solved();
+    doctor(&folder, |ball| {
         let radius = &mut ball["answer"]["radius"];
         *radius = (radius.as_f64().unwrap() - 1e-9).into();
     });
-    let run = desk
+    let run = folder
         .taut("verify doctored.json points.csv")
         .ends(1)
-        .says(&["Rejected: points.csv, row 1: point 0 lies ", "outside"]);
+        .stdout_has(&["Rejected: points.csv, row 1: point 0 lies ", "outside"]);
     assert!(run.err.is_empty());
-    assert_eq!(desk.taut("verify doctored.json points.csv -q").ends(1).out, "");
+    assert_eq!(folder.taut("verify doctored.json points.csv -q").ends(1).out, "");
 }
 
 #[test]
 fn a_larger_radius_breaks_the_gap_claimed() {
-    let desk = solved();
-    doctor(&desk, |ball| {
+    let folder = solved();
+    doctor(&folder, |ball| {
         let radius = &mut ball["answer"]["radius"];
         *radius = (radius.as_f64().unwrap() * 1.001).into();
     });
-    desk.taut("verify doctored.json points.csv").ends(1).says(&["Rejected", "gap"]);
+    folder.taut("verify doctored.json points.csv").ends(1).stdout_has(&["Rejected", "gap"]);
 }
 
 #[test]
 fn another_dimension_is_rejected() {
-    let desk = solved();
-    desk.put("space.csv", "0,0,0\n1,1,1\n");
-    desk.taut("verify ball.json space.csv").ends(1).says(&[
-        "Rejected: space.csv does not belong to ball.json: the centre has 2 numbers, but the points have dimension 3",
+    let folder = solved();
+    folder.put("space.csv", "0,0,0\n1,1,1\n");
+    folder.taut("verify ball.json space.csv").ends(1).stdout_has(&[
+        "Rejected: space.csv does not belong to ball.json: the center has 2 numbers, but the points have dimension 3",
     ]);
 }
 
 #[test]
 fn faults_of_the_answer_name_its_file() {
-    let desk = solved();
-    doctor(&desk, |ball| ball["certificate"]["multipliers"] = serde_json::json!([1.0]));
-    desk.taut("verify doctored.json points.csv")
+    let folder = solved();
+    doctor(&folder, |ball| ball["certificate"]["multipliers"] = serde_json::json!([1.0]));
+    folder.taut("verify doctored.json points.csv").ends(1).stdout_has(&[
+        "Rejected: doctored.json: the list of multipliers has 1 number, expected 2\n",
+    ]);
+    doctor(&folder, |ball| ball["answer"]["radius"] = (-1e-200).into());
+    folder
+        .taut("verify doctored.json points.csv")
         .ends(1)
-        .says(&["Rejected: doctored.json: the list of multipliers has 1 number, expected 2\n"]);
-    doctor(&desk, |ball| ball["answer"]["radius"] = (-1e-200).into());
-    desk.taut("verify doctored.json points.csv")
-        .ends(1)
-        .says(&["Rejected: doctored.json: the radius is -1e-200: "]);
+        .stdout_has(&["Rejected: doctored.json: the radius is -1e-200: "]);
 }
 
 #[test]
 fn points_that_are_no_numbers_are_bad_input_in_any_format() {
-    let desk = solved();
-    desk.put("nan.csv", SQUARE.replace("1.5", "NaN"));
-    desk.taut("verify ball.json nan.csv").ends(2).complains(&["nan.csv", "row 5", "`y`", "NaN"]);
-    desk.put(
+    let folder = solved();
+    folder.put("nan.csv", SQUARE.replace("1.5", "NaN"));
+    folder.taut("verify ball.json nan.csv").ends(2).stderr_has(&["nan.csv", "row 5", "`y`", "NaN"]);
+    folder.put(
         "nan.f64",
         [0.0, 1.0, 2.0, f64::NAN, 3.0, 3.0, 4.0, 4.0].map(f64::to_le_bytes).concat(),
     );
-    desk.taut("verify ball.json nan.f64 --raw-dim 2 --raw-type f64")
+    folder
+        .taut("verify ball.json nan.f64 --raw-dim 2 --raw-type f64")
         .ends(2)
-        .complains(&["nan.f64", "row 2", "column 1", "NaN"]);
-    desk.put("discs.csv", "x,y,r\n0,0,1\n5,0,2\n");
-    desk.taut("ball discs.csv --balls -o discs.json").ends(0);
-    desk.put("discs.csv", "x,y,r\n0,0,1\n5,0,-2\n");
-    desk.taut("verify discs.json discs.csv").ends(2).complains(&["row 2", "`r`", "-2"]);
+        .stderr_has(&["nan.f64", "row 2", "column 1", "NaN"]);
+    folder.put("discs.csv", "x,y,r\n0,0,1\n5,0,2\n");
+    folder.taut("ball discs.csv --balls -o discs.json").ends(0);
+    folder.put("discs.csv", "x,y,r\n0,0,1\n5,0,-2\n");
+    folder.taut("verify discs.json discs.csv").ends(2).stderr_has(&["row 2", "`r`", "-2"]);
 }
 
 #[test]
 fn a_loose_certificate_is_true_but_not_tight() {
-    let desk = solved();
-    desk.taut("generate normal -n 200 -d 4 -o points.csv").ends(0);
-    desk.taut("ball points.csv -o ball.json").ends(0);
-    desk.taut("ball points.csv --epsilon 0.5 --method badoiu-clarkson -o loose.json").ends(0);
-    let gap =
-        desk.taut("verify loose.json points.csv").ends(0).says(&["Verified within a gap of "]);
+    let folder = solved();
+    folder.taut("generate normal -n 200 -d 4 -o points.csv").ends(0);
+    folder.taut("ball points.csv -o ball.json").ends(0);
+    folder.taut("ball points.csv --epsilon 0.5 --method badoiu-clarkson -o loose.json").ends(0);
+    let gap = folder
+        .taut("verify loose.json points.csv")
+        .ends(0)
+        .stdout_has(&["Verified within a gap of "]);
     assert!(!gap.out.contains("within a gap of 0"), "{gap:?}");
-    desk.taut("verify loose.json points.csv --epsilon 0.9").ends(0);
-    desk.taut("verify loose.json points.csv --epsilon 1e-9")
+    folder.taut("verify loose.json points.csv --epsilon 0.9").ends(0);
+    folder
+        .taut("verify loose.json points.csv --epsilon 1e-9")
         .ends(1)
-        .says(&["Rejected: loose.json: a gap of ", "--epsilon 1e-9"]);
-    desk.taut("verify ball.json points.csv --epsilon 1e-9").ends(0);
+        .stdout_has(&["Rejected: loose.json: a gap of ", "--epsilon 1e-9"]);
+    folder.taut("verify ball.json points.csv --epsilon 1e-9").ends(0);
     for epsilon in ["-1", "NaN", "tiny"] {
-        let run = desk.taut(&format!("verify ball.json points.csv --epsilon {epsilon}")).ends(2);
+        let run = folder.taut(&format!("verify ball.json points.csv --epsilon {epsilon}")).ends(2);
         assert!(run.err.contains("at least 0"), "{run:?}");
     }
 }
@@ -142,79 +147,83 @@ fn a_loose_certificate_is_true_but_not_tight() {
 #[cfg(unix)]
 #[test]
 fn a_rejection_stays_one_when_nobody_listens() {
-    let desk = solved();
-    doctor(&desk, |ball| ball["answer"]["radius"] = 1.0.into());
+    let folder = solved();
+    doctor(&folder, |ball| ball["answer"]["radius"] = 1.0.into());
     // The pipe has no reader left when the command starts.
     let line = "{ sleep 0.3; taut verify doctored.json points.csv; echo code $? >&2; } | true";
-    assert_eq!(desk.shell(line).err, "code 1\n");
+    assert_eq!(folder.shell(line).err, "code 1\n");
 }
 
 #[test]
 fn a_byte_order_mark_is_no_fault_and_a_second_form_is_one() {
-    let desk = solved();
-    desk.put("bom.json", format!("\u{feff}{}", desk.text("ball.json")));
-    desk.taut("verify bom.json points.csv").ends(0);
+    let folder = solved();
+    folder.put("bom.json", format!("\u{feff}{}", folder.text("ball.json")));
+    folder.taut("verify bom.json points.csv").ends(0);
     let places =
         ["/note", "/answer/note", "/certificate/note", "/trace/note", "/trace/history/0/note"];
     for place in places {
         let (parent, _) = place.rsplit_once('/').unwrap();
-        doctor(&desk, |ball| ball.pointer_mut(parent).unwrap()["note"] = 1.into());
-        desk.taut("verify doctored.json points.csv")
+        doctor(&folder, |ball| ball.pointer_mut(parent).unwrap()["note"] = 1.into());
+        folder
+            .taut("verify doctored.json points.csv")
             .ends(2)
-            .complains(&["doctored.json", "`note`"]);
+            .stderr_has(&["doctored.json", "`note`"]);
     }
-    doctor(&desk, |ball| {
+    doctor(&folder, |ball| {
         let hash = &mut ball["certificate"]["points_hash"];
         *hash = format!("+{}", &hash.as_str().unwrap()[1..]).into();
     });
-    desk.taut("verify doctored.json points.csv").ends(2).complains(&["16 digits"]);
+    folder.taut("verify doctored.json points.csv").ends(2).stderr_has(&["16 digits"]);
 }
 
 #[test]
 fn no_file_commands_the_terminal() {
-    let desk = solved();
-    desk.put("other.json", "{\"schema\": 1, \"kind\": \"\\u001b[31mred\"}");
-    let run = desk.taut("verify other.json points.csv").ends(2).complains(&["[31mred"]);
+    let folder = solved();
+    folder.put("other.json", "{\"schema\": 1, \"kind\": \"\\u001b[31mred\"}");
+    let run = folder.taut("verify other.json points.csv").ends(2).stderr_has(&["[31mred"]);
     assert!(!run.err.contains('\u{1b}'));
-    desk.put("named.csv", "x,\u{1b}[31my\n0,0\n1,NaN\n");
-    let run = desk.taut("ball named.csv").ends(2).complains(&["[31my"]);
+    folder.put("named.csv", "x,\u{1b}[31my\n0,0\n1,NaN\n");
+    let run = folder.taut("ball named.csv").ends(2).stderr_has(&["[31my"]);
     assert!(!run.err.contains('\u{1b}'));
 }
 
 #[test]
 fn what_is_no_answer_is_named() {
-    let desk = solved();
-    desk.taut("verify points.csv ball.json").ends(2).complains(&[
+    let folder = solved();
+    folder.taut("verify points.csv ball.json").ends(2).stderr_has(&[
         "points.csv: not an answer of taut: it is no JSON object",
         "the answer comes first",
     ]);
-    desk.put("bare.csv", "0,0\n1,1\n");
-    desk.taut("verify bare.csv ball.json").ends(2).complains(&["the answer comes first"]);
-    std::fs::create_dir(desk.path("folder")).unwrap();
-    desk.taut("verify folder points.csv").ends(2).complains(&["folder is a folder"]);
-    desk.put("list.json", "[]");
-    desk.put("word.json", "\"ball\"");
-    desk.put("half.json", &desk.text("ball.json")[..40]);
+    folder.put("bare.csv", "0,0\n1,1\n");
+    folder.taut("verify bare.csv ball.json").ends(2).stderr_has(&["the answer comes first"]);
+    std::fs::create_dir(folder.path("folder")).unwrap();
+    folder.taut("verify folder points.csv").ends(2).stderr_has(&["folder is a folder"]);
+    folder.put("list.json", "[]");
+    folder.put("word.json", "\"ball\"");
+    folder.put("half.json", &folder.text("ball.json")[..40]);
     for file in ["list.json", "word.json", "half.json"] {
-        let run = desk.taut(&format!("verify {file} points.csv")).ends(2).complains(&[file]);
+        let run = folder.taut(&format!("verify {file} points.csv")).ends(2).stderr_has(&[file]);
         assert!(!run.err.contains("struct"), "{run:?}");
     }
-    desk.put("other.json", "{\"schema\": 1, \"kind\": \"torus\"}");
-    desk.taut("verify other.json points.csv").ends(2).complains(&["other.json", "torus"]);
-    desk.taut("verify points.csv points.csv").ends(2).complains(&["points.csv", "not an answer"]);
-    desk.taut("verify missing.json points.csv").ends(2).complains(&["missing.json"]);
-    desk.put("binary.json", [0xff, 0xfe, 0x00]);
-    desk.taut("verify binary.json points.csv").ends(2).complains(&["binary.json"]);
+    folder.put("other.json", "{\"schema\": 1, \"kind\": \"torus\"}");
+    folder.taut("verify other.json points.csv").ends(2).stderr_has(&["other.json", "torus"]);
+    folder
+        .taut("verify points.csv points.csv")
+        .ends(2)
+        .stderr_has(&["points.csv", "not an answer"]);
+    folder.taut("verify missing.json points.csv").ends(2).stderr_has(&["missing.json"]);
+    folder.put("binary.json", [0xff, 0xfe, 0x00]);
+    folder.taut("verify binary.json points.csv").ends(2).stderr_has(&["binary.json"]);
 }
 
 /// One file read as points and as balls has two answers, both true: the report says of which inputs each is.
 #[test]
 fn what_the_rows_stand_for_is_said() {
-    let desk = Desk::new();
-    desk.put("rows.csv", "0,0,1\n4,0,0.5\n0,3,0.25\n");
-    desk.taut("ball rows.csv -o points.json").ends(0);
-    desk.taut("ball rows.csv --balls -o balls.json").ends(0);
-    let said = |answer: &str| desk.taut(&format!("verify {answer} rows.csv")).ends(0).out;
+    let folder = TestFolder::new();
+    folder.put("rows.csv", "0,0,1\n4,0,0.5\n0,3,0.25\n");
+    folder.taut("ball rows.csv -o points.json").ends(0);
+    folder.taut("ball rows.csv --balls -o balls.json").ends(0);
+    let said = |answer: &str| folder.taut(&format!("verify {answer} rows.csv")).ends(0).out;
     let first = |text: &str| text.lines().next().unwrap_or_default().to_owned();
     let (points, balls) = (first(&said("points.json")), first(&said("balls.json")));
     assert!(

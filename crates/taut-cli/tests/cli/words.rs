@@ -1,6 +1,6 @@
 //! Help, versions, formats, completions and the manual.
 
-use crate::desk::Desk;
+use crate::test_folder::TestFolder;
 
 const COMMANDS: [&str; 15] = [
     "ball",
@@ -22,23 +22,27 @@ const COMMANDS: [&str; 15] = [
 
 #[test]
 fn help_explains_every_command_with_an_example() {
-    let desk = Desk::new();
-    let top = desk.taut("--help").ends(0).says(&["Exit: 0"]).out;
+    let folder = TestFolder::new();
+    let top = folder.taut("--help").ends(0).stdout_has(&["Exit: 0"]).out;
     for command in COMMANDS {
         assert!(top.contains(&format!("  {command} ")), "{command}");
-        desk.taut(&format!("{command} --help")).ends(0).says(&[
+        folder.taut(&format!("{command} --help")).ends(0).stdout_has(&[
             "Usage: taut ",
             "Example: ",
             &format!("taut {command}"),
         ]);
     }
-    desk.taut("ball --help").ends(0).says(&["[default: 1e-9]", "TAUT_THREADS", "Exit: 0 reached"]);
-    desk.taut("--version").ends(0).says(&[concat!("taut ", env!("CARGO_PKG_VERSION"))]);
+    folder.taut("ball --help").ends(0).stdout_has(&[
+        "[default: 1e-9]",
+        "TAUT_THREADS",
+        "Exit: 0 reached",
+    ]);
+    folder.taut("--version").ends(0).stdout_has(&[concat!("taut ", env!("CARGO_PKG_VERSION"))]);
 }
 
 #[test]
 fn formats_lists_what_is_read_and_written() {
-    let run = Desk::new().taut("formats").ends(0);
+    let run = TestFolder::new().taut("formats").ends(0);
     for format in ["csv", "tsv", "whitespace", "npy", "parquet", "arrow", "tsplib", "xyz", "raw"] {
         if !cfg!(feature = "arrow") && matches!(format, "parquet" | "arrow") {
             continue;
@@ -56,18 +60,22 @@ fn formats_lists_what_is_read_and_written() {
 
 #[test]
 fn shells_complete_and_the_manual_has_a_page_for_each_command() {
-    let desk = Desk::new();
+    let folder = TestFolder::new();
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
-        desk.taut(&format!("completions {shell}")).ends(0).says(&["taut", "epsilon", "max-passes"]);
+        folder.taut(&format!("completions {shell}")).ends(0).stdout_has(&[
+            "taut",
+            "epsilon",
+            "max-passes",
+        ]);
     }
-    desk.taut("completions tcsh").ends(2);
-    desk.taut("man pages/man1").ends(0);
-    let page = desk.text("pages/man1/taut.1");
+    folder.taut("completions tcsh").ends(2);
+    folder.taut("man pages/man1").ends(0);
+    let page = folder.text("pages/man1/taut.1");
     assert!(page.contains(".TH taut 1"), "{page}");
     for command in COMMANDS {
-        let page = desk.text(&format!("pages/man1/taut-{command}.1"));
+        let page = folder.text(&format!("pages/man1/taut-{command}.1"));
         assert!(page.contains(&format!("taut\\-{command}")) && page.contains("Example"), "{page}");
     }
-    let page = desk.text("pages/man1/taut-inscribe-ellipsoid.1");
+    let page = folder.text("pages/man1/taut-inscribe-ellipsoid.1");
     assert!(page.contains("max\\-steps") && page.contains("Example"), "{page}");
 }

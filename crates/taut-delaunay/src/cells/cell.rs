@@ -37,7 +37,7 @@ const fn halo_spacings(d: usize) -> f64 {
 /// the cell small.
 const SCATTERED_SITES: usize = 512;
 
-/// How far a leaf looks for sites that were left out, in multiples of its extent.
+/// The distance to which a leaf looks for sites that were left out, in multiples of its extent.
 const CLEARANCE_EXTENTS: f64 = 2.0;
 
 /// A cell gives up if more than one simplex in so many is doubtful: on uniform points it is one in a hundred at most; on
@@ -52,8 +52,7 @@ const QUESTIONS_EACH: u64 = 24;
 /// Most sites that one leaf may add to the halo: the box of a sparse leaf may lie over all of a dense cell.
 const HALO_EACH: usize = 4 * LEAF_SIZE;
 
-/// What all cells know.
-pub(crate) struct Whole<'a, const D: usize, const V: usize> {
+pub(crate) struct SharedData<'a, const D: usize, const V: usize> {
     pub(crate) sites: &'a [[f64; D]],
     pub(crate) index: &'a Index<D>,
     /// Affinely independent sites.
@@ -99,7 +98,7 @@ impl SiteSet {
     }
 }
 
-impl<const D: usize, const V: usize> Whole<'_, D, V> {
+impl<const D: usize, const V: usize> SharedData<'_, D, V> {
     /// Triangulates the cell of the sites `own`, which begin and end at leaves of the index. `None` if this or another
     /// cell gave up, as it depends on most of the other sites.
     pub(crate) fn triangulate<G: Geometry<D, V>>(
@@ -189,7 +188,7 @@ impl<const D: usize, const V: usize> Whole<'_, D, V> {
             .map(|place| Node { level: 0, place })
     }
 
-    /// Whether a node has only sites of `own`.
+    /// Returns true if a node has only sites of `own`.
     fn is_own(&self, own: &Range<u32>, node: Node) -> bool {
         let run = self.index.run(node);
         own.start <= run.start && run.end <= own.end
@@ -258,7 +257,7 @@ fn directions<const D: usize>() -> impl Iterator<Item = [f64; D]> {
 
 /// A cell while its simplices are being shown to be empty.
 struct Certifying<'a, const D: usize, const V: usize, G: Geometry<D, V>> {
-    whole: &'a Whole<'a, D, V>,
+    whole: &'a SharedData<'a, D, V>,
     own: Range<u32>,
     here: SiteSet,
     sites: Vec<u32>,
@@ -337,7 +336,7 @@ impl<const D: usize, const V: usize, G: Geometry<D, V>> Certifying<'_, D, V, G> 
         (!near).then_some((t, simplex.vertices))
     }
 
-    /// Whether the sphere of a simplex is too small to reach a site that was left out; `own` is the place of one of its
+    /// Tests whether the sphere of a simplex is too small to reach a site that was left out; `own` is the place of one of its
     /// vertices among the own sites.
     #[inline(always)]
     fn is_near(&self, vertices: &[u32; V], own: u32) -> bool {

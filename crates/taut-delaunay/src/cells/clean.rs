@@ -55,7 +55,7 @@ impl Clean {
         Self { groups }
     }
 
-    /// Whether vertices at these places among the own sites are all in one clean group.
+    /// Tests whether vertices at these places among the own sites are all in one clean group.
     #[inline(always)]
     pub(super) fn holds<const V: usize>(&self, places: [u32; V]) -> bool {
         SIZES.iter().zip(&self.groups).any(|(&shift, clean)| {

@@ -46,7 +46,7 @@ struct Side<const V: usize> {
     opposite: u32,
 }
 
-/// What a cell leaves for others.
+/// The facets that a cell leaves for others.
 struct Border<const V: usize> {
     /// Facets to join.
     joints: Vec<[Side<V>; 2]>,
@@ -65,7 +65,7 @@ fn smallest_without<const V: usize>(vertices: [u32; V], except: usize) -> u32 {
 }
 
 impl<const V: usize> Cell<V> {
-    /// Whether a vertex is one of the own sites.
+    /// Returns true if a vertex is one of the own sites.
     #[inline(always)]
     fn is_own(&self, v: u32) -> bool {
         v.wrapping_sub(self.own_local.start) < self.own.end - self.own.start
@@ -95,13 +95,13 @@ impl<const V: usize> Cell<V> {
         simplex.is_live().then_some(sites)
     }
 
-    /// Whether this cell hands over a simplex with these sites.
+    /// Tests whether this cell hands over a simplex with these sites.
     #[inline(always)]
     fn owns(&self, sites: &[u32; V]) -> bool {
         self.own.contains(&sites.iter().copied().fold(GHOST, u32::min))
     }
 
-    /// Turns the slots into those of the whole, where they begin at `offset`. Neighbours of other cells are still to be
+    /// Turns the slots into those of the whole, where they begin at `offset`. Neighbors of other cells are still to be
     /// joined.
     fn hand_over(mut self, offset: u32) -> Vec<Simplex<V>> {
         for t in 0..self.simplices.len() {
@@ -137,7 +137,7 @@ impl<const V: usize> Cell<V> {
             let ours = self.owns(&sites);
             for i in 0..V {
                 let (other, facet) = decode(self.simplices[t as usize].neighbors[i]);
-                let there = self.sites_of(other).expect("a live simplex has live neighbours");
+                let there = self.sites_of(other).expect("a live simplex has live neighbors");
                 match (ours, self.owns(&there)) {
                     // A cell that owns both sides has joined them itself.
                     (true, true) => continue,

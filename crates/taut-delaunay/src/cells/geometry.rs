@@ -1,4 +1,4 @@
-//! What the cells ask of simplices, in the plane and in space.
+//! The operations on simplices that the cells need, in the plane and in space.
 
 use std::ops::Index;
 
@@ -10,7 +10,6 @@ use crate::simplex::{GHOST, Simplex, decode};
 
 /// The plane or space, for code that serves both.
 pub(crate) trait Geometry<const D: usize, const V: usize>: Sized {
-    /// The kernel.
     type Mesh: Kernel<D, V> + Send + Sync;
 
     /// Where a positive simplex conflicts.
@@ -19,14 +18,12 @@ pub(crate) trait Geometry<const D: usize, const V: usize>: Sized {
     /// Where the ghost beyond a facet conflicts; `corners[apex]` is ignored and stands for infinity.
     fn reach_beyond(corners: [[f64; D]; V], apex: usize) -> Reach<D>;
 
-    /// Whether `q` conflicts with a positive simplex, ties decided by the perturbation.
+    /// Tests whether `q` conflicts with a positive simplex, ties decided by the perturbation.
     fn conflict(corners: [[f64; D]; V], q: [f64; D]) -> bool;
 
-    /// The orientation of the corners.
     fn orientation(corners: [[f64; D]; V]) -> Sign;
 }
 
-/// The plane.
 pub(crate) struct InPlane;
 
 impl Geometry<2, 3> for InPlane {
@@ -50,7 +47,6 @@ impl Geometry<2, 3> for InPlane {
     }
 }
 
-/// Space.
 pub(crate) struct InSpace;
 
 impl Geometry<3, 4> for InSpace {
@@ -85,7 +81,7 @@ pub(crate) fn corners<const D: usize, const V: usize>(
     vertices.map(|v| if v == GHOST { fill } else { site(v) })
 }
 
-/// Whether `q` conflicts with simplex `t` of a mesh, ghosts included: beyond the hull, or on a hull facet's plane and in
+/// Tests whether `q` conflicts with simplex `t` of a mesh, ghosts included: beyond the hull, or on a hull facet's plane and in
 /// conflict with the finite simplex behind it.
 pub(crate) fn conflicts<const D: usize, const V: usize, G: Geometry<D, V>>(
     simplices: &(impl Index<usize, Output = Simplex<V>> + ?Sized),

@@ -35,7 +35,7 @@ impl<const D: usize> Bounds<D> {
         }
     }
 
-    /// Whether a point is in the box.
+    /// Tests whether a point is in the box.
     pub(crate) fn holds(&self, p: [f64; D]) -> bool {
         (0..D).all(|i| self.low[i] <= p[i] && p[i] <= self.high[i])
     }

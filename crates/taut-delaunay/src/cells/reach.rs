@@ -1,10 +1,10 @@
-//! How far a simplex reaches: where a site would conflict with it, as a quadratic form that boxes can be judged by.
+//! Measures how far a simplex reaches: where a site would conflict with it, as a quadratic form that boxes can be judged by.
 //!
 //! Idea: for fixed vertices, the in-sphere determinant is a function of the query alone, α|q − a|² + β·(q − a) with
 //! α < 0: its maximum over a box is a sum over the axes. A ghost's half-space is the same with α = 0.
 //! Guarantee: a box that is ruled out holds no conflict; rounding is on the safe side by `slack`. What is not ruled
 //! out is asked exactly, point by point.
-//! Trap: the centre and the radius of a sliver's sphere are worthless in floating point; the form needs neither.
+//! Trap: the center and the radius of a sliver's sphere are worthless in floating point; the form needs neither.
 
 use crate::vector::{cross, difference, dot, largest, square};
 
@@ -63,7 +63,7 @@ impl Reach<3> {
 }
 
 impl<const D: usize> Reach<D> {
-    /// Whether the sphere certainly stays within `√clearance_squared` of each of its vertices.
+    /// Returns true if the sphere certainly stays within `√clearance_squared` of each of its vertices.
     #[inline(always)]
     pub(crate) fn within(&self, clearance_squared: f64) -> bool {
         let power = if D == 2 { self.size * self.size } else { self.size * self.size * self.size };

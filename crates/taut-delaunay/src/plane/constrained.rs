@@ -53,11 +53,11 @@ pub struct Piece {
     pub sites: [u32; 2],
     /// The first of the segments that it is part of, by its place in the input.
     pub segment: u32,
-    /// Whether an odd number of segments of rings goes along it.
+    /// True if an odd number of segments of rings goes along it.
     pub odd: bool,
 }
 
-/// What became of the segments.
+/// The results for the segments.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Pieces {
     /// In the order of their ends, each edge once.
@@ -85,9 +85,9 @@ pub enum ConstraintError {
     NoSite {
         /// By its place in the input.
         segment: u32,
-        /// What it gives as an end.
+        /// The site that it gives as an end.
         site: u32,
-        /// How many there are.
+        /// The number of them.
         sites: usize,
     },
     /// At this site a ring ends, so it has no inside.
@@ -104,7 +104,7 @@ pub enum ConstraintError {
     /// Segments are numbered with 32 bits.
     #[error("{count} segments are more than can be numbered with 32 bits")]
     TooMany {
-        /// How many there are.
+        /// The number of them.
         count: usize,
     },
 }
@@ -170,7 +170,7 @@ struct Constraining<'a> {
     corridor: Corridor,
 }
 
-/// How a segment leaves its first site.
+/// The way in which a segment leaves its first site.
 enum Exit {
     /// Along an edge to this site: the facet that is the edge.
     Edge(u32, u32),
@@ -221,7 +221,7 @@ impl<'a> Constraining<'a> {
     }
 
     /// The way from one site to the other, or the way back and `true`: looks around both at once, so that a site of
-    /// many neighbours is not looked around in vain.
+    /// many neighbors is not searched without result.
     fn leave(&self, from: u32, to: u32) -> (Exit, bool) {
         let mut here = self.around[from as usize];
         let mut there = self.around[to as usize];
@@ -243,7 +243,7 @@ impl<'a> Constraining<'a> {
         decode(t.neighbors[(place(t, site) + 1) % 3]).0
     }
 
-    /// Whether the way from one site to another leaves by this triangle.
+    /// Tests whether the way from one site to another leaves by this triangle.
     fn exit(&self, from: u32, to: u32, triangle: u32) -> Option<Exit> {
         let t = &self.triangles[triangle as usize];
         let i = place(t, from);
@@ -312,7 +312,6 @@ impl<'a> Constraining<'a> {
     }
 }
 
-/// The place of a vertex that the triangle has.
 fn place(t: &Simplex<3>, vertex: u32) -> usize {
     let [a, b, _] = t.vertices;
     if a == vertex {

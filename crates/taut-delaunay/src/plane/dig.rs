@@ -11,8 +11,8 @@
 
 use taut_predicates::{Exact, MulAdd, Sign};
 
-use super::seen::{Seen, View, minor};
-use super::walk::{Found, LAST_FACET, NEXT_FACET};
+use super::seen::{PointOffset, View, minor};
+use super::walk::{LAST_FACET, LocatedTriangle, NEXT_FACET};
 use crate::kernel::Counters;
 use crate::simplex::{GHOST, Simplex, decode};
 
@@ -25,13 +25,13 @@ use crate::simplex::{GHOST, Simplex, decode};
 pub(super) struct Edge {
     behind: u32,
     conflict: bool,
-    b: Seen,
-    d: Seen,
+    b: PointOffset,
+    d: PointOffset,
     ad: f64,
     db: f64,
 }
 
-/// What becomes of the cavity.
+/// The receiver of the cavity.
 pub(super) trait Sink {
     /// The mesh that is dug in.
     fn triangles(&self) -> &[Simplex<3>];
@@ -40,13 +40,13 @@ pub(super) trait Sink {
     fn enter(&mut self, triangle: u32);
 
     /// An edge of the rim, the facet behind it, and where the edge ends.
-    fn rim(&mut self, behind: u32, edge: [u32; 2], end: Seen);
+    fn rim(&mut self, behind: u32, edge: [u32; 2], end: PointOffset);
 }
 
 #[inline(always)]
 pub(super) fn dig<M: MulAdd, S: Sink>(
     view: &View<'_>,
-    found: Found,
+    found: LocatedTriangle,
     pending: &mut Vec<Edge>,
     exact: &mut Exact,
     counters: &mut Counters,
@@ -109,7 +109,7 @@ fn look<M: MulAdd>(
     view: &View<'_>,
     triangles: &[Simplex<3>],
     behind: u32,
-    [a, b]: [Seen; 2],
+    [a, b]: [PointOffset; 2],
     ab: f64,
     exact: &mut Exact,
 ) -> Edge {

@@ -21,12 +21,12 @@ const IN_CIRCLE: f64 = 11.0 * EPSILON;
 /// at most a lift, below 2⁸⁴.
 const UNDERFLOW_ERROR: f64 = f64::from_bits((1023 - 900) << 52);
 
-/// What is seen of the ghost vertex: every comparison with it is false, so the common path need not ask for it.
+/// The coordinates of the ghost vertex: every comparison with it is false, so the common path need not ask for it.
 const NOWHERE: [f64; 2] = [f64::NAN; 2];
 
 /// p − q, and its square.
 #[derive(Clone, Copy)]
-pub(super) struct Seen {
+pub(super) struct PointOffset {
     x: f64,
     y: f64,
     lift: f64,
@@ -34,7 +34,7 @@ pub(super) struct Seen {
 
 /// [ab]
 #[inline(always)]
-pub(super) fn minor<M: MulAdd>(a: Seen, b: Seen) -> f64 {
+pub(super) fn minor<M: MulAdd>(a: PointOffset, b: PointOffset) -> f64 {
     M::mul_add(a.x, b.y, -(a.y * b.x))
 }
 
@@ -59,15 +59,15 @@ impl<'a> View<'a> {
 
     /// A vertex as seen from q; not a number if it is the ghost vertex.
     #[inline(always)]
-    pub(super) fn see<M: MulAdd>(&self, vertex: u32) -> Seen {
+    pub(super) fn see<M: MulAdd>(&self, vertex: u32) -> PointOffset {
         let p = self.sites.get(vertex as usize).unwrap_or(&NOWHERE);
         let (x, y) = (p[0] - self.q[0], p[1] - self.q[1]);
-        Seen { x, y, lift: M::mul_add(x, x, y * y) }
+        PointOffset { x, y, lift: M::mul_add(x, x, y * y) }
     }
 
     /// [ab] if its sign is beyond doubt, and zero if it is not.
     #[inline(always)]
-    pub(super) fn side<M: MulAdd>(&self, a: Seen, b: Seen, minor: f64) -> f64 {
+    pub(super) fn side<M: MulAdd>(&self, a: PointOffset, b: PointOffset, minor: f64) -> f64 {
         let error = M::mul_add(self.orient, a.lift + b.lift, UNDERFLOW_ERROR);
         if minor.abs() > error { minor } else { 0.0 }
     }
@@ -99,14 +99,18 @@ impl<'a> View<'a> {
 
     /// D for the triangle (d, b, a) if its sign is beyond doubt, and zero if it is not.
     #[inline(always)]
-    pub(super) fn in_circle<M: MulAdd>(&self, [a, b, d]: [Seen; 3], [ab, ad, db]: [f64; 3]) -> f64 {
+    pub(super) fn in_circle<M: MulAdd>(
+        &self,
+        [a, b, d]: [PointOffset; 3],
+        [ab, ad, db]: [f64; 3],
+    ) -> f64 {
         let determinant = M::mul_add(a.lift, db, M::mul_add(b.lift, ad, -(d.lift * ab)));
         let permanent = M::mul_add(d.lift, a.lift + b.lift, a.lift * b.lift);
         let error = M::mul_add(self.in_circle, permanent, UNDERFLOW_ERROR);
         if determinant.abs() > error { determinant } else { 0.0 }
     }
 
-    /// Whether the perturbed circumcircle of a counter-clockwise triangle holds q, whatever it takes.
+    /// Tests whether the perturbed circumcircle of a counter-clockwise triangle holds q, whatever it takes.
     pub(super) fn conflict_exact(&self, triangle: [u32; 3], exact: &mut Exact) -> bool {
         let [a, b, c] = triangle.map(|v| self.sites[v as usize]);
         let determinant =

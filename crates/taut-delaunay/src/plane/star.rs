@@ -9,8 +9,8 @@
 use taut_predicates::Separate;
 
 use super::dig::Sink;
-use super::seen::{Seen, minor};
-use super::walk::Found;
+use super::seen::{PointOffset, minor};
+use super::walk::LocatedTriangle;
 use crate::simplex::{GHOST, Simplex, code, decode};
 
 /// Replaces the cavity by the star of a site: vertex 0 of each triangle is the site, facet 0 the edge of the rim.
@@ -21,7 +21,7 @@ pub(super) struct Star<'a> {
     first: u32,
     last: u32,
     /// The way to the site that comes next, and on which side of it the rim is.
-    onward: Seen,
+    onward: PointOffset,
     side: f64,
     /// The triangle of the star that has this way.
     start: u32,
@@ -34,8 +34,8 @@ impl<'a> Star<'a> {
         site: u32,
         triangles: &'a mut [Simplex<3>],
         free: &'a mut Vec<u32>,
-        found: &Found,
-        next: Seen,
+        found: &LocatedTriangle,
+        next: PointOffset,
     ) -> Star<'a> {
         free.push(found.triangle);
         // Before the first triangle there is none to link to; a slot that is free bears what is written into it.
@@ -74,7 +74,7 @@ impl Sink for Star<'_> {
     }
 
     #[inline(always)]
-    fn rim(&mut self, behind: u32, [from, to]: [u32; 2], end: Seen) {
+    fn rim(&mut self, behind: u32, [from, to]: [u32; 2], end: PointOffset) {
         let slot = self.free.pop().expect("a cavity of k triangles has k + 2 edges");
         let (outer, facet) = decode(behind);
         self.triangles[outer as usize].neighbors[facet] = code(slot, 0);

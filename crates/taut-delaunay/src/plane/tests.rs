@@ -10,7 +10,7 @@ use crate::simplex::decode;
 
 type Point = [f64; 2];
 
-const FAST: Settings = Settings { integral: false, filtered: true, vectors: true };
+const FILTERED_VECTORS: Settings = Settings { integral: false, filtered: true, vectors: true };
 
 /// Random numbers with an address: the n-th of a seed.
 pub(super) struct Random(pub(super) u64);
@@ -49,7 +49,7 @@ pub(super) fn mesh(points: &[Point], order: &[u32], settings: Settings) -> Mesh 
     mesh
 }
 
-/// A mesh in an order that keeps neighbours close, checked.
+/// A mesh in an order that keeps neighbors close, checked.
 fn checked(mut points: Vec<Point>, settings: Settings) -> Mesh {
     points.sort_by(|&a, &b| lexicographic(a, b));
     points.dedup();
@@ -174,7 +174,7 @@ fn every_order_of_small_subsets_of_grids_gives_the_one_triangulation() {
 
 #[test]
 fn points_on_circles_of_a_lattice() {
-    // x² + y² = 5²·13²·17²: 108 points on one circle, with its centre and some of its chords.
+    // x² + y² = 5²·13²·17²: 108 points on one circle, with its center and some of its chords.
     let r2 = (5i64 * 13 * 17).pow(2);
     let mut points: Vec<Point> = vec![[0.0, 0.0], [1.0, 2.0]];
     for x in -1105i64..=1105 {
@@ -199,7 +199,7 @@ fn points_on_circles_of_a_lattice() {
     }
     // The circle alone.
     let circle: Vec<Point> = points.into_iter().filter(|p| p[0].hypot(p[1]) > 10.0).collect();
-    let alone = triangles(&checked(circle.clone(), FAST));
+    let alone = triangles(&checked(circle.clone(), FILTERED_VECTORS));
     assert_eq!(alone.len(), circle.len() - 2);
     assert_eq!(alone, brute(&circle));
 }
@@ -218,7 +218,7 @@ fn sets_of_many_kinds_are_locally_delaunay() {
         (0..n).map(|i| if i == 0 { [0.5, 1.0] } else { [f64::from(i), 0.0] }).collect(),
         (0..n).map(|i| [random.unit(), f64::from(i % 2)]).collect(),
         (0..n).map(|i| [0.1 * f64::from(i), 0.3 * f64::from(i)]).collect(),
-        // Millimetres of a wall, on both sides of zero.
+        // Millimeters of a wall, on both sides of zero.
         (0..n)
             .map(|_| [random.unit() * 2e4 - 1e4, (random.unit() * 6.0 - 3.0).round() * 1e3])
             .collect(),
@@ -235,8 +235,8 @@ fn sets_of_many_kinds_are_locally_delaunay() {
     );
     for (number, set) in sets.into_iter().enumerate() {
         let unfiltered = Settings { integral: false, filtered: false, vectors: false };
-        let separate = Settings { vectors: false, ..FAST };
-        let fast = triangles(&checked(set.clone(), FAST));
+        let separate = Settings { vectors: false, ..FILTERED_VECTORS };
+        let fast = triangles(&checked(set.clone(), FILTERED_VECTORS));
         assert_eq!(fast, triangles(&checked(set.clone(), separate)), "set {number}");
         assert_eq!(fast, triangles(&checked(set, unfiltered)), "set {number}");
     }
@@ -247,7 +247,7 @@ fn magnitudes_at_both_ends_of_the_range() {
     let unfiltered = Settings { integral: false, filtered: false, vectors: true };
     let mut random = Random(5);
     let points: Vec<Point> = (0..200).map(|_| [random.unit() - 0.5, random.unit() - 0.5]).collect();
-    let ordinary = triangles(&checked(points.clone(), FAST));
+    let ordinary = triangles(&checked(points.clone(), FILTERED_VECTORS));
     // Powers of two, so that the points are the same up to scale.
     for scale in [2f64.powi(500), 2f64.powi(-500), 2f64.powi(960)] {
         let scaled = points.iter().map(|p| p.map(|x| x * scale)).collect();
@@ -258,13 +258,16 @@ fn magnitudes_at_both_ends_of_the_range() {
     let grid = |unit: f64| {
         (0..64).map(|i| [f64::from(i % 8) * unit, f64::from(i / 8) * unit]).collect::<Vec<_>>()
     };
-    assert_eq!(triangles(&checked(grid(least), unfiltered)), triangles(&checked(grid(1.0), FAST)));
+    assert_eq!(
+        triangles(&checked(grid(least), unfiltered)),
+        triangles(&checked(grid(1.0), FILTERED_VECTORS))
+    );
     // Products of tiny differences underflow; the filters have to see that, beside ordinary points, too.
     for tiny in [1e-80, 3e-81, 1e-81, 1e-161] {
         let mut mixed: Vec<Point> = points.iter().map(|p| p.map(|x| x * tiny)).collect();
         mixed.extend([[1.0, 0.5], [-1.0, 3.0], [0.25, -2.0]]);
         assert_eq!(
-            triangles(&checked(mixed.clone(), FAST)),
+            triangles(&checked(mixed.clone(), FILTERED_VECTORS)),
             triangles(&checked(mixed, unfiltered))
         );
     }
@@ -291,7 +294,7 @@ fn sets_that_others_failed_on() {
     for points in [geos, delaunator] {
         let expected = brute(&points);
         permutations(points.len(), |order| {
-            let mesh = mesh(&points, order, FAST);
+            let mesh = mesh(&points, order, FILTERED_VECTORS);
             check(&mesh);
             assert_eq!(triangles(&mesh), expected);
         });
@@ -303,13 +306,13 @@ fn a_site_may_be_added_later() {
     let mut random = Random(13);
     let points: Vec<Point> = (0..50).map(|_| [random.unit(), random.unit()]).collect();
     let order: Vec<u32> = (0..50).collect();
-    let mut late = mesh(&points[..30], &order[..30], FAST);
+    let mut late = mesh(&points[..30], &order[..30], FILTERED_VECTORS);
     for &p in &points[30..] {
         let number = late.push(p);
         late.insert(&[number]).unwrap();
     }
     check(&late);
-    assert_eq!(triangles(&late), triangles(&mesh(&points, &order, FAST)));
+    assert_eq!(triangles(&late), triangles(&mesh(&points, &order, FILTERED_VECTORS)));
     let (slots, _, counters) = late.finish();
     assert_eq!(slots.len(), 2 * 50 - 2);
     assert_eq!(counters.insertions, 50);
@@ -317,7 +320,7 @@ fn a_site_may_be_added_later() {
 
 #[test]
 fn more_than_thirty_bits_of_triangles_are_refused() {
-    let mut mesh = Mesh::new(vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], FAST);
+    let mut mesh = Mesh::new(vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], FILTERED_VECTORS);
     mesh.start([0, 1, 2]);
     // Refused before anything is read, so these pages are never touched.
     assert_eq!(mesh.insert(&vec![0; TRIANGLES_MAX / 2]), Err(TooMany));
@@ -328,7 +331,7 @@ fn more_than_thirty_bits_of_triangles_are_refused() {
 fn uniform_points_need_no_exact_arithmetic() {
     let mut random = Random(17);
     let points: Vec<Point> = (0..20_000).map(|_| [random.unit(), random.unit()]).collect();
-    let mesh = checked(points, FAST);
+    let mesh = checked(points, FILTERED_VECTORS);
     let (_, _, counters) = mesh.finish();
     let stages = counters.stages;
     assert!(stages.calls() - stages.filter <= 2, "{stages:?}");

@@ -8,18 +8,18 @@
 
 use taut_predicates::{Exact, MulAdd};
 
-use super::seen::{Seen, View, minor};
+use super::seen::{PointOffset, View, minor};
 use crate::kernel::Counters;
 use crate::simplex::{GHOST, Simplex, decode};
 
 /// The triangle (d, b, a) that was found, d being at place `facet`, and its minors.
 #[derive(Clone, Copy)]
-pub(super) struct Found {
+pub(super) struct LocatedTriangle {
     pub(super) triangle: u32,
     pub(super) facet: usize,
-    pub(super) a: Seen,
-    pub(super) b: Seen,
-    pub(super) d: Seen,
+    pub(super) a: PointOffset,
+    pub(super) b: PointOffset,
+    pub(super) d: PointOffset,
     pub(super) ba: f64,
     pub(super) ad: f64,
     pub(super) db: f64,
@@ -32,7 +32,7 @@ pub(super) fn walk<M: MulAdd>(
     from: u32,
     exact: &mut Exact,
     counters: &mut Counters,
-) -> Found {
+) -> LocatedTriangle {
     // As if the first triangle had been entered through the edge opposite its vertex 0; that edge is looked at once.
     let mut triangle = from;
     if let Some(place) = triangles[triangle as usize].vertices.iter().position(|&v| v == GHOST) {
@@ -65,7 +65,7 @@ pub(super) fn walk<M: MulAdd>(
         } else {
             counters.walk_steps += steps;
             counters.orientations += 2 * steps + 1;
-            return Found { triangle, facet, a, b, d, ba, ad, db };
+            return LocatedTriangle { triangle, facet, a, b, d, ba, ad, db };
         }
     }
 }
@@ -75,12 +75,12 @@ pub(super) const NEXT_FACET: [usize; 4] = [1, 2, 0, 0];
 /// The place before this one.
 pub(super) const LAST_FACET: [usize; 4] = [2, 0, 1, 0];
 
-/// Whether q lies strictly to the right of the directed edge from u to v. It does of no edge at the ghost vertex.
+/// Returns true if q lies strictly to the right of the directed edge from u to v. It does of no edge at the ghost vertex.
 #[inline(always)]
 fn strictly_right<M: MulAdd>(
     view: &View<'_>,
-    u: (u32, Seen),
-    v: (u32, Seen),
+    u: (u32, PointOffset),
+    v: (u32, PointOffset),
     uv: f64,
     exact: &mut Exact,
 ) -> bool {

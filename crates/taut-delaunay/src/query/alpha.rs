@@ -24,15 +24,14 @@ pub struct AlphaComplex<const D: usize> {
     pub singular: Vec<[u32; D]>,
 }
 
-/// What the simplices of the plane and of space give.
+/// The radii that the simplices of the plane and of space give.
 ///
 /// Radii are taken of the simplex blown up to size 1: products of eight coordinates leave the range of `f64` early.
 trait Radii<const D: usize, const V: usize> {
-    /// The circumradius of a simplex.
     fn circumradius(corners: [[f64; D]; V]) -> f64;
     /// The radius of the smallest sphere through a facet.
     fn facet_radius(corners: [[f64; D]; D]) -> f64;
-    /// Whether `q` lies strictly inside the smallest sphere through a facet.
+    /// Tests whether `q` lies strictly inside the smallest sphere through a facet.
     fn in_facet_sphere(corners: [[f64; D]; D], q: [f64; D]) -> bool;
 }
 

@@ -22,7 +22,7 @@ impl<const D: usize> HalfSpace<D> {
         Self { normal, offset: dot(normal, middle) }
     }
 
-    /// How far outside `p` is, in multiples of the normal's length.
+    /// Returns how far outside `p` is, in multiples of the normal's length.
     fn excess(&self, p: [f64; D]) -> f64 {
         dot(self.normal, p) - self.offset
     }
@@ -59,7 +59,7 @@ pub(crate) trait Body<const D: usize>: Clone {
     fn cut(&mut self, by: &HalfSpace<D>);
     /// With each corner moved.
     fn map(self, to: impl Fn([f64; D]) -> [f64; D]) -> Self;
-    /// Whether nothing is left.
+    /// Returns true if nothing is left.
     fn is_empty(&self) -> bool;
     /// Area or volume.
     fn volume(&self) -> f64;

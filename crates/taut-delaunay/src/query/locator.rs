@@ -199,7 +199,7 @@ macro_rules! questions {
                 self.locate_by::<$geometry>(point)
             }
 
-            /// The natural neighbours of a point: the sites it would be joined with if it were one, ascending. Their
+            /// The natural neighbors of a point: the sites it would be joined with if it were one, ascending. Their
             /// Voronoi cells would lose to it, or nothing where many sites lie on one sphere. The site itself if the
             /// point is one; none if it lies [`Nowhere`](Location::Nowhere).
             pub fn natural_neighbors(&self, point: [f64; $d]) -> Vec<u32> {

@@ -1,6 +1,6 @@
-//! Natural-neighbour interpolation.
+//! Natural-neighbor interpolation.
 //!
-//! Idea: put the point among the sites; its Voronoi cell is taken from the cells of its natural neighbours, and the
+//! Idea: put the point among the sites; its Voronoi cell is taken from the cells of its natural neighbors, and the
 //! share that each of them loses is its weight.
 //! Guarantee: weights are at least 0 and sum to 1, and the weighted mean of the sites is the point (to rounding), so
 //! linear functions are reproduced. Between the sites the interpolant is smooth, at the sites continuous.
@@ -17,9 +17,9 @@ const BOX_GROWTH: f64 = 16.0;
 /// is inside anyway.
 const BOX_GROWTHS_MAX: u32 = 12;
 
-/// What `weights_in` needs of a body.
+/// The operations that `weights_in` needs of a body.
 trait Touches<const D: usize>: Body<D> {
-    /// Whether a corner reaches beyond the box around `center`.
+    /// Tests whether a corner reaches beyond the box around `center`.
     fn touches(&self, center: [f64; D], half: f64) -> bool;
 }
 
@@ -73,10 +73,10 @@ fn weights<const D: usize, B: Touches<D>>(neighbors: &[[f64; D]]) -> Vec<f64> {
 macro_rules! interpolation {
     ($d:literal, $v:literal, $body:ty) => {
         impl Locator<'_, $d, $v> {
-            /// Sibson's coordinates of a point: its natural neighbours with the shares they lose to it; they sum to 1.
+            /// Sibson's coordinates of a point: its natural neighbors with the shares they lose to it; they sum to 1.
             ///
             /// `None` outside the hull, where they mean nothing, and where it lies [`Nowhere`](Location::Nowhere).
-            /// O(k²) cuts for k natural neighbours.
+            /// O(k²) cuts for k natural neighbors.
             pub fn natural_coordinates(&self, point: [f64; $d]) -> Option<Vec<(u32, f64)>> {
                 match self.locate(point) {
                     Location::Site(site) => return Some(vec![(site, 1.0)]),
@@ -93,7 +93,7 @@ macro_rules! interpolation {
                 Some(sites.into_iter().zip(weights::<$d, $body>(&relative)).collect())
             }
 
-            /// The natural-neighbour interpolant at a point of values given for each row of the input.
+            /// The natural-neighbor interpolant at a point of values given for each row of the input.
             ///
             /// `None` where [`natural_coordinates`](Self::natural_coordinates) are. Of equal rows the value of the
             /// first counts.
@@ -182,7 +182,7 @@ mod tests {
 
     /// In the middle of a square grid all four corners lose alike.
     #[test]
-    fn symmetric_neighbours_have_equal_weights() {
+    fn symmetric_neighbors_have_equal_weights() {
         let grid: Vec<f64> = (0..25).flat_map(|i| [f64::from(i % 5), f64::from(i / 5)]).collect();
         let points = Points::new(&grid, 2).expect("whole rows");
         let plane = Plane::build(&points, &DelaunayOptions::default()).expect("finite");

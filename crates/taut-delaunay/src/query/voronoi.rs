@@ -14,7 +14,7 @@ use crate::vector::difference;
 const COORDINATE_MAX: f64 = (1u64 << 50) as f64;
 
 impl<const D: usize, const V: usize> Locator<'_, D, V> {
-    /// What of the box is nearer to `site` than to any other site. In the scale of the sites and relative to `site`, as
+    /// Returns what of the box is nearer to `site` than to any other site. In the scale of the sites and relative to `site`, as
     /// products of coordinates as they are given may leave the range of `f64`.
     fn cell<B: Body<D>>(&self, site: u32, low: [f64; D], high: [f64; D]) -> B {
         let Triangulation { sites, .. } = self.triangulation;
@@ -37,7 +37,7 @@ impl<const D: usize, const V: usize> Locator<'_, D, V> {
 impl Locator<'_, 2, 3> {
     /// The Voronoi cell of a site, clipped to the box between two corners.
     ///
-    /// O(k²) for k neighbours.
+    /// O(k²) for k neighbors.
     ///
     /// # Panics
     /// If there is no such site.
@@ -49,7 +49,7 @@ impl Locator<'_, 2, 3> {
 impl Locator<'_, 3, 4> {
     /// The Voronoi cell of a site, clipped to the box between two corners.
     ///
-    /// O(k²) for k neighbours.
+    /// O(k²) for k neighbors.
     ///
     /// # Panics
     /// If there is no such site.

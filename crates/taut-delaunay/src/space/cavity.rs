@@ -2,10 +2,10 @@
 //!
 //! *Problem.* The simplices in conflict with q are connected; find them from one of them with few tests and few
 //! branches that a processor cannot foresee.
-//! *Idea.* A queue. The neighbours of what is inside that nobody has seen yet are listed without a branch: each is
+//! *Idea.* A queue. The neighbors of what is inside that nobody has seen yet are listed without a branch: each is
 //! written to the end of the list, and the list grows by one if its mark was zero. The list is tested in groups as wide
-//! as the machine allows; who is in conflict is inside, and has its own neighbours listed, before the next group. Facets
-//! come last, in one pass of the same kind: a facet is on the boundary if its neighbour was seen and is not inside.
+//! as the machine allows; who is in conflict is inside, and has its own neighbors listed, before the next group. Facets
+//! come last, in one pass of the same kind: a facet is on the boundary if its neighbor was seen and is not inside.
 //! *Guarantee.* Signs are exact under the perturbation, so the cavity is a ball, star-shaped around q. No recursion;
 //! time linear in the cavity; marks are zero again at the end.
 //! *Trap.* A ghost has no circumsphere. Its vertex at infinity is a row of NaN, which makes every comparison of a
@@ -13,7 +13,7 @@
 //! *Measured.* Uniform points take 43 tests and 20 simplices inside; of their time a third is the arithmetic of the tests,
 //! a quarter the listing and the facets, a quarter the star, the rest the walk. Marking each simplex where its answer
 //! is known, one by one, cost 12 % more: how many of a group are inside is a branch that nobody can foresee. Fetching a
-//! neighbour when it is listed saves 6 % of a million sites.
+//! neighbor when it is listed saves 6 % of a million sites.
 //! *Reference.* Bowyer; Watson, both Comput. J. 24(2), 1981.
 
 use crate::simplex::{GHOST, Simplex};
@@ -21,7 +21,7 @@ use crate::simplex::{GHOST, Simplex};
 use super::Site;
 use super::signs::{Judge, Signs};
 
-/// This simplex has been listed as a neighbour of the cavity.
+/// This simplex has been listed as a neighbor of the cavity.
 const SEEN_BIT: u8 = 2;
 /// This simplex belongs to the cavity.
 const INSIDE_BIT: u8 = 1;
@@ -36,7 +36,7 @@ pub(super) const FACETS: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [3, 0, 1], [2,
 pub(super) struct Facet {
     /// Seen from the cavity in positive order: (q, a, b, c) is the simplex to make.
     pub(super) vertices: [u32; 3],
-    /// The facet of the simplex outside, as a neighbour code.
+    /// The facet of the simplex outside, as a neighbor code.
     pub(super) outside: u32,
 }
 
@@ -49,7 +49,7 @@ pub(super) struct Cavity {
     seen: Vec<u32>,
     /// The boundary; longer than what is in use.
     facets: Vec<Facet>,
-    /// How much of `facets` is in use.
+    /// The part of `facets` that is in use.
     boundary: usize,
 }
 

@@ -1,4 +1,4 @@
-//! What walk and cavity ask of arithmetic, and the answers that need no vectors.
+//! The operations that walk and cavity need, and the answers that need no vectors.
 //!
 //! The filters are written once, over a [`Lane`] of numbers: one `f64` here, four or eight in `lanes`. A filter gives a
 //! determinant and a bound on its error; a sign it leaves open goes to the [`Judge`].
@@ -20,7 +20,7 @@ const ORIENTATION_ERROR: f64 = 6.1 * space::ORIENT_ERROR;
 /// The error of [`in_sphere`] in units of its bound: 4 · 6 · 3 = 72 monomials, and a little more.
 const IN_SPHERE_ERROR: f64 = 73.0 * space::IN_SPHERE_ERROR;
 
-/// What a determinant is made of.
+/// The operations of a determinant.
 pub(super) trait Number:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
 {
@@ -103,7 +103,7 @@ pub(super) fn extents<L: Lane>([a, b, c, d]: [[L; 3]; 4]) -> [L; 3] {
     ]
 }
 
-/// What the largest monomial of [`determinant`] cannot exceed.
+/// Returns what the largest monomial of [`determinant`] cannot exceed.
 #[inline(always)]
 pub(super) fn product<L: Lane>(corners: [[L; 3]; 4]) -> L {
     let [x, y, z] = extents(corners);
@@ -119,12 +119,12 @@ pub(super) fn in_sphere<L: Lane>(corners: [[L; 3]; 4]) -> (L, L) {
     (determinant(corners), bound)
 }
 
-/// How the signs are taken. Masks have a bit for each item; what is in neither mask is certainly negative.
+/// The way in which the signs are taken. Masks have a bit for each item; what is in neither mask is certainly negative.
 pub(super) trait Signs: Copy {
-    /// Whether numbers are asked before exact arithmetic is.
+    /// States whether numbers are asked before exact arithmetic is.
     const FILTERED: bool;
 
-    /// How many conflicts are tested at once.
+    /// The number of conflicts that are tested at once.
     const WIDTH: usize;
 
     /// Which of `WIDTH` simplices are certainly in conflict with q, and which are open. Ghosts are open.
@@ -413,7 +413,7 @@ impl Judge {
         inside
     }
 
-    /// Whether q is in conflict with a ghost: strictly beyond its facet, or in the plane of the facet and in conflict with
+    /// Returns true if q is in conflict with a ghost: strictly beyond its facet, or in the plane of the facet and in conflict with
     /// the simplex behind it. Compiled for any processor, so its filter does without fused multiplication, which would be
     /// a call here.
     fn beyond<S: Signs>(
@@ -443,7 +443,7 @@ impl Judge {
         }
     }
 
-    /// Whether q is in conflict with a finite simplex, whatever the filter says.
+    /// Returns true if q is in conflict with a finite simplex, whatever the filter says.
     fn holds(&mut self, sites: &[Site], simplex: &Simplex<4>, q: &Site) -> bool {
         let [a, b, c, d] = rows(sites, simplex).map(Site::point);
         space::conflict_exact(a, b, c, d, q.point(), &mut self.exact)

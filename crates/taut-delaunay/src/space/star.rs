@@ -21,7 +21,7 @@ const TABLE_MAX: usize = 256;
 /// No edge: an empty slot of the hash table.
 const EMPTY: u32 = u32::MAX;
 
-/// What it takes to number and to pair, kept between insertions.
+/// The lists to number and to pair simplices, kept between insertions.
 pub(super) struct Star {
     /// For each site, after the vertex at infinity: its number in the last boundary it was on.
     local: Vec<u16>,
@@ -34,7 +34,6 @@ pub(super) struct Star {
 }
 
 impl Star {
-    /// For so many sites.
     pub(super) fn new(sites: usize) -> Self {
         Star {
             local: vec![0; sites + 1],
@@ -49,7 +48,7 @@ impl Star {
         self.local.push(0);
     }
 
-    /// Writes one simplex (q, a, b, c) for each facet into the slot of the same place, with all neighbours on both
+    /// Writes one simplex (q, a, b, c) for each facet into the slot of the same place, with all neighbors on both
     /// sides.
     #[inline(always)]
     pub(super) fn fill(
@@ -105,7 +104,7 @@ impl Star {
     }
 
     /// Pairs the edges in an open hash table of twice their number at least. A boundary gets here where a site has
-    /// hundreds of neighbours: an apex over a plane full of sites, the centre of a sphere.
+    /// hundreds of neighbors: an apex over a plane full of sites, the center of a sphere.
     #[cold]
     #[inline(never)]
     fn fill_by_hash(

@@ -25,7 +25,6 @@ impl Numbers {
         x ^ (x >> 31)
     }
 
-    /// Below `end`.
     fn below(&mut self, end: usize) -> usize {
         (self.next() % end as u64) as usize
     }
@@ -79,12 +78,11 @@ fn quadruples(mesh: &Mesh) -> Vec<[u32; 4]> {
     all
 }
 
-/// How many simplices are finite.
 fn finite(mesh: &Mesh) -> usize {
     mesh.simplices().iter().filter(|s| s.is_live() && !s.is_ghost()).count()
 }
 
-/// Neighbours, orientation, the Euler relation, and that no simplex is in conflict with the vertex across any facet.
+/// Neighbors, orientation, the Euler relation, and that no simplex is in conflict with the vertex across any facet.
 fn check(mesh: &mut Mesh) {
     let Mesh { sites, simplices, marks, judge, .. } = mesh;
     assert!(marks.iter().all(|&mark| mark == 0), "marks are clear");

@@ -79,10 +79,10 @@ fn a_point_is_located_in_a_triangle_that_holds_it() {
     assert_eq!(self::plane(&[0.0, 0.0, 1.0, 1.0]).locator().locate([0.5, 0.0]), Location::Nowhere);
 }
 
-/// The natural neighbours of a point are its neighbours once it is a site: in space, and on grids, where a point may lie
+/// The natural neighbors of a point are its neighbors once it is a site: in space, and on grids, where a point may lie
 /// on edges, on circles, outside, and on the lines of the hull.
 #[test]
-fn natural_neighbours_are_those_after_insertion() {
+fn natural_neighbors_are_those_after_insertion() {
     let values = numbers(900, 17);
     let before = space(&values);
     let locator = before.locator();
@@ -184,7 +184,7 @@ fn lone_triangles_in_space_are_those_of_the_definition() {
         for a in 0..sites.len() {
             for b in a + 1..sites.len() {
                 for c in b + 1..sites.len() {
-                    // The centre of the circle is a + s(b − a) + t(c − a).
+                    // The center of the circle is a + s(b − a) + t(c − a).
                     let (u, v) = (sub(sites[b], sites[a]), sub(sites[c], sites[a]));
                     let (uu, vv, uv) = (dot(u, u), dot(v, v), dot(u, v));
                     let det = 2.0 * (uu * vv - uv * uv);

@@ -11,7 +11,7 @@ fn violation(solution: &Solution<Triangulation>, points: &Points<'_, f64>) -> Me
     }
 }
 
-/// A facet of an earlier simplex leads to the wrong id. It is met as the vertex beyond that facet, and where the neighbour
+/// A facet of an earlier simplex leads to the wrong id. It is met as the vertex beyond that facet, and where the neighbor
 /// does not fit, by a search for the facet; an earlier simplex that is wrong as well is not named in its place.
 #[test]
 fn the_first_wrong_id_is_named_wherever_it_is_met() {

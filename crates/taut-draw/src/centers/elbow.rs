@@ -1,13 +1,13 @@
-//! The radius against the number of centres: how much a further one is worth.
+//! The radius against the number of centers: how much a further one is worth.
 
 use crate::marks::all_finite;
 use crate::number::count;
-use crate::{Axis, DrawOptions, Error, Figure, Plot, Scale, Series, SeriesLook, Tone};
+use crate::{Axis, DrawOptions, Error, Figure, Plot, Scale, Series, SeriesStyle, Tone};
 
-/// The radius of k centres, and what no k centres have less than.
+/// The radius of k centers, and what no k centers have less than.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ElbowStep {
-    /// How many centres.
+    /// The number of centers.
     pub k: u64,
     /// Their radius.
     pub radius: f64,
@@ -29,7 +29,7 @@ pub fn elbow_figure(steps: &[ElbowStep], options: &DrawOptions) -> Result<Figure
     let series = |name: &str, tone, value: fn(&ElbowStep) -> f64| Series {
         name: name.to_owned(),
         tone,
-        look: SeriesLook::LineAndDots,
+        style: SeriesStyle::LineAndDots,
         points: steps.iter().map(|step| [step.k as f64, value(step)]).collect(),
     };
     let range = match (steps.first(), steps.last()) {
@@ -37,11 +37,11 @@ pub fn elbow_figure(steps: &[ElbowStep], options: &DrawOptions) -> Result<Figure
         _ => String::new(),
     };
     Ok(Figure::Plot(Plot {
-        title: format!("Radius by number of centres{range}"),
+        title: format!("Radius by number of centers{range}"),
         caption: "For each k the least radius lies between the two curves. Where the curve has an elbow, a further \
-                  centre is worth less than the one before it."
+                  center is worth less than the one before it."
             .to_owned(),
-        x: Axis::named("centres, k"),
+        x: Axis::named("centers, k"),
         y: Axis::named("radius"),
         x_scale: Scale::Linear,
         y_scale: Scale::Linear,

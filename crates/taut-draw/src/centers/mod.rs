@@ -1,11 +1,11 @@
-//! Figures of k centres.
+//! Figures of k centers.
 //!
-//! *Idea.* In the plane and in space the balls of the answer's radius around the centres are drawn as they are, with the
+//! *Idea.* In the plane and in space the balls of the answer's radius around the centers are drawn as they are, with the
 //! items, those that are left out, and the core-set that proves the lower bound. Beyond, there is a projection along the two
-//! directions in which the centres spread most, and the distance of every item from the centre next to it.
+//! directions in which the centers spread most, and the distance of every item from the center next to it.
 //! *Guarantee.* The items are read twice at most (once for all, once more for those drawn); what is left out of the
 //! picture is counted in the caption.
-//! *Trap.* With weights no ball holds the points of a centre: how far a point may be depends on its weight. None is drawn.
+//! *Trap.* With weights no ball holds the points of a center: how far a point may be depends on its weight. None is drawn.
 
 mod elbow;
 mod nearest;
@@ -14,29 +14,29 @@ use taut_certify::{Centers, CentersCertificate, Solution};
 use taut_points::PointSource;
 
 use self::nearest::Nearest;
+use crate::item_pass::{Measure, PassQuery};
 use crate::marks::{agree, all_finite, all_there, support_size};
 use crate::number::{count, counted, short};
 use crate::passes::{Words, passes};
 use crate::project::{plane, to_unit_reach};
 use crate::scene::{Histogram, Input, Layer, Marks, Projected, Scene, histogram};
-use crate::survey::{Measure, Question};
 use crate::{DrawOptions, Error, Figure, Tone};
 pub use elbow::{ElbowStep, elbow_figure};
 
-/// The weight of an item in the choice of the directions of a projection, beside centres of weight 1.
+/// The weight of an item in the choice of the directions of a projection, beside centers of weight 1.
 const PROJECTION_ITEM_WEIGHT: f64 = 1e-4;
 /// About this many items of each group are looked at for that; more would take long in high dimensions and change little.
 const PROJECTION_ITEM_COUNT: usize = 64;
 
-/// What there is between two pairs of bounds.
+/// The noun for the steps between two pairs of bounds.
 const STEP_WORDS: Words =
     Words { step: ["step", "steps", "step of the search"], ..Words::ENCLOSING };
 
-/// Pictures of k centres and their items: the plane for d ≤ 2, space for d = 3, a projection and the distances from the
-/// nearest centre beyond; then the bounds and the gap by step of the search, where the trace has them.
+/// Pictures of k centers and their items: the plane for d ≤ 2, space for d = 3, a projection and the distances from the
+/// nearest center beyond; then the bounds and the gap by step of the search, where the trace has them.
 ///
 /// # Errors
-/// [`Error::Mismatch`] when `source` is not what the centres were found for, [`Error::NonFinite`],
+/// [`Error::Mismatch`] when `source` is not what the centers were found for, [`Error::NonFinite`],
 /// [`Error::NegativeRadius`], [`Error::Option`], [`Error::Read`].
 pub fn centers_figures(
     solution: &Solution<Centers>,
@@ -48,7 +48,7 @@ pub fn centers_figures(
     let dim = check(answer, certificate, source)?;
     let nearest = Nearest::new(answer, certificate, dim);
     let always = [&certificate.core_set[..], &answer.outliers].concat();
-    let question = Question {
+    let question = PassQuery {
         items: certificate.items,
         support: &always,
         left_out: &answer.outliers,
@@ -71,7 +71,7 @@ pub fn centers_figures(
     Ok(figures)
 }
 
-/// What the answer and its items must agree in before anything is drawn; the dimension.
+/// Checks what the answer and its items must agree in before anything is drawn; the dimension.
 fn check(
     answer: &Centers,
     certificate: &CentersCertificate,
@@ -82,14 +82,14 @@ fn check(
         false => certificate.items.dim(source.dim()),
     };
     agree("number of coordinates", dim.max(1), dim)?;
-    agree("number of centres", answer.centers.len().max(1), answer.centers.len())?;
+    agree("number of centers", answer.centers.len().max(1), answer.centers.len())?;
     answer.centers.iter().try_for_each(|c| agree("number of coordinates", c.len(), dim))?;
     all_there(
         "number of points",
         certificate.core_set.iter().chain(&answer.outliers),
         source.len(),
     )?;
-    let centers = answer.centers.iter().flatten().map(|v| ("a coordinate of a centre", v));
+    let centers = answer.centers.iter().flatten().map(|v| ("a coordinate of a center", v));
     all_finite(
         centers.chain([("the radius", &answer.radius), ("the lower bound", &answer.lower_bound)]),
     )?;
@@ -99,7 +99,7 @@ fn check(
     Ok(dim)
 }
 
-/// What all pictures of the same centres share.
+/// The data that all pictures of the same centers share.
 struct Picture<'a> {
     answer: &'a Centers,
     certificate: &'a CentersCertificate,
@@ -108,7 +108,7 @@ struct Picture<'a> {
 }
 
 impl<'a> Picture<'a> {
-    /// Whether balls are drawn, and those of the lower bound.
+    /// Returns true if balls are drawn, and those of the lower bound.
     fn has_balls(&self) -> bool {
         !self.certificate.weights
     }
@@ -144,14 +144,14 @@ impl<'a> Picture<'a> {
         };
         let weights = match self.certificate.weights {
             true => {
-                " Distances count times the weight of the point, so there is no one circle around a centre."
+                " Distances count times the weight of the point, so there is no one circle around a center."
             }
             false => "",
         };
         format!("Radius {}; {gap}.{bound}{weights}", short(radius, 8))
     }
 
-    /// What is drawn of how many, and what proves the bound.
+    /// Returns what is drawn of how many, and what proves the bound.
     fn counts(&self) -> String {
         let thing = self.input.thing();
         let core_set = match self.certificate.core_set.len() as u64 {
@@ -182,7 +182,7 @@ impl<'a> Picture<'a> {
         }
     }
 
-    /// Balls, rows of no part, the lower bound, the core-set, rows left out, and centres.
+    /// Balls, rows of no part, the lower bound, the core-set, rows left out, and centers.
     fn layers(&self) -> Result<Vec<Layer<'a>>, Error> {
         let Centers { centers, outliers, radius, lower_bound, .. } = self.answer;
         let mut core: Vec<u64> = self.certificate.core_set.clone();
@@ -191,7 +191,7 @@ impl<'a> Picture<'a> {
         core.retain(|id| outliers.binary_search(id).is_err());
         let is_other =
             |id: &u64| core.binary_search(id).is_err() && outliers.binary_search(id).is_err();
-        let others = self.input.survey.ids.iter().copied().filter(is_other).collect();
+        let others = self.input.item_pass.ids.iter().copied().filter(is_other).collect();
         let balls = |radius: &f64| Marks::Balls { centers, radius: *radius };
         let mut layers = Vec::new();
         if self.has_balls() {
@@ -216,11 +216,11 @@ impl<'a> Picture<'a> {
     fn scene(&self, layers: Vec<Layer<'a>>) -> Scene<'a> {
         let Input { source, options, dim, .. } = self.input;
         let things = counted(source.len(), self.input.thing());
-        let title = format!("Centres of {things}, k = {}, d = {dim}", count(self.certificate.k));
+        let title = format!("Centers of {things}, k = {}, d = {dim}", count(self.certificate.k));
         Scene { title, caption: [self.facts(), self.counts()], dim, options, layers, facing: None }
     }
 
-    /// d > 3: the directions of the centres, and of a few items where the centres do not span a plane.
+    /// d > 3: the directions of the centers, and of a few items where the centers do not span a plane.
     fn projected(&self, layers: &[Layer<'_>]) -> Projected<'_> {
         let mut vectors: Vec<f64> = self.nearest.offsets().flatten().collect();
         let mut weights = vec![1.0; self.answer.centers.len()];
@@ -235,7 +235,7 @@ impl<'a> Picture<'a> {
             }
         }
         to_unit_reach(&mut vectors);
-        let words = "A shadow on the two directions in which the centres spread most, from the middle of them. Shadows of \
+        let words = "A shadow on the two directions in which the centers spread most, from the middle of them. Shadows of \
                      balls may lie over one another where the balls are far apart, and an item that touches a ball \
                      usually falls well inside.";
         Projected {
@@ -243,19 +243,19 @@ impl<'a> Picture<'a> {
             unit: self.nearest.unit,
             directions: plane(&vectors, &weights, self.input.dim),
             words: words.to_owned(),
-            axes: ["first direction of the centres", "second direction"],
+            axes: ["first direction of the centers", "second direction"],
         }
     }
 
-    /// d > 3: how far every item reaches from the centre next to it.
+    /// d > 3: how far every item reaches from the center next to it.
     fn distances(&self) -> Option<Figure> {
         let radius = self.answer.radius;
         let words = Histogram {
             title: format!(
-                "How far the {}s reach from the centre next to them",
+                "How far the {}s reach from the center next to them",
                 self.input.thing()
             ),
-            axis: "distance from the nearest centre",
+            axis: "distance from the nearest center",
             border: ("radius", format!("radius {}", short(radius, 6))),
             reach: radius,
             left_out: self.answer.outliers.len(),

@@ -1,11 +1,11 @@
-//! How far items reach from the nearest of some centres.
+//! Measures how far items reach from the nearest of some centers.
 
 use taut_certify::{Centers, CentersCertificate, Items};
 
 use crate::axes::unit;
-use crate::survey::Measure;
+use crate::item_pass::Measure;
 
-/// Centres and their radius, scaled so that sums of squares neither overflow nor vanish.
+/// Centers and their radius, scaled so that sums of squares neither overflow nor vanish.
 pub(super) struct Nearest {
     pub(super) unit: f64,
     dim: usize,
@@ -29,7 +29,7 @@ impl Nearest {
         Nearest { unit, dim, centers, middle, radius, weights }
     }
 
-    /// How far an item reaches from the centre next to it, in units.
+    /// Returns how far an item reaches from the center next to it, in units.
     pub(super) fn reach(&self, row: &[f64], items: Items) -> f64 {
         let square = |center: &[f64]| -> f64 {
             center.iter().zip(row).map(|(c, x)| (x / self.unit - c).powi(2)).sum()
@@ -42,7 +42,7 @@ impl Nearest {
         }
     }
 
-    /// The centres from the middle of all, in units.
+    /// The centers from the middle of all, in units.
     pub(super) fn offsets(&self) -> impl Iterator<Item = Vec<f64>> + '_ {
         self.centers
             .chunks_exact(self.dim)

@@ -14,10 +14,10 @@ use taut_certify::{Curve, Solution};
 use taut_points::{PointSource, gather};
 
 use self::window::Window;
+use crate::item_pass::spread;
 use crate::marks::{agree, all_finite, all_there, dot_size, drawn_of};
 use crate::number::{count, counted, short};
-use crate::survey::spread;
-use crate::{DrawOptions, Error, Figure, Layer2, Look, Point2, Scene2, Shape2, Tone};
+use crate::{DrawOptions, Error, Figure, Layer2, LineStyle, Point2, Scene2, Shape2, Tone};
 
 /// The marks of outliers are this many times as large as those of the other points.
 const OUTLIER_SCALE: f64 = 1.6;
@@ -49,7 +49,7 @@ pub fn curve_figures(
     Ok(figures.into_iter().map(Figure::Plane).collect())
 }
 
-/// What all pictures of the same curves share.
+/// The data that all pictures of the same curves share.
 struct Picture<'a> {
     answer: &'a Curve,
     source: &'a dyn PointSource,
@@ -65,7 +65,7 @@ impl Picture<'_> {
         format!("{} through {points}", counted(self.answer.curves.len() as u64, "curve"))
     }
 
-    /// How many there are of what, in sentences.
+    /// Returns how many there are of what, in sentences.
     fn counts(&self) -> String {
         let curves = &self.answer.curves;
         let closed = curves.iter().filter(|curve| curve.closed).count() as u64;
@@ -116,7 +116,6 @@ impl Picture<'_> {
         Ok(rows.iter().copied().zip(places.chunks_exact(2).map(|at| [at[0], at[1]])).collect())
     }
 
-    /// All of it.
     fn whole(&self) -> Result<Scene2, Error> {
         let (others, outliers) = self.rows()?;
         let mut caption = self.counts();
@@ -144,7 +143,6 @@ impl Picture<'_> {
         Ok(self.scene(self.title(), caption, chains, &others, &outliers))
     }
 
-    /// What a window shows.
     fn part(&self, window: &Window) -> Result<Scene2, Error> {
         let inside = |marks: Marks| -> Marks {
             marks.into_iter().filter(|(_, at)| window.holds(*at)).collect()
@@ -196,25 +194,25 @@ impl Picture<'_> {
         let (closed, open): (Vec<Chain>, Vec<Chain>) =
             chains.into_iter().partition(|chain| chain.closed);
         let mut layers = Vec::new();
-        let mut layer = |name: &str, tone: Tone, look: Look, shape: Shape2| {
+        let mut layer = |name: &str, tone: Tone, line_style: LineStyle, shape: Shape2| {
             let some = match &shape {
                 Shape2::Points(list) => !list.is_empty(),
                 Shape2::Polylines(list) | Shape2::Polygons(list) => !list.is_empty(),
                 _ => true,
             };
             if some {
-                layers.push(Layer2 { name: name.to_owned(), tone, look, shape });
+                layers.push(Layer2 { name: name.to_owned(), tone, line_style, shape });
             }
         };
-        layer("points", Tone::Point, Look::Solid, discs(others, dot, ""));
+        layer("points", Tone::Point, LineStyle::Solid, discs(others, dot, ""));
         if self.answer.noise > 0.0 {
             let borders =
                 |chain: &Chain| band::borders(&chain.vertices, chain.closed, self.answer.noise);
             let loops = closed.iter().flat_map(borders).collect();
             let lines = open.iter().flat_map(borders).collect();
-            layer("band of noise", Tone::Bound, Look::Dashed, Shape2::Polygons(loops));
+            layer("band of noise", Tone::Bound, LineStyle::Dashed, Shape2::Polygons(loops));
             let name = if closed.is_empty() { "band of noise" } else { "" };
-            layer(name, Tone::Bound, Look::Dashed, Shape2::Polylines(lines));
+            layer(name, Tone::Bound, LineStyle::Dashed, Shape2::Polylines(lines));
         }
         let ends: Vec<Point2> = open
             .iter()
@@ -227,16 +225,16 @@ impl Picture<'_> {
         let vertices =
             |chains: Vec<Chain>| chains.into_iter().map(|chain| chain.vertices).collect();
         let (any_closed, any_open) = (!closed.is_empty(), !open.is_empty());
-        layer("closed curves", Tone::Answer, Look::Solid, Shape2::Polygons(vertices(closed)));
+        layer("closed curves", Tone::Answer, LineStyle::Solid, Shape2::Polygons(vertices(closed)));
         let name = if any_closed { "open curves" } else { "curves" };
-        layer(name, Tone::Answer, Look::Solid, Shape2::Polylines(vertices(open)));
+        layer(name, Tone::Answer, LineStyle::Solid, Shape2::Polylines(vertices(open)));
         if any_open {
-            layer(ENDS, Tone::Support, Look::Solid, Shape2::Points(ends));
+            layer(ENDS, Tone::Support, LineStyle::Solid, Shape2::Points(ends));
         }
         layer(
             "outliers",
             Tone::Third,
-            Look::Solid,
+            LineStyle::Solid,
             discs(outliers, OUTLIER_SCALE * dot, "outlier"),
         );
         Scene2::plane(title, caption, layers, self.options)

@@ -31,12 +31,10 @@ impl Picture<'_> {
 }
 
 impl Window {
-    /// How wide it is.
     pub(super) fn side(&self) -> f64 {
         2.0 * self.half
     }
 
-    /// Whether a point is in it.
     pub(super) fn holds(&self, at: [f64; 2]) -> bool {
         (0..2).all(|k| (at[k] - self.center[k]).abs() <= self.half)
     }

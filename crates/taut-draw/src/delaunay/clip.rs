@@ -1,4 +1,4 @@
-//! What lies of a segment or a ray in a box, by the parameters at which it enters and leaves (Liang and Barsky, ACM
+//! The part of a segment or a ray that lies in a box, by the parameters at which it enters and leaves (Liang and Barsky, ACM
 //! Transactions on Graphics 3(1), 1984).
 
 /// A box of the plane.
@@ -19,7 +19,6 @@ impl Frame {
         (0..2).all(|k| self.low[k] <= at[k] && at[k] <= self.high[k])
     }
 
-    /// The part of the segment from `a` to `b`.
     pub(super) fn segment(&self, a: [f64; 2], b: [f64; 2]) -> Option<[[f64; 2]; 2]> {
         self.part(a, [b[0] - a[0], b[1] - a[1]], 1.0)
     }

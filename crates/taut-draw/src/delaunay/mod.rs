@@ -19,12 +19,12 @@ mod window;
 use taut_certify::{Solution, Triangulation};
 use taut_points::{Blocks, PointSource, Scratch};
 
+use crate::item_pass::spread;
 use crate::number::{count, counted};
-use crate::survey::spread;
 use crate::{DrawOptions, Error, Figure};
 
 /// Pictures of a triangulation and its points. In the plane: the triangulation; of many points a window of it as well; and
-/// the Voronoi diagram, if the certificate names neighbours. In space: the hull with what can be shown within.
+/// the Voronoi diagram, if the certificate names neighbors. In space: the hull with what can be shown within.
 ///
 /// # Errors
 /// [`Error::Mismatch`] when `source` is not what the triangulation was made for, [`Error::NonFinite`],
@@ -44,7 +44,7 @@ pub fn delaunay_figures(
     })
 }
 
-/// What the answer and its points must agree in before anything is drawn.
+/// Checks what the answer and its points must agree in before anything is drawn.
 fn check(answer: &Triangulation, source: &dyn PointSource) -> Result<(), Error> {
     let mismatch = |what, expected: u64, found: u64| Err(Error::Mismatch { what, expected, found });
     let dim = source.dim() as u64;
@@ -91,7 +91,7 @@ fn places(source: &dyn PointSource) -> Result<Vec<[f64; 3]>, Error> {
     Ok(places)
 }
 
-/// What all pictures of one triangulation share.
+/// The data that all pictures of one triangulation share.
 struct Picture<'a> {
     solution: &'a Solution<Triangulation>,
     options: &'a DrawOptions,
@@ -109,7 +109,7 @@ impl Picture<'_> {
         format!("Delaunay triangulation of {points} in {place}")
     }
 
-    /// How many there are of what, in sentences.
+    /// Returns how many there are of what, in sentences.
     fn counts(&self) -> String {
         let answer = self.answer();
         let simplices = answer.len() as u64;

@@ -3,7 +3,7 @@
 use super::clip::Frame;
 use super::{Picture, dot_size};
 use crate::number::{count, counted};
-use crate::{Layer2, Look, Point2, Scene2, Shape2, Tone};
+use crate::{Layer2, LineStyle, Point2, Scene2, Shape2, Tone};
 
 /// Up to this many, edges of the Voronoi diagram are drawn bold.
 const BOLD_EDGES_MAX: usize = 600;
@@ -43,7 +43,7 @@ impl Picture<'_> {
             let edges = self.edges(|_| true);
             let chains: Vec<_> =
                 edges.iter().map(|edge| edge.map(|id| self.at(id)).to_vec()).collect();
-            layers.extend(lines("edges", Tone::Answer, Look::Thin, chains));
+            layers.extend(lines("edges", Tone::Answer, LineStyle::Thin, chains));
         } else {
             caption += " There are too many edges to draw them all.";
             caption += &self.sampled(drawn.len());
@@ -51,19 +51,19 @@ impl Picture<'_> {
         if self.answer().hull_dimension == Some(2) {
             let edge = |edge: &[u32]| edge.iter().map(|&id| self.at(id)).collect();
             let chains = self.answer().hull.chunks_exact(2).map(edge).collect();
-            layers.extend(lines("convex hull", Tone::Answer, Look::Solid, chains));
+            layers.extend(lines("convex hull", Tone::Answer, LineStyle::Solid, chains));
         }
         layers.extend(self.points(&drawn));
         if let Some(frame) = window {
             caption += " The frame is the window of the next picture.";
             let shape = Shape2::Polygons(vec![frame.corners().to_vec()]);
             let name = "window".to_owned();
-            layers.push(Layer2 { name, tone: Tone::Support, look: Look::Solid, shape });
+            layers.push(Layer2 { name, tone: Tone::Support, line_style: LineStyle::Solid, shape });
         }
         self.scene(self.title(), caption, layers)
     }
 
-    /// What is in a window, and the words for it.
+    /// Returns what is in a window, and the words for it.
     fn part(&self, frame: &Frame) -> (Vec<Layer2>, String) {
         let holds = |&id: &u32| frame.holds(self.at(id));
         let edges = self.edges(|simplex| simplex.iter().any(holds));
@@ -79,7 +79,8 @@ impl Picture<'_> {
             counted(ids.len() as u64, noun),
             counted(chains.len() as u64, "edge")
         );
-        let mut layers: Vec<Layer2> = lines("edges", Tone::Answer, Look::Thin, chains).collect();
+        let mut layers: Vec<Layer2> =
+            lines("edges", Tone::Answer, LineStyle::Thin, chains).collect();
         layers.extend(self.points(&ids));
         (layers, said)
     }
@@ -97,7 +98,8 @@ impl Picture<'_> {
             .filter_map(|edge| frame.segment(self.at(edge[0]), self.at(edge[1])))
             .map(|ends| ends.to_vec())
             .collect();
-        let look = if cells.len() <= BOLD_EDGES_MAX { Look::Solid } else { Look::Thin };
+        let line_style =
+            if cells.len() <= BOLD_EDGES_MAX { LineStyle::Solid } else { LineStyle::Thin };
         let ids = self.within(&frame);
         let mut caption = format!(
             "Each Voronoi cell holds what is nearer to its point than to any other; cells that share an edge \
@@ -111,8 +113,8 @@ impl Picture<'_> {
             caption += " This is the window of the pictures before.";
         }
         let mut layers: Vec<Layer2> =
-            lines("Delaunay edges", Tone::Muted, Look::Thin, chains).collect();
-        layers.extend(lines("Voronoi diagram", Tone::Second, look, cells));
+            lines("Delaunay edges", Tone::Muted, LineStyle::Thin, chains).collect();
+        layers.extend(lines("Voronoi diagram", Tone::Second, line_style, cells));
         layers.extend(self.points(&ids));
         let title = self.title().replacen("Delaunay triangulation", "Voronoi diagram", 1);
         Some(self.scene(title, caption, layers))
@@ -125,7 +127,7 @@ impl Picture<'_> {
         (!ids.is_empty()).then(|| Layer2 {
             name: "points".into(),
             tone: Tone::Ink,
-            look: Look::Solid,
+            line_style: LineStyle::Solid,
             shape: Shape2::Points(ids.iter().map(point).collect()),
         })
     }
@@ -135,10 +137,11 @@ impl Picture<'_> {
 fn lines(
     name: &str,
     tone: Tone,
-    look: Look,
+    line_style: LineStyle,
     chains: Vec<Vec<[f64; 2]>>,
 ) -> impl Iterator<Item = Layer2> {
-    let layer = Layer2 { name: name.to_owned(), tone, look, shape: Shape2::Polylines(chains) };
+    let layer =
+        Layer2 { name: name.to_owned(), tone, line_style, shape: Shape2::Polylines(chains) };
     let some = matches!(&layer.shape, Shape2::Polylines(chains) if !chains.is_empty());
     some.then_some(layer).into_iter()
 }

@@ -2,7 +2,7 @@
 
 use super::{Picture, dot_size};
 use crate::number::count;
-use crate::{Layer3, Look, Mesh3, Point3, Scene3, Shape3, Tone};
+use crate::{Layer3, LineStyle, Mesh3, Point3, Scene3, Shape3, Tone};
 
 /// Up to this many edges can be looked through.
 const SEEN_THROUGH_EDGES_MAX: usize = 4000;
@@ -31,7 +31,7 @@ impl Picture<'_> {
             layers.push(Layer3 {
                 name: name.into(),
                 tone: Tone::Answer,
-                look: Look::Filled,
+                line_style: LineStyle::Filled,
                 shape: Shape3::Mesh(self.surface(triangles)),
             });
         }
@@ -44,7 +44,7 @@ impl Picture<'_> {
             layers.push(Layer3 {
                 name: "edges".into(),
                 tone: Tone::Second,
-                look: Look::Thin,
+                line_style: LineStyle::Thin,
                 shape: Shape3::Polylines(
                     edges
                         .iter()
@@ -68,7 +68,7 @@ impl Picture<'_> {
             layers.push(Layer3 {
                 name: "points".into(),
                 tone: Tone::Point,
-                look: Look::Solid,
+                line_style: LineStyle::Solid,
                 shape: Shape3::Points(ids.iter().map(point).collect()),
             });
         }

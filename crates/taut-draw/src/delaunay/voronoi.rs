@@ -1,6 +1,6 @@
 //! The Voronoi diagram of a triangulation of the plane, as it is drawn: rounded, and cut at the frame.
 //!
-//! Each edge joins the circumcentres of two triangles with a common edge; that of an edge of the hull runs outward for
+//! Each edge joins the circumcenters of two triangles with a common edge; that of an edge of the hull runs outward for
 //! ever.
 
 use taut_certify::NO_NEIGHBOR;
@@ -10,7 +10,7 @@ use super::clip::Frame;
 use crate::axes::unit;
 
 impl Picture<'_> {
-    /// The edges of the diagram in `frame`; `None` where the certificate names no neighbours, or wrong ones.
+    /// The edges of the diagram in `frame`; `None` where the certificate names no neighbors, or wrong ones.
     pub(super) fn voronoi(&self, frame: &Frame) -> Option<Vec<Vec<[f64; 2]>>> {
         let (answer, neighbors) = (self.answer(), &self.solution.certificate.neighbors);
         if answer.vertices_per_simplex() != 3 || neighbors.len() != answer.simplices.len() {
@@ -45,7 +45,7 @@ impl Picture<'_> {
     }
 }
 
-/// The centre of the circle through three points; not finite where they are on a line.
+/// The center of the circle through three points; not finite where they are on a line.
 fn circumcenter([a, b, c]: [[f64; 2]; 3]) -> [f64; 2] {
     let ([bx, by], [cx, cy]) = ([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]);
     let twice = 2.0 * (bx * cy - by * cx);

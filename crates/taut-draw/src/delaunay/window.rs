@@ -14,7 +14,7 @@ const WINDOW_POINTS: usize = 600;
 const MARGIN: f64 = 0.08;
 
 impl Picture<'_> {
-    /// Whether there are more points than an eye can tell apart, or than may be drawn.
+    /// Tests whether there are more points than an eye can tell apart, or than may be drawn.
     pub(super) fn is_crowded(&self) -> bool {
         self.places.len() > POINTS_MAX.min(self.options.max_points)
     }

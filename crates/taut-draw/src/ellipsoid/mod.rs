@@ -13,12 +13,12 @@ use taut_points::{PointSource, gather};
 
 use self::robust::Robust;
 use crate::body::{Body, touching};
+use crate::item_pass::{Measure, PassQuery};
 use crate::marks::{agree, all_finite, all_there, support_marks};
 use crate::number::{count, counted, short};
 use crate::passes::{Gap, Words, passes};
 use crate::scene::pairs::most;
 use crate::scene::{Histogram, Input, Layer, Marks, Pairs, Scene, histogram};
-use crate::survey::{Measure, Question};
 use crate::{DrawOptions, Error, Figure};
 
 /// Pictures of an ellipsoid and its points: the plane for d ≤ 2, space for d = 3, shadows on pairs of coordinates and how
@@ -73,7 +73,7 @@ pub fn robust_figures(
     Ok(figures)
 }
 
-/// What the answer and its points must agree in before anything is drawn.
+/// Checks what the answer and its points must agree in before anything is drawn.
 fn check(
     ellipsoid: &Ellipsoid,
     certificate: &EllipsoidCertificate,
@@ -98,7 +98,7 @@ fn check(
     let named = certificate.support.iter().chain(&certificate.left_out);
     all_there("number of points", named, source.len())?;
     let center = ellipsoid.center.iter().chain(&ellipsoid.center_tail);
-    let numbers = (center.map(|v| ("a coordinate of the centre", v)))
+    let numbers = (center.map(|v| ("a coordinate of the center", v)))
         .chain(ellipsoid.factor.iter().flatten().map(|v| ("an entry of the factor", v)))
         .chain(basis.iter().flatten().map(|v| ("an entry of the hull", v)))
         .chain(certificate.directions.iter().flatten().map(|v| ("a direction", v)))
@@ -106,11 +106,11 @@ fn check(
     all_finite(numbers)
 }
 
-/// What all pictures of one ellipsoid share.
+/// The data that all pictures of one ellipsoid share.
 struct Picture<'a> {
     ellipsoid: &'a Ellipsoid,
     certificate: &'a EllipsoidCertificate,
-    /// What there is to say where the ellipsoid is no smallest one.
+    /// The data of a robust ellipsoid; `None` for a smallest one.
     robust: Option<Robust<'a>>,
     body: Body,
     input: Input<'a>,
@@ -128,7 +128,7 @@ impl<'a> Picture<'a> {
         check(ellipsoid, certificate, source)?;
         let body = Body::of(ellipsoid);
         let dim = body.dim();
-        let question = Question {
+        let question = PassQuery {
             items: certificate.items,
             support: &certificate.support,
             left_out: &certificate.left_out,
@@ -171,7 +171,7 @@ impl<'a> Picture<'a> {
         })
     }
 
-    /// In space, the longest axis; the mean of the outliers from the centre, where a robust ellipsoid has some.
+    /// In space, the longest axis; the mean of the outliers from the center, where a robust ellipsoid has some.
     fn facing(&self, left_out: &[f64]) -> Option<Vec<f64>> {
         if self.robust.is_none() || left_out.is_empty() {
             return self.body.principal().into_iter().next();
@@ -191,7 +191,7 @@ impl<'a> Picture<'a> {
         let words = Histogram {
             title: format!("How far the {}s reach", self.input.thing()),
             axis: match items {
-                Items::Points => "|F(x − c)|: 0 at the centre, 1 on the border",
+                Items::Points => "|F(x − c)|: 0 at the center, 1 on the border",
                 Items::Balls | Items::Ellipsoids => "largest |F(x − c)|: 1 on the border",
             },
             border: ("border", "border".into()),
@@ -232,7 +232,7 @@ impl<'a> Picture<'a> {
         if gap.is_finite() && gap >= 0.0 { (-gap / self.rank().max(1) as f64).exp() } else { 0.0 }
     }
 
-    /// Whether the lower bound can be told from the ellipsoid by eye.
+    /// Returns true if the lower bound can be told from the ellipsoid by eye.
     fn lower_is_visible(&self) -> bool {
         self.robust.is_none() && self.lower() > 0.0 && self.lower() < 0.996
     }
@@ -262,7 +262,7 @@ impl<'a> Picture<'a> {
         format!("Log-volume {}; {gap}.{flat}{bound}", short(self.ellipsoid.log_volume, 8))
     }
 
-    /// What is drawn of how many, and what the support is.
+    /// Returns what is drawn of how many, and what the support is.
     fn counts(&self) -> String {
         let EllipsoidCertificate { support, directions, left_out, .. } = self.certificate;
         let thing = self.input.thing();
@@ -297,7 +297,7 @@ impl<'a> Picture<'a> {
         let EllipsoidCertificate { support, left_out, directions, .. } = self.certificate;
         let is_in = |list: &[u64], id: &u64| list.binary_search(id).is_ok();
         let (out, inside): (Vec<u64>, Vec<u64>) =
-            self.input.survey.ids.iter().partition(|id| is_in(left_out, id));
+            self.input.item_pass.ids.iter().partition(|id| is_in(left_out, id));
         // Marks stand where items touch; the items themselves are still to be drawn.
         let is_drawn = |id: &u64| !directions.is_empty() || !is_in(support, id);
         (inside.into_iter().filter(is_drawn).collect(), out)

@@ -1,4 +1,4 @@
-//! What is particular to robust ellipsoids: outliers, the ellipsoid around the points kept, distances, a close-up.
+//! The parts that are particular to robust ellipsoids: outliers, the ellipsoid around the points kept, distances, a close-up.
 
 use taut_certify::{
     Ellipsoid, EllipsoidCertificate, Items, RobustCertificate, RobustEllipsoid, RobustMethod,
@@ -8,10 +8,10 @@ use taut_points::PointSource;
 
 use super::{Picture, check};
 use crate::body::Body;
+use crate::item_pass::Measure;
 use crate::number::{count, counted, short};
 use crate::scene::{Layer, Marks};
-use crate::survey::Measure;
-use crate::{Axis, Error, Figure, Level, Look, Plot, Scale, Series, Tone};
+use crate::{Axis, Error, Figure, Level, LineStyle, Plot, Scale, Series, Tone};
 
 /// The name of the ellipsoid around the points kept, where it is not the answer.
 const KEPT_LABEL: &str = "smallest around the points kept";
@@ -45,7 +45,7 @@ pub(super) fn as_left_out(
     (solution.answer.ellipsoid(), certificate)
 }
 
-/// What there is to say of a robust ellipsoid.
+/// The data of a robust ellipsoid.
 pub(super) struct Robust<'a> {
     answer: &'a RobustEllipsoid,
     certificate: &'a RobustCertificate,
@@ -76,7 +76,7 @@ impl<'a> Robust<'a> {
     /// The ellipsoid around the points kept, to compare with.
     pub(super) fn kept_layer(&self) -> Option<Layer<'_>> {
         let marks = Marks::Ellipsoid { body: self.kept.as_ref()?, part: 1.0 };
-        Some(Layer::new(KEPT_LABEL, Tone::Second, Look::Dashed, marks))
+        Some(Layer::new(KEPT_LABEL, Tone::Second, LineStyle::Dashed, marks))
     }
 
     pub(super) fn title(&self, points: u64, dim: usize) -> String {
@@ -128,7 +128,7 @@ impl<'a> Picture<'a> {
         };
         let out = &self.certificate.left_out;
         let (mut ids, mut is_far) = (Vec::new(), false);
-        for &id in &self.input.survey.ids {
+        for &id in &self.input.item_pass.ids {
             if out.binary_search(&id).is_ok() {
                 let row = self.input.row(id)?;
                 is_far |= !lies_within(&row, OUTLIER_REACH_MIN);
@@ -143,7 +143,7 @@ impl<'a> Picture<'a> {
         }
         let drawn = ids.iter().filter(|id| out.binary_search(id).is_ok()).count();
         let mut closer = self;
-        closer.input.survey.ids = ids;
+        closer.input.item_pass.ids = ids;
         if let Some(robust) = &mut closer.robust {
             robust.beyond = out.len().saturating_sub(drawn) as u64;
         }
@@ -157,13 +157,13 @@ impl<'a> Picture<'a> {
         }
         let out = &self.certificate.left_out;
         let (mut inside, mut outside) = (Vec::new(), Vec::new());
-        for &id in &self.input.survey.ids {
+        for &id in &self.input.item_pass.ids {
             let part = self.body.part(&self.input.row(id)?, Items::Points);
             let is_out = out.binary_search(&id).is_ok();
             let list = if is_out { &mut outside } else { &mut inside };
             list.push([(id + 1) as f64, part]);
         }
-        let (n, drawn) = (self.input.source.len(), self.input.survey.ids.len() as u64);
+        let (n, drawn) = (self.input.source.len(), self.input.item_pass.ids.len() as u64);
         let flat = match self.ellipsoid.hull {
             Some(_) => " Points off the flat are outliers at any distance within it.",
             None => "",

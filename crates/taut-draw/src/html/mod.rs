@@ -1,6 +1,6 @@
 //! A report as one HTML file.
 //!
-//! *Idea.* Pictures of the plane and charts are inline SVG that takes its colours from variables of the page, so that
+//! *Idea.* Pictures of the plane and charts are inline SVG that takes its colors from variables of the page, so that
 //! one picture serves bright and dark screens and paper. Scenes of space are numbers for a small viewer of our own.
 //! *Guarantee.* The file asks for nothing from anywhere, and its content policy forbids that it could.
 //! *Trap.* Words from outside stand in markup and in scripts: each has its own escape.
@@ -47,9 +47,9 @@ pub struct Section {
 /// A number with its name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Field {
-    /// What it is.
+    /// The name.
     pub name: String,
-    /// How much, as it is to be printed.
+    /// The value as it is printed.
     pub value: String,
 }
 

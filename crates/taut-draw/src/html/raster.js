@@ -51,7 +51,7 @@ const surfaces = (() => {
     return { tones: [layer.tone, layer.back], places, triangles, normals: normals(places, triangles, layer.smooth), turned: new Float64Array(places.length) };
   };
 
-  // The shades of a colour "#rrggbb": from a third of it to halfway to white.
+  // The shades of a color "#rrggbb": from a third of it to halfway to white.
   const ramp = (hex) => {
     const base = [1, 3, 5].map((k) => parseInt(hex.slice(k, k + 2), 16));
     return Array.from({ length: 256 }, (_, i) => base.map((c) => Math.round((1 - i / 255) * .33 * c + i / 255 * (.5 * c + 127.5))));
@@ -108,7 +108,7 @@ const surfaces = (() => {
       }
     });
 
-    // Colours; half as bright where the surface ends or steps back.
+    // Colors; half as bright where the surface ends or steps back.
     const paint = (reach) => {
       const pixels = new Uint8ClampedArray(4 * width * height), down = reach * width;
       for (let y = 0, i = 0; y < height; y++) for (let x = 0; x < width; x++, i++) {

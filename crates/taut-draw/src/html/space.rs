@@ -4,7 +4,7 @@ use crate::base64::base64;
 use crate::number::short;
 use crate::svg::{EYE_DISTANCE, Stage, WIRED_SPHERES_MAX, finite, stage};
 use crate::text::json;
-use crate::{Layer3, Look, Projection, Scene3, Shading, Shape3};
+use crate::{Layer3, LineStyle, Projection, Scene3, Shading, Shape3};
 
 /// The scene as JSON: places in the unit ball of the view, words as they are to be shown.
 pub(super) fn data(scene: &Scene3) -> String {
@@ -42,11 +42,11 @@ fn mark(at: [f64; 3], size: f64, id: Option<u64>, words: &[String]) -> String {
 }
 
 fn layer(layer: &Layer3, stage: &Stage) -> String {
-    let look = match layer.look {
-        Look::Solid => "solid",
-        Look::Dashed => "dashed",
-        Look::Filled => "filled",
-        Look::Thin => "thin",
+    let line_style = match layer.line_style {
+        LineStyle::Solid => "solid",
+        LineStyle::Dashed => "dashed",
+        LineStyle::Filled => "filled",
+        LineStyle::Thin => "thin",
     };
     let mut marks = Vec::new();
     let mut more = String::new();
@@ -121,7 +121,7 @@ fn layer(layer: &Layer3, stage: &Stage) -> String {
         }
     };
     format!(
-        "{{\"tone\":\"{}\",\"look\":\"{look}\",\"kind\":\"{kind}\",\"marks\":[{}]{more}}}",
+        "{{\"tone\":\"{}\",\"look\":\"{line_style}\",\"kind\":\"{kind}\",\"marks\":[{}]{more}}}",
         layer.tone.name(),
         marks.join(",\n"),
     )

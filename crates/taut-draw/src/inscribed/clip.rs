@@ -1,4 +1,4 @@
-//! What half-planes leave of a square, by cutting off one after the other (Sutherland and Hodgman, Communications of the
+//! Clips a square by half-planes, one after the other (Sutherland and Hodgman, Communications of the
 //! ACM 17(1), 1974).
 
 /// nᵀy ≤ h.
@@ -7,7 +7,7 @@ pub(super) type HalfPlane = ([f64; 2], f64);
 /// A convex polygon, and whether it ends by itself.
 pub(super) struct Polygon {
     pub(super) corners: Vec<[f64; 2]>,
-    /// Whether the half-planes bound it, and not the square that was begun with.
+    /// True if the half-planes bound it, and not the square that was begun with.
     pub(super) is_whole: bool,
 }
 
@@ -39,7 +39,7 @@ fn within(half_planes: &[HalfPlane], size: f64) -> Vec<[f64; 2]> {
     corners
 }
 
-/// What a half-plane leaves of a convex polygon.
+/// Returns what a half-plane leaves of a convex polygon.
 fn cut(corners: &[[f64; 2]], [a, b]: [f64; 2], offset: f64) -> Vec<[f64; 2]> {
     let above: Vec<f64> = corners.iter().map(|[x, y]| a * x + b * y - offset).collect();
     if above.iter().all(|&v| v <= 0.0) {

@@ -1,11 +1,11 @@
-//! A polytope of more than three dimensions: cuts through the centre of the ellipsoid, and how near the half-spaces come.
+//! A polytope of more than three dimensions: cuts through the center of the ellipsoid, and how near the half-spaces come.
 
 use super::clip::{Polygon, polygon};
 use super::{ELLIPSOID, Picture};
 use crate::body::Shadow;
 use crate::scene::LARGE_CORNERS;
 use crate::scene::pairs::{PANEL_HALF_WIDTH, choice, coordinates, framed, panels};
-use crate::{Axis, Layer2, Level, Look, Plot, Scale, Scene2, Series, Shape2, Tone};
+use crate::{Axis, Layer2, Level, LineStyle, Plot, Scale, Scene2, Series, Shape2, Tone};
 
 /// This part of a panel is filled.
 const FILLED_PART: f64 = 0.94;
@@ -44,14 +44,18 @@ impl Picture<'_> {
             let cut = Shadow([[wide * x, 0.0], [slope * y, tall * y]]);
             ellipses.push(cut.chain(panel.middle, 1.0, LARGE_CORNERS));
         }
-        let layer =
-            |name: &str, tone, shape| Layer2 { name: name.into(), tone, look: Look::Filled, shape };
+        let layer = |name: &str, tone, shape| Layer2 {
+            name: name.into(),
+            tone,
+            line_style: LineStyle::Filled,
+            shape,
+        };
         let layers = [
             layer("polytope", Tone::Point, Shape2::Polygons(polytopes)),
             layer(ELLIPSOID, Tone::Answer, Shape2::Polygons(ellipses)),
         ];
         let caption = format!(
-            "{} Cuts through the centre along pairs of coordinates, each scaled to fill its panel; on the diagonal, \
+            "{} Cuts through the center along pairs of coordinates, each scaled to fill its panel; on the diagonal, \
              the range of the coordinate over the ellipsoid.{}",
             self.caption(is_whole),
             choice(&chosen, self.dim(), "in which the ellipsoid is tilted most"),
@@ -68,7 +72,7 @@ impl Picture<'_> {
             list.push([(place + 1) as f64, side.distance]);
         }
         let caption = format!(
-            "{} The distance of a half-space from the centre is counted in the metric of the ellipsoid.",
+            "{} The distance of a half-space from the center is counted in the metric of the ellipsoid.",
             self.nearness()
         );
         let axes = ["half-spaces, the nearest first", "distance: 1 touches"].map(Axis::named);

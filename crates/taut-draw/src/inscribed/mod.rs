@@ -1,6 +1,6 @@
 //! Figures of the largest ellipsoid inside a polytope.
 //!
-//! *Idea.* In the plane and in space polytope and ellipsoid are drawn as they are. Beyond, the planes through the centre
+//! *Idea.* In the plane and in space polytope and ellipsoid are drawn as they are. Beyond, the planes through the center
 //! along pairs of coordinates cut both of them: unlike shadows, such cuts of a polytope need its half-spaces alone. Beside them
 //! stands how near each half-space comes.
 //! *Guarantee.* The half-spaces are read once; what is left out is counted in the caption.
@@ -19,10 +19,10 @@ use crate::marks::{agree, all_finite, all_there, support_size};
 use crate::number::{count, counted, short};
 use crate::passes::{Gap, Words, passes};
 use crate::scene::{Layer, Mark, Marks, Scene};
-use crate::{DrawOptions, Error, Figure, Look, Tone};
+use crate::{DrawOptions, Error, Figure, LineStyle, Tone};
 
 /// Pictures of an ellipsoid in a polytope, whose half-spaces are the rows of `source`: the plane for d ≤ 2, space for
-/// d = 3, cuts through the centre and the distances of the half-spaces beyond; then bounds and gap by stage, where the
+/// d = 3, cuts through the center and the distances of the half-spaces beyond; then bounds and gap by stage, where the
 /// trace has them.
 ///
 /// # Errors
@@ -61,7 +61,7 @@ pub fn inscribed_figures(
     Ok(figures)
 }
 
-/// What the answer and its half-spaces must agree in before anything is drawn.
+/// Checks what the answer and its half-spaces must agree in before anything is drawn.
 fn check(solution: &Solution<InscribedEllipsoid>, source: &dyn PointSource) -> Result<(), Error> {
     let (ellipsoid, certificate) = (&solution.answer, &solution.certificate);
     let dim = ellipsoid.center.len();
@@ -73,13 +73,13 @@ fn check(solution: &Solution<InscribedEllipsoid>, source: &dyn PointSource) -> R
     }
     agree("number of multipliers", certificate.support.len(), certificate.multipliers.len())?;
     all_there("number of half-spaces", &certificate.support, source.len())?;
-    let numbers = (ellipsoid.center.iter().map(|v| ("a coordinate of the centre", v)))
+    let numbers = (ellipsoid.center.iter().map(|v| ("a coordinate of the center", v)))
         .chain(ellipsoid.axes.iter().flatten().map(|v| ("an entry of the axes", v)))
         .chain(certificate.multipliers.iter().map(|v| ("a multiplier", v)));
     all_finite(numbers)
 }
 
-/// What all pictures of one ellipsoid share.
+/// The data that all pictures of one ellipsoid share.
 struct Picture<'a> {
     solution: &'a Solution<InscribedEllipsoid>,
     source: &'a dyn PointSource,
@@ -116,12 +116,12 @@ impl Picture<'_> {
         center.iter().zip(axes).map(|(c, row)| c + along(row)).collect()
     }
 
-    /// Polytope, ellipsoid, where half-spaces touch it, and its centre.
+    /// Polytope, ellipsoid, where half-spaces touch it, and its center.
     fn scene(&self) -> Scene<'_> {
         let (dim, options) = (self.dim(), self.options);
         let (polytope, is_whole) = self.polytope();
-        let look = if dim == 3 { Look::Solid } else { Look::Filled };
-        let polytope = Layer::new("polytope", Tone::Point, look, polytope);
+        let line_style = if dim == 3 { LineStyle::Solid } else { LineStyle::Filled };
+        let polytope = Layer::new("polytope", Tone::Point, line_style, polytope);
         let body = Marks::Ellipsoid { body: &self.body, part: 1.0 };
         let mark = |side: &Side| Mark {
             id: side.id,
@@ -192,7 +192,7 @@ impl Picture<'_> {
         words
     }
 
-    /// How many come near, in words.
+    /// Returns how many come near, in words.
     fn nearness(&self) -> String {
         format!(
             "{} of {} come within {} % of touching.",

@@ -15,7 +15,7 @@ pub(super) const HALF_SPACES_MAX: usize = 2000;
 /// This far around the ellipsoid is looked at first, in half axes: the polytope lies within d.
 const FIRST_REACH: f64 = 4.0;
 
-/// The same on a facet, which may lie far from its foot.
+/// The same on a facet, which may lie far from the projection of the origin.
 const FACET_REACH: f64 = 8.0;
 
 /// The band of an interval around the ellipsoid is higher than that of the ellipsoid by this factor.
@@ -30,7 +30,7 @@ fn beside([x, y, z]: [f64; 3]) -> [[f64; 3]; 2] {
 }
 
 impl Picture<'_> {
-    /// What is drawn of the polytope, and whether all of it is.
+    /// Returns what is drawn of the polytope, and whether all of it is.
     pub(super) fn polytope(&self) -> (Marks<'static>, bool) {
         match self.dim() {
             1 => self.interval(),
@@ -101,7 +101,7 @@ impl Picture<'_> {
     }
 }
 
-/// Another half-space in the plane of one, with its foot as the origin.
+/// Another half-space in the plane of one, with the projection of the origin as its origin.
 fn seen_in(own: &Side, other: &Side, axes: [[f64; 3]; 2]) -> HalfPlane {
     let offset = other.distance - own.distance * dot(&own.seen, &other.seen);
     (axes.map(|axis| dot(&axis, &other.seen)), offset)

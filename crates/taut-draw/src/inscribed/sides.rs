@@ -29,11 +29,10 @@ pub(super) struct Side {
 /// The half-spaces that are drawn, the nearest first.
 pub(super) struct Sides {
     pub(super) near: Vec<Side>,
-    /// The largest weight.
     pub(super) largest: f64,
-    /// How many come within a thousandth of touching.
+    /// The number of sides that come within a thousandth of touching.
     pub(super) close: u64,
-    /// How many reach into the ellipsoid by more than rounding.
+    /// The number of sides that reach into the ellipsoid by more than rounding.
     pub(super) cutting: u64,
 }
 
@@ -127,7 +126,7 @@ impl Side {
         let wide = length(&seen);
         let distance = slack / wide;
         if !distance.is_finite() {
-            let what = format!("distance of half-space {id} from the centre, in half axes,");
+            let what = format!("distance of half-space {id} from the center, in half axes,");
             return Err(Error::NonFinite { what, value: distance });
         }
         seen.iter_mut().for_each(|v| *v /= wide);

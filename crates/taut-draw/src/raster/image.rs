@@ -1,4 +1,4 @@
-//! From samples to pixels: colours, and lines where the surface ends or steps back.
+//! From samples to pixels: colors, and lines where the surface ends or steps back.
 
 use super::Raster;
 use crate::{Theme, Tone};
@@ -6,7 +6,7 @@ use crate::{Theme, Tone};
 /// A step in nearness from which on it is a step of the surface and not a slope: a tenth of the radius of the scene.
 const NEARNESS_STEP_MIN: f32 = 0.025;
 
-/// The colour of a surface for each of 256 shades.
+/// The color of a surface for each of 256 shades.
 pub(crate) type Ramp = [[u8; 3]; 256];
 
 /// Pixels with red, green, blue and opacity, rows from the top.
@@ -17,7 +17,7 @@ pub(crate) struct Image {
     pub(crate) pixels: Vec<[u8; 4]>,
 }
 
-/// The shades of a tone: from a third of its colour to a tint of it, halfway to white.
+/// The shades of a tone: from a third of its color to a tint of it, halfway to white.
 pub(crate) fn ramp(theme: Theme, tone: Tone) -> Ramp {
     let hex = theme.color(tone);
     let channel =
@@ -32,7 +32,7 @@ pub(crate) fn ramp(theme: Theme, tone: Tone) -> Ramp {
 }
 
 impl Raster {
-    /// The mean of `across` × `across` samples for each pixel, in the colours of their inks.
+    /// The mean of `across` × `across` samples for each pixel, in the colors of their inks.
     pub(crate) fn image(&self, across: usize, inks: &[Ramp]) -> Image {
         let (width, height) = (self.width / across, self.height / across);
         let reach = across.div_ceil(2);
@@ -65,7 +65,7 @@ impl Raster {
         Image { width, height, pixels }
     }
 
-    /// Whether beside a sample, so many samples away, the surface ends or is much farther away.
+    /// Tests whether beside a sample, so many samples away, the surface ends or is much farther away.
     fn is_cliff(&self, u: usize, v: usize, reach: usize) -> bool {
         let near = |u: usize, v: usize| self.near[v * self.width + u];
         let edge = near(u, v) - NEARNESS_STEP_MIN;

@@ -26,22 +26,21 @@ pub(crate) type Snapped = [i64; 2];
 pub(crate) struct Raster {
     pub(crate) width: usize,
     pub(crate) height: usize,
-    /// How near the nearest triangle is, above 0; 0 where there is none.
+    /// The nearness of the nearest triangle, above 0; 0 where there is none.
     near: Vec<f32>,
-    /// How light it is there, 0 to 255.
+    /// The lightness there, 0 to 255.
     light: Vec<u8>,
-    /// The number of its colours.
+    /// The number of its colors.
     ink: Vec<u8>,
-    /// Its number.
     owner: Vec<u32>,
 }
 
 /// A triangle on the grid.
 pub(crate) struct Facet {
     pub(crate) corners: [Snapped; 3],
-    /// How near each corner is, above 0.
+    /// The nearness of each corner, above 0.
     pub(crate) near: [f64; 3],
-    /// How light each corner is, 0 to 1.
+    /// The lightness of each corner, 0 to 1.
     pub(crate) light: [f64; 3],
     pub(crate) ink: u8,
     pub(crate) owner: u32,
@@ -151,7 +150,7 @@ impl Raster {
             let mut last = facet.owner;
             self.scan(facet, |raster, sample, near, _| {
                 let nearest = raster.owner[sample];
-                // Neighbouring samples mostly say the same.
+                // Neighboring samples mostly say the same.
                 if nearest != last && raster.near[sample] > near + difference {
                     last = nearest;
                     pairs.push([facet.owner, nearest]);
@@ -163,7 +162,7 @@ impl Raster {
         pairs
     }
 
-    /// Whether all samples within `reach` of a place, in samples, are nearer than it is, by more than `difference`.
+    /// Tests whether all samples within `reach` of a place, in samples, are nearer than it is, by more than `difference`.
     pub(crate) fn hides(&self, at: [f64; 2], near: f64, reach: i64, difference: f64) -> bool {
         let [x, y] = at.map(|v| v.clamp(-1e6, 1e6).floor() as i64);
         let hidden = |x: i64, y: i64| {

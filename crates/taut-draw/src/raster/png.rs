@@ -23,7 +23,7 @@ pub(crate) fn png(image: &Image) -> Vec<u8> {
     let mut header = Vec::new();
     header.extend((image.width as u32).to_be_bytes());
     header.extend((image.height as u32).to_be_bytes());
-    // 8 bits a channel, colour with opacity, and the one method of compressing, filtering and ordering each.
+    // 8 bits a channel, color with opacity, and the one method of compressing, filtering and ordering each.
     header.extend([8, 6, 0, 0, 0]);
     let mut out = b"\x89PNG\r\n\x1a\n".to_vec();
     chunk(&mut out, b"IHDR", &header);

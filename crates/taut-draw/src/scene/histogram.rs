@@ -1,8 +1,8 @@
-//! How far the items of an answer reach, which a projection of many dimensions cannot show.
+//! Measures how far the items of an answer reach, which a projection of many dimensions cannot show.
 
 use super::Input;
+use crate::item_pass::BORDER_TOLERANCE;
 use crate::number::{count, counted, short};
-use crate::survey::BORDER_TOLERANCE;
 use crate::{Axis, Bar, Figure, Level, Plot, Scale, Series, Tone};
 
 /// About how many bars there are.
@@ -10,16 +10,15 @@ const BAR_COUNT: usize = 48;
 /// The axis is logarithmic if the tallest bar reaches this count.
 const LINEAR_HEIGHT_MAX: u64 = 200;
 
-/// What the histogram of an answer says beside its bars.
+/// The text of the histogram of an answer.
 pub(crate) struct Histogram {
     pub(crate) title: String,
-    /// The name of the horizontal axis.
     pub(crate) axis: &'static str,
-    /// What the border is called in the caption, and beside its line.
+    /// The name of the border in the caption, and beside its line.
     pub(crate) border: (&'static str, String),
     /// Where the border is on the axis.
     pub(crate) reach: f64,
-    /// How many items are not measured.
+    /// The number of items that are not measured.
     pub(crate) left_out: usize,
     /// The support by name, and how far each item of it reaches.
     pub(crate) support: Option<(String, Vec<f64>)>,
@@ -28,7 +27,7 @@ pub(crate) struct Histogram {
 /// A bar for each range of distances.
 pub(crate) fn histogram(input: &Input<'_>, words: Histogram) -> Figure {
     let Histogram { title, axis, border: (border, label), reach, left_out, support } = words;
-    let bins = input.survey.bins(BAR_COUNT);
+    let bins = input.item_pass.bins(BAR_COUNT);
     let tallest = bins.iter().map(|bin| bin.2).max().unwrap_or(0);
     let y_scale = if tallest >= LINEAR_HEIGHT_MAX { Scale::Log } else { Scale::Linear };
     let bar = |(from, to, items): (f64, f64, u64)| Bar {
@@ -44,7 +43,7 @@ pub(crate) fn histogram(input: &Input<'_>, words: Histogram) -> Figure {
     let measured = input.source.len().saturating_sub(left_out as u64);
     let caption = format!(
         "{} of {} come within {} % of the {border}. Each bar counts the {thing}s of one range of distances{}{}.",
-        count(input.survey.close),
+        count(input.item_pass.close),
         counted(measured, thing),
         short(100.0 * BORDER_TOLERANCE, 2),
         match y_scale {

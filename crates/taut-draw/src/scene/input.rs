@@ -1,13 +1,13 @@
-//! What an answer is about: its items, which of them are drawn, and the words for them.
+//! The subject of an answer: its items, which of them are drawn, and the words for them.
 
 use taut_certify::Items;
 use taut_points::{PointSource, gather};
 
 use super::{Group, LEFT_OUT_SCALE, Layer, Marks};
+use crate::item_pass::{ItemPass, Measure, PassQuery, item_pass, noun};
 use crate::marks::{dot_size, drawn_of, misfit, others_name};
 use crate::number::{count, counted};
-use crate::survey::{Measure, Question, Survey, noun, survey};
-use crate::{DrawOptions, Error, Look, Tone};
+use crate::{DrawOptions, Error, LineStyle, Tone};
 
 /// The items of an answer, read once.
 pub(crate) struct Input<'a> {
@@ -15,18 +15,18 @@ pub(crate) struct Input<'a> {
     pub(crate) options: &'a DrawOptions,
     pub(crate) items: Items,
     pub(crate) dim: usize,
-    pub(crate) survey: Survey,
+    pub(crate) item_pass: ItemPass,
 }
 
 impl<'a> Input<'a> {
     pub(crate) fn read(
         measure: &dyn Measure,
-        question: &Question<'_>,
+        question: &PassQuery<'_>,
         source: &'a dyn PointSource,
         options: &'a DrawOptions,
     ) -> Result<Self, Error> {
-        let survey = survey(measure, question, source)?;
-        Ok(Input { source, options, items: question.items, dim: measure.dim(), survey })
+        let item_pass = item_pass(measure, question, source)?;
+        Ok(Input { source, options, items: question.items, dim: measure.dim(), item_pass })
     }
 
     /// "point", "ball" or "ellipsoid".
@@ -39,7 +39,6 @@ impl<'a> Input<'a> {
         format!("{word} ({})", counted(items as u64, self.thing()))
     }
 
-    /// The row of an item.
     pub(crate) fn row(&self, id: u64) -> Result<Vec<f64>, Error> {
         Ok(gather(self.source, &[id])?)
     }
@@ -74,27 +73,27 @@ impl<'a> Input<'a> {
             items: self.items,
             rows: gather(self.source, &ids)?,
             columns: self.source.dim(),
-            size: dot_size(self.survey.ids.len()),
+            size: dot_size(self.item_pass.ids.len()),
             scale: 1.0,
             label,
             ids,
         };
-        Ok(Layer::new(name, tone, Look::Filled, Marks::Items(group)))
+        Ok(Layer::new(name, tone, LineStyle::Filled, Marks::Items(group)))
     }
 
-    /// What is drawn of how many: `kept` names those that are drawn in any case.
+    /// Returns what is drawn of how many: `kept` names those that are drawn in any case.
     pub(crate) fn drawn(&self, kept: &str) -> String {
-        let far = match self.survey.far {
+        let far = match self.item_pass.far {
             0 => String::new(),
             far => format!("{} more that reach far, ", count(far)),
         };
         let which = format!("{kept}{far}and an even sample of the others");
-        let drawn = self.survey.ids.len() as u64;
+        let drawn = self.item_pass.ids.len() as u64;
         drawn_of(drawn, self.source.len(), self.thing(), &which)
     }
 
     /// That items reach outside the answer, where some do.
     pub(crate) fn misfit(&self, shape: &str) -> String {
-        misfit(self.survey.outside, self.thing(), shape)
+        misfit(self.item_pass.outside, self.thing(), shape)
     }
 }

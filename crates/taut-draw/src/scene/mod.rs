@@ -1,7 +1,7 @@
 //! One builder of scenes for every answer that is made of bodies, around items or inside half-spaces.
 //!
 //! *Idea.* An answer names its layers once, in the coordinates of its points: bodies (balls of one radius, or an ellipsoid),
-//! items, marks and centres. A view turns each layer into shapes of the plane or of space: an interval, the plane, space, a
+//! items, marks and centers. A view turns each layer into shapes of the plane or of space: an interval, the plane, space, a
 //! projection on two directions, or a panel for each pair of coordinates.
 
 mod histogram;
@@ -20,7 +20,7 @@ pub(crate) use self::plane::{LARGE_CORNERS, Projected};
 pub(crate) use self::space::at;
 use crate::body::Body;
 use crate::{
-    Aspect, Axis, DrawOptions, Figure, Layer3, Look, Scene2, Scene3, Shape2, Shape3, Tone,
+    Aspect, Axis, DrawOptions, Figure, Layer3, LineStyle, Scene2, Scene3, Shape2, Shape3, Tone,
 };
 
 /// Marks of items left out are this many times as large: their tone is not all that tells them.
@@ -48,7 +48,7 @@ pub(crate) struct Scene<'a> {
 pub(crate) struct Layer<'a> {
     pub(crate) name: String,
     pub(crate) tone: Tone,
-    pub(crate) look: Look,
+    pub(crate) line_style: LineStyle,
     pub(crate) marks: Marks<'a>,
 }
 
@@ -62,7 +62,7 @@ pub(crate) enum Marks<'a> {
     Items(Group),
     /// Points that decide the answer.
     Points(Vec<Mark>),
-    /// Centres.
+    /// Centers.
     Crosses(&'a [Vec<f64>]),
     /// Shapes of a picture of the plane, drawn as they are.
     Plane(Shape2),
@@ -80,7 +80,7 @@ pub(crate) struct Group {
     /// Radius of a disc, pixels, before it is scaled.
     pub(crate) size: f64,
     pub(crate) scale: f64,
-    /// What else to say of each on hovering.
+    /// Further text of each on hovering.
     pub(crate) label: &'static str,
 }
 
@@ -99,28 +99,33 @@ impl Group {
 }
 
 impl<'a> Layer<'a> {
-    pub(crate) fn new(name: impl Into<String>, tone: Tone, look: Look, marks: Marks<'a>) -> Self {
-        Layer { name: name.into(), tone, look, marks }
+    pub(crate) fn new(
+        name: impl Into<String>,
+        tone: Tone,
+        line_style: LineStyle,
+        marks: Marks<'a>,
+    ) -> Self {
+        Layer { name: name.into(), tone, line_style, marks }
     }
 
     pub(crate) fn answer(name: impl Into<String>, marks: Marks<'a>) -> Self {
-        Layer::new(name, Tone::Answer, Look::Filled, marks)
+        Layer::new(name, Tone::Answer, LineStyle::Filled, marks)
     }
 
     pub(crate) fn lower_bound(marks: Marks<'a>) -> Self {
-        Layer::new("lower bound", Tone::Bound, Look::Dashed, marks)
+        Layer::new("lower bound", Tone::Bound, LineStyle::Dashed, marks)
     }
 
     pub(crate) fn support(name: String, marks: Vec<Mark>) -> Self {
-        Layer::new(name, Tone::Support, Look::Solid, Marks::Points(marks))
+        Layer::new(name, Tone::Support, LineStyle::Solid, Marks::Points(marks))
     }
 
     pub(crate) fn centers(centers: &'a [Vec<f64>]) -> Self {
-        let name = if centers.len() == 1 { "centre" } else { "centres" };
-        Layer::new(name, Tone::Ink, Look::Solid, Marks::Crosses(centers))
+        let name = if centers.len() == 1 { "center" } else { "centers" };
+        Layer::new(name, Tone::Ink, LineStyle::Solid, Marks::Crosses(centers))
     }
 
-    /// Whether there is nothing to draw.
+    /// Returns true if there is nothing to draw.
     fn is_empty(&self) -> bool {
         match &self.marks {
             Marks::Items(group) => group.ids.is_empty(),

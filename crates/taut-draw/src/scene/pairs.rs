@@ -10,9 +10,9 @@ use taut_certify::Items;
 use super::plane::{LARGE_CORNERS, Place, SMALL_CORNERS};
 use super::{Group, Layer, Mark, Marks, Scene};
 use crate::body::{Body, Shadow};
+use crate::item_pass::Measure;
 use crate::number::{count, short};
-use crate::survey::Measure;
-use crate::{DrawOptions, Figure, Layer2, Look, Point2, Scene2, Shape2, Text2, Tone};
+use crate::{DrawOptions, Figure, Layer2, LineStyle, Point2, Scene2, Shape2, Text2, Tone};
 
 /// Up to this many coordinates are all drawn; of more, one less.
 const PAIRED_DIM_MAX: usize = 7;
@@ -77,7 +77,7 @@ pub(crate) fn coordinates(body: &Body) -> Vec<usize> {
     chosen
 }
 
-/// How many coordinates are drawn, and which, where some are not.
+/// Returns how many coordinates are drawn, and which, where some are not.
 pub(crate) fn choice(chosen: &[usize], dim: usize, which: &str) -> String {
     match chosen.len() {
         all if all == dim => String::new(),
@@ -92,15 +92,15 @@ pub(crate) fn framed(
     options: &DrawOptions,
     layers: impl IntoIterator<Item = Layer2>,
 ) -> Vec<Layer2> {
-    let layer = |tone, look, shape| Layer2 { name: String::new(), tone, look, shape };
+    let layer = |tone, line_style, shape| Layer2 { name: String::new(), tone, line_style, shape };
     let frames = panels(chosen).iter().map(|panel| square(panel.middle)).collect();
-    let frames = layer(Tone::Muted, Look::Thin, Shape2::Polygons(frames));
+    let frames = layer(Tone::Muted, LineStyle::Thin, Shape2::Polygons(frames));
     let words = Shape2::Texts(diagonal(body, chosen, options));
-    let words = layer(Tone::Ink, Look::Solid, words);
+    let words = layer(Tone::Ink, LineStyle::Solid, words);
     [frames].into_iter().chain(layers).chain([words]).collect()
 }
 
-/// What the diagonal says: the names of coordinates and their ranges over the ellipsoid.
+/// Returns what the diagonal says: the names of coordinates and their ranges over the ellipsoid.
 fn diagonal(body: &Body, chosen: &[usize], options: &DrawOptions) -> Vec<Text2> {
     let words = |(i, &j): (usize, &usize)| {
         let (c, w) = (body.center[j], body.half_width(j));
@@ -119,9 +119,9 @@ pub(crate) struct Pairs<'a> {
     pub(crate) body: &'a Body,
     chosen: Vec<usize>,
     panels: Vec<Panel>,
-    /// How far the panels of each coordinate reach.
+    /// The half-width of the panels of each coordinate.
     scales: Vec<f64>,
-    /// Whether they reach farther than the ellipsoid.
+    /// True if they reach farther than the ellipsoid.
     is_wider: bool,
 }
 
@@ -208,7 +208,7 @@ impl<'a> Pairs<'a> {
     }
 
     fn layer(&self, layer: &Layer<'_>, beyond: &mut u64) -> Option<Layer2> {
-        let (mut name, tone, mut look) = (layer.name.clone(), layer.tone, layer.look);
+        let (mut name, tone, mut line_style) = (layer.name.clone(), layer.tone, layer.line_style);
         let shape = match &layer.marks {
             // A copy as large as the lower bound would fill each panel almost as the ellipsoid does.
             Marks::Ellipsoid { .. } if tone == Tone::Bound => return None,
@@ -220,7 +220,7 @@ impl<'a> Pairs<'a> {
             }
             Marks::Items(group) => {
                 if group.items != Items::Points {
-                    look = Look::Thin;
+                    line_style = LineStyle::Thin;
                 }
                 self.items(group, beyond)
             }
@@ -228,7 +228,7 @@ impl<'a> Pairs<'a> {
             _ => return None,
         };
         let is_empty = matches!(&shape, Shape2::Polygons(chains) if chains.is_empty());
-        (!is_empty).then_some(Layer2 { name, tone, look, shape })
+        (!is_empty).then_some(Layer2 { name, tone, line_style, shape })
     }
 }
 

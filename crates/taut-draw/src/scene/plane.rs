@@ -4,9 +4,9 @@ use taut_certify::Items;
 
 use super::{Group, INNER_BAND_HEIGHT, Layer, Marks};
 use crate::body::{Body, Shadow};
+use crate::item_pass::Measure;
 use crate::project::dot;
-use crate::survey::Measure;
-use crate::{Circle2, Layer2, Look, Point2, Shape2, Tone};
+use crate::{Circle2, Layer2, LineStyle, Point2, Shape2, Tone};
 
 /// An ellipse drawn large has this many corners.
 pub(crate) const LARGE_CORNERS: usize = 240;
@@ -16,23 +16,22 @@ pub(super) const SMALL_CORNERS: usize = 48;
 /// A place in a picture of the plane.
 pub(crate) type Place = [f64; 2];
 
-/// What a projection needs beside the layers.
+/// The data that a projection needs beside the layers.
 pub(crate) struct Projected<'a> {
-    /// What offsets are measured by, and its unit.
+    /// The measure of offsets, and its unit.
     pub(crate) measure: &'a dyn Measure,
     pub(crate) unit: f64,
     /// Two orthonormal directions.
     pub(crate) directions: [Vec<f64>; 2],
-    /// What the caption says of them.
+    /// The words of the caption about them.
     pub(crate) words: String,
-    /// The names of the axes.
     pub(crate) axes: [&'static str; 2],
 }
 
-/// How points of d coordinates are placed in the plane.
+/// The way in which points of d coordinates are placed in the plane.
 pub(super) struct View<'a> {
     pub(super) directions: [Vec<f64>; 2],
-    /// What offsets are measured by, and its unit; coordinates are drawn as they are without it.
+    /// The measure of offsets, and its unit; coordinates are drawn as they are without it.
     pub(super) origin: Option<(&'a dyn Measure, f64)>,
     /// On a line, half the height of the band of the answer.
     pub(super) height: Option<f64>,
@@ -53,17 +52,17 @@ impl View<'_> {
         }
     }
 
-    pub(super) fn layer(&self, Layer { name, tone, look, marks }: Layer<'_>) -> Layer2 {
-        let (look, shape) = match marks {
+    pub(super) fn layer(&self, Layer { name, tone, line_style, marks }: Layer<'_>) -> Layer2 {
+        let (line_style, shape) = match marks {
             Marks::Balls { centers, radius } => {
                 let circle =
                     |center: &Vec<f64>| Circle2 { id: None, center: self.place(center), radius };
                 let circles: Vec<Circle2> = centers.iter().map(circle).collect();
-                (look, self.bands(&circles, tone).unwrap_or(Shape2::Circles(circles)))
+                (line_style, self.bands(&circles, tone).unwrap_or(Shape2::Circles(circles)))
             }
-            Marks::Ellipsoid { body, part } => (look, self.outline(body, part, tone)),
+            Marks::Ellipsoid { body, part } => (line_style, self.outline(body, part, tone)),
             Marks::Items(group) => (
-                if group.items == Items::Ellipsoids { Look::Thin } else { look },
+                if group.items == Items::Ellipsoids { LineStyle::Thin } else { line_style },
                 self.items(&group),
             ),
             Marks::Points(marks) => {
@@ -73,15 +72,15 @@ impl View<'_> {
                     size: mark.size,
                     label: mark.label,
                 };
-                (look, Shape2::Points(marks.into_iter().map(point).collect()))
+                (line_style, Shape2::Points(marks.into_iter().map(point).collect()))
             }
             Marks::Crosses(centers) => {
-                (look, Shape2::Crosses(centers.iter().map(|at| self.place(at)).collect()))
+                (line_style, Shape2::Crosses(centers.iter().map(|at| self.place(at)).collect()))
             }
-            Marks::Plane(shape) => (look, shape),
-            Marks::Space(_) => (look, Shape2::Points(Vec::new())),
+            Marks::Plane(shape) => (line_style, shape),
+            Marks::Space(_) => (line_style, Shape2::Points(Vec::new())),
         };
-        Layer2 { name, tone, look, shape }
+        Layer2 { name, tone, line_style, shape }
     }
 
     /// On a line, intervals as bands.

@@ -5,7 +5,7 @@ use taut_certify::Items;
 use super::plane::{LARGE_CORNERS, SMALL_CORNERS};
 use super::{Layer, Marks};
 use crate::body::length;
-use crate::{Layer3, Look, Point3, Shape3, Sphere3, Tone};
+use crate::{Layer3, LineStyle, Point3, Shape3, Sphere3, Tone};
 
 pub(crate) type Place = [f64; 3];
 
@@ -80,12 +80,12 @@ pub(crate) fn at(row: &[f64]) -> Place {
     [row[0], row[1], row[2]]
 }
 
-pub(super) fn layer(Layer { name, tone, look, marks }: Layer<'_>) -> Layer3 {
-    let thin = if look == Look::Filled { Look::Thin } else { look };
-    let (look, shape) = match marks {
+pub(super) fn layer(Layer { name, tone, line_style, marks }: Layer<'_>) -> Layer3 {
+    let thin = if line_style == LineStyle::Filled { LineStyle::Thin } else { line_style };
+    let (line_style, shape) = match marks {
         Marks::Balls { centers, radius } => {
             let sphere = |center: &Vec<f64>| Sphere3 { id: None, center: at(center), radius };
-            (look, Shape3::Spheres(centers.iter().map(sphere).collect()))
+            (line_style, Shape3::Spheres(centers.iter().map(sphere).collect()))
         }
         Marks::Ellipsoid { body, part } => {
             let is_second = tone == Tone::Second;
@@ -101,7 +101,7 @@ pub(super) fn layer(Layer { name, tone, look, marks }: Layer<'_>) -> Layer3 {
                     size: group.scale * group.size,
                     label: group.label.into(),
                 };
-                (look, Shape3::Points(group.each().map(point).collect()))
+                (line_style, Shape3::Points(group.each().map(point).collect()))
             }
             Items::Balls => {
                 let ball = |(id, row): (u64, &[f64])| Sphere3 {
@@ -109,7 +109,7 @@ pub(super) fn layer(Layer { name, tone, look, marks }: Layer<'_>) -> Layer3 {
                     center: at(row),
                     radius: row[3],
                 };
-                (look, Shape3::Spheres(group.each().map(ball).collect()))
+                (line_style, Shape3::Spheres(group.each().map(ball).collect()))
             }
             Items::Ellipsoids => {
                 let net =
@@ -124,11 +124,13 @@ pub(super) fn layer(Layer { name, tone, look, marks }: Layer<'_>) -> Layer3 {
                 size: mark.size,
                 label: mark.label,
             };
-            (look, Shape3::Points(marks.into_iter().map(point).collect()))
+            (line_style, Shape3::Points(marks.into_iter().map(point).collect()))
         }
-        Marks::Crosses(centers) => (look, Shape3::Crosses(centers.iter().map(|c| at(c)).collect())),
-        Marks::Space(shape) => (look, shape),
-        Marks::Plane(_) => (look, Shape3::Points(Vec::new())),
+        Marks::Crosses(centers) => {
+            (line_style, Shape3::Crosses(centers.iter().map(|c| at(c)).collect()))
+        }
+        Marks::Space(shape) => (line_style, shape),
+        Marks::Plane(_) => (line_style, Shape3::Points(Vec::new())),
     };
-    Layer3 { name, tone, look, shape }
+    Layer3 { name, tone, line_style, shape }
 }

@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-/// What is found among the edges.
+/// The properties of the edges.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Edges {
     /// Chains of vertices along the boundary.

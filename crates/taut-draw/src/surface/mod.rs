@@ -1,7 +1,7 @@
 //! Figures of surfaces through points of space.
 //!
 //! *Idea.* One scene to turn by hand and one sheet of fixed views hold the same: the surface with a tint for either side, its
-//! boundary in an accent colour, edges of more than two triangles, and the points that no triangle uses. A triangle that is turned
+//! boundary in an accent color, edges of more than two triangles, and the points that no triangle uses. A triangle that is turned
 //! over, and what is seen through a hole, show the tint of the back.
 //! *Guarantee.* Every triangle is drawn, whatever their number. Of unused points at most [`DrawOptions::max_points`] are, an even
 //! sample, and the caption says so.
@@ -14,11 +14,11 @@ mod edges;
 use taut_points::{Blocks, PointSource, Scratch};
 
 use self::edges::Edges;
+use crate::item_pass::spread;
 use crate::marks::{agree, dot_size};
 use crate::number::{count, counted};
-use crate::survey::spread;
 use crate::{
-    DrawOptions, Error, Figure, Layer3, Look, Point3, Projection, Scene3, Shading, Shape3,
+    DrawOptions, Error, Figure, Layer3, LineStyle, Point3, Projection, Scene3, Shading, Shape3,
     Surface3, Tone, View, Views,
 };
 pub use answer::surface_figures;
@@ -47,7 +47,7 @@ pub struct SurfaceView<'a> {
 /// Points that are on no triangle, for one reason.
 #[derive(Clone, Copy, Debug)]
 pub struct UnusedPoints<'a> {
-    /// What they are called in legend and caption, in the plural.
+    /// Their name in legend and caption, in the plural.
     pub name: &'a str,
     /// Their rows.
     pub rows: &'a [u32],
@@ -94,7 +94,7 @@ pub fn surface_scene(view: &SurfaceView<'_>, options: &DrawOptions) -> Result<Ve
     Ok(vec![Figure::Space(scene), views])
 }
 
-/// What a surface and its points must agree in before anything is drawn.
+/// Checks what a surface and its points must agree in before anything is drawn.
 fn check(view: &SurfaceView<'_>) -> Result<(), Error> {
     agree("number of coordinates", 3, view.points.dim())?;
     let n = view.points.len();
@@ -113,7 +113,6 @@ fn check(view: &SurfaceView<'_>) -> Result<(), Error> {
     }
 }
 
-/// All points.
 fn places(source: &dyn PointSource) -> Result<Vec<[f64; 3]>, Error> {
     let mut places: Vec<[f64; 3]> = Vec::new();
     let mut scratch = Scratch::new();
@@ -156,7 +155,7 @@ fn directions(options: &DrawOptions) -> Vec<View> {
 const AZIMUTH: f64 = -55.0;
 const ELEVATION: f64 = 25.0;
 
-/// What all pictures of one surface share.
+/// The data that all pictures of one surface share.
 struct Picture<'a> {
     view: &'a SurfaceView<'a>,
     options: &'a DrawOptions,
@@ -164,7 +163,6 @@ struct Picture<'a> {
 }
 
 impl Picture<'_> {
-    /// Where a vertex is.
     fn vertex(&self, row: u32) -> [f64; 3] {
         let places = if self.view.moved.is_empty() { &self.places } else { self.view.moved };
         places[row as usize]
@@ -181,7 +179,7 @@ impl Picture<'_> {
             layers.push(Layer3 {
                 name: "surface".into(),
                 tone: Tone::Answer,
-                look: Look::Solid,
+                line_style: LineStyle::Solid,
                 shape: Shape3::Surface(self.surface(&rows)),
             });
         }
@@ -195,7 +193,7 @@ impl Picture<'_> {
         ] {
             if !lines.is_empty() {
                 let (name, shape) = (name.to_owned(), chains(lines));
-                layers.push(Layer3 { name, tone, look: Look::Solid, shape });
+                layers.push(Layer3 { name, tone, line_style: LineStyle::Solid, shape });
             }
         }
         let mut caption = counts(triangles.len(), rows.len(), &edges);
@@ -273,7 +271,7 @@ impl Picture<'_> {
             layers.push(Layer3 {
                 name: group.name.to_owned(),
                 tone: tones[i.min(tones.len() - 1)],
-                look: Look::Solid,
+                line_style: LineStyle::Solid,
                 shape: Shape3::Points(drawn.map(point).collect()),
             });
         }
@@ -292,7 +290,7 @@ impl Picture<'_> {
     }
 }
 
-/// How many triangles, vertices and boundary loops there are, in sentences.
+/// Returns how many triangles, vertices and boundary loops there are, in sentences.
 fn counts(triangles: usize, vertices: usize, edges: &Edges) -> String {
     if triangles == 0 {
         return "There are no triangles.".into();

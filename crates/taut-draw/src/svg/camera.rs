@@ -1,6 +1,6 @@
 //! The eye that sees the unit ball, and the sheet it draws on.
 
-use super::frame::Room;
+use super::frame::PlotArea;
 use crate::Projection;
 
 /// The eye is this far from the middle of the scene, in radii of the scene.
@@ -34,7 +34,12 @@ pub(super) struct Camera {
 
 impl Camera {
     /// An eye at an azimuth and an elevation, in degrees, that sees the unit ball fill the room.
-    pub(super) fn new(projection: Projection, azimuth: f64, elevation: f64, room: Room) -> Self {
+    pub(super) fn new(
+        projection: Projection,
+        azimuth: f64,
+        elevation: f64,
+        room: PlotArea,
+    ) -> Self {
         let (sa, ca) = sin_cos(azimuth);
         let (se, ce) = sin_cos(elevation.clamp(-90.0, 90.0));
         let frame = [[-sa, ca, 0.0], [-se * ca, -se * sa, ce], [ce * ca, ce * sa, se]];
@@ -48,8 +53,8 @@ impl Camera {
         Camera { frame, projection, middle, scale: 0.97 * half / outline }
     }
 
-    /// How far balls of the stage reach from the middle of a room that the eye fills, in halves of its width or height.
-    pub(super) fn reach(&self, room: Room, balls: &[(V3, f64)]) -> f64 {
+    /// Returns how far balls of the stage reach from the middle of a room that the eye fills, in halves of its width or height.
+    pub(super) fn reach(&self, room: PlotArea, balls: &[(V3, f64)]) -> f64 {
         let half = [(room.right - room.left) / 2.0, (room.bottom - room.top) / 2.0];
         let of = |&(place, radius): &(V3, f64)| {
             let v = self.turn(place);
@@ -71,7 +76,7 @@ impl Camera {
         self.frame.map(|axis| dot(axis, p))
     }
 
-    /// How much larger things look at a depth.
+    /// Returns how much larger things look at a depth.
     pub(super) fn zoom(&self, depth: f64) -> f64 {
         match self.projection {
             Projection::Perspective => EYE_DISTANCE / (EYE_DISTANCE - depth),
@@ -79,7 +84,7 @@ impl Camera {
         }
     }
 
-    /// How near a depth is, above 0 and affine on the sheet.
+    /// Returns how near a depth is, above 0 and affine on the sheet.
     pub(super) fn nearness(&self, depth: f64) -> f64 {
         match self.projection {
             Projection::Perspective => self.zoom(depth),

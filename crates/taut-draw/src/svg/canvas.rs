@@ -7,30 +7,29 @@ use crate::base64::base64;
 use crate::number::px;
 use crate::raster::{Image, png};
 use crate::text::escape;
-use crate::{Look, Tone};
+use crate::{LineStyle, Tone};
 
 /// Elements written so far.
 pub(super) struct Canvas {
     body: String,
     /// Pixels of images to each unit of the picture.
     pub(super) density: f64,
-    /// Whether images are written into the body; else they are kept beside it, to be laid over what was written before the first.
+    /// True if images are written into the body; else they are kept beside it, to be laid over what was written before the first.
     pub(super) embeds: bool,
-    /// Images with their places.
-    pub(super) images: Vec<Laid>,
+    pub(super) images: Vec<PlacedImage>,
     /// Length of the body before the first image.
     cut: usize,
     /// Width and height of the document, pixels.
     pub(super) size: [f64; 2],
     /// Marks for the pointer.
     pub(super) hovers: Vec<Hover>,
-    /// Whether marks carry titles of their own; a page shows their words itself.
+    /// True if marks carry titles of their own; a page shows their words itself.
     pub(super) titled: bool,
 }
 
 /// An image and where it lies.
 #[cfg_attr(not(feature = "png"), expect(dead_code, reason = "only PNG lays images itself"))]
-pub(crate) struct Laid {
+pub(crate) struct PlacedImage {
     pub(crate) image: Image,
     /// Its upper left corner, and its width and height, in units of the picture.
     pub(crate) at: [f64; 2],
@@ -142,7 +141,7 @@ impl Canvas {
         }
     }
 
-    /// A closed chain with a colour of its own.
+    /// A closed chain with a color of its own.
     pub(super) fn polygon(&mut self, places: &[[f64; 2]], [r, g, b]: [u8; 3]) {
         let _ = write!(self.body, "<path fill=\"#{r:02x}{g:02x}{b:02x}\" d=\"");
         for (i, place) in places.iter().enumerate() {
@@ -166,7 +165,7 @@ impl Canvas {
             if self.images.is_empty() {
                 self.cut = self.body.len();
             }
-            self.images.push(Laid { image, at, size });
+            self.images.push(PlacedImage { image, at, size });
         }
     }
 
@@ -182,7 +181,7 @@ impl Canvas {
             write!(self.body, "<text class=\"{class}\" x=\"{x}\" y=\"{y}\"{anchor}>{text}</text>");
     }
 
-    /// A word that reads upwards, centred on its place.
+    /// A word that reads upwards, centerd on its place.
     pub(super) fn text_upwards(&mut self, at: [f64; 2], class: &str, text: &str) {
         let [x, y] = at.map(px);
         let text = escape(text);
@@ -192,7 +191,6 @@ impl Canvas {
         );
     }
 
-    /// The whole document.
     pub(super) fn document(&self, title: &str, caption: &str, chrome: Chrome) -> String {
         let mut out = self.head(title, caption, chrome);
         if let Chrome::Full(_) = chrome {
@@ -226,19 +224,21 @@ impl Canvas {
         format!("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {w} {h}\"{attributes}")
     }
 
-    /// What was written, without a document around it.
+    /// Returns what was written, without a document around it.
     pub(super) fn into_body(self) -> String {
         self.body
     }
 }
 
 /// The classes of lines and areas of a layer, and the attributes that go with its look.
-pub(super) fn stroke(tone: Tone, look: Look) -> (String, &'static str) {
+pub(super) fn stroke(tone: Tone, line_style: LineStyle) -> (String, &'static str) {
     let name = tone.name();
-    match look {
-        Look::Solid => (format!("s-{name}"), "stroke-width=\"2\" stroke-linejoin=\"round\""),
-        Look::Dashed => (format!("s-{name}"), "stroke-width=\"1.8\" stroke-dasharray=\"6 5\""),
-        Look::Filled => (format!("f-{name} e-{name}"), "stroke-width=\"2\" fill-opacity=\"0.07\""),
-        Look::Thin => (format!("s-{name}"), "stroke-width=\"0.8\" stroke-linejoin=\"round\""),
+    match line_style {
+        LineStyle::Solid => (format!("s-{name}"), "stroke-width=\"2\" stroke-linejoin=\"round\""),
+        LineStyle::Dashed => (format!("s-{name}"), "stroke-width=\"1.8\" stroke-dasharray=\"6 5\""),
+        LineStyle::Filled => {
+            (format!("f-{name} e-{name}"), "stroke-width=\"2\" fill-opacity=\"0.07\"")
+        }
+        LineStyle::Thin => (format!("s-{name}"), "stroke-width=\"0.8\" stroke-linejoin=\"round\""),
     }
 }

@@ -1,20 +1,19 @@
-//! What stands around the marks: title, legend, axes, caption.
+//! The parts of a picture around the marks: title, legend, axes, caption.
 
 use super::canvas::{Anchor, Canvas, stroke};
 use crate::axes::{Span, Ticks};
 use crate::text::{fit, width, wrap};
-use crate::{Axis, Look, Theme, Tone};
+use crate::{Axis, LineStyle, Theme, Tone};
 
-/// How much stands around the marks.
+/// The parts of a picture around the marks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Chrome {
-    /// A document of its own: ground, colours, title and caption.
+    /// A document of its own: ground, colors, title and caption.
     Full(Theme),
-    /// A part of a page, which has its own colours, titles and captions.
+    /// A part of a page, which has its own colors, titles and captions.
     Bare,
 }
 
-/// An entry of the legend.
 pub(super) struct Entry<'a> {
     pub(super) name: &'a str,
     pub(super) tone: Tone,
@@ -27,7 +26,7 @@ pub(super) enum Key {
     /// A disc of this radius.
     Disc(f64),
     Cross,
-    Line(Look),
+    Line(LineStyle),
     LineAndDot,
     Area,
     /// A side of an opaque surface.
@@ -40,7 +39,7 @@ const KEY: f64 = 22.0;
 
 /// The place of the marks: left, top, right, bottom.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Room {
+pub(super) struct PlotArea {
     pub(super) left: f64,
     pub(super) top: f64,
     pub(super) right: f64,
@@ -55,7 +54,7 @@ pub(super) fn begin(
     caption: &str,
     size: [f64; 2],
     entries: &[Entry<'_>],
-) -> Room {
+) -> PlotArea {
     let [w, mut h] = size.map(|s| if s.is_finite() { s.clamp(160.0, 20_000.0) } else { 600.0 });
     // A page has margins of its own.
     let margin = if chrome == Chrome::Bare { 4.0 } else { MARGIN };
@@ -99,7 +98,7 @@ pub(super) fn begin(
         canvas.text([x + KEY + 7.0, top + 4.3], "t-legend", Anchor::Start, &name);
         x += needed + 20.0;
     }
-    Room { left: margin, top: top + 18.0, right: w - margin.max(16.0), bottom }
+    PlotArea { left: margin, top: top + 18.0, right: w - margin.max(16.0), bottom }
 }
 
 /// The sample of an entry around a place.
@@ -115,8 +114,8 @@ pub(super) fn key(canvas: &mut Canvas, entry: &Entry<'_>, at: [f64; 2]) {
             canvas.open(&format!("s-{name}"), "stroke-width=\"2\"");
             canvas.cross(at, 5.0);
         }
-        Key::Line(look) => {
-            let (classes, attributes) = stroke(entry.tone, look);
+        Key::Line(line_style) => {
+            let (classes, attributes) = stroke(entry.tone, line_style);
             canvas.open(&classes, attributes);
             canvas.line([x - KEY / 2.0, y], [x + KEY / 2.0, y]);
         }
@@ -161,7 +160,7 @@ fn axis_title(axis: &Axis, ticks: &Ticks, room: f64) -> String {
 /// Grid, ticks and names of both axes around `room`.
 pub(super) fn axes(
     canvas: &mut Canvas,
-    room: Room,
+    room: PlotArea,
     [x_axis, y_axis]: [&Axis; 2],
     [x, y]: [&Span; 2],
     [x_ticks, y_ticks]: [&Ticks; 2],

@@ -1,6 +1,6 @@
 //! Figures as SVG.
 //!
-//! *Idea.* Marks carry classes that name their meaning; colours come from a style sheet, inside the document where
+//! *Idea.* Marks carry classes that name their meaning; colors come from a style sheet, inside the document where
 //! it stands alone, of the page where it is part of one.
 //! *Guarantee.* Every number written is finite; text from outside is escaped; the same figure gives the same bytes.
 //! *Trap.* Marks that are not finite cannot be placed: they are left out, so check data before it comes here.
@@ -18,7 +18,7 @@ use crate::{Figure, Style};
 pub(crate) use camera::{EYE_DISTANCE, V3, add, cross, dot};
 use canvas::Canvas;
 #[cfg(feature = "png")]
-pub(crate) use canvas::Laid;
+pub(crate) use canvas::PlacedImage;
 pub(crate) use frame::Chrome;
 pub(crate) use space::{WIRED_SPHERES_MAX, legend};
 pub(crate) use stage::{Stage, finite, stage};
@@ -52,7 +52,7 @@ pub(crate) fn draw(figure: &Figure, chrome: Chrome) -> (String, [f64; 2], Vec<Ho
 #[cfg(feature = "png")]
 pub(crate) struct Layers {
     pub(crate) under: String,
-    pub(crate) images: Vec<Laid>,
+    pub(crate) images: Vec<PlacedImage>,
     pub(crate) over: String,
 }
 

@@ -58,8 +58,8 @@ pub(super) fn solids(scene: &Scene3, stage: &Stage) -> Vec<Solid> {
     solids
 }
 
-/// What surfaces cover of a view.
-pub(super) struct Cover {
+/// The part of a view that surfaces cover.
+pub(super) struct Coverage {
     raster: Raster,
     /// Where the first sample begins in the picture.
     origin: [f64; 2],
@@ -67,14 +67,14 @@ pub(super) struct Cover {
     fine: f64,
 }
 
-impl Cover {
+impl Coverage {
     /// Draws the surfaces; `None` if nothing of them is in the view.
     pub(super) fn draw(
         canvas: &mut Canvas,
         solids: &[Solid],
         camera: &Camera,
         chrome: Chrome,
-    ) -> Option<Cover> {
+    ) -> Option<Coverage> {
         let count: usize = solids.iter().map(|solid| solid.triangles.len()).sum();
         let turned: Vec<Vec<V3>> = solids
             .iter()
@@ -110,10 +110,10 @@ impl Cover {
 
         let theme = match chrome {
             Chrome::Full(theme) => theme,
-            // The page's own colours change with the screen; those of an image cannot.
+            // The page's own colors change with the screen; those of an image cannot.
             Chrome::Bare => Theme::Light,
         };
-        // Two inks for each surface; a scene of more than 127 opaque surfaces has the last colours for the others.
+        // Two inks for each surface; a scene of more than 127 opaque surfaces has the last colors for the others.
         let inks: Vec<Ramp> =
             solids.iter().take(127).flat_map(|s| s.tones).map(|tone| ramp(theme, tone)).collect();
         let mut raster = Raster::new(width * across, height * across);
@@ -144,7 +144,7 @@ impl Cover {
                 owner = u32::wrapping_add(owner, 1);
             }
         }
-        let mut cover = Cover { raster, origin, fine };
+        let mut cover = Coverage { raster, origin, fine };
         if !(few && cover.polygons(canvas, &facets, &inks)) {
             let place = [width as f64 / density, height as f64 / density];
             canvas.image(cover.raster.image(across, &inks), origin, place);
@@ -182,7 +182,7 @@ impl Cover {
         })
     }
 
-    /// Whether a turned place is behind a surface.
+    /// Returns true if a turned place is behind a surface.
     pub(super) fn hides(&self, camera: &Camera, v: V3) -> bool {
         let pixel = camera.pixel(v);
         let at = [0, 1].map(|k| (pixel[k] - self.origin[k]) * self.fine);

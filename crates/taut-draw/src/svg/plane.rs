@@ -2,10 +2,10 @@
 
 use super::Hover;
 use super::canvas::{Anchor, Canvas, stroke};
-use super::frame::{self, Chrome, Entry, Key, Room};
+use super::frame::{self, Chrome, Entry, Key, PlotArea};
 use crate::axes::{Span, linear, padded, unit};
 use crate::number::short;
-use crate::{Aspect, Axis, Layer2, Look, Scene2, Shape2};
+use crate::{Aspect, Axis, Layer2, LineStyle, Scene2, Shape2};
 
 pub(super) fn draw(scene: &Scene2, chrome: Chrome, canvas: &mut Canvas) {
     let entries: Vec<_> = scene.layers.iter().map(entry).collect();
@@ -45,13 +45,13 @@ fn entry(layer: &Layer2) -> Entry<'_> {
         Shape2::Points(points) => Key::Disc(points.iter().map(|p| p.size).fold(0.0, f64::max)),
         Shape2::Crosses(_) => Key::Cross,
         Shape2::Texts(_) => Key::Disc(0.0),
-        _ if layer.look == Look::Filled => Key::Area,
-        _ => Key::Line(layer.look),
+        _ if layer.line_style == LineStyle::Filled => Key::Area,
+        _ => Key::Line(layer.line_style),
     };
     Entry { name: &layer.name, tone: layer.tone, key }
 }
 
-/// What the marks cover, in multiples of a unit.
+/// The range that the marks cover, in multiples of a unit.
 struct Extent {
     unit: f64,
     low: [f64; 2],
@@ -93,7 +93,7 @@ impl Extent {
     }
 
     /// The intervals of both axes in a room, with space around the marks.
-    fn spans(&self, aspect: Aspect, room: Room) -> [Span; 2] {
+    fn spans(&self, aspect: Aspect, room: PlotArea) -> [Span; 2] {
         let [mut x, mut y] = [0, 1].map(|k| (self.low[k], self.high[k]));
         let pixels = [(room.right - room.left).max(1.0), (room.bottom - room.top).max(1.0)];
         match aspect {
@@ -154,7 +154,7 @@ fn marks(canvas: &mut Canvas, layer: &Layer2, x: &Span, y: &Span, axes: [&Axis; 
             canvas.open(&classes, &format!("data-layer=\"points\" fill-opacity=\"{opacity}\""));
             for point in points.iter().filter(|p| finite(&p.at)) {
                 let at = place(&point.at);
-                // A title for each of many points would double the document; labelled ones are few.
+                // A title for each of many points would double the document; labeled ones are few.
                 let words = if point.label.is_empty() {
                     String::new()
                 } else {
@@ -172,7 +172,7 @@ fn marks(canvas: &mut Canvas, layer: &Layer2, x: &Span, y: &Span, axes: [&Axis; 
             }
         }
         Shape2::Circles(circles) => {
-            let (classes, attributes) = stroke(layer.tone, layer.look);
+            let (classes, attributes) = stroke(layer.tone, layer.line_style);
             let thin =
                 if circles.len() > 3 { " style=\"stroke-width:1;stroke-opacity:.7\"" } else { "" };
             canvas.open(&classes, &format!("data-layer=\"circles\" {attributes}{thin}"));
@@ -187,7 +187,7 @@ fn marks(canvas: &mut Canvas, layer: &Layer2, x: &Span, y: &Span, axes: [&Axis; 
             }
         }
         Shape2::Polylines(chains) | Shape2::Polygons(chains) => {
-            let (classes, attributes) = stroke(layer.tone, layer.look);
+            let (classes, attributes) = stroke(layer.tone, layer.line_style);
             canvas.open(&classes, &format!("data-layer=\"chains\" {attributes}"));
             let closed = matches!(layer.shape, Shape2::Polygons(_));
             let placed = |chain: &Vec<[f64; 2]>| -> Vec<[f64; 2]> {
@@ -195,7 +195,7 @@ fn marks(canvas: &mut Canvas, layer: &Layer2, x: &Span, y: &Span, axes: [&Axis; 
             };
             let chains: Vec<_> = chains.iter().map(placed).collect();
             // Areas stay apart: laid over each other in one path they would leave holes.
-            let together = if layer.look == Look::Thin { CHAINS_PER_PATH } else { 1 };
+            let together = if layer.line_style == LineStyle::Thin { CHAINS_PER_PATH } else { 1 };
             for some in chains.chunks(together) {
                 canvas.chains(some.iter().map(Vec::as_slice), closed);
             }

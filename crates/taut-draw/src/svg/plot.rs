@@ -7,7 +7,7 @@ use super::plane::ticks_along;
 use crate::axes::{Span, Ticks, linear, logarithmic, padded, unit};
 use crate::number::short;
 use crate::text::width;
-use crate::{Level, Look, Plot, Scale, SeriesLook};
+use crate::{Level, LineStyle, Plot, Scale, SeriesStyle};
 
 pub(super) fn draw(plot: &Plot, chrome: Chrome, canvas: &mut Canvas) {
     let entries: Vec<_> = plot
@@ -16,11 +16,11 @@ pub(super) fn draw(plot: &Plot, chrome: Chrome, canvas: &mut Canvas) {
         .map(|series| Entry {
             name: &series.name,
             tone: series.tone,
-            key: match series.look {
-                SeriesLook::LineAndDots => Key::LineAndDot,
-                SeriesLook::Line => Key::Line(Look::Solid),
-                SeriesLook::Dashed => Key::Line(Look::Dashed),
-                SeriesLook::Dots => Key::Disc(4.0),
+            key: match series.style {
+                SeriesStyle::LineAndDots => Key::LineAndDot,
+                SeriesStyle::Line => Key::Line(LineStyle::Solid),
+                SeriesStyle::Dashed => Key::Line(LineStyle::Dashed),
+                SeriesStyle::Dots => Key::Disc(4.0),
             },
         })
         .collect();
@@ -49,14 +49,14 @@ pub(super) fn draw(plot: &Plot, chrome: Chrome, canvas: &mut Canvas) {
             Level::AtX { x, .. } => Some(*x),
             Level::AtY { .. } => None,
         }));
-    let mut y = Ruler::new(plot.y_scale, y_values, [room.bottom, room.top]);
+    let mut y = AxisScale::new(plot.y_scale, y_values, [room.bottom, room.top]);
     // Bars stand on the axis.
     if !plot.bars.is_empty() && plot.y_scale == Scale::Linear {
         y.span.low = y.span.low.max(0.0);
     }
     let y_ticks = y.ticks(ticks_along(room.bottom - room.top, 50.0));
     room.left += frame::width_left(&plot.y, &y_ticks);
-    let x = Ruler::new(plot.x_scale, x_values, [room.left, room.right]);
+    let x = AxisScale::new(plot.x_scale, x_values, [room.left, room.right]);
     let x_ticks = x.ticks(ticks_along(room.right - room.left, 85.0));
     frame::axes(canvas, room, [&plot.x, &plot.y], [&x.span, &y.span], [&x_ticks, &y_ticks]);
 
@@ -71,7 +71,7 @@ pub(super) fn draw(plot: &Plot, chrome: Chrome, canvas: &mut Canvas) {
                 &format!("f-{}", bar.tone.name()),
                 "data-layer=\"bars\" fill-opacity=\"0.55\"",
             );
-            // Half a pixel at each side keeps neighbours apart.
+            // Half a pixel at each side keeps neighbors apart.
             let inset = ((right - left).abs() / 4.0).min(0.5);
             canvas.rect([left.min(right) + inset, top], [left.max(right) - inset, room.bottom]);
             canvas.close();
@@ -99,7 +99,7 @@ pub(super) fn draw(plot: &Plot, chrome: Chrome, canvas: &mut Canvas) {
                 (tone, label, [room.left, at], [right, at], [right - 4.0, at - 6.0], Anchor::End)
             }
         };
-        let (classes, attributes) = stroke(*tone, Look::Dashed);
+        let (classes, attributes) = stroke(*tone, LineStyle::Dashed);
         canvas.open(&classes, &format!("data-layer=\"level\" {attributes}"));
         canvas.line(from, to);
         canvas.close();
@@ -111,17 +111,18 @@ pub(super) fn draw(plot: &Plot, chrome: Chrome, canvas: &mut Canvas) {
         let name = series.tone.name();
         let places: Vec<_> =
             series.points.iter().filter_map(|p| Some((p, [x.at(p[0])?, y.at(p[1])?]))).collect();
-        let look = if series.look == SeriesLook::Dashed { Look::Dashed } else { Look::Solid };
-        if series.look != SeriesLook::Dots {
-            let (classes, attributes) = stroke(series.tone, look);
+        let style =
+            if series.style == SeriesStyle::Dashed { LineStyle::Dashed } else { LineStyle::Solid };
+        if series.style != SeriesStyle::Dots {
+            let (classes, attributes) = stroke(series.tone, style);
             canvas.open(&classes, &format!("data-layer=\"curve\" {attributes}"));
             canvas.chain(&places.iter().map(|(_, at)| *at).collect::<Vec<_>>(), false);
             canvas.close();
         }
-        let dots = matches!(series.look, SeriesLook::Dots | SeriesLook::LineAndDots);
+        let dots = matches!(series.style, SeriesStyle::Dots | SeriesStyle::LineAndDots);
         if dots {
-            let radius = match series.look {
-                SeriesLook::Dots => 4.0,
+            let radius = match series.style {
+                SeriesStyle::Dots => 4.0,
                 _ if places.len() > 80 => 1.6,
                 _ => 2.8,
             };
@@ -146,15 +147,14 @@ fn hover(name: String, value: &[f64; 2], at: [f64; 2]) -> Hover {
     Hover { at, id: None, words: vec![short(value[0], 6), short(value[1], 6), name] }
 }
 
-/// An axis of either scale.
-struct Ruler {
+struct AxisScale {
     scale: Scale,
     span: Span,
-    /// Whether all values are whole numbers: then so are the ticks, as half a pass says nothing.
+    /// True if all values are whole numbers: then so are the ticks, as half a pass says nothing.
     whole: bool,
 }
 
-impl Ruler {
+impl AxisScale {
     fn new(scale: Scale, values: impl Iterator<Item = f64> + Clone, pixels: [f64; 2]) -> Self {
         let whole = values.clone().all(|v| v.fract() == 0.0);
         let (unit, [low, high]) = match scale {
@@ -176,7 +176,7 @@ impl Ruler {
                 (1.0, padded(low, high, 0.03))
             }
         };
-        Ruler { scale, span: Span { unit, low, high, pixels }, whole }
+        AxisScale { scale, span: Span { unit, low, high, pixels }, whole }
     }
 
     /// The pixel of a number; none for what is not finite.
@@ -191,7 +191,7 @@ impl Ruler {
         })
     }
 
-    /// Whether the number cannot be shown and stands at the lower edge.
+    /// Returns true if the number cannot be shown and stands at the lower edge.
     fn below(&self, value: f64) -> bool {
         self.scale == Scale::Log && value <= 0.0
     }

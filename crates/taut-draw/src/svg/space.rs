@@ -7,12 +7,12 @@
 use super::Hover;
 use super::camera::{Camera, V3, add, cross, dot};
 use super::canvas::{Anchor, Canvas, stroke};
-use super::frame::{self, Chrome, Entry, Key, Room};
-use super::opaque::{Cover, solids};
+use super::frame::{self, Chrome, Entry, Key, PlotArea};
+use super::opaque::{Coverage, solids};
 use super::stage::{Stage, balls, finite, stage};
 use crate::number::{px, short};
 use crate::text::{escape, fit};
-use crate::{Layer3, Look, Scene3, Shape3, Tone, Views};
+use crate::{Layer3, LineStyle, Scene3, Shape3, Tone, Views};
 
 /// A scene of which more spheres than this are drawn has outlines only.
 pub(crate) const WIRED_SPHERES_MAX: usize = 4;
@@ -38,7 +38,7 @@ const RIMS_MAX: usize = 50;
 const HIDDEN_GROUP: u8 = 5;
 
 /// Something to paint, and where it is.
-struct Placed {
+struct PaintItem {
     depth: f64,
     tone: Tone,
     hidden: bool,
@@ -46,22 +46,21 @@ struct Placed {
 }
 
 /// A scene as an eye sees it.
-struct Seen<'a> {
+struct ViewedScene<'a> {
     scene: &'a Scene3,
     stage: &'a Stage,
     camera: &'a Camera,
-    cover: Option<&'a Cover>,
+    cover: Option<&'a Coverage>,
 }
 
 /// Something to paint.
 enum Piece {
     Disc { at: [f64; 2], radius: f64, title: String },
-    Line { chain: Vec<[f64; 2]>, look: Look },
+    Line { chain: Vec<[f64; 2]>, line_style: LineStyle },
     Cross([f64; 2]),
     Face { corners: Vec<[f64; 2]>, light: f64 },
 }
 
-/// The scene from one place.
 pub(super) fn draw(scene: &Scene3, chrome: Chrome, canvas: &mut Canvas) {
     let room = begin(scene, chrome, canvas);
     let camera = Camera::new(scene.projection, scene.azimuth, scene.elevation, room);
@@ -82,7 +81,7 @@ pub(super) fn draw_views(views: &Views, chrome: Chrome, canvas: &mut Canvas) {
             [room.left + (i % columns) as f64 * width, room.top + (i / columns) as f64 * height];
         let middle = [left + width / 2.0, top + 6.0];
         canvas.text(middle, "t-name", Anchor::Middle, &fit(&view.name, width - 8.0, 13.0));
-        let room = Room {
+        let room = PlotArea {
             left: left + 6.0,
             top: top + 14.0,
             right: left + width - 6.0,
@@ -107,7 +106,7 @@ pub(super) fn draw_views(views: &Views, chrome: Chrome, canvas: &mut Canvas) {
     panels(scene, &all, chrome, canvas);
 }
 
-fn begin(scene: &Scene3, chrome: Chrome, canvas: &mut Canvas) -> Room {
+fn begin(scene: &Scene3, chrome: Chrome, canvas: &mut Canvas) -> PlotArea {
     let entries: Vec<_> = scene.layers.iter().flat_map(entries).collect();
     let size = [scene.width, scene.height];
     frame::begin(canvas, chrome, &scene.title, &scene.caption, size, &entries)
@@ -115,7 +114,7 @@ fn begin(scene: &Scene3, chrome: Chrome, canvas: &mut Canvas) -> Room {
 
 /// A view of a scene and its place in the picture.
 struct Panel {
-    room: Room,
+    room: PlotArea,
     camera: Camera,
     small: bool,
 }
@@ -132,11 +131,12 @@ fn panels(scene: &Scene3, panels: &[Panel], chrome: Chrome, canvas: &mut Canvas)
     }
     let solids = solids(scene, &stage);
     let covers: Vec<_> =
-        panels.iter().map(|panel| Cover::draw(canvas, &solids, &panel.camera, chrome)).collect();
+        panels.iter().map(|panel| Coverage::draw(canvas, &solids, &panel.camera, chrome)).collect();
     for (panel, cover) in panels.iter().zip(&covers) {
         let mut pieces = Vec::new();
         for layer in &scene.layers {
-            let view = Seen { scene, stage: &stage, camera: &panel.camera, cover: cover.as_ref() };
+            let view =
+                ViewedScene { scene, stage: &stage, camera: &panel.camera, cover: cover.as_ref() };
             collect(layer, &view, &mut pieces, &mut canvas.hovers);
         }
         paint_all(canvas, pieces, cover.is_some());
@@ -145,7 +145,7 @@ fn panels(scene: &Scene3, panels: &[Panel], chrome: Chrome, canvas: &mut Canvas)
 }
 
 /// From back to front.
-fn paint_all(canvas: &mut Canvas, mut pieces: Vec<Placed>, on_surface: bool) {
+fn paint_all(canvas: &mut Canvas, mut pieces: Vec<PaintItem>, on_surface: bool) {
     // A stable sort: equal depths keep the order of the layers, so the bytes are the same each time.
     pieces.sort_by(|a, b| a.depth.total_cmp(&b.depth));
     let many = pieces.len() > 2000;
@@ -153,7 +153,7 @@ fn paint_all(canvas: &mut Canvas, mut pieces: Vec<Placed>, on_surface: bool) {
     let discs = pieces.iter().filter(|p| matches!(p.piece, Piece::Disc { .. })).count();
     let rimless = on_surface && discs > RIMS_MAX;
     let mut group: Option<(Tone, u8)> = None;
-    for Placed { depth, tone, hidden, piece } in &pieces {
+    for PaintItem { depth, tone, hidden, piece } in &pieces {
         let bucket =
             if *hidden { HIDDEN_GROUP } else { ((depth + 1.0) / 2.0 * 5.0).clamp(0.0, 4.0) as u8 };
         if group != Some((*tone, bucket)) {
@@ -182,7 +182,7 @@ fn paint_all(canvas: &mut Canvas, mut pieces: Vec<Placed>, on_surface: bool) {
     }
 }
 
-/// What the legend says of a layer: of a surface with two sides it names both.
+/// Returns what the legend says of a layer: of a surface with two sides it names both.
 fn entries(layer: &Layer3) -> Vec<Entry<'_>> {
     let front = entry(layer);
     match &layer.shape {
@@ -197,8 +197,8 @@ fn entry(layer: &Layer3) -> Entry<'_> {
     let key = match &layer.shape {
         Shape3::Points(points) => Key::Disc(points.iter().map(|p| p.size).fold(0.0, f64::max)),
         Shape3::Crosses(_) => Key::Cross,
-        Shape3::Polylines(_) => Key::Line(layer.look),
-        Shape3::Spheres(_) if layer.look != Look::Filled => Key::Line(layer.look),
+        Shape3::Polylines(_) => Key::Line(layer.line_style),
+        Shape3::Spheres(_) if layer.line_style != LineStyle::Filled => Key::Line(layer.line_style),
         Shape3::Spheres(_) | Shape3::Mesh(_) => Key::Area,
         Shape3::Surface(_) => Key::Side,
     };
@@ -234,9 +234,9 @@ fn draw_spheres(
         .collect();
     placed.sort_by(|a, b| a.0[2].total_cmp(&b.0[2]));
     let wired = spheres.len() <= WIRED_SPHERES_MAX;
-    let (classes, attributes) = stroke(layer.tone, layer.look);
+    let (classes, attributes) = stroke(layer.tone, layer.line_style);
     let mut fill = String::new();
-    if let (Chrome::Full(theme), Look::Filled, true) = (chrome, layer.look, wired) {
+    if let (Chrome::Full(theme), LineStyle::Filled, true) = (chrome, layer.line_style, wired) {
         let color = theme.color(layer.tone);
         let stop = |at: &str, opacity: &str| {
             format!("<stop offset=\"{at}\" stop-color=\"{color}\" stop-opacity=\"{opacity}\"/>")
@@ -261,7 +261,7 @@ fn draw_spheres(
         }
     }
     canvas.close();
-    if !wired || layer.look == Look::Dashed {
+    if !wired || layer.line_style == LineStyle::Dashed {
         return;
     }
     for front in [false, true] {
@@ -289,12 +289,12 @@ fn draw_spheres(
 
 fn collect(
     layer: &Layer3,
-    &Seen { scene, stage, camera, cover }: &Seen<'_>,
-    pieces: &mut Vec<Placed>,
+    &ViewedScene { scene, stage, camera, cover }: &ViewedScene<'_>,
+    pieces: &mut Vec<PaintItem>,
     hovers: &mut Vec<Hover>,
 ) {
     let mut push = |depth, hidden, piece| {
-        pieces.push(Placed { depth, tone: layer.tone, hidden, piece });
+        pieces.push(PaintItem { depth, tone: layer.tone, hidden, piece });
     };
     let hidden = |v: V3| cover.is_some_and(|cover| cover.hides(camera, v));
     let turned = |p: &V3| camera.turn(stage.place(p));
@@ -336,7 +336,7 @@ fn collect(
                     };
                     for ([a, b], hidden) in runs {
                         let chain = vec![camera.pixel(a), camera.pixel(b)];
-                        let line = Piece::Line { chain, look: layer.look };
+                        let line = Piece::Line { chain, line_style: layer.line_style };
                         push((a[2] + b[2]) / 2.0, hidden, line);
                     }
                 }
@@ -371,8 +371,8 @@ fn paint(canvas: &mut Canvas, tone: Tone, piece: &Piece) {
             canvas.cross(*at, 6.0);
             canvas.close();
         }
-        Piece::Line { chain, look } => {
-            let (classes, attributes) = stroke(tone, *look);
+        Piece::Line { chain, line_style } => {
+            let (classes, attributes) = stroke(tone, *line_style);
             canvas.open(&classes, attributes);
             canvas.chain(chain, false);
             canvas.close();

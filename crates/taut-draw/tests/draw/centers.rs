@@ -1,4 +1,4 @@
-//! What pictures of centres must hold: a circle each, what is left out, the core-set, and both bounds by k.
+//! Tests what pictures of centers must hold: a circle each, what is left out, the core-set, and both bounds by k.
 
 use taut_certify::{Centers, CentersCertificate, Items, LowerBound, Placement, Solution, Trace};
 use taut_draw::{
@@ -34,7 +34,7 @@ fn case(dim: usize, most: usize) -> (Vec<f64>, Solution<Centers>) {
         outliers: 1,
         gap: 0.25,
         core_set: vec![3, 0, 1, most as u64 - 1],
-        proof: LowerBound::Apart,
+        proof: LowerBound::Separated,
         points_hash,
     };
     (values, Solution { answer, certificate, trace: Trace::default() })
@@ -76,7 +76,7 @@ fn circles(scene: &Scene2, tone: Tone) -> Vec<([f64; 2], f64)> {
 }
 
 #[test]
-fn each_centre_has_its_circle_and_each_point_its_part() {
+fn each_center_has_its_circle_and_each_point_its_part() {
     let (values, found) = case(2, 41);
     let figures = drawn(&values, 2, &found);
     let scene = plane(&figures);
@@ -87,7 +87,7 @@ fn each_centre_has_its_circle_and_each_point_its_part() {
     assert_eq!(ids(scene, Tone::Point).len(), 37);
     let crosses = scene.layers.iter().find(|layer| layer.tone == Tone::Ink).unwrap();
     assert_eq!(crosses.shape, Shape2::Crosses(vec![[4.0, 0.0], [-4.0, 0.0]]));
-    assert_eq!(scene.title, "Centres of 41 points, k = 2, d = 2");
+    assert_eq!(scene.title, "Centers of 41 points, k = 2, d = 2");
     for part in ["certified relative gap 0.25", "One point is left out", "All 41 points are drawn"]
     {
         assert!(scene.caption.contains(part), "{part} in {}", scene.caption);
@@ -134,7 +134,7 @@ fn a_line_has_intervals_space_spheres_and_more_dimensions_shadows() {
 
     let (values, found) = case(5, 41);
     let figures = drawn(&values, 5, &found);
-    // The centres spread along the first axis, and the items turn the view from it a little: they are nearly 8 apart.
+    // The centers spread along the first axis, and the items turn the view from it a little: they are nearly 8 apart.
     let shadows = circles(plane(&figures), Tone::Answer);
     assert!(((shadows[0].0[0] - shadows[1].0[0]).abs() - 8.0).abs() < 1e-6, "{shadows:?}");
     let Figure::Plot(Plot { bars, .. }) = &figures[1] else { panic!("no plot") };
@@ -158,7 +158,7 @@ fn weights_have_no_circles_and_balls_are_drawn_as_such() {
     let figures = drawn(&with(0.25), 3, &found);
     assert!(circles(plane(&figures), Tone::Point).iter().all(|&(_, radius)| radius == 0.25));
     assert!(!plane(&figures).caption.contains("does not fit"));
-    assert_eq!(plane(&figures).title, "Centres of 41 balls, k = 2, d = 2");
+    assert_eq!(plane(&figures).title, "Centers of 41 balls, k = 2, d = 2");
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! What pictures of curves must hold: every curve once, the band on both sides, honest counts, finite numbers, the same bytes again.
+//! Tests what pictures of curves must hold: every curve once, the band on both sides, honest counts, finite numbers, the same bytes again.
 
 use taut_certify::{Curve, CurveCertificate, CurveComponent, Solution, Trace};
 use taut_draw::{

@@ -1,4 +1,4 @@
-//! What pictures of triangulations must hold: every edge once, honest counts, finite numbers, the same bytes again.
+//! Tests what pictures of triangulations must hold: every edge once, honest counts, finite numbers, the same bytes again.
 
 use taut_certify::{Solution, Triangulation};
 use taut_delaunay::{DelaunayOptions, delaunay};
@@ -34,7 +34,7 @@ fn chains<'a>(scene: &'a Scene2, name: &str) -> &'a [Vec<[f64; 2]>] {
     }
 }
 
-/// A square with its centre: four triangles, eight edges.
+/// A square with its center: four triangles, eight edges.
 const SQUARE: [f64; 10] = [0.0, 0.0, 2.0, 0.0, 2.0, 2.0, 0.0, 2.0, 1.0, 1.0];
 
 #[test]
@@ -47,7 +47,7 @@ fn a_square_shows_its_edges_hull_and_cells() {
     assert_eq!(chains(scene, "edges").len(), 8);
     assert_eq!(chains(scene, "convex hull").len(), 4);
     let scene = plane(&drawn[1]);
-    // The cell of the centre is a square on its corner; a ray leaves each corner of it.
+    // The cell of the center is a square on its corner; a ray leaves each corner of it.
     let cells = chains(scene, "Voronoi diagram");
     assert_eq!(cells.len(), 8);
     for [a, b] in cells.iter().map(|ends| [ends[0], ends[1]]) {

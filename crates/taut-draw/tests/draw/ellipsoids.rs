@@ -1,4 +1,4 @@
-//! What pictures of ellipsoids must hold: the right curve, every mark, honest counts, finite numbers.
+//! Tests what pictures of ellipsoids must hold: the right curve, every mark, honest counts, finite numbers.
 
 use roxmltree::Document;
 use taut_certify::{Ellipsoid, EllipsoidCertificate, Hull, Items, PassBounds, Solution, Trace};
@@ -8,7 +8,7 @@ use taut_draw::{
 };
 use taut_points::{Distribution, Monitor, Points, generate, hash_points};
 
-/// An answer written by hand, so that these tests depend on no solver: F about a centre.
+/// An answer written by hand, so that these tests depend on no solver: F about a center.
 fn solution(
     values: &[f64],
     columns: usize,
@@ -203,7 +203,7 @@ fn shadows_hold_all_points() {
     }
 }
 
-/// Whether a point lies on the inner side of all edges of a convex chain, counter-clockwise.
+/// Tests whether a point lies on the inner side of all edges of a convex chain, counter-clockwise.
 fn is_within(p: [f64; 2], chain: &[[f64; 2]]) -> bool {
     (0..chain.len()).all(|i| {
         let (a, b) = (chain[i], chain[(i + 1) % chain.len()]);

@@ -1,4 +1,4 @@
-//! What pictures of balls must hold: every mark, finite numbers, honest counts, escaped words, the same bytes again.
+//! Tests what pictures of balls must hold: every mark, finite numbers, honest counts, escaped words, the same bytes again.
 
 use proptest::prelude::*;
 use roxmltree::{Document, Node};

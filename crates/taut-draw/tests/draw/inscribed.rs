@@ -1,4 +1,4 @@
-//! What pictures of inscribed ellipsoids must hold: a polytope that contains the ellipsoid and touches it where it says.
+//! Tests what pictures of inscribed ellipsoids must hold: a polytope that contains the ellipsoid and touches it where it says.
 
 use taut_certify::{InscribedCertificate, InscribedEllipsoid, Solution, Trace};
 use taut_draw::{

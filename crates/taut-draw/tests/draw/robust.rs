@@ -1,4 +1,4 @@
-//! What pictures of robust ellipsoids must hold: outliers apart, both ellipsoids, a close-up, a distance for each point.
+//! Tests what pictures of robust ellipsoids must hold: outliers apart, both ellipsoids, a close-up, a distance for each point.
 
 use taut_certify::{
     Ellipsoid, EllipsoidCertificate, Enclosure, Items, RobustCertificate, RobustEllipsoid,

@@ -1,4 +1,4 @@
-//! What pictures of surfaces must hold: what is near hides what is far, backs have a tint of their own, no triangle is missing, and
+//! Tests what pictures of surfaces must hold: what is near hides what is far, backs have a tint of their own, no triangle is missing, and
 //! any numbers give the same finite picture again.
 
 use roxmltree::Document;
@@ -384,7 +384,7 @@ fn a_figure_made_by_hand_with_wrong_triangles_is_drawn_without_them() {
     let layer = Layer3 {
         name: "surface".into(),
         tone: taut_draw::Tone::Answer,
-        look: taut_draw::Look::Solid,
+        line_style: taut_draw::LineStyle::Solid,
         shape: Shape3::Surface(surface),
     };
     let scene = Scene3 {
@@ -415,7 +415,7 @@ mod pixels {
         tiny_skia::Pixmap::decode_png(&bytes).unwrap()
     }
 
-    /// How many pixels are rather blue, and how many rather amber.
+    /// Returns how many pixels are rather blue, and how many rather amber.
     fn tints(pixels: &tiny_skia::Pixmap) -> [usize; 2] {
         let difference =
             |p: &tiny_skia::PremultipliedColorU8| i32::from(p.blue()) - i32::from(p.red());

@@ -14,7 +14,7 @@ const CORNERS: [f64; 24] = [
     -0.5, 0.5, -0.5, 0.5, 0.5, -0.5, 0.5, 0.5, 0.5, -0.5, 0.5, 0.5,
 ];
 
-/// What the script says it drew of two squares seen from the front; `None` where there is no node.
+/// Returns what the script says it drew of two squares seen from the front; `None` where there is no node.
 fn drawn(triangles: &[[u32; 3]]) -> Option<BTreeMap<String, f64>> {
     let points = Points::new(&CORNERS, 3).unwrap();
     let view = SurfaceView { points: &points, moved: &[], triangles, unused: &[], remarks: "" };

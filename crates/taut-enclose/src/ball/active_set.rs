@@ -1,6 +1,6 @@
 //! The exact ball of a working set: an active-set method on the dual, in the coordinates of the Gram matrix.
 //!
-//! *Problem.* Over λ ≥ 0 with Σλ = 1, maximise Σ λᵢbᵢ − |Σ λᵢpᵢ|²; for points bᵢ = |pᵢ|². With c = Σ λᵢpᵢ and
+//! *Problem.* Over λ ≥ 0 with Σλ = 1, maximize Σ λᵢbᵢ − |Σ λᵢpᵢ|²; for points bᵢ = |pᵢ|². With c = Σ λᵢpᵢ and
 //! fᵢ = bᵢ − 2pᵢ·c + |c|² the value is h = Σ λᵢfᵢ, and λ is optimal when no fᵢ exceeds h.
 //! *Idea.* Keep a support S of affinely independent items and the factor of A = G + σ11ᵀ over it (on the simplex σ
 //! changes nothing, and A is definite exactly when S is affinely independent, so no item is special). Take the item
@@ -8,10 +8,10 @@
 //! negative multiplier on the way. An item that depends on the support is exchanged: weight moves along the null
 //! direction until a multiplier is zero.
 //! *Guarantee.* The value never falls. Pivots are about |S| and a few on ordinary data.
-//! *Trap.* On near-copies of points, rounding can make pairs swap for ever. When the value has not risen since the
-//! last entry, the factor is rebuilt; when that does not help, items that keep entering in vain are barred until it
+//! *Trap.* On near-copies of points, rounding can make pairs swap endlessly. When the value has not risen since the
+//! last entry, the factor is rebuilt; when that does not help, items that keep entering without progress are barred until it
 //! rises again. Choosing the least index instead (Bland's rule) takes eight times the pivots on cube vertices.
-//! *Balls.* For a fixed R, minimising maxᵢ |c − cᵢ|² + 2Rrᵢ − rᵢ² is the same problem with another b; see
+//! *Balls.* For a fixed R, minimizing maxᵢ |c − cᵢ|² + 2Rrᵢ − rᵢ² is the same problem with another b; see
 //! [`super::core_set`] for the steps in R.
 //! *Reference.* Active sets on this dual: Gärtner and Schönherr, SoCG 2000; Fischer, Gärtner and Kutz, ESA 2003, walk
 //! the same path in d dimensions.
@@ -42,7 +42,7 @@ const SHORTLIST_MAX: usize = 32;
 /// without this limit noisy spheres take twice the steps, as what is taken early is dropped again.
 const SHORTLIST_EXCESS_RATIO: f64 = 0.8;
 /// An item that entered so often without the value rising is barred until it rises. Once is too strict: near the end of
-/// a flat dual the value stands still while steps still move the centre, and gaps of 1e-10 stay behind.
+/// a flat dual the value stands still while steps still move the center, and gaps of 1e-10 stay behind.
 const VAIN_ENTRIES: u32 = 3;
 /// Deletions after which the factor is rebuilt.
 const REBUILD_AFTER: u32 = 400;
@@ -68,7 +68,7 @@ pub(super) struct ActiveSet {
 impl ActiveSet {
     /// The support is item 0 alone; `reach2` is about the squared radius, radii of balls included.
     pub(super) fn new(set: &WorkingSet, reach2: f64) -> Self {
-        // What lies closer together than the rounding of the radius need not be told apart.
+        // Points closer together than the rounding of the radius need not be distinguished.
         let least = f64::EPSILON * f64::EPSILON * reach2;
         let mut active = ActiveSet {
             support: vec![0],
@@ -436,7 +436,7 @@ fn largest_norm2(set: &WorkingSet) -> f64 {
     (0..set.len()).map(|i| set.norm2(i)).fold(0.0, f64::max)
 }
 
-/// How far weight can move along y to the entering item, and who stops it: the least λᵢ/yᵢ, ties to the largest yᵢ.
+/// Returns how far weight can move along y to the entering item, and who stops it: the least λᵢ/yᵢ, ties to the largest yᵢ.
 fn exchange(lambda: &[f64], y: &[f64]) -> Option<(usize, f64)> {
     let mut found: Option<(usize, f64)> = None;
     for i in 0..y.len() {

@@ -1,12 +1,12 @@
 //! Minimum enclosing ball by steps to the farthest point, and nothing else: Algorithm 10 of the thesis.
 //!
 //! *Problem.* As [`super::core_set`].
-//! *Idea.* Move the centre a shrinking part β of the way to the point that reaches farthest: c ← c + β(p − c), from the
+//! *Idea.* Move the center a shrinking part β of the way to the point that reaches farthest: c ← c + β(p − c), from the
 //! middle of the pair (q, q′) with β = 1/(i + 2), i = 3, 4, …
 //! *Multipliers.* The step to an item of X is λ ← (1 − β)λ + βe, so c stays a convex combination of the points visited
 //! and proves a lower bound at every step. For points the bound changes to r² ← (1 − β)(r² + βD²), D the farthest
 //! distance; it may fall, as β does not ask what would be best.
-//! *Balls.* The farthest point of a ball lies beyond its centre cᵢ: the step to it is a step to cᵢ by βD/(D − rᵢ).
+//! *Balls.* The farthest point of a ball lies beyond its center cᵢ: the step to it is a step to cᵢ by βD/(D − rᵢ).
 //! Where that would go past cᵢ it ends at cᵢ, which keeps λ convex.
 //! *Guarantee.* R ≤ (1 + ε)·R* after 1/ε² steps of O(nd). The steps end as soon as the multipliers prove the gap, or
 //! with the budget of passes; the trace says what was reached.
@@ -17,44 +17,48 @@ use taut_certify::Stop;
 
 use super::BallOptions;
 use super::outcome::Outcome;
-use super::run::{Look, Run, Start, diameter_pair};
+use super::run::{Evaluation, Run, Start, diameter_pair};
 use super::working_set::WorkingSet;
 use crate::Error;
-use crate::scan::Scan;
+use crate::item_reader::ItemReader;
 
-/// A centre on its way: multipliers over the items visited.
-pub(super) struct Walk {
+/// A center on its way: multipliers over the items visited.
+pub(super) struct Iterate {
     pub(super) set: WorkingSet,
     pub(super) lambda: Vec<f64>,
     /// The i of the next step.
     i: u64,
 }
 
-impl Walk {
+impl Iterate {
     /// c₃, the middle of the pair.
     pub(super) fn from_middle(pair: WorkingSet) -> Self {
-        Walk { set: pair, lambda: vec![0.5, 0.5], i: 3 }
+        Iterate { set: pair, lambda: vec![0.5, 0.5], i: 3 }
     }
 
     /// The part β = 1/(i + 2) of the way to the farthest point of the item that reaches farthest.
-    pub(super) fn step(&mut self, run: &mut Run<'_, '_>, look: &Look) -> Result<(), Error> {
+    pub(super) fn step(
+        &mut self,
+        run: &mut Run<'_, '_>,
+        evaluation: &Evaluation,
+    ) -> Result<(), Error> {
         let beta = 1.0 / (self.i + 2) as f64;
         self.i += 1;
         run.outcome.iterations += 1;
-        let i = match self.set.position(look.farthest) {
+        let i = match self.set.position(evaluation.farthest) {
             Some(i) => i,
             None => {
-                run.add(&mut self.set, look.farthest)?;
+                run.add(&mut self.set, evaluation.farthest)?;
                 self.lambda.push(0.0);
                 self.set.len() - 1
             }
         };
-        let to_center = look.upper - self.set.radius(i);
+        let to_center = evaluation.upper - self.set.radius(i);
         // For a point this is β itself.
         let beta = if self.set.radius(i) == 0.0 {
             beta
-        } else if to_center > beta * look.upper {
-            beta * look.upper / to_center
+        } else if to_center > beta * evaluation.upper {
+            beta * evaluation.upper / to_center
         } else {
             1.0
         };
@@ -64,21 +68,24 @@ impl Walk {
     }
 }
 
-pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions<'_>) -> Result<Outcome, Error> {
-    let mut run = Run::new(scan, options)?;
+pub(super) fn solve(
+    reader: &mut ItemReader<'_>,
+    options: &BallOptions<'_>,
+) -> Result<Outcome, Error> {
+    let mut run = Run::new(reader, options)?;
     let set = match diameter_pair(&mut run)? {
         Start::Pair(set) => set,
         Start::Done(stop, set) => return Ok(run.end(stop, &set)),
     };
-    let mut walk = Walk::from_middle(set);
+    let mut iterate = Iterate::from_middle(set);
     loop {
-        let look = run.look(&walk.set, &walk.lambda)?;
-        if run.reached(&look) {
-            return Ok(run.end(Stop::Converged, &walk.set));
+        let evaluation = run.evaluation(&iterate.set, &iterate.lambda)?;
+        if run.reached(&evaluation) {
+            return Ok(run.end(Stop::Converged, &iterate.set));
         }
         if run.spent() {
-            return Ok(run.end(Stop::PassBudget, &walk.set));
+            return Ok(run.end(Stop::PassBudget, &iterate.set));
         }
-        walk.step(&mut run, &look)?;
+        iterate.step(&mut run, &evaluation)?;
     }
 }

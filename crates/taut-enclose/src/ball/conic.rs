@@ -7,8 +7,8 @@
 //! optimum zᵢ = −tᵢ(c − cᵢ)/|c − cᵢ|. So c = Σ λᵢcᵢ with λᵢ in proportion to tᵢ/|c − cᵢ|, where |c − cᵢ| = r − rᵢ: for points
 //! λᵢ = tᵢ, and a ball that holds all others has all the weight.
 //! *Aim.* The dual is flat at its optimum: a gap γ leaves λ uncertain by √γ, and with it Σ λᵢcᵢ, while the solver's own
-//! centre is good to γ. So λ is moved the least way that takes Σ λᵢcᵢ to that centre ([`aim`]): 1e-7 becomes 1e-12.
-//! *Guarantee.* None is taken from the solver: the caller measures centre and multipliers in ℝᵈ.
+//! center is good to γ. So λ is moved the least way that takes Σ λᵢcᵢ to that center ([`aim`]): 1e-7 becomes 1e-12.
+//! *Guarantee.* None is taken from the solver: the caller measures center and multipliers in ℝᵈ.
 //! *Trap.* The solver is primal-dual and stops with tᵢ of 1e-9 where 0 is meant; these are dropped.
 
 use clarabel::algebra::CscMatrix;
@@ -62,7 +62,6 @@ impl Hull {
         }
     }
 
-    /// Coordinate `k` of item `i`.
     fn coordinate(&self, i: usize, k: usize) -> f64 {
         self.coordinates[i].get(k).copied().unwrap_or(0.0)
     }
@@ -72,7 +71,7 @@ impl Hull {
     }
 }
 
-/// What the conic solver found.
+/// The answer of the conic solver.
 pub(super) struct Answer {
     /// A multiplier for each item; they sum to 1.
     pub(super) lambda: Vec<f64>,
@@ -85,7 +84,7 @@ pub(super) fn solve(set: &WorkingSet, hull: &Hull, tolerance: f64) -> Result<Ans
     let (items, dim) = (set.len(), hull.dim());
     let spread = (0..items).map(|i| set.norm2(i)).fold(0.0, f64::max).sqrt();
     if dim == 0 {
-        // All centres are one: the largest ball holds the others.
+        // All centers are one: the largest ball holds the others.
         let largest = (1..items).fold(0, |l, i| if set.radius(i) > set.radius(l) { i } else { l });
         let mut lambda = vec![0.0; items];
         lambda[largest] = 1.0;
@@ -262,7 +261,7 @@ mod tests {
     }
 
     #[test]
-    fn multipliers_of_points_give_the_circumcentre() {
+    fn multipliers_of_points_give_the_circumcenter() {
         // The right angle is on the sphere, too, and carries nothing: the solver knows λ only to a root there.
         let (set, hull) =
             set_of(&[&[0.0, 0.0, 0.0], &[3.0, 0.0, 0.0], &[0.0, 4.0, 0.0], &[1.0, 1.0, 0.0]]);
@@ -275,12 +274,12 @@ mod tests {
     }
 
     #[test]
-    fn multipliers_of_balls_weigh_by_the_distance_of_the_centre() {
+    fn multipliers_of_balls_weigh_by_the_distance_of_the_center() {
         // On a line: radius 1 at 0 and 2 at 7 are held by radius 5 around 4, which is 4 and 3 away from them.
         let (set, hull) = set_of(&[&[0.0, 1.0], &[7.0, 2.0], &[3.0, 0.5]]);
         let answer = solve(&set, &hull, 1e-12).unwrap();
         close(&answer.lambda, &[3.0 / 7.0, 4.0 / 7.0, 0.0], 1e-10);
-        // One ball holds the other, with and without a common centre.
+        // One ball holds the other, with and without a common center.
         let (set, hull) = set_of(&[&[0.0, 1.0], &[1.0, 5.0]]);
         close(&solve(&set, &hull, 1e-12).unwrap().lambda, &[0.0, 1.0], 1e-6);
         let (set, hull) = set_of(&[&[2.0, 1.0], &[2.0, 5.0]]);

@@ -1,6 +1,6 @@
 //! Minimum enclosing ball by batches of far points and an exact active set: the default method.
 //!
-//! *Problem.* Items (points, or balls with centre cᵢ and radius rᵢ): find c that minimises R(c) = maxᵢ |c − cᵢ| + rᵢ.
+//! *Problem.* Items (points, or balls with center cᵢ and radius rᵢ): find c that minimizes R(c) = maxᵢ |c − cᵢ| + rᵢ.
 //! *Idea.* Each pass over all items brings the m that reach farthest beyond the current ball to a working set; the
 //! exact ball of the working set ([`super::active_set`]) is the next ball. With m of 16 to 128 rather than 1, three
 //! to five passes are enough on ordinary data, and the last of them finds nothing outside: exact costs no more than ε.
@@ -11,7 +11,7 @@
 //! *Guarantee.* The lower bound grows with every pass that adds an item, so the method ends; it stops at
 //! R ≤ (1 + ε)·r, or when no item violates the ball beyond rounding.
 //! *Trap.* Thousands of near-copies of one far point fill a batch and teach nothing: when few of a batch enter the
-//! support, the next pass takes at most two per face of the cube around the centre. Doing so always would cost twice
+//! support, the next pass takes at most two per face of the cube around the center. Doing so always would cost twice
 //! the passes on cube vertices. When most of a batch enters, the support is large, and the batch is doubled.
 //! *Measured.* Starting from a sample, dropping points that provably stay inside, and caching distances were each
 //! tried and each cost more than they saved: so few points are ever scanned again that nothing is left to save.
@@ -24,8 +24,8 @@ use super::active_set::{ActiveSet, VIOLATION_TOLERANCE};
 use super::outcome::Outcome;
 use super::working_set::WorkingSet;
 use crate::Error;
+use crate::item_reader::{ItemReader, Query};
 use crate::kernel::{Center, relative_error};
-use crate::scan::{Query, Scan};
 use crate::top::Far;
 
 /// Largest batch that doubling reaches.
@@ -44,28 +44,31 @@ fn batch_for(dim: usize) -> usize {
     }
 }
 
-pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions<'_>) -> Result<Outcome, Error> {
-    let mut batch = options.batch.unwrap_or_else(|| batch_for(scan.dim()));
-    let (middle, found) = scan.first(batch.saturating_add(64))?;
+pub(super) fn solve(
+    reader: &mut ItemReader<'_>,
+    options: &BallOptions<'_>,
+) -> Result<Outcome, Error> {
+    let mut batch = options.batch.unwrap_or_else(|| batch_for(reader.dim()));
+    let (middle, found) = reader.first(batch.saturating_add(64))?;
     if found.farthest.reach2 == 0.0 {
-        return Outcome::single(scan, found.farthest.id);
+        return Outcome::single(reader, found.farthest.id);
     }
-    let mut set = empty_set(scan, middle)?;
+    let mut set = empty_set(reader, middle)?;
     let mut outcome = Outcome::new();
     let upper = found.farthest.reach2.sqrt();
     outcome.bounds(PassBounds { lower: 0.0, upper, working_set: 0 });
     // Two at least, as one alone proves no lower bound.
-    add(&mut set, scan, found.far.iter().map(|far| far.id), batch.max(2))?;
+    add(&mut set, reader, found.far.iter().map(|far| far.id), batch.max(2))?;
     let mut active = ActiveSet::new(&set, found.farthest.reach2);
     let mut radius = 0.0;
     let mut last_batch = 0..set.len();
     loop {
-        radius = solve_working_set(&mut active, &set, radius, scan.monitor())
+        radius = solve_working_set(&mut active, &set, radius, reader.monitor())
             .map_err(ReadError::from)?;
         active.refine(&set);
         let entered = active.support().iter().filter(|i| last_batch.contains(i)).count();
         // No more than d + 1 can enter at all.
-        let could_enter = last_batch.len().min(scan.dim() + 1);
+        let could_enter = last_batch.len().min(reader.dim() + 1);
         let telling = options.batch.is_none() && could_enter >= TELLING_BATCH;
         if telling && 2 * entered > last_batch.len() {
             batch = (2 * batch).min(BATCH_MAX);
@@ -74,11 +77,11 @@ pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions<'_>) -> Result<Ou
 
         let center = set.center(active.support(), active.lambda(), radius);
         let keep = batch.saturating_add(active.support().len() + 64);
-        let slack = 4.0 * relative_error(scan.dim());
+        let slack = 4.0 * relative_error(reader.dim());
         let above = radius * radius * (1.0 - slack).max(0.0);
         let violating = radius * radius * (1.0 + VIOLATION_TOLERANCE);
         let by_face_above = by_face.then_some(violating);
-        let found = scan.farthest(Query { center: &center, above, keep, by_face_above })?;
+        let found = reader.farthest(Query { center: &center, above, keep, by_face_above })?;
         let upper = found.farthest.reach2.sqrt();
         outcome.bounds(PassBounds { lower: radius, upper, working_set: set.len() as u64 });
         let new = |far: &[Far]| -> Vec<u64> {
@@ -100,7 +103,7 @@ pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions<'_>) -> Result<Ou
             Some(Stop::Converged)
         } else if violators.is_empty() {
             Some(Stop::Rounding)
-        } else if scan.passes() >= options.max_passes && radius > 0.0 {
+        } else if reader.passes() >= options.max_passes && radius > 0.0 {
             Some(Stop::PassBudget)
         } else {
             None
@@ -112,29 +115,29 @@ pub(super) fn solve(scan: &mut Scan<'_>, options: &BallOptions<'_>) -> Result<Ou
             return Ok(outcome);
         }
         let before = set.len();
-        add(&mut set, scan, violators.into_iter(), batch)?;
+        add(&mut set, reader, violators.into_iter(), batch)?;
         last_batch = before..set.len();
         active.widen(&set);
     }
 }
 
 /// The working set before its first batch: for balls it holds the largest, which is its origin.
-fn empty_set(scan: &Scan<'_>, middle: Center) -> Result<WorkingSet, Error> {
-    let Some(largest) = scan.largest() else { return Ok(WorkingSet::new(middle.high, 0.0)) };
-    let row = scan.rows(&[largest])?;
-    let mut set = WorkingSet::new(row[..scan.dim()].to_vec(), row[scan.dim()]);
+fn empty_set(reader: &ItemReader<'_>, middle: Center) -> Result<WorkingSet, Error> {
+    let Some(largest) = reader.largest() else { return Ok(WorkingSet::new(middle.high, 0.0)) };
+    let row = reader.rows(&[largest])?;
+    let mut set = WorkingSet::new(row[..reader.dim()].to_vec(), row[reader.dim()]);
     set.add(&[largest], &row, true);
     Ok(set)
 }
 
 fn add(
     set: &mut WorkingSet,
-    scan: &Scan<'_>,
+    reader: &ItemReader<'_>,
     ids: impl Iterator<Item = u64>,
     most: usize,
 ) -> Result<(), Error> {
     let ids: Vec<u64> = ids.filter(|&id| !set.contains(id)).take(most).collect();
-    set.add(&ids, &scan.rows(&ids)?, scan.items() == Items::Balls);
+    set.add(&ids, &reader.rows(&ids)?, reader.items() == Items::Balls);
     Ok(())
 }
 

@@ -1,7 +1,7 @@
 //! The triangular factor of the support, grown and shrunk by one point at a time.
 //!
 //! RᵀR = A with A = G + σ11ᵀ over the support, R upper triangular and kept by rows. Two right-hand sides ride along,
-//! w_b = R⁻ᵀ(b/2) and w_1 = R⁻ᵀ1, so that the circumcentre of the support costs one back substitution.
+//! w_b = R⁻ᵀ(b/2) and w_1 = R⁻ᵀ1, so that the circumcenter of the support costs one back substitution.
 //! Appending a point is one forward substitution; deleting one is a shift of columns and a rotation for each row
 //! below, which works on contiguous rows. Both are O(s²) for s points.
 //! *Reference.* Golub and Van Loan, Matrix Computations, 6.5 (updating a Cholesky factor).
@@ -63,7 +63,6 @@ impl Factor {
         self.rows.push(vec![pivot]);
     }
 
-    /// Deletes the point at `position`.
     pub(super) fn delete(&mut self, position: usize) {
         for (i, row) in self.rows.iter_mut().enumerate().take(position) {
             row.remove(position - i);

@@ -3,7 +3,7 @@
 //! *Problem.* Items {m + v : vv′ ⪯ S}: the ball of least radius that encloses them all.
 //! *Idea.* It is the ball of the points of all items. The working set holds some of these points, each known by its item
 //! and a direction; its exact ball is that of the default method for points ([`active_set`](super::active_set)); a pass
-//! asks every item for its farthest point from the centre ([`reach`]), and those outside join the set.
+//! asks every item for its farthest point from the center ([`reach`]), and those outside join the set.
 //! *Guarantee.* Lower bounds never fall; it stops at R ≤ (1 + ε)·r. The axes of an item do not change from pass to pass:
 //! they are found once, in O(d³), and a pass costs O(d²) for each item and a few steps of O(d).
 //! *Trap.* Where an item touches in a circle, any point of it is farthest: so an item names several points at once.
@@ -31,14 +31,14 @@ const BATCH: usize = 4;
 const NEAR_POINT_RATIO: f64 = 0.1;
 /// This many passes without a better gap show that rounding is in the way.
 const STALE_PASSES_MAX: u32 = 4;
-/// Items that reach this near the border, relatively, are measured again from the centre as it is returned.
+/// Items that reach this near the border, relatively, are measured again from the center as it is returned.
 const BORDER_TOLERANCE: f64 = 1e-8;
-/// A centre beyond this many radii is kept in two terms.
+/// A center beyond this many radii is kept in two terms.
 const FAR_OFF: f64 = 8.0;
 
 /// A point of an item by its direction.
 #[derive(Clone)]
-struct Touch {
+struct SupportPoint {
     item: usize,
     direction: Vec<f64>,
 }
@@ -49,11 +49,11 @@ struct Axes {
     directions: Vec<f64>,
 }
 
-/// What a pass found: squared reaches, and the points outside, the farthest first.
-struct Found {
+/// The result of a pass: squared reaches, and the points outside, the farthest first.
+struct PassResult {
     squares: Vec<f64>,
     farthest: f64,
-    outside: Vec<(f64, Touch)>,
+    outside: Vec<(f64, SupportPoint)>,
 }
 
 /// The best multipliers so far.
@@ -61,7 +61,7 @@ struct Best {
     gap: f64,
     squares: Vec<f64>,
     center: Vec<f64>,
-    support: Vec<(Touch, f64)>,
+    support: Vec<(SupportPoint, f64)>,
 }
 
 pub(super) fn solve(
@@ -95,13 +95,13 @@ pub(super) fn solve(
     let start = pass(&framed, &axes, &vec![0.0; dim], 0.0, &vec![vec![]; shapes.len()]);
     let mut trace =
         Trace { method: options.method.name().to_owned(), passes: 2, ..Trace::default() };
-    let mut touches: Vec<Touch> = vec![];
+    let mut support_points: Vec<SupportPoint> = vec![];
     let mut set = WorkingSet::new(vec![0.0; dim], 0.0);
     let batch = options.batch.unwrap_or(BATCH * dim).max(2);
-    add(&framed, &mut set, &mut touches, start.outside, batch);
+    add(&framed, &mut set, &mut support_points, start.outside, batch);
     if set.len() == 0 {
         // Everything is the origin, which is a row.
-        let support = vec![(Touch { item: 0, direction: vec![0.0; dim] }, 1.0)];
+        let support = vec![(SupportPoint { item: 0, direction: vec![0.0; dim] }, 1.0)];
         let best = Best { gap: 0.0, squares: start.squares, center: vec![0.0; dim], support };
         trace.core_set = 1;
         return prove(&shapes, &origin, scale, best, trace, options);
@@ -118,8 +118,8 @@ pub(super) fn solve(
         monitor.pass(trace.passes, shapes.len() as u64);
         monitor.check().map_err(ReadError::from)?;
         let mut seeds = vec![vec![]; shapes.len()];
-        for touch in active.support().iter().map(|&i| &touches[set.id(i) as usize]) {
-            seeds[touch.item].push(&touch.direction[..]);
+        for support_point in active.support().iter().map(|&i| &support_points[set.id(i) as usize]) {
+            seeds[support_point.item].push(&support_point.direction[..]);
         }
         let found = pass(&framed, &axes, &center, radius * radius, &seeds);
         monitor.points(shapes.len() as u64);
@@ -135,7 +135,7 @@ pub(super) fn solve(
         let outside = found.outside;
         if is_better {
             let support = active.support().iter().zip(active.lambda());
-            let named = |(&i, &l): (&usize, &f64)| (touches[set.id(i) as usize].clone(), l);
+            let named = |(&i, &l): (&usize, &f64)| (support_points[set.id(i) as usize].clone(), l);
             best = Some(Best {
                 gap,
                 squares: found.squares,
@@ -153,7 +153,7 @@ pub(super) fn solve(
         if trace.passes >= options.max_passes && radius > 0.0 {
             break Stop::PassBudget;
         }
-        add(&framed, &mut set, &mut touches, outside, batch);
+        add(&framed, &mut set, &mut support_points, outside, batch);
         active.widen(&set);
     };
     trace.iterations = active.pivots;
@@ -190,28 +190,30 @@ fn units(shapes: &Shapes) -> Result<(Center, f64), Error> {
 fn add(
     framed: &Framed,
     set: &mut WorkingSet,
-    touches: &mut Vec<Touch>,
-    found: Vec<(f64, Touch)>,
+    support_points: &mut Vec<SupportPoint>,
+    found: Vec<(f64, SupportPoint)>,
     most: usize,
 ) {
-    let first = touches.len();
-    touches.extend(found.into_iter().take(most).map(|found| found.1));
-    let ids: Vec<u64> = (first as u64..touches.len() as u64).collect();
-    let rows: Vec<f64> =
-        touches[first..].iter().flat_map(|t| framed.touching(t.item, &t.direction)).collect();
+    let first = support_points.len();
+    support_points.extend(found.into_iter().take(most).map(|found| found.1));
+    let ids: Vec<u64> = (first as u64..support_points.len() as u64).collect();
+    let rows: Vec<f64> = support_points[first..]
+        .iter()
+        .flat_map(|t| framed.touching(t.item, &t.direction))
+        .collect();
     set.add(&ids, &rows, false);
 }
 
-/// Asks every item for its farthest point from a centre.
+/// Asks every item for its farthest point from a center.
 fn pass(
     framed: &Framed,
     axes: &[Axes],
     center: &[f64],
     square: f64,
     seeds: &[Vec<&[f64]>],
-) -> Found {
+) -> PassResult {
     let beyond = square * (1.0 + VIOLATION_TOLERANCE);
-    let each: Vec<(f64, Vec<(f64, Touch)>)> = (0..framed.len())
+    let each: Vec<(f64, Vec<(f64, SupportPoint)>)> = (0..framed.len())
         .into_par_iter()
         .with_min_len(32)
         .map(|i| {
@@ -221,7 +223,7 @@ fn pass(
             let axes = &axes[i];
             let h: Vec<f64> = axes.directions.chunks_exact(dim).map(|v| dot(v, &offset)).collect();
             let best = farthest(&axes.squares, &h);
-            let mut touches = vec![];
+            let mut support_points = vec![];
             if best.square > beyond {
                 let worth = square + NEAR_POINT_RATIO * (best.square - square);
                 let seeds: Vec<Vec<f64>> = seeds[i].iter().map(|a| seed(axes, a)).collect();
@@ -231,18 +233,18 @@ fn pass(
                         for (&beta, v) in beta.iter().zip(axes.directions.chunks_exact(dim)) {
                             add_scaled(&mut direction, beta, v);
                         }
-                        touches.push((square, Touch { item: i, direction }));
+                        support_points.push((square, SupportPoint { item: i, direction }));
                     }
                 });
             }
-            (best.square, touches)
+            (best.square, support_points)
         })
         .collect();
-    let mut found = Found { squares: vec![], farthest: 0.0, outside: vec![] };
-    for (square, touches) in each {
+    let mut found = PassResult { squares: vec![], farthest: 0.0, outside: vec![] };
+    for (square, support_points) in each {
         found.farthest = found.farthest.max(square);
         found.squares.push(square);
-        found.outside.extend(touches);
+        found.outside.extend(support_points);
     }
     found.outside.sort_by(|a, b| b.0.total_cmp(&a.0));
     found
@@ -254,7 +256,7 @@ fn seed(axes: &Axes, direction: &[f64]) -> Vec<f64> {
     rows.zip(&axes.squares).map(|(v, l)| l.max(0.0).sqrt() * dot(v, direction)).collect()
 }
 
-/// Both bounds again, from the centre as it is returned.
+/// Both bounds again, from the center as it is returned.
 fn prove(
     shapes: &Shapes,
     origin: &Center,
@@ -288,13 +290,13 @@ fn prove(
     if !radius.is_finite() {
         return Err(Error::Overflow);
     }
-    let mut support: Vec<(Touch, f64)> =
+    let mut support: Vec<(SupportPoint, f64)> =
         best.support.into_iter().filter(|entry| entry.1 > 0.0).collect();
     support.sort_by_key(|entry| entry.0.item);
     let total: f64 = support.iter().map(|entry| entry.1).sum();
     let (mut mean, mut square) = (vec![0.0; dim], 0.0);
-    for (touch, lambda) in &support {
-        let y = map.touching(shapes, touch.item, &touch.direction);
+    for (support_point, lambda) in &support {
+        let y = map.touching(shapes, support_point.item, &support_point.direction);
         square += lambda / total * dot(&y, &y);
         add_scaled(&mut mean, lambda / total, &y);
     }
@@ -318,7 +320,7 @@ fn prove(
     Ok(Solution { answer, certificate, trace })
 }
 
-/// The centre in the space of the items; in two terms where rounding it to one could be seen.
+/// The center in the space of the items; in two terms where rounding it to one could be seen.
 fn settled(origin: &Center, scale: f64, center: &[f64], radius: f64) -> Center {
     let terms: Vec<DoubleDouble> =
         origin.high.iter().zip(center).map(|(&o, &c)| DoubleDouble::sum(o, c * scale)).collect();

@@ -1,4 +1,4 @@
-//! How to look for the ball.
+//! Options to look for the ball.
 
 use taut_certify::Items;
 use taut_points::{InputError, Monitor, check_threads, choice, shown_number};
@@ -27,10 +27,10 @@ choice! { "method", BallMethod {
     BadoiuClarkson = "badoiu-clarkson", "Algorithm 10: steps to the farthest point; needs ε > 0";
 }}
 
-/// How to look for the ball. Write `BallOptions { epsilon: 1e-6, ..Default::default() }`.
+/// Options to look for the ball. Write `BallOptions { epsilon: 1e-6, ..Default::default() }`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BallOptions<'a> {
-    /// What the rows are: points, balls or ellipsoids. Default [`Items::Points`].
+    /// The kind of the rows: points, balls or ellipsoids. Default [`Items::Points`].
     pub inputs: Items,
     /// Wanted relative gap, R ≤ (1 + ε)·R*; 0 asks for the exact ball, to rounding. Range [0, 1), default 1e-9.
     pub epsilon: f64,

@@ -1,22 +1,22 @@
-//! What a method hands over to be proved: the best centre so far, its multipliers, and what the pass from it found.
+//! The result of a method, which is then proved: the best center so far, its multipliers, and what the pass from it found.
 
 use std::collections::BTreeMap;
 
 use taut_certify::{PassBounds, Stop};
 
+use crate::item_reader::{ItemReader, PassResult};
 use crate::kernel::Center;
-use crate::scan::{Found, Scan};
 use crate::top::Far;
 
-/// A centre with its multipliers, and the pass that was made from it.
+/// A center with its multipliers, and the pass that was made from it.
 pub(super) struct Candidate {
     pub(super) support: Vec<u64>,
     pub(super) lambda: Vec<f64>,
     pub(super) center: Center,
-    pub(super) found: Found,
+    pub(super) found: PassResult,
 }
 
-/// The result of a method, in the units of its scan.
+/// The result of a method, in the units of its reader.
 pub(super) struct Outcome {
     best: Option<(f64, Candidate)>,
     pub(super) stop: Option<Stop>,
@@ -38,10 +38,10 @@ impl Outcome {
         }
     }
 
-    /// All items are one point: it is the centre.
-    pub(super) fn single(scan: &Scan<'_>, id: u64) -> Result<Self, crate::Error> {
-        let center = Center { high: scan.rows(&[id])?[..scan.dim()].to_vec(), low: vec![] };
-        let found = Found {
+    /// All items are one point: it is the center.
+    pub(super) fn single(reader: &ItemReader<'_>, id: u64) -> Result<Self, crate::Error> {
+        let center = Center { high: reader.rows(&[id])?[..reader.dim()].to_vec(), low: vec![] };
+        let found = PassResult {
             farthest: Far { id, reach2: 0.0 },
             far: vec![],
             listed_above: 0.0,
@@ -59,7 +59,7 @@ impl Outcome {
     pub(super) fn offer(
         &mut self,
         gap: f64,
-        candidate: impl FnOnce() -> (Vec<u64>, Vec<f64>, Center, Found),
+        candidate: impl FnOnce() -> (Vec<u64>, Vec<f64>, Center, PassResult),
     ) {
         if self.best.as_ref().is_none_or(|(least, _)| gap < *least) {
             let (support, lambda, center, found) = candidate();

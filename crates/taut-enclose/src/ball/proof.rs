@@ -1,6 +1,6 @@
 //! From a method's outcome to an answer with a certificate: both bounds again, from the items and multipliers alone.
 //!
-//! *Upper.* The pass from the returned centre gives every reach to a known relative error. The items that could reach
+//! *Upper.* The pass from the returned center gives every reach to a known relative error. The items that could reach
 //! farthest are measured again in double-double, and the radius is rounded up from the largest; where more items are
 //! cospherical than a pass lists, the error bound of the pass is added instead.
 //! *Lower.* r² = Σ λᵢ|pᵢ − c|² − |c − Σ λᵢpᵢ|² with Σλ = 1, in double-double; for balls the bound of
@@ -14,27 +14,27 @@ use super::BallOptions;
 use super::core_set::ROUNDING;
 use super::outcome::{Candidate, Outcome};
 use crate::Error;
+use crate::item_reader::{ItemReader, Query};
 use crate::kernel::{Center, Difference, DoubleDouble, relative_error, vanishes};
-use crate::scan::{Query, Scan};
 
 pub(super) fn prove(
-    scan: &mut Scan<'_>,
+    reader: &mut ItemReader<'_>,
     outcome: Outcome,
     options: &BallOptions<'_>,
 ) -> Result<Solution<Ball>, Error> {
     let (mut best, outcome) = outcome.into_best();
     sort_by_id(&mut best);
-    let center = settle_center(scan, &mut best)?;
+    let center = settle_center(reader, &mut best)?;
     if center.high.iter().any(|c| !c.is_finite()) {
         return Err(Error::Overflow);
     }
     let total = best.lambda.iter().fold(DoubleDouble::ZERO, |sum, &l| sum.add(l.into()));
     let weights: Vec<DoubleDouble> =
         best.lambda.iter().map(|&l| DoubleDouble::from(l).div(total)).collect();
-    let support = Measurement::new(scan, &best.support, &weights, &center)?;
-    let upper = upper_bound(scan, &best, &support, &center)?;
+    let support = Measurement::new(reader, &best.support, &weights, &center)?;
+    let upper = upper_bound(reader, &best, &support, &center)?;
     let lower = lower_bound(&weights, &support);
-    let scale = scan.scale();
+    let scale = reader.scale();
     let radius = unscale_up(upper, scale);
     if !radius.is_finite() {
         return Err(Error::Overflow);
@@ -57,7 +57,7 @@ pub(super) fn prove(
     let trace = Trace {
         method: options.method.name().to_owned(),
         stop,
-        passes: scan.passes(),
+        passes: reader.passes(),
         iterations: outcome.iterations,
         core_set: outcome.core_set,
         history: outcome.history.into_iter().map(bounds).collect(),
@@ -65,12 +65,12 @@ pub(super) fn prove(
     };
     let answer = Ball { center: center.high, center_tail: center.low, radius };
     let certificate = BallCertificate {
-        items: scan.items(),
+        items: reader.items(),
         support: best.support,
         multipliers: best.lambda,
         directions: vec![],
         gap,
-        points_hash: scan.hash(),
+        points_hash: reader.hash(),
     };
     Ok(Solution { answer, certificate, trace })
 }
@@ -81,15 +81,16 @@ fn unscale_up(value: f64, scale: f64) -> f64 {
     if unscaled * scale < value { unscaled.next_up() } else { unscaled }
 }
 
-/// The centre as it will be returned, in the units of the source. Where it is not the one the pass was made from, as
-/// subnormal coordinates and points far from the origin of a scaled scan round it, one more pass is made from it.
-fn settle_center(scan: &mut Scan<'_>, best: &mut Candidate) -> Result<Center, Error> {
-    let outside = scan.outside(&best.center);
-    let inside = scan.inside(&outside);
+/// The center as it will be returned, in the units of the source. Where it is not the one the pass was made from, as
+/// subnormal coordinates and points far from the origin of a scaled reader round it, one more pass is made from it.
+fn settle_center(reader: &mut ItemReader<'_>, best: &mut Candidate) -> Result<Center, Error> {
+    let outside = reader.outside(&best.center);
+    let inside = reader.inside(&outside);
     if inside != best.center {
         let keep = best.found.far.len().max(64);
         let above = best.found.listed_above / 2.0;
-        best.found = scan.farthest(Query { center: &inside, above, keep, by_face_above: None })?;
+        best.found =
+            reader.farthest(Query { center: &inside, above, keep, by_face_above: None })?;
         best.center = inside;
     }
     Ok(outside)
@@ -110,7 +111,7 @@ fn sort_by_id(best: &mut Candidate) {
 /// Rows that are measured together: fixed, so that sums do not depend on threads.
 const ROWS_AT_ONCE: usize = 16;
 
-/// Items measured from the returned centre in double-double; in the units of the scan.
+/// Items measured from the returned center in double-double; in the units of the reader.
 struct Measurement {
     items: Vec<Measured>,
     /// Σ wᵢ(cᵢ − c), coordinate by coordinate.
@@ -128,25 +129,25 @@ struct Measured {
 impl Measurement {
     /// Measures the items with the given numbers; `weights` is one for each of them, or empty.
     fn new(
-        scan: &Scan<'_>,
+        reader: &ItemReader<'_>,
         ids: &[u64],
         weights: &[DoubleDouble],
         center: &Center,
     ) -> Result<Self, Error> {
-        let rows = scan.rows_as_given(ids)?;
+        let rows = reader.rows_as_given(ids)?;
         let columns = rows.len() / ids.len().max(1);
         let part = |(k, rows): (usize, &[f64])| -> Result<Measurement, Cancelled> {
-            scan.monitor().check()?;
+            reader.monitor().check()?;
             let mut items = vec![];
             let mut beside =
-                vec![DoubleDouble::ZERO; if weights.is_empty() { 0 } else { scan.dim() }];
+                vec![DoubleDouble::ZERO; if weights.is_empty() { 0 } else { reader.dim() }];
             for (i, row) in rows.chunks_exact(columns).enumerate() {
-                let (x, radius) = row.split_at(scan.dim());
-                let difference = Difference::new(x, center, scan.scale());
+                let (x, radius) = row.split_at(reader.dim());
+                let difference = Difference::new(x, center, reader.scale());
                 items.push(Measured::new(
                     &difference,
                     radius.first().copied().unwrap_or(0.0),
-                    scan.scale(),
+                    reader.scale(),
                 ));
                 for (j, sum) in beside.iter_mut().enumerate() {
                     *sum = sum.add(weights[k * ROWS_AT_ONCE + i].mul(difference.coordinate(j)));
@@ -160,7 +161,7 @@ impl Measurement {
         } else {
             rows.par_chunks(size).enumerate().map(part).collect()
         };
-        let mut all = Measurement { items: vec![], beside: vec![DoubleDouble::ZERO; scan.dim()] };
+        let mut all = Measurement { items: vec![], beside: vec![DoubleDouble::ZERO; reader.dim()] };
         for part in parts.map_err(ReadError::from)? {
             all.items.extend(part.items);
             for (sum, more) in all.beside.iter_mut().zip(part.beside) {
@@ -171,14 +172,14 @@ impl Measurement {
     }
 }
 
-/// The smallest radius from the centre, rounded up, that is proved to hold all items.
+/// The smallest radius from the center, rounded up, that is proved to hold all items.
 fn upper_bound(
-    scan: &Scan<'_>,
+    reader: &ItemReader<'_>,
     best: &Candidate,
     support: &Measurement,
     center: &Center,
 ) -> Result<f64, Error> {
-    let error = relative_error(scan.dim());
+    let error = relative_error(reader.dim());
     let found = &best.found;
     let threshold = found.farthest.reach2 * (1.0 - 2.0 * error);
     let near = found.far.iter().take_while(|far| far.reach2 >= threshold).map(|far| far.id);
@@ -189,7 +190,7 @@ fn upper_bound(
     if best.support.binary_search(&farthest).is_err() && !others.contains(&farthest) {
         others.push(farthest);
     }
-    let others = Measurement::new(scan, &others, &[], center)?;
+    let others = Measurement::new(reader, &others, &[], center)?;
     let mut upper =
         support.items.iter().chain(&others.items).map(|item| item.reach).fold(0.0, f64::max);
     if !all_listed && found.farthest.reach2 > 0.0 {
@@ -199,7 +200,7 @@ fn upper_bound(
 }
 
 impl Measured {
-    /// An item at this difference from the centre, of the given radius before scaling.
+    /// An item at this difference from the center, of the given radius before scaling.
     fn new(difference: &Difference, given: f64, scale: f64) -> Self {
         let squared = difference.squared();
         let r = given * scale;
@@ -241,7 +242,7 @@ fn lower_bound(weights: &[DoubleDouble], support: &Measurement) -> DoubleDouble 
         let spread = DoubleDouble::from(item.r).sub(mean).square();
         inner = inner.add(w.mul(item.squared.sub(spread)));
     }
-    // What the returned centre, being rounded, lies beside the one the multipliers mean.
+    // The offset of the returned center, being rounded, from the one that the multipliers mean.
     let inner = support.beside.iter().fold(inner, |inner, sum| inner.sub(sum.square()));
     let bound = mean.add(inner.sqrt());
     // No ball is smaller than one it holds.

@@ -12,7 +12,7 @@
 //! c = Σ λᵢcᵢ, with as radius what holds X from there, and the stop asks for the proved gap, too. For balls the
 //! farthest is the one with the largest |c − cᵢ| + rᵢ. Clarabel stands in for SDPT3.
 //! *Trap.* A conic solver ends some way above rounding, here at gaps of 1e-13 to 1e-11. What it cannot tell apart must
-//! not be added one item a pass for ever: when everything reaches as far as X does, up to the solver's own gap on X, it
+//! not be added one item a pass endlessly: when everything reaches as far as X does, up to the solver's own gap on X, it
 //! is asked for all it can give, and then the method stops with [`Stop::Rounding`].
 //! *Evidence.* The thesis names Bădoiu and Clarkson for the steps of the fast variant, not its own Algorithm 10. With
 //! the start and the lengths of Algorithm 10 they meet 29 or 30 points in 85 steps on the USPS data, as the thesis
@@ -22,20 +22,23 @@
 use taut_certify::Stop;
 
 use super::BallOptions;
-use super::badoiu_clarkson::Walk;
+use super::badoiu_clarkson::Iterate;
 use super::conic::{self, Hull};
 use super::outcome::Outcome;
 use super::run::{Run, Start, diameter_pair};
 use super::working_set::WorkingSet;
 use crate::Error;
-use crate::scan::Scan;
+use crate::item_reader::ItemReader;
 
 /// The conic solver is asked for no finer relative accuracy than this.
 const ACCURACY_MIN: f64 = 1e-12;
 
 /// Algorithm 1 from the pair (q, q′).
-pub(super) fn pure(scan: &mut Scan<'_>, options: &BallOptions<'_>) -> Result<Outcome, Error> {
-    let mut run = Run::new(scan, options)?;
+pub(super) fn pure(
+    reader: &mut ItemReader<'_>,
+    options: &BallOptions<'_>,
+) -> Result<Outcome, Error> {
+    let mut run = Run::new(reader, options)?;
     match diameter_pair(&mut run)? {
         Start::Pair(set) => algorithm_1(run, set),
         Start::Done(stop, set) => Ok(run.end(stop, &set)),
@@ -43,30 +46,33 @@ pub(super) fn pure(scan: &mut Scan<'_>, options: &BallOptions<'_>) -> Result<Out
 }
 
 /// Algorithm 1 from the far points that d/3 steps of Algorithm 10 meet.
-pub(super) fn fast(scan: &mut Scan<'_>, options: &BallOptions<'_>) -> Result<Outcome, Error> {
-    let mut run = Run::new(scan, options)?;
-    let mut walk = match diameter_pair(&mut run)? {
-        Start::Pair(set) => Walk::from_middle(set),
+pub(super) fn fast(
+    reader: &mut ItemReader<'_>,
+    options: &BallOptions<'_>,
+) -> Result<Outcome, Error> {
+    let mut run = Run::new(reader, options)?;
+    let mut iterate = match diameter_pair(&mut run)? {
+        Start::Pair(set) => Iterate::from_middle(set),
         Start::Done(stop, set) => return Ok(run.end(stop, &set)),
     };
     let mut outliers: Vec<u64> = vec![];
-    for step in 1..=run.scan.dim() as u64 / 3 {
-        let look = run.look(&walk.set, &walk.lambda)?;
-        if run.reached(&look) {
-            return Ok(run.end(Stop::Converged, &walk.set));
+    for step in 1..=run.reader.dim() as u64 / 3 {
+        let evaluation = run.evaluation(&iterate.set, &iterate.lambda)?;
+        if run.reached(&evaluation) {
+            return Ok(run.end(Stop::Converged, &iterate.set));
         }
         if run.spent() {
-            return Ok(run.end(Stop::PassBudget, &walk.set));
+            return Ok(run.end(Stop::PassBudget, &iterate.set));
         }
-        if !outliers.contains(&look.farthest) {
-            outliers.push(look.farthest);
+        if !outliers.contains(&evaluation.farthest) {
+            outliers.push(evaluation.farthest);
         }
-        walk.step(&mut run, &look)?;
+        iterate.step(&mut run, &evaluation)?;
         run.outcome.count("steps", step);
     }
     // In few dimensions the steps are too few to make a start other than the pair.
     if outliers.len() < 2 {
-        outliers = vec![walk.set.id(0), walk.set.id(1)];
+        outliers = vec![iterate.set.id(0), iterate.set.id(1)];
     }
     let set = run.set_of(&outliers)?;
     algorithm_1(run, set)
@@ -90,22 +96,24 @@ fn algorithm_1(mut run: Run<'_, '_>, mut set: WorkingSet) -> Result<Outcome, Err
         let answer = conic::solve(&set, &hull, delta)?;
         solves += 1;
         interior += answer.steps;
-        let look = run.look(&set, &answer.lambda)?;
-        if run.reached(&look) && look.upper <= (1.0 + epsilon / 2.0) * look.held {
+        let evaluation = run.evaluation(&set, &answer.lambda)?;
+        if run.reached(&evaluation) && evaluation.upper <= (1.0 + epsilon / 2.0) * evaluation.held {
             break Stop::Converged;
         }
         if run.spent() {
             break Stop::PassBudget;
         }
         // r′/r − 1 for X itself: what the solver left open.
-        let left_open = look.held / look.lower - 1.0;
-        let told_apart = look.upper > (1.0 + left_open.max(f64::EPSILON)) * look.held;
-        if told_apart && !set.contains(look.farthest) {
-            run.add(&mut set, look.farthest)?;
+        let left_open = evaluation.held / evaluation.lower - 1.0;
+        let told_apart = evaluation.upper > (1.0 + left_open.max(f64::EPSILON)) * evaluation.held;
+        if told_apart && !set.contains(evaluation.farthest) {
+            run.add(&mut set, evaluation.farthest)?;
         } else {
             match deltas.find(|&finer| finer < delta) {
                 Some(finer) => delta = finer,
-                None => break if run.reached(&look) { Stop::Converged } else { Stop::Rounding },
+                None => {
+                    break if run.reached(&evaluation) { Stop::Converged } else { Stop::Rounding };
+                }
             }
         }
     };

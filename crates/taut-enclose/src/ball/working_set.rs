@@ -14,7 +14,7 @@ use crate::kernel::{Center, DoubleDouble};
 
 /// One task multiplies this many columns of the Gram matrix: fixed, so that the result does not depend on threads.
 const TILE_COLUMNS: usize = 128;
-/// A centre with a coordinate beyond this many radii is kept in two terms: rounding it to one would cost 8·2⁻⁵³ radii.
+/// A center with a coordinate beyond this many radii is kept in two terms: rounding it to one would cost 8·2⁻⁵³ radii.
 const FAR_OFF: f64 = 8.0;
 
 pub(super) struct WorkingSet {
@@ -101,7 +101,7 @@ impl WorkingSet {
         sum
     }
 
-    /// The centre that the multipliers mean, Σ λᵢpᵢ/Σλᵢ, to twice the precision of `f64`, as one or two terms: two
+    /// The center that the multipliers mean, Σ λᵢpᵢ/Σλᵢ, to twice the precision of `f64`, as one or two terms: two
     /// where rounding it to one would cost more than about 1e-15 of the radius.
     pub(super) fn center(&self, items: &[usize], lambda: &[f64], radius: f64) -> Center {
         let (mut sums, mut errors) = (vec![0.0; self.dim], vec![0.0; self.dim]);
@@ -120,7 +120,7 @@ impl WorkingSet {
         if radius == 0.0 || largest > FAR_OFF * radius {
             return Center { high, low: terms.iter().map(|term| term.low).collect() };
         }
-        // A coordinate near 0 would keep digits far below the rounding of the others, and of all distances: a centre
+        // A coordinate near 0 would keep digits far below the rounding of the others, and of all distances: a center
         // that should be 0 would be 1e-17 and cost the radius an ulp.
         let grid = 2f64.powi(radius.log2().floor() as i32 - 53);
         Center {

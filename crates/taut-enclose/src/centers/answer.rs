@@ -1,4 +1,4 @@
-//! From centres in the units of the search to an answer in those of the rows: every reach once more, from the centres as they are
+//! From centers in the units of the search to an answer in those of the rows: every reach once more, from the centers as they are
 //! returned.
 
 use super::cloud::{Cloud, Far};
@@ -11,13 +11,13 @@ use crate::frame::exponent;
 use crate::kernel::{Center, Difference, relative_error};
 
 /// At most this many items that may reach as far as the farthest are measured exactly: mostly two or three for each of
-/// some centres.
+/// some centers.
 const MEASURED_ITEMS_MAX: usize = 64;
 /// Squares of distances below this have lost digits.
 const SQUARE_MIN: f64 = 1e-140;
 
-/// What is said of the items.
-pub(super) struct Answered {
+/// The statements about the items.
+pub(super) struct ItemReport {
     pub(super) centers: Vec<Vec<f64>>,
     /// The upper bound, not below any reach, exactly or in plain `f64`.
     pub(super) radius: f64,
@@ -25,14 +25,14 @@ pub(super) struct Answered {
     pub(super) assignment: Vec<u32>,
 }
 
-/// Measures everything from these centres, of which those that are nearest to nothing are left away.
+/// Measures everything from these centers, of which those that are nearest to nothing are left away.
 pub(super) fn answer<P: Position>(
     table: &Table,
     cloud: &Cloud<P>,
     centers: &[P],
     z: usize,
     assignment: bool,
-) -> Result<Answered, Error> {
+) -> Result<ItemReport, Error> {
     let mut is_used = vec![false; centers.len()];
     cloud.assign(centers, |_, center, _| is_used[center] = true);
     let used =
@@ -83,10 +83,10 @@ pub(super) fn answer<P: Position>(
         numbers.resize(cloud.len(), 0);
         cloud.assign(&inside, |item, center, _| numbers[cloud.rows[item] as usize] = center as u32);
     }
-    Ok(Answered { centers: outside, radius, outliers, assignment: numbers })
+    Ok(ItemReport { centers: outside, radius, outliers, assignment: numbers })
 }
 
-/// How far an item reaches from the nearest centre, in the units of the rows: the larger of what is exact, rounded up, and what
+/// Returns how far an item reaches from the nearest center, in the units of the rows: the larger of what is exact, rounded up, and what
 /// plain `f64` says.
 fn reach<P: Position>(
     table: &Table,
@@ -101,7 +101,7 @@ fn reach<P: Position>(
             let reach = |j: usize| length(position, inside[j].as_ref());
             reach(a).total_cmp(&reach(b))
         })
-        .expect("there is a centre");
+        .expect("there is a center");
     let row = table.rows.row(cloud.rows[item as usize] as usize);
     let (place, extra) = row.split_at(table.rows.dim);
     let (weight, radius) = match table.rows.shape {

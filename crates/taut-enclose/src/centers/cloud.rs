@@ -1,8 +1,8 @@
 //! All items in memory, in cells that let a search look at few of them.
 //!
-//! *Idea.* Items are put in the order of a k-d tree; the leaves, up to [`LEAF_SIZE`] neighbours each, have a middle and a spread. The
-//! farthest item from some centres is sought in the cell whose bound is largest, then in the next, until no bound is larger than
-//! what was found: some ten of hundreds of cells. Nearest centres are sought among those that can be nearest for a cell.
+//! *Idea.* Items are put in the order of a k-d tree; the leaves, up to [`LEAF_SIZE`] neighbors each, have a middle and a spread. The
+//! farthest item from some centers is sought in the cell whose bound is largest, then in the next, until no bound is larger than
+//! what was found: some ten of hundreds of cells. Nearest centers are sought among those that can be nearest for a cell.
 //! *Guarantee.* What is found is what a look at all items would find; of equals, the one of the lower row. Nothing depends on
 //! threads.
 //! *Trap.* In many dimensions every bound is weak and every cell is opened: as much work as without cells, and little more.
@@ -25,7 +25,6 @@ const SHORT_LIST: usize = 256;
 /// Items and their cells.
 pub(super) struct Cloud<P> {
     pub(super) items: ItemSet<P>,
-    /// The row of each item.
     pub(super) rows: Vec<u64>,
     cells: Vec<Cell<P>>,
 }
@@ -37,7 +36,6 @@ struct Cell<P> {
     spread: f64,
     /// The largest reach of an item from the middle, but for its weight.
     reach: f64,
-    /// The largest weight.
     weight: f64,
 }
 
@@ -95,7 +93,7 @@ impl<P: Position> Cloud<P> {
         b.reach.total_cmp(&a.reach).then(rows)
     }
 
-    /// The `count` items that reach farthest from the nearest centre, farthest first; from no centre, all reach infinitely far.
+    /// The `count` items that reach farthest from the nearest center, farthest first; from no center, all reach infinitely far.
     pub(super) fn farthest(&self, centers: &[P], count: usize) -> Vec<Far> {
         if count == 0 {
             return vec![];
@@ -145,7 +143,7 @@ impl<P: Position> Cloud<P> {
         }
     }
 
-    /// Calls `visit(item, nearest centre, its distance)` for each item; of equally near centres, the first. Without any centre,
+    /// Calls `visit(item, nearest center, its distance)` for each item; of equally near centers, the first. Without any center,
     /// that numbered 0 is infinitely far.
     pub(super) fn assign(&self, centers: &[P], mut visit: impl FnMut(usize, usize, f64)) {
         let mut near = Near::default();
@@ -177,7 +175,7 @@ impl<P: Position> Cloud<P> {
         while traversal.items.len() < count.min(self.len()) {
             monitor.check().map_err(ReadError::from)?;
             traversal.items.push(next);
-            // It is not to come again, though a ball reaches beyond its own centre.
+            // It is not to come again, though a ball reaches beyond its own center.
             reaches[next as usize] = f64::NEG_INFINITY;
             let center = self.items.at(next as usize);
             for (cell, top) in self.cells.iter().zip(&mut tops) {
@@ -215,11 +213,11 @@ impl<P: Position> Cloud<P> {
     }
 }
 
-/// The centres that can be the nearest for an item of some cell.
+/// The centers that can be the nearest for an item of some cell.
 #[derive(Default)]
 struct Near {
     centers: Vec<usize>,
-    /// Of all centres, from the middle of the cell.
+    /// Of all centers, from the middle of the cell.
     distances: Vec<f64>,
 }
 
@@ -234,7 +232,7 @@ impl Near {
         self.centers.extend((0..centers.len()).filter(|&j| self.distances[j] <= cut));
     }
 
-    /// The nearest centre to a place of the cell, the first of several, and its distance; infinite where there is none.
+    /// The nearest center to a place of the cell, the first of several, and its distance; infinite where there is none.
     #[inline(always)]
     fn nearest<P: Position>(&self, place: &[f64], centers: &[P]) -> (usize, f64) {
         let first = self.centers.first().copied().unwrap_or(0);
@@ -271,7 +269,7 @@ impl<P: Position> Cell<P> {
         Cell { range, middle, spread, reach, weight }
     }
 
-    /// No item of this cell reaches farther from the nearest centre.
+    /// No item of this cell reaches farther from the nearest center.
     fn bound(&self, items: &ItemSet<P>, centers: &[P]) -> f64 {
         let nearest = centers
             .iter()

@@ -1,10 +1,10 @@
-//! A part of a colouring: items of the core-set in k clusters, and what each further item would do to each of them.
+//! A part of a coloring: items of the core-set in k clusters, and what each further item would do to each of them.
 //!
-//! *State.* The core-set X; clusters 1…used, each with its items, their exact ball, and its guests: the items of X that fit into
+//! *State.* The core-set X; clusters 1…used, each with its items, their exact ball, and its feasible items: those of X that fit into
 //! it, with the radius of the ball with each, which is below the threshold; which items are left out.
-//! *Guests, cheapest first.* An item inside leaves the radius as it is. One too far from the new item, or for which
+//! *Feasible items, cheapest first.* An item inside leaves the radius as it is. One too far from the new item, or for which
 //! (D² + r²)/2D, a lower bound on the radius of a ball that holds the old one's points and one at distance D > r, is too large,
-//! is pruned: it is no guest of the cluster nor of any larger one. For the others the ball is made.
+//! is pruned: it is infeasible for the cluster and for any larger one. For the others the ball is made.
 //! *Choice.* The item that fits in the fewest clusters; of equals, the one that makes them grow most. Items that fit in none
 //! need an empty cluster each, if no two of them fit in one: a clique.
 
@@ -13,7 +13,7 @@ use std::sync::Arc;
 use super::conflict::Levels;
 use super::depth_first::{Place, State};
 use super::items::{ItemSet, Position, Shape, distance};
-use super::plain_tree::{Log, Proving};
+use super::proof_tree::{ProofLog, Proving};
 use super::small_ball::{Ball, Workspace};
 
 /// Cliques are sought from every item that fits nowhere if there are at most so many, else from the first so many.
@@ -27,21 +27,21 @@ pub(super) struct Cluster<P> {
     pub(super) members: Vec<u32>,
     pub(super) ball: Ball<P>,
     /// In the order of the core-set.
-    guests: Vec<Guest>,
+    feasible: Vec<FeasibleItem>,
     /// Items of the core-set that were asked; fewer than all where that has grown.
     asked: usize,
 }
 
 /// An item that fits into a cluster, and the radius of its ball with it.
 #[derive(Clone, Copy)]
-pub(super) struct Guest {
+pub(super) struct FeasibleItem {
     item: u32,
     radius: f64,
 }
 
-/// What the clusters are to an item.
+/// The fit of an item into the clusters.
 #[derive(Clone, Copy, Default)]
-struct Prospect {
+struct Fit {
     /// Clusters that it fits into.
     places: u32,
     is_covered: bool,
@@ -49,18 +49,18 @@ struct Prospect {
     rise: f64,
 }
 
-/// What has to be known to take a step back.
+/// The data to take a step back.
 #[derive(Clone)]
 pub(super) enum Undo<P> {
-    Into { cluster: usize, ball: Ball<P>, guests: Vec<Guest>, asked: usize },
+    Into { cluster: usize, ball: Ball<P>, feasible: Vec<FeasibleItem>, asked: usize },
     Open,
     LeaveOut { item: u32 },
 }
 
-/// What is to be done with a state.
-pub(super) enum Survey {
+/// The next step at a state.
+pub(super) enum NodeState {
     /// Every item is in a ball or left out.
-    Covered,
+    StreamingReport,
     /// No balls below the threshold hold all items; [`Clusters::conflict`] says why.
     Stuck,
     /// This item has the fewest places.
@@ -76,24 +76,29 @@ pub(super) struct Clusters<P> {
     /// Balls must stay below this radius.
     pub(super) threshold: f64,
     k: usize,
-    /// How many more items may be left out.
-    spare: u64,
+    /// The number of further items that may be left out.
+    outliers_left: u64,
     left_out: Vec<bool>,
     /// The level at which each item was put where it is.
     levels: Vec<u32>,
     pub(super) work: Workspace<P>,
     /// Items that fit in no cluster.
-    homeless: Vec<u32>,
+    unplaced: Vec<u32>,
     clique: Vec<u32>,
     /// In a dead end: items that need more empty clusters than there are, if any.
-    blamed: Vec<u32>,
-    prospects: Vec<Prospect>,
+    conflicting: Vec<u32>,
+    fits: Vec<Fit>,
     /// Lists that are not in use.
-    lists: Vec<Vec<Guest>>,
+    lists: Vec<Vec<FeasibleItem>>,
 }
 
 impl<P: Position> Clusters<P> {
-    pub(super) fn new(items: Arc<ItemSet<P>>, k: usize, spare: u64, threshold: f64) -> Self {
+    pub(super) fn new(
+        items: Arc<ItemSet<P>>,
+        k: usize,
+        outliers_left: u64,
+        threshold: f64,
+    ) -> Self {
         let (left_out, levels) = (vec![false; items.len()], vec![0; items.len()]);
         let work = Workspace::new(items.dim());
         Clusters {
@@ -101,14 +106,14 @@ impl<P: Position> Clusters<P> {
             clusters: vec![],
             threshold,
             k,
-            spare,
+            outliers_left,
             left_out,
             levels,
             work,
-            homeless: vec![],
+            unplaced: vec![],
             clique: vec![],
-            blamed: vec![],
-            prospects: vec![],
+            conflicting: vec![],
+            fits: vec![],
             lists: vec![],
         }
     }
@@ -125,11 +130,11 @@ impl<P: Position> Clusters<P> {
         self.k - self.clusters.len()
     }
 
-    pub(super) fn spare(&self) -> u64 {
-        self.spare
+    pub(super) fn outliers_left(&self) -> u64 {
+        self.outliers_left
     }
 
-    /// Whether a ball has reached the threshold.
+    /// Returns true if a ball has reached the threshold.
     pub(super) fn is_too_large(&self) -> bool {
         self.clusters.iter().any(|cluster| cluster.ball.radius >= self.threshold)
     }
@@ -140,15 +145,15 @@ impl<P: Position> Clusters<P> {
         match place {
             Place::Open => {
                 let ball = Ball::of_one(&self.items, item);
-                let mut guests = self.lists.pop().unwrap_or_default();
-                guests.clear();
-                self.clusters.push(Cluster { members: vec![item], ball, guests, asked: 0 });
+                let mut feasible = self.lists.pop().unwrap_or_default();
+                feasible.clear();
+                self.clusters.push(Cluster { members: vec![item], ball, feasible, asked: 0 });
                 self.ask_new_items();
                 Undo::Open
             }
             Place::LeaveOut => {
                 self.left_out[item as usize] = true;
-                self.spare -= 1;
+                self.outliers_left -= 1;
                 Undo::LeaveOut { item }
             }
             Place::Into(at) => {
@@ -157,18 +162,18 @@ impl<P: Position> Clusters<P> {
                 let ball = cluster.ball.clone();
                 cluster.ball.grow(items, &cluster.members, item, f64::INFINITY, work);
                 cluster.members.push(item);
-                let mut guests = self.lists.pop().unwrap_or_default();
-                guests.clear();
-                let old = std::mem::take(&mut cluster.guests);
-                for guest in old.iter().filter(|guest| guest.radius < self.threshold) {
+                let mut feasible = self.lists.pop().unwrap_or_default();
+                feasible.clear();
+                let old = std::mem::take(&mut cluster.feasible);
+                for candidate in old.iter().filter(|candidate| candidate.radius < self.threshold) {
                     let radius =
-                        cluster.radius_with(items, guest.item, &[item], self.threshold, work);
+                        cluster.radius_with(items, candidate.item, &[item], self.threshold, work);
                     if radius < self.threshold {
-                        guests.push(Guest { radius, ..*guest });
+                        feasible.push(FeasibleItem { radius, ..*candidate });
                     }
                 }
-                cluster.guests = guests;
-                Undo::Into { cluster: at, ball, guests: old, asked: cluster.asked }
+                cluster.feasible = feasible;
+                Undo::Into { cluster: at, ball, feasible: old, asked: cluster.asked }
             }
         }
     }
@@ -185,41 +190,41 @@ impl<P: Position> Clusters<P> {
                     &mut self.work,
                 );
                 if radius < self.threshold {
-                    cluster.guests.push(Guest { item, radius });
+                    cluster.feasible.push(FeasibleItem { item, radius });
                 }
             }
             cluster.asked = self.items.len();
         }
     }
 
-    /// What the clusters are to each item.
-    fn look_around(&mut self) {
-        self.prospects.clear();
-        self.prospects.resize(self.items.len(), Prospect::default());
+    /// Determines how each item fits into the clusters.
+    fn update_fits(&mut self) {
+        self.fits.clear();
+        self.fits.resize(self.items.len(), Fit::default());
         for cluster in &self.clusters {
             let radius = cluster.ball.radius;
-            for guest in &cluster.guests {
-                let prospect = &mut self.prospects[guest.item as usize];
-                if guest.radius <= radius {
-                    prospect.is_covered = true;
-                } else if guest.radius < self.threshold {
-                    prospect.places += 1;
-                    prospect.rise += guest.radius - radius;
+            for candidate in &cluster.feasible {
+                let fit = &mut self.fits[candidate.item as usize];
+                if candidate.radius <= radius {
+                    fit.is_covered = true;
+                } else if candidate.radius < self.threshold {
+                    fit.places += 1;
+                    fit.rise += candidate.radius - radius;
                 }
             }
         }
     }
 
-    /// What is to be done. With `chains` dead ends are not told at once but left to be branched on, as a proof must show them.
-    pub(super) fn survey(&mut self, chains: bool) -> Survey {
-        self.blamed.clear();
+    /// Returns what is to be done next. With `chains` dead ends are not reported at once but left to be branched on, as a proof must show them.
+    pub(super) fn examine(&mut self, chains: bool) -> NodeState {
+        self.conflicting.clear();
         if self.is_too_large() {
-            return Survey::Stuck;
+            return NodeState::Stuck;
         }
         self.ask_new_items();
-        self.look_around();
-        let room = self.empty() + self.spare as usize;
-        self.homeless.clear();
+        self.update_fits();
+        let capacity = self.empty() + self.outliers_left as usize;
+        self.unplaced.clear();
         let mut best: Option<(u32, f64, u32)> = None;
         for item in 0..self.items.len() {
             if self.left_out[item] {
@@ -227,19 +232,19 @@ impl<P: Position> Clusters<P> {
             }
             if self.items.radius(item) >= self.threshold {
                 // A ball too large by itself can only be left out.
-                let is_stuck = self.spare == 0 && !chains;
-                return if is_stuck { Survey::Stuck } else { Survey::Branch(item as u32) };
+                let is_stuck = self.outliers_left == 0 && !chains;
+                return if is_stuck { NodeState::Stuck } else { NodeState::Branch(item as u32) };
             }
-            let Prospect { places, is_covered, rise } = self.prospects[item];
+            let Fit { places, is_covered, rise } = self.fits[item];
             if is_covered {
                 continue;
             }
             if places == 0 {
-                if room == 0 {
-                    self.blamed.push(item as u32);
-                    return if chains { Survey::Branch(item as u32) } else { Survey::Stuck };
+                if capacity == 0 {
+                    self.conflicting.push(item as u32);
+                    return if chains { NodeState::Branch(item as u32) } else { NodeState::Stuck };
                 }
-                self.homeless.push(item as u32);
+                self.unplaced.push(item as u32);
             }
             let is_better = match best {
                 Some((fewest, most, _)) => places < fewest || places == fewest && rise > most,
@@ -249,73 +254,77 @@ impl<P: Position> Clusters<P> {
                 best = Some((places, rise, item as u32));
             }
         }
-        let Some((_, _, item)) = best else { return Survey::Covered };
-        if self.homeless.is_empty() {
-            return Survey::Branch(item);
+        let Some((_, _, item)) = best else { return NodeState::StreamingReport };
+        if self.unplaced.is_empty() {
+            return NodeState::Branch(item);
         }
-        self.find_clique(room);
+        self.find_clique(capacity);
         if chains {
-            return Survey::Branch(self.clique[0]);
+            return NodeState::Branch(self.clique[0]);
         }
-        if self.clique.len() > room {
-            self.blamed.extend_from_slice(&self.clique);
-        } else if self.homeless.len() > room && self.empty() == 0 {
-            self.blamed.extend_from_slice(&self.homeless[..=room]);
-        } else if self.empty() == 1 && self.spare == 0 {
-            self.blame_last();
+        if self.clique.len() > capacity {
+            self.conflicting.extend_from_slice(&self.clique);
+        } else if self.unplaced.len() > capacity && self.empty() == 0 {
+            self.conflicting.extend_from_slice(&self.unplaced[..=capacity]);
+        } else if self.empty() == 1 && self.outliers_left == 0 {
+            self.refute_last_cluster();
         }
-        if self.blamed.is_empty() { Survey::Branch(self.clique[0]) } else { Survey::Stuck }
+        if self.conflicting.is_empty() {
+            NodeState::Branch(self.clique[0])
+        } else {
+            NodeState::Stuck
+        }
     }
 
-    /// A clique of homeless items, the largest of some greedy ones; the search ends with one of more than `room` items.
-    fn find_clique(&mut self, room: usize) {
+    /// A clique of items that fit in no cluster, the largest of some greedy ones; the search ends with one of more than `capacity` items.
+    fn find_clique(&mut self, capacity: usize) {
         let mut clique = std::mem::take(&mut self.clique);
         clique.clear();
         let mut trial = vec![];
-        for &start in self.homeless.iter().take(CLIQUE_STARTS) {
-            greedy_clique(&self.items, start, &self.homeless, self.threshold, room, &mut trial);
+        for &start in self.unplaced.iter().take(CLIQUE_STARTS) {
+            greedy_clique(&self.items, start, &self.unplaced, self.threshold, capacity, &mut trial);
             if trial.len() > clique.len() {
                 std::mem::swap(&mut clique, &mut trial);
             }
-            if clique.len() > room {
+            if clique.len() > capacity {
                 break;
             }
         }
         self.clique = clique;
     }
 
-    /// Where no ball below the threshold holds all homeless items, blames some of which that is true.
-    fn blame_last(&mut self) {
-        let mut ball = Ball::of_one(&self.items, self.homeless[0]);
-        for at in 1..self.homeless.len() {
-            let (known, more) = (&self.homeless[..at], self.homeless[at]);
+    /// Where no ball below the threshold holds all items that fit in no cluster, adds some of which that is true to the conflict.
+    fn refute_last_cluster(&mut self) {
+        let mut ball = Ball::of_one(&self.items, self.unplaced[0]);
+        for at in 1..self.unplaced.len() {
+            let (known, more) = (&self.unplaced[..at], self.unplaced[at]);
             if !ball.holds(&self.items, more) {
                 ball.grow(&self.items, known, more, self.threshold, &mut self.work);
             }
             if ball.radius >= self.threshold {
-                self.blamed.extend_from_slice(&ball.support);
+                self.conflicting.extend_from_slice(&ball.support);
                 return;
             }
         }
     }
 
-    /// The levels of decisions on which the dead end that the last survey found rests.
+    /// The levels of decisions on which the dead end that the last call of `examine` found rests.
     pub(super) fn conflict(&mut self) -> Levels {
         let mut levels = Levels::default();
-        if self.blamed.is_empty() {
+        if self.conflicting.is_empty() {
             let too_large = self.clusters.iter().find(|c| c.ball.radius >= self.threshold);
             for &item in too_large.iter().flat_map(|cluster| &cluster.ball.support) {
                 levels.insert(self.levels[item as usize]);
             }
         }
-        let blamed = std::mem::take(&mut self.blamed);
-        for &item in &blamed {
+        let conflicting = std::mem::take(&mut self.conflicting);
+        for &item in &conflicting {
             for at in 0..self.clusters.len() {
-                self.blame(item, at, &mut levels);
+                self.add_conflict(item, at, &mut levels);
             }
         }
-        self.blamed = blamed;
-        self.blame_left_out(&mut levels);
+        self.conflicting = conflicting;
+        self.add_left_out(&mut levels);
         levels
     }
 
@@ -324,13 +333,13 @@ impl<P: Position> Clusters<P> {
         let mut levels = Levels::default();
         let members = self.clusters.iter().flat_map(|cluster| &cluster.members);
         members.for_each(|&item| levels.insert(self.levels[item as usize]));
-        self.blame_left_out(&mut levels);
+        self.add_left_out(&mut levels);
         levels
     }
 
     /// Adds the levels of members of a cluster with which an item fits in no ball: of one, if there is such a one, and of those the
     /// one that was put there first; else of the support of a ball.
-    pub(super) fn blame(&mut self, item: u32, cluster: usize, levels: &mut Levels) {
+    pub(super) fn add_conflict(&mut self, item: u32, cluster: usize, levels: &mut Levels) {
         let (items, cluster) = (&self.items, &self.clusters[cluster]);
         let far = cluster
             .members
@@ -350,7 +359,7 @@ impl<P: Position> Clusters<P> {
     }
 
     /// Adds the levels at which items were left out, as without these more could be.
-    pub(super) fn blame_left_out(&self, levels: &mut Levels) {
+    pub(super) fn add_left_out(&self, levels: &mut Levels) {
         for (is_out, &level) in self.left_out.iter().zip(&self.levels) {
             if *is_out {
                 levels.insert(level);
@@ -362,18 +371,18 @@ impl<P: Position> Clusters<P> {
     pub(super) fn places(&self, item: u32) -> Vec<(f64, Place)> {
         let mut places: Vec<(f64, Place)> = vec![];
         for (at, cluster) in self.clusters.iter().enumerate() {
-            let found = cluster.guests.binary_search_by_key(&item, |guest| guest.item);
+            let found = cluster.feasible.binary_search_by_key(&item, |candidate| candidate.item);
             if let Ok(found) = found
-                && cluster.guests[found].radius < self.threshold
+                && cluster.feasible[found].radius < self.threshold
             {
-                places.push((cluster.guests[found].radius, Place::Into(at)));
+                places.push((cluster.feasible[found].radius, Place::Into(at)));
             }
         }
         places.sort_by(|a, b| a.0.total_cmp(&b.0));
         if self.empty() > 0 && self.items.radius(item as usize) < self.threshold {
             places.push((0.0, Place::Open));
         }
-        if self.spare > 0 {
+        if self.outliers_left > 0 {
             places.push((0.0, Place::LeaveOut));
         }
         places
@@ -391,18 +400,18 @@ impl<P: Position> State for Clusters<P> {
         match undo {
             Undo::Open => {
                 let cluster = self.clusters.pop().expect("it was opened");
-                self.lists.push(cluster.guests);
+                self.lists.push(cluster.feasible);
             }
             Undo::LeaveOut { item } => {
                 self.left_out[item as usize] = false;
-                self.spare += 1;
+                self.outliers_left += 1;
             }
-            Undo::Into { cluster, ball, guests, asked } => {
+            Undo::Into { cluster, ball, feasible, asked } => {
                 let cluster = &mut self.clusters[cluster];
                 cluster.members.pop();
                 cluster.ball = ball;
                 cluster.asked = asked;
-                self.lists.push(std::mem::replace(&mut cluster.guests, guests));
+                self.lists.push(std::mem::replace(&mut cluster.feasible, feasible));
             }
         }
     }
@@ -410,13 +419,13 @@ impl<P: Position> State for Clusters<P> {
 
 impl<P: Position> Proving for Clusters<P> {
     fn chain(&mut self) -> Vec<u32> {
-        match self.survey(true) {
-            Survey::Branch(item) => vec![item],
-            Survey::Covered | Survey::Stuck => vec![],
+        match self.examine(true) {
+            NodeState::Branch(item) => vec![item],
+            NodeState::StreamingReport | NodeState::Stuck => vec![],
         }
     }
 
-    fn open_places(&mut self, item: u32, bounds: &mut Log) -> Vec<Place> {
+    fn open_places(&mut self, item: u32, bounds: &mut ProofLog) -> Vec<Place> {
         let mut places = vec![];
         let mut child = |radius: f64, refuted_by: &dyn Fn() -> f64, place| {
             if radius >= self.threshold {
@@ -435,7 +444,7 @@ impl<P: Position> Proving for Clusters<P> {
             let alone = self.items.radius(item as usize);
             child(alone, &|| alone, Place::Open);
         }
-        if self.spare > 0 {
+        if self.outliers_left > 0 {
             places.push(Place::LeaveOut);
         }
         places

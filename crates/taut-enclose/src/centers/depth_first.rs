@@ -1,8 +1,8 @@
 //! Depth-first search: items are put into clusters one after the other, and taken back.
 //!
 //! *Idea.* A [`State`] is an oracle that knows what fits where: for free balls ([`super::clusters`]) or for balls with their
-//! centers at rows ([`super::rows`]). A [`Path`] holds the nodes above the present one. [`super::walk`] has a path of its own,
-//! because it jumps back over decisions and can be cut into several walks.
+//! centers at rows ([`super::rows`]). A [`Path`] holds the nodes above the present one. [`super::subsearch`] has a path of its own,
+//! because it jumps back over decisions and can be cut into several subsearches.
 
 /// Where an item may go.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,7 +17,7 @@ pub(super) enum Place {
 
 /// Items in clusters, or left out.
 pub(super) trait State {
-    /// What has to be known to take a step back.
+    /// The data to take a step back.
     type Undo;
 
     /// Puts an item where it may go.

@@ -8,7 +8,6 @@ use taut_points::{
 use super::items::Shape;
 use crate::Error;
 
-/// All rows.
 pub(super) struct ItemRows {
     pub(super) shape: Shape,
     pub(super) dim: usize,
@@ -59,7 +58,6 @@ impl ItemRows {
         self.values.len() / self.columns
     }
 
-    /// A row as it was given.
     pub(super) fn row(&self, row: usize) -> &[f64] {
         &self.values[row * self.columns..][..self.columns]
     }
@@ -69,7 +67,7 @@ impl ItemRows {
         &self.row(row)[..self.dim]
     }
 
-    /// Whether no item is a ball of a radius above 0.
+    /// Returns true if no item is a ball of a radius above 0.
     pub(super) fn are_points(&self) -> bool {
         self.shape != Shape::Balls || (0..self.len()).all(|row| self.row(row)[self.dim] == 0.0)
     }

@@ -36,7 +36,7 @@ impl Position for Vec<f64> {
     }
 }
 
-/// What an item is, and so how far it reaches from a centre at distance D.
+/// The shape of an item, which determines how far it reaches from a center at distance D.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Shape {
     /// A point: D.
@@ -64,7 +64,6 @@ impl<P: Position> ItemSet<P> {
         ItemSet { shape, dim, coordinates: vec![], extras: vec![], position: PhantomData }
     }
 
-    /// Some of these.
     pub(super) fn some(&self, which: &[u32]) -> Self {
         let mut some = ItemSet::new(self.shape, self.dim);
         for &item in which {
@@ -123,7 +122,7 @@ impl<P: Position> ItemSet<P> {
         if self.shape == Shape::Points { 0.0 } else { self.extras[item] }
     }
 
-    /// How far an item reaches from a centre at this distance.
+    /// Returns how far an item reaches from a center at this distance.
     #[inline(always)]
     pub(super) fn reach_at(&self, item: usize, distance: f64) -> f64 {
         match self.shape {
@@ -133,7 +132,7 @@ impl<P: Position> ItemSet<P> {
         }
     }
 
-    /// How far an item reaches from a centre.
+    /// Returns how far an item reaches from a center.
     #[inline(always)]
     pub(super) fn reach(&self, item: usize, center: &P) -> f64 {
         self.reach_at(item, square(self.at(item), center.as_ref()).sqrt())

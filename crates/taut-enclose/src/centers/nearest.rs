@@ -1,4 +1,4 @@
-//! Which centre is nearest to a point, whatever the size of numbers.
+//! Which center is nearest to a point, whatever the size of numbers.
 
 use taut_points::{Monitor, PointSource, map_blocks};
 
@@ -8,7 +8,7 @@ use crate::Error;
 /// Distances whose squares have all their digits.
 pub(crate) const EXACT_DISTANCES: std::ops::RangeInclusive<f64> = 1e-140..=1e150;
 
-/// The first of the centres that are nearest.
+/// The first of the centers that are nearest.
 pub(super) fn nearest(position: &[f64], centers: &[Vec<f64>]) -> u32 {
     let mut nearest = (f64::INFINITY, 0);
     for (number, center) in (0..).zip(centers) {

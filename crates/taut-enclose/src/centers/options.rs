@@ -1,61 +1,61 @@
-//! What can be asked of centres.
+//! The options of centers.
 
 use taut_certify::{Items, Placement};
 use taut_points::{InputError, Monitor, check_threads, choice, shown_number};
 
-use crate::{CoverOptions, Error};
+use crate::{Error, StreamingOptions};
 
-/// How to look for centres.
+/// The way to look for centers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum CentersMethod {
-    /// A tree over a small growing core-set, to any proved gap; for centres among the points, covers by their balls.
+    /// A tree over a small growing core-set, to any proved gap; for centers among the points, covers by their balls.
     #[default]
     Tree,
     /// The algorithm of the thesis (Algorithm 2), with a bound that is valid in place of its own: each item that is
-    /// farthest from all balls is given to each of them in turn. Free centres of points or balls, without weights and outliers.
+    /// farthest from all balls is given to each of them in turn. Free centers of points or balls, without weights and outliers.
     Thesis,
     /// Farthest-first traversal (Gonzalez 1985): at most twice the optimal radius, in O(nkd) for any n and d. Balls, points
     /// with weights and sets with outliers are held in memory and gone through 2k + z + d times; with weights or outliers
     /// the factor is not promised, the gap that is proved is in the certificate.
     FarthestFirst,
-    /// A [`Cover`](crate::Cover): two passes over a source of any size, by default in memory for some 8k points, at most 2.96
+    /// A [`StreamingCenters`](crate::Cover): two passes over a source of any size, by default in memory for some 8k points, at most 2.96
     /// times the optimal radius. Points without weights and outliers, and without assignment.
-    Stream(CoverOptions),
+    Stream(StreamingOptions),
 }
 
 choice! { "method", CentersMethod {
     Tree = "tree", "a tree over a small growing core-set: the best";
-    Thesis = "thesis", "Algorithm 2, with a bound that holds; free centres, no weights, no outliers";
+    Thesis = "thesis", "Algorithm 2, with a bound that holds; free centers, no weights, no outliers";
     FarthestFirst = "farthest-first",
         "at most twice the least radius, whatever --epsilon says; for any k, fast";
-    Stream(CoverOptions::DEFAULT) = "stream",
+    Stream(StreamingOptions::DEFAULT) = "stream",
         "at most 2.96 times the least radius, whatever --epsilon says; two passes over files of any size, which are \
          not held in memory; no balls, weights, outliers or assignment";
 }}
 
-/// How to look for centres. Write `CentersOptions { epsilon: 1e-6, ..Default::default() }`.
+/// Options to look for centers. Write `CentersOptions { epsilon: 1e-6, ..Default::default() }`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CentersOptions<'a> {
-    /// What the rows are: points or balls. Default [`Items::Points`].
+    /// The kind of the rows: points or balls. Default [`Items::Points`].
     pub inputs: Items,
     /// Wanted relative gap, radius ≤ (1 + ε)·lower bound. Range [0, 1), default 0.01. Has no influence on
     /// [`CentersMethod::FarthestFirst`] and [`CentersMethod::Stream`].
     pub epsilon: f64,
     /// Default [`CentersMethod::Tree`].
     pub method: CentersMethod,
-    /// Where centres may be. Default [`Placement::Free`].
+    /// Where centers may be. Default [`Placement::Free`].
     pub placement: Placement,
     /// Most items that may be left out. Default 0.
     pub outliers: u64,
-    /// Whether the last column holds weights w > 0: a point then counts with w times its distance. Default no.
+    /// True if the last column holds weights w > 0: a point then counts with w times its distance. Default no.
     pub weights: bool,
-    /// Most nodes of the search; then the best centres so far are returned with their gap. A node with k clusters beside a
+    /// Most nodes of the search; then the best centers so far are returned with their gap. A node with k clusters beside a
     /// core-set of m items in d dimensions counts once more for each 20,000 of kmd; a search ends up to some hundred nodes
     /// before the last. Writing down the proof may take trees of twenty times the nodes of the search, and 10,000; where it
     /// takes more, the bound before is proved. Default 10 million.
     pub max_nodes: u64,
-    /// Whether the answer is to say which centre each item has. Default no.
+    /// True if the answer is to say which center each item has. Default no.
     pub assignment: bool,
     /// Threads, 1 to 1024; `None` for those of the surrounding pool. The answer does not depend on it.
     pub threads: Option<usize>,

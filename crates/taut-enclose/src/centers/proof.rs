@@ -17,11 +17,11 @@ use taut_points::Monitor;
 use super::cloud::Cloud;
 use super::clusters::{Clusters, large_clique};
 use super::items::Position;
-use super::plain_tree::{CORE_SET_MAX, Log, PlainTree};
+use super::proof_tree::{CORE_SET_MAX, ProofLog, ProofTree};
 use super::start::least_pair_radius;
 use crate::Error;
 
-/// What rounding may have added to the radius of a ball of a few items, for the solver and for a checker; in parts of it.
+/// The amount that rounding may have added to the radius of a ball of a few items, for the solver and for a checker; in parts of it.
 const ROUNDING: f64 = 1e-12;
 /// The same for two items, but for what grows with d.
 const PAIR_ROUNDING: f64 = 2e-14;
@@ -43,18 +43,18 @@ pub(super) struct Proof {
 impl Proof {
     /// Nothing is claimed.
     pub(super) fn none() -> Self {
-        Proof { lower: 0.0, core_set: vec![], kind: LowerBound::Apart, nodes: 0 }
+        Proof { lower: 0.0, core_set: vec![], kind: LowerBound::Separated, nodes: 0 }
     }
 
     /// More than k + z items no two of which fit in a ball of a smaller radius.
-    pub(super) fn apart<P: Position>(
+    pub(super) fn separated<P: Position>(
         cloud: &Cloud<P>,
         core_set: Vec<u32>,
         monitor: &Monitor<'_>,
     ) -> Result<Self, Error> {
         let rounding = PAIR_ROUNDING + cloud.items.dim() as f64 * f64::EPSILON;
         let lower = least_pair_radius(cloud, &core_set, monitor)? * (1.0 - rounding);
-        Ok(Proof { lower, core_set, kind: LowerBound::Apart, nodes: 0 })
+        Ok(Proof { lower, core_set, kind: LowerBound::Separated, nodes: 0 })
     }
 
     /// That no k balls of a radius less than `threshold` hold all of the core-set but z; or why not: it takes more than `budget`
@@ -70,18 +70,18 @@ impl Proof {
         claim: &dyn Fn(f64, &[u32]) -> f64,
         monitor: &Monitor<'_>,
     ) -> Result<Result<Self, Stop>, Error> {
-        let room = k.saturating_add(z);
-        let apart = large_clique(&cloud.items, core_set, threshold, room);
-        if apart.len() > room {
-            return Ok(Ok(Self::apart(cloud, apart, monitor)?));
+        let capacity = k.saturating_add(z);
+        let separated = large_clique(&cloud.items, core_set, threshold, capacity);
+        if separated.len() > capacity {
+            return Ok(Ok(Self::separated(cloud, separated, monitor)?));
         }
-        let mut best: Option<(Vec<u32>, Log)> = None;
+        let mut best: Option<(Vec<u32>, ProofLog)> = None;
         let (mut budget, mut threshold) = (budget, threshold);
         for _ in 0..ROUNDS_MAX {
             let core_set = best.as_ref().map_or(core_set, |(core_set, _)| core_set);
             let items = Arc::new(cloud.items.some(core_set));
             let root = Clusters::new(items, k, z as u64, threshold);
-            let log = match PlainTree::new(root, budget, monitor).log()? {
+            let log = match ProofTree::new(root, budget, monitor).log()? {
                 Ok(log) => log,
                 Err(why) if best.is_none() => return Ok(Err(why)),
                 Err(_) => break,
@@ -118,7 +118,7 @@ impl Proof {
 }
 
 /// The core-set without the items on which no node branches, in the order in which nodes do, and the log in these numbers.
-fn renumbered(core_set: &[u32], log: Log) -> (Vec<u32>, Log) {
+fn renumbered(core_set: &[u32], log: ProofLog) -> (Vec<u32>, ProofLog) {
     let mut numbers = vec![u32::MAX; core_set.len()];
     let mut needed = vec![];
     let mut items = log.items;
@@ -130,5 +130,5 @@ fn renumbered(core_set: &[u32], log: Log) -> (Vec<u32>, Log) {
         }
         *item = *number;
     }
-    (needed, Log { items, ..log })
+    (needed, ProofLog { items, ..log })
 }

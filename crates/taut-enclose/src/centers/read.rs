@@ -1,6 +1,6 @@
 //! Rows as items, about an origin near them and in units in which squares neither overflow nor vanish.
 //!
-//! *Idea.* A centre has no more digits than its coordinates, which are few where all rows are far from the origin. A column whose
+//! *Idea.* A center has no more digits than its coordinates, which are few where all rows are far from the origin. A column whose
 //! values differ by little is therefore moved by the least of them, which is exact: both are within a factor of 2 (Sterbenz).
 //! *Guarantee.* Moved and scaled rows are the rows, without rounding; what cannot be is refused.
 
@@ -20,11 +20,11 @@ const COLUMN_SPREAD_MAX: f64 = 1.0 / 16.0;
 /// All rows, as they are, and the units of the search.
 pub(super) struct Table {
     pub(super) rows: ItemRows,
-    /// What is taken away from each coordinate, without rounding.
+    /// The vector that is subtracted from each coordinate, without rounding.
     shift: Vec<f64>,
-    /// What coordinates and radii are then multiplied with, a power of two.
+    /// The factor that coordinates and radii are then multiplied with, a power of two.
     pub(super) scale: f64,
-    /// What weights are multiplied with, a power of two.
+    /// The factor that weights are multiplied with, a power of two.
     pub(super) weight_scale: f64,
 }
 
@@ -60,7 +60,7 @@ impl Table {
         self.weight_scale = weights.scale(0);
     }
 
-    /// Whether numbers so small beside the largest are there that they cannot be scaled with it.
+    /// Returns true if numbers so small beside the largest are there that they cannot be scaled with it.
     fn loses_digits(&self) -> bool {
         let is_lost = |value: f64, scale: f64| value * scale / scale != value;
         let weights =
@@ -97,7 +97,7 @@ impl Table {
     }
 }
 
-/// What a column is moved by: its least value in size, or 0.
+/// Returns the shift of a column: its least value in size, or 0.
 fn shift_of(values: &[f64], columns: usize) -> f64 {
     let column = || values.iter().step_by(columns);
     let low = column().copied().fold(f64::INFINITY, f64::min);

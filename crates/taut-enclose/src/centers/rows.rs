@@ -1,13 +1,13 @@
-//! k centres among the rows: the discrete k-center problem, to a proved gap, down to 0.
+//! k centers among the rows: the discrete k-center problem, to a proved gap, down to 0.
 //!
-//! *Problem.* Of n items in ℝᵈ choose k rows as centres, and up to z items to leave out, such that the largest reach of an
-//! item from the nearest centre is least: w·|p − c| for points, |m − c| + r for balls.
+//! *Problem.* Of n items in ℝᵈ choose k rows as centers, and up to z items to leave out, such that the largest reach of an
+//! item from the nearest center is least: w·|p − c| for points, |m − c| + r for balls.
 //! *Idea.* The optimum is one of the n² reaches between rows. Farthest-first traversals bracket it ([`start`]). For a radius
 //! between the bounds, each item has the set of rows within it, and a cluster is what such sets have in common; a tree
 //! over a few items X either finds that no k clusters hold X, which raises the lower bound to the next reach of X, or
-//! centres that hold all ([`search`]). The bracket is halved until it is narrow; then the radius wanted is tried at once.
+//! centers that hold all ([`search`]). The bracket is halved until it is narrow; then the radius wanted is tried at once.
 //! *Guarantee.* For ε = 0 no k rows have a smaller radius, as reaches are evaluated in `f64`. The bound given is lower by a
-//! relative 1e-12, which is more than rounding. When the nodes are used up, the best centres and the best bound so far.
+//! relative 1e-12, which is more than rounding. When the nodes are used up, the best centers and the best bound so far.
 //! *Cost.* O(nd) for each item of X and each radius, O(nkd) for each cover that is measured; nodes exponential in k and z.
 //! Memory: all rows, and n|X|/8 bytes.
 //! *Trap.* "Less than the radius", everywhere: at the optimum itself there is a cover.
@@ -36,9 +36,9 @@ use self::sites::Sites;
 use self::start::{Incumbent, start};
 use self::state::State;
 use crate::Error;
-use crate::apart::claimed;
 use crate::centers::item_rows::ItemRows;
 use crate::centers::{CentersMethod, CentersOptions, PROOF_FACTOR, PROOF_NODES};
+use crate::separated_set::claimed;
 
 /// Once the gap is at most this beyond the one wanted, the radius wanted is tried at once.
 const NEAR_GAP: f64 = 0.02;
@@ -51,12 +51,12 @@ fn rounding(sites: &Sites) -> f64 {
     1e-12 + sites.dim() as f64 * 4.0 * f64::EPSILON
 }
 
-/// What is proved when no k balls of less than `radius` hold X: less by a little, so that rounding explains no cover.
+/// Returns what is proved when no k balls of less than `radius` hold X: less by a little, so that rounding explains no cover.
 fn proved(radius: f64, sites: &Sites) -> f64 {
     claimed(radius * (1.0 - rounding(sites)), 1.0)
 }
 
-/// At most k rows as centres of all items but `options.outliers` of them.
+/// At most k rows as centers of all items but `options.outliers` of them.
 pub(super) fn solve(
     rows: ItemRows,
     items: Items,
@@ -66,7 +66,7 @@ pub(super) fn solve(
 ) -> Result<Solution<Centers>, Error> {
     let sites = Sites::of(rows);
     let outliers = options.outliers as usize;
-    // More centres than rows are of no use.
+    // More centers than rows are of no use.
     let mut bracket = Bracket::new(&sites, k.min(sites.len()), outliers, options, monitor)?;
     if !bracket.incumbent.radius.is_finite() {
         return Err(Error::Overflow);
@@ -95,7 +95,7 @@ pub(super) fn solve(
         proof: proof.by,
         points_hash: sites.hash(),
     };
-    // What was shown on the way, as far as it is proved in the end.
+    // The bounds shown on the way, as far as they are proved in the end.
     let bounds = |b: &PassBounds| PassBounds {
         lower: b.lower.min(lower),
         upper: b.upper.max(answer.radius),
@@ -132,7 +132,7 @@ struct Bracket<'a> {
     /// Radii less than which no k balls hold so many of the first members, ascending.
     refuted: Vec<(f64, usize)>,
     nodes: u64,
-    /// Whether the nodes ended the search.
+    /// True if the nodes ended the search.
     is_spent: bool,
     scans: u64,
     history: Vec<PassBounds>,
@@ -167,7 +167,7 @@ impl<'a> Bracket<'a> {
         self.refuted.last().map_or(0.0, |&(radius, _)| radius)
     }
 
-    /// Whether the gap is as small as was asked.
+    /// Returns true if the gap is as small as was asked.
     fn is_closed(&self) -> bool {
         let (upper, lower) = (self.incumbent.radius, self.lower());
         // Half of the rounding is for the radius, which is given a little larger.
@@ -226,7 +226,7 @@ impl<'a> Bracket<'a> {
                     let next = next.fold(self.incumbent.radius, f64::min).max(radius);
                     self.refuted.push((next, self.members.len()));
                 }
-                End::Covered | End::Grown => {}
+                End::StreamingReport | End::Grown => {}
             }
             self.record();
         }
@@ -262,11 +262,11 @@ impl<'a> Bracket<'a> {
             // All tries together cost no more than two of the first.
             max_nodes /= 2;
         }
-        Ok((0.0, Proof { members: vec![], by: LowerBound::Apart, nodes: 0 }, why))
+        Ok((0.0, Proof { members: vec![], by: LowerBound::Separated, nodes: 0 }, why))
     }
 }
 
-/// The centres as they are returned: by row, each once, with a radius that holds as anybody may evaluate it.
+/// The centers as they are returned: by row, each once, with a radius that holds as anybody may evaluate it.
 fn answer(
     sites: &Sites,
     incumbent: &Incumbent,

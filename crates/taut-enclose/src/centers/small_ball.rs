@@ -1,15 +1,15 @@
 //! The exact smallest ball of a few items: points, points with weights, balls.
 //!
-//! *Problem.* Items p₁…pₘ, mostly two to twenty: the centre c that minimises the largest reach, |pᵢ − c| or wᵢ|pᵢ − c| or
+//! *Problem.* Items p₁…pₘ, mostly two to twenty: the center c that minimizes the largest reach, |pᵢ − c| or wᵢ|pᵢ − c| or
 //! |pᵢ − c| + rᵢ. A search asks for it again and again, each time with one item more.
-//! *Idea.* The ball is that of its support, at most d + 1 items whose centres it holds in their hull: c = Σβᵢpᵢ, β ≥ 0. An
+//! *Idea.* The ball is that of its support, at most d + 1 items whose centers it holds in their hull: c = Σβᵢpᵢ, β ≥ 0. An
 //! item q outside is in the support of the ball of the old support and q, so that one is among the balls through q and some of
-//! the old support ([`spheres`]): for up to four of these all are tried, and the one from whose centre the others reach least
+//! the old support ([`spheres`]): for up to four of these all are tried, and the one from whose center the others reach least
 //! far is taken. Then the farthest of all items enters, until none is outside. The radius grows with each. Larger supports, and
 //! what rounding leaves open, are for [`active_set`].
 //! *Guarantee.* At any moment the ball is that of some of its items, and β proves a lower bound on its radius
 //! ([`Ball::lower_bound`]) whatever rounding did before: for points of weight w, R² ≥ Σβᵢ|pᵢ − c|² / Σβᵢ/wᵢ² with c = Σβᵢpᵢ.
-//! *Trap.* Balls through nearly dependent items have centres far away and weights of any sign; they are not judged by these
+//! *Trap.* Balls through nearly dependent items have centers far away and weights of any sign; they are not judged by these
 //! but by how far the others reach, and so never taken in place of a smaller one.
 //! *Reference.* The loop is that of Gärtner, Fast and robust smallest enclosing balls, ESA 1999; that an entering item stays in
 //! the support holds for balls, too (Fischer and Gärtner, SoCG 2003), where Welzl's recursion does not.
@@ -39,21 +39,19 @@ pub(super) struct Ball<P> {
 }
 
 impl<P: Position> Ball<P> {
-    /// That of one item.
     pub(super) fn of_one(items: &ItemSet<P>, item: u32) -> Self {
         let at = item as usize;
         let (center, radius) = (items.position(at), items.radius(at));
         Ball { center, radius, support: vec![item], shares: vec![1.0] }
     }
 
-    /// That of all of these.
     pub(super) fn of_all(items: &ItemSet<P>, members: &[u32], work: &mut Workspace<P>) -> Self {
         let mut ball = Ball::of_one(items, members[0]);
         ball.grow(items, members, members[0], f64::INFINITY, work);
         ball
     }
 
-    /// Whether an item is inside, but for rounding.
+    /// Returns true if an item is inside, but for rounding.
     #[inline(always)]
     pub(super) fn holds(&self, items: &ItemSet<P>, item: u32) -> bool {
         items.reach(item as usize, &self.center) <= self.radius * (1.0 + REACH_TOLERANCE)
@@ -154,7 +152,7 @@ impl<P: Position> Ball<P> {
         false
     }
 
-    /// What the shares prove: no ball that holds the support has a smaller radius, but for a few roundings; 0 where they prove
+    /// Returns what the shares prove: no ball that holds the support has a smaller radius, but for a few roundings; 0 where they prove
     /// nothing.
     pub(super) fn lower_bound(&self, items: &ItemSet<P>) -> f64 {
         // Items without a share are left out, as their weights may be such that 0 times something is no number.

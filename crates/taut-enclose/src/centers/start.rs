@@ -1,8 +1,8 @@
-//! Where a search starts: centres, a lower bound, and the first items of its core-set.
+//! Where a search starts: centers, a lower bound, and the first items of its core-set.
 //!
 //! *Idea.* Farthest-first traversals from four items, each made better by Lloyd's steps with exact balls: every item goes to the
-//! nearest centre, every centre to that of the smallest ball of its items. The first k + z + 1 items of a traversal are far from
-//! one another, which is a lower bound; where z items may be left out, the k + z first centres lose those of the fewest items.
+//! nearest center, every center to that of the smallest ball of its items. The first k + z + 1 items of a traversal are far from
+//! one another, which is a lower bound; where z items may be left out, the k + z first centers lose those of the fewest items.
 //! *Reference.* Gonzalez, Theoretical Computer Science 38, 1985; Lloyd, IEEE Trans. Information Theory 28, 1982.
 
 use taut_points::{Monitor, ReadError};
@@ -17,28 +17,27 @@ const LLOYD_GAIN_MIN: f64 = 1e-9;
 /// And after this many; most starts need five to twenty.
 const MOST_STEPS: usize = 100;
 
-/// Centres and the radius from them.
+/// Centers and the radius from them.
 #[derive(Clone, Debug)]
 pub(super) struct Incumbent<P> {
     pub(super) centers: Vec<P>,
     pub(super) radius: f64,
 }
 
-/// What the traversals found.
 pub(super) struct Start<P> {
-    /// The best centres after Lloyd's steps.
+    /// The best centers after Lloyd's steps.
     pub(super) incumbent: Incumbent<P>,
-    /// The first centres of the first traversal, as they are.
+    /// The first centers of the first traversal, as they are.
     pub(super) plain: Incumbent<P>,
-    /// No k centres have a smaller radius: of `apart`, no two fit in one smaller ball.
+    /// No k centers have a smaller radius: of `separated`, no two fit in one smaller ball.
     pub(super) lower: f64,
     /// k + z + 1 items; none where there are not so many different ones.
-    pub(super) apart: Vec<u32>,
-    /// The traversal that `apart` begins.
+    pub(super) separated: Vec<u32>,
+    /// The traversal that `separated` begins.
     pub(super) traversal: Vec<u32>,
 }
 
-/// Searches for k centres that may leave out z items, from four first items.
+/// Searches for k centers that may leave out z items, from four first items.
 pub(super) fn start<P: Position>(
     cloud: &Cloud<P>,
     k: usize,
@@ -59,19 +58,19 @@ pub(super) fn start<P: Position>(
         at += 1;
         let plain = heaviest(cloud, &traversal, k, z);
         let incumbent = improve(cloud, plain.clone(), k, z, monitor)?;
-        let apart: Vec<u32> =
+        let separated: Vec<u32> =
             traversal.iter().copied().take(k.saturating_add(z).saturating_add(1)).collect();
-        let apart = if apart.len() > k.saturating_add(z) { apart } else { vec![] };
-        let lower = least_pair_radius(cloud, &apart, monitor)?;
+        let separated = if separated.len() > k.saturating_add(z) { separated } else { vec![] };
+        let lower = least_pair_radius(cloud, &separated, monitor)?;
         let Some(best) = &mut best else {
-            best = Some(Start { incumbent, plain, lower, apart, traversal });
+            best = Some(Start { incumbent, plain, lower, separated, traversal });
             continue;
         };
         if incumbent.radius < best.incumbent.radius {
             best.incumbent = incumbent;
         }
         if lower > best.lower {
-            (best.lower, best.apart, best.traversal) = (lower, apart, traversal);
+            (best.lower, best.separated, best.traversal) = (lower, separated, traversal);
         }
     }
     Ok(best.expect("there is a first item"))
@@ -132,7 +131,7 @@ fn heaviest<P: Position>(cloud: &Cloud<P>, traversal: &[u32], k: usize, z: usize
     measured(cloud, centers, z)
 }
 
-/// Centres with their radius: the reach of the item that is farthest but for z.
+/// Centers with their radius: the reach of the item that is farthest but for z.
 pub(super) fn measured<P: Position>(cloud: &Cloud<P>, centers: Vec<P>, z: usize) -> Incumbent<P> {
     let far = cloud.farthest(&centers, z.saturating_add(1));
     let radius = far.get(z).map_or(0.0, |far| far.reach);
@@ -157,8 +156,8 @@ pub(super) fn improve<P: Position>(
             left_out[far.item as usize] = true;
         }
         let mut centers = best.centers.clone();
-        // A centre that is still free goes where it helps most.
-        if let Some(Far { item, .. }) = spare(cloud, &best, k, z) {
+        // A center that is still free goes where it helps most.
+        if let Some(Far { item, .. }) = outliers_left(cloud, &best, k, z) {
             centers.push(cloud.items.position(item as usize));
         }
         clusters.iter_mut().for_each(Vec::clear);
@@ -185,8 +184,13 @@ pub(super) fn improve<P: Position>(
     Ok(best)
 }
 
-/// The item to open a further centre at, where there are fewer than k.
-fn spare<P: Position>(cloud: &Cloud<P>, best: &Incumbent<P>, k: usize, z: usize) -> Option<Far> {
+/// The item to open a further center at, where there are fewer than k.
+fn outliers_left<P: Position>(
+    cloud: &Cloud<P>,
+    best: &Incumbent<P>,
+    k: usize,
+    z: usize,
+) -> Option<Far> {
     if best.centers.len() >= k || best.radius == 0.0 {
         return None;
     }

@@ -4,10 +4,10 @@
 //! *Idea.* The item farthest from all balls is given to each of them in turn, the nearest ball first. σ is the best radius so far; a
 //! branch ends when one of its balls has a radius of σ/(1 + ε) or more.
 //! *Guarantee.* Radius ≤ (1 + ε)·σ*.
-//! *Departures.* The thesis ends a branch when the item is farther than σ from the centre of the ball that it is to join. That is
-//! not valid, as the centre moves: at distance D from the centre of a smallest ball of radius r < D, the new radius is at least
+//! *Departures.* The thesis ends a branch when the item is farther than σ from the center of the ball that it is to join. That is
+//! not valid, as the center moves: at distance D from the center of a smallest ball of radius r < D, the new radius is at least
 //! (D² + r²)/2D and may be as small as that. That bound is asked first, then the ball is made. The index in line 10 of the algorithm
-//! should be j. Of the balls that are still empty, only the first is tried, as all are the same. The radius from the centres of
+//! should be j. Of the balls that are still empty, only the first is tried, as all are the same. The radius from the centers of
 //! each node is a bound on σ*, not only that of the leaves.
 //! *Reference.* Thesis, section 2.5.
 
@@ -18,7 +18,7 @@ use super::cloud::Cloud;
 use super::items::{Position, Shape, distance};
 use super::small_ball::{Ball, Workspace};
 use super::start::Incumbent;
-use super::tree::{Found, Shown};
+use super::tree::{ProvedBound, SearchResult};
 use crate::Error;
 
 struct Cluster<P> {
@@ -34,7 +34,7 @@ struct Frame<P> {
     undo: Option<(usize, Option<Ball<P>>)>,
 }
 
-/// Solves to a gap of `epsilon`, from the centres of a traversal.
+/// Solves to a gap of `epsilon`, from the centers of a traversal.
 pub(super) fn solve<P: Position>(
     cloud: &Cloud<P>,
     plain: Incumbent<P>,
@@ -42,7 +42,7 @@ pub(super) fn solve<P: Position>(
     epsilon: f64,
     max_nodes: u64,
     monitor: &Monitor<'_>,
-) -> Result<Found<P>, Error> {
+) -> Result<SearchResult<P>, Error> {
     let items = &cloud.items;
     let mut work = Workspace::new(items.dim());
     let mut best = plain;
@@ -97,13 +97,13 @@ pub(super) fn solve<P: Position>(
     core_set.dedup();
     let threshold = best.radius / (1.0 + epsilon);
     let is_shown = stop == Stop::Converged;
-    let shown = is_shown.then_some(Shown { threshold, items: core_set.len() });
-    let lower = shown.map_or(0.0, |shown| shown.threshold);
+    let proved = is_shown.then_some(ProvedBound { threshold, items: core_set.len() });
+    let lower = proved.map_or(0.0, |proved| proved.threshold);
     let history =
         vec![PassBounds { lower, upper: best.radius, working_set: core_set.len() as u64 }];
-    Ok(Found {
+    Ok(SearchResult {
         incumbent: best,
-        shown: shown.into_iter().collect(),
+        proved: proved.into_iter().collect(),
         core_set,
         stop,
         nodes,
@@ -113,7 +113,7 @@ pub(super) fn solve<P: Position>(
     })
 }
 
-/// The clusters that p can join, the nearest centre first.
+/// The clusters that p can join, the nearest center first.
 fn branch<P: Position>(
     cloud: &Cloud<P>,
     clusters: &[Cluster<P>],

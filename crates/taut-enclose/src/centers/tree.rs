@@ -1,20 +1,20 @@
-//! Free centres to any proved gap: one depth-first tree over a small growing core-set.
+//! Free centers to any proved gap: one depth-first tree over a small growing core-set.
 //!
 //! *Problem.* Items, k and z: k balls of the least equal radius σ* that hold all items but z.
-//! *Idea.* Colour a core-set X with k colours so that no colour needs a ball of radius τ = σ/(1 + ε) or more, σ being the best
+//! *Idea.* Color a core-set X with k colors so that no color needs a ball of radius τ = σ/(1 + ε) or more, σ being the best
 //! radius so far. Where that is impossible, τ is a lower bound. Where it succeeds, the balls are looked at from all items: σ may
-//! get smaller, and the farthest item joins X. The item with the fewest colours left is coloured next ([`super::clusters`]).
+//! get smaller, and the farthest item joins X. The item with the fewest colors left is colored next ([`super::clusters`]).
 //! ε comes down in steps, 0.1, 0.05, …: each step that ends has proved a gap, and leaves a better σ and X to the next.
-//! *Restarts.* An early choice on a small X may be a poor one: while X grows, the tree starts anew after 200 nodes, then 400, ….
-//! *Threads.* A tree that is not small is cut into up to [`WALK_COUNT`] walks ([`super::walk`]), which go on side by side for [`NODES_PER_ROUND`] nodes
-//! each, knowing nothing of one another; then all learn what each has found, in the order of the walks, those that a dead
+//! *Restarts.* An early choice on a small X may be a poor one: while X grows, the tree starts again after 200 nodes, then 400, ….
+//! *Threads.* A tree that is not small is cut into up to [`SUBSEARCH_COUNT`] subsearches ([`super::subsearch`]), which go on side by side for [`NODES_PER_ROUND`] nodes
+//! each, knowing nothing of one another; then all learn what each has found, in the order of the subsearches, those that a dead
 //! end of another one refutes are dropped, and others are cut in their place. None of this knows how many threads there are.
 //! *Guarantee.* σ ≤ (1 + ε)·σ*, unless the nodes run out; then the gap of the last step that ended. The same on every run and for
 //! any number of threads.
 //! *Trap.* A threshold is a bound only when the tree for it has ended; that of a step under way says nothing.
 //! *Evidence.* On 15,112 cities: adding all items outside at once makes X twice as large and the tree up to five times;
 //! dropping items that did not help for some restarts makes it 1.8 to 3.5 times as large.
-//! Steps by a factor of 0.3 take 1.5 to 2 times as long as by 0.5 for 10 to 15 centres of cities, and less for 10 in space.
+//! Steps by a factor of 0.3 take 1.5 to 2 times as long as by 0.5 for 10 to 15 centers of cities, and less for 10 in space.
 //! *Reference.* The tree extends Algorithm 2 of the thesis (section 2.5); the choice of items is that of Brélaz, Comm. ACM 22, 1979.
 
 use std::collections::HashSet;
@@ -26,7 +26,7 @@ use taut_points::Monitor;
 use super::cloud::Cloud;
 use super::items::Position;
 use super::start::{Incumbent, Start};
-use super::walk::{End, Task, Walk};
+use super::subsearch::{End, Subsearch, Task};
 use crate::Error;
 
 /// The first gap that is proved on the way to smaller ones, and by how much each is smaller than the one before.
@@ -34,24 +34,23 @@ const FIRST_GAP: f64 = 0.1;
 const NEXT_GAP: f64 = 0.5;
 /// The first gap, however little is known; half of infinity would never end.
 const WIDEST_GAP: f64 = 1e6;
-/// Once a step below this leaves the centres as they are, the next is the last.
+/// Once a step below this leaves the centers as they are, the next is the last.
 const LAST_BUT_ONE: f64 = 0.03;
 /// Nodes before the first restart.
 const FIRST_RUN: u64 = 200;
 /// A tree with more nodes is cut.
 const UNCUT_NODES_MAX: u64 = 4000;
-/// This many walks go side by side, enough to keep the cores of a large machine busy. On 11 to 15 centres of cities 16
+/// This many subsearches go side by side, enough to keep the cores of a large machine busy. On 11 to 15 centers of cities 16
 /// to 32 of them, and 500 to 1000 nodes of each, serve equally well: a tree has about as many nodes as without cuts,
 /// and no fewer with shorter rounds.
-const WALK_COUNT: usize = 24;
-/// A walk goes through this many nodes until all learn from one another.
+const SUBSEARCH_COUNT: usize = 24;
+/// A subsearch visits this many nodes until all learn from one another.
 const NODES_PER_ROUND: u64 = 1000;
 
-/// What a search found.
-pub(super) struct Found<P> {
+pub(super) struct SearchResult<P> {
     pub(super) incumbent: Incumbent<P>,
-    /// What trees over the core-set that ended have shown, growing.
-    pub(super) shown: Vec<Shown>,
+    /// The bounds that finished trees over the core-set have proved, growing.
+    pub(super) proved: Vec<ProvedBound>,
     /// Items, by their number in the cloud.
     pub(super) core_set: Vec<u32>,
     pub(super) stop: Stop,
@@ -63,7 +62,7 @@ pub(super) struct Found<P> {
 
 /// A lower bound that a tree has shown of the first items of the core-set.
 #[derive(Clone, Copy)]
-pub(super) struct Shown {
+pub(super) struct ProvedBound {
     pub(super) threshold: f64,
     pub(super) items: usize,
 }
@@ -101,7 +100,7 @@ pub(super) fn solve<P: Position>(
     epsilon: f64,
     max_nodes: u64,
     monitor: &Monitor<'_>,
-) -> Result<Found<P>, Error> {
+) -> Result<SearchResult<P>, Error> {
     let mut search = Search {
         task: Task { cloud, monitor, k, z },
         core_set: start.traversal,
@@ -113,7 +112,7 @@ pub(super) fn solve<P: Position>(
         scans: 0,
     };
     let mut lower = start.lower;
-    let mut shown = vec![];
+    let mut proved = vec![];
     let mut history = vec![];
     let mut stop = Stop::Converged;
     // What items apart prove of outliers is poor, and gains most from steps that are quick to end.
@@ -128,7 +127,7 @@ pub(super) fn solve<P: Position>(
         if before > (1.0 + search.gap) * lower {
             match search.tree() {
                 Ok(threshold) => {
-                    shown.push(Shown { threshold, items: search.core_set.len() });
+                    proved.push(ProvedBound { threshold, items: search.core_set.len() });
                     lower = lower.max(threshold);
                 }
                 Err(Halt::Error(error)) => return Err(error),
@@ -148,11 +147,11 @@ pub(super) fn solve<P: Position>(
         search.gap = if is_settled { epsilon } else { (search.gap * NEXT_GAP).max(epsilon) };
     }
     let Search { best, core_set, nodes, restarts, scans, .. } = search;
-    Ok(Found { incumbent: best, shown, core_set, stop, nodes, restarts, scans, history })
+    Ok(SearchResult { incumbent: best, proved, core_set, stop, nodes, restarts, scans, history })
 }
 
 impl<P: Position> Search<'_, P> {
-    /// What is known, with this lower bound.
+    /// Returns what is known, with this lower bound.
     fn bounds(&self, lower: f64) -> PassBounds {
         PassBounds { lower, upper: self.best.radius, working_set: self.core_set.len() as u64 }
     }
@@ -176,73 +175,77 @@ impl<P: Position> Search<'_, P> {
     fn descend(&mut self, run: u64) -> Result<(), Halt> {
         let (first_node, known) = (self.nodes, self.core_set.len());
         let task = Task { ..self.task };
-        let Some(walk) = Walk::new(&task, &self.core_set, &self.best, self.gap)? else {
+        let Some(subsearch) = Subsearch::new(&task, &self.core_set, &self.best, self.gap)? else {
             return Ok(());
         };
-        let mut walks = vec![walk];
+        let mut subsearches = vec![subsearch];
         let mut nodes = UNCUT_NODES_MAX;
         loop {
-            let left = self.max_nodes.saturating_sub(self.nodes) / walks.len() as u64;
+            let left = self.max_nodes.saturating_sub(self.nodes) / subsearches.len() as u64;
             if left == 0 {
                 return Err(Halt::Budget);
             }
             let nodes_each = nodes.min(left);
-            // Only a tree that is not cut can tell at each node that it is time to start anew.
-            let run_each = if walks.len() == 1 { run } else { u64::MAX };
-            let ends: Vec<End> = walks
+            // Only a tree that is not cut can tell at each node that it is time to start again.
+            let run_each = if subsearches.len() == 1 { run } else { u64::MAX };
+            let ends: Vec<End> = subsearches
                 .par_iter_mut()
-                .map(|walk| walk.go_on(nodes_each, run_each, known))
+                .map(|subsearch| subsearch.go_on(nodes_each, run_each, known))
                 .collect::<Result<_, Error>>()?;
-            self.learn_from(&mut walks);
+            self.learn_from(&mut subsearches);
             let has_grown = self.core_set.len() > known;
             let mut refuted = vec![];
-            let mut open = Vec::with_capacity(WALK_COUNT);
-            for (walk, end) in walks.into_iter().zip(ends) {
+            let mut open = Vec::with_capacity(SUBSEARCH_COUNT);
+            for (subsearch, end) in subsearches.into_iter().zip(ends) {
                 match end {
-                    End::Open | End::Grown => open.push(walk),
-                    End::Refuted(conflict) => refuted.push(walk.first_decisions(&conflict)),
+                    End::Open | End::Grown => open.push(subsearch),
+                    End::Refuted(conflict) => refuted.push(subsearch.first_decisions(&conflict)),
                     End::Done => {}
                 }
             }
-            walks = open;
-            walks.retain(|walk| !refuted.iter().any(|decisions| walk.begins_with(decisions)));
-            if walks.is_empty() {
+            subsearches = open;
+            subsearches.retain(|subsearch| {
+                !refuted.iter().any(|decisions| subsearch.begins_with(decisions))
+            });
+            if subsearches.is_empty() {
                 return Ok(());
             }
             if has_grown && self.nodes - first_node >= run {
                 return Err(Halt::Restart);
             }
-            cut(&mut walks);
+            cut(&mut subsearches);
             nodes = NODES_PER_ROUND;
         }
     }
 
-    /// What each walk has found goes to all.
-    fn learn_from(&mut self, walks: &mut [Walk<'_, P>]) {
+    /// Shares what each subsearch has found with all.
+    fn learn_from(&mut self, subsearches: &mut [Subsearch<'_, P>]) {
         let mut union: HashSet<u32> = self.core_set.iter().copied().collect();
-        for walk in &mut *walks {
-            if walk.best.radius < self.best.radius {
-                self.best = walk.best.clone();
+        for subsearch in &mut *subsearches {
+            if subsearch.best.radius < self.best.radius {
+                self.best = subsearch.best.clone();
             }
-            self.core_set.extend(walk.core_set.iter().copied().filter(|&item| union.insert(item)));
-            self.nodes += std::mem::take(&mut walk.nodes);
-            self.scans += std::mem::take(&mut walk.scans);
+            self.core_set
+                .extend(subsearch.core_set.iter().copied().filter(|&item| union.insert(item)));
+            self.nodes += std::mem::take(&mut subsearch.nodes);
+            self.scans += std::mem::take(&mut subsearch.scans);
         }
-        for walk in walks {
-            walk.learn(&self.core_set);
-            walk.offer(&self.best);
+        for subsearch in subsearches {
+            subsearch.learn(&self.core_set);
+            subsearch.offer(&self.best);
         }
     }
 }
 
-/// Cuts walks where they have choices nearest to the root, until there are enough.
-fn cut<P: Position>(walks: &mut Vec<Walk<'_, P>>) {
-    while walks.len() < WALK_COUNT {
-        let choices = walks.iter().enumerate();
-        let first = choices.filter_map(|(at, walk)| Some((walk.first_choice()?, at))).min();
+/// Cuts subsearches where they have choices nearest to the root, until there are enough.
+fn cut<P: Position>(subsearches: &mut Vec<Subsearch<'_, P>>) {
+    while subsearches.len() < SUBSEARCH_COUNT {
+        let choices = subsearches.iter().enumerate();
+        let first =
+            choices.filter_map(|(at, subsearch)| Some((subsearch.first_choice()?, at))).min();
         let Some((_, at)) = first else { break };
-        let Some(other) = walks[at].cut() else { break };
+        let Some(other) = subsearches[at].cut() else { break };
         // It comes next, as it would have without the cut.
-        walks.insert(at + 1, other);
+        subsearches.insert(at + 1, other);
     }
 }

@@ -17,7 +17,7 @@ use crate::Error;
 /// The ellipsoid of least volume of each of `sets`, in their order; sets may differ in size and dimension.
 ///
 /// Each is the answer of [`ellipsoid()`](super::ellipsoid) for that set, with a certificate of its own. Cut a table of
-/// points into sets by views of its rows. The monitor hears of one pass over all points.
+/// points into sets by views of its rows. The monitor is told of one pass over all points.
 ///
 /// *Cost.* That of the sets, shared by all threads.
 ///

@@ -1,4 +1,4 @@
-//! What the solvers of ellipsoids count.
+//! The counters of the solvers of ellipsoids.
 
 use std::collections::BTreeMap;
 

@@ -39,9 +39,9 @@ pub(crate) fn divide_rows(lower: &[f64], n: usize, m: &mut [f64]) {
     }
 }
 
-/// The t in [0, 1] that maximises ln det(I + tE) − ct for a symmetric E, of which the lower triangle is given.
+/// The t in [0, 1] that maximizes ln det(I + tE) − ct for a symmetric E, of which the lower triangle is given.
 ///
-/// A Householder tridiagonalisation of E, once in O(n³), leaves the determinant and its derivative an O(n) recurrence;
+/// A Householder tridiagonalization of E, once in O(n³), leaves the determinant and its derivative an O(n) recurrence;
 /// the function is concave, so its derivative is bisected.
 pub(super) fn line_search(e: &[f64], n: usize, c: f64) -> f64 {
     let (diagonal, beside) = tridiagonal(e, n);

@@ -106,7 +106,6 @@ impl Factor {
         (self.rows, self.stride) = (rows, stride);
     }
 
-    /// Deletes the point at `position`.
     pub(super) fn delete(&mut self, position: usize) {
         let (stride, size) = (self.stride, self.size);
         for i in 0..position {

@@ -20,38 +20,38 @@ use super::counters::Counters;
 use super::initial;
 use super::newton::{REBASE_TOLERANCE, gap};
 use super::outcome::{Outcome, Progress};
-use super::pool::Pool;
+use super::point_reader::{PointReader, Query};
 use super::proof::{pass_error, triangular_spread};
 use super::rounds::{LISTED_TOLERANCE, candidate, center_of};
 use super::sample::Sample;
-use super::survey::{Query, Survey};
 use super::whitener::{Rebased, Whitener};
+use super::working_set::WorkingSet;
 use super::{EllipsoidMethod, EllipsoidOptions};
 use crate::Error;
 
-/// The whitener is made anew from the weights after this many steps: updates add up their rounding.
+/// The whitener is made again from the weights after this many steps: updates add up their rounding.
 const STEPS_PER_REFRESH: u64 = 64;
 /// A pass lists at most this many points near the border for the proof.
 const LISTED_POINTS_MAX: usize = 1024;
 
 /// Solves by one of the methods of the literature.
 pub(super) fn solve(
-    survey: &mut Survey<'_>,
+    reader: &mut PointReader<'_>,
     sample: &Sample,
     options: &EllipsoidOptions<'_>,
 ) -> Result<Outcome, Error> {
-    let dim = survey.dim();
-    let mut pool = match options.method {
-        EllipsoidMethod::ThesisKhachiyan => all(survey, sample)?,
-        _ => initial::points(survey, sample, options.seed)?,
+    let dim = reader.dim();
+    let mut set = match options.method {
+        EllipsoidMethod::ThesisKhachiyan => all(reader, sample)?,
+        _ => initial::points(reader, sample, options.seed)?,
     };
     let mut whitener = Whitener::of_scales(&sample.extents());
     let mut counters = Counters::default();
     let mut progress = Progress::new(dim);
-    bounds(&mut counters, options, dim, survey.len());
+    bounds(&mut counters, options, dim, reader.len());
     let stop = loop {
         if counters.steps.is_multiple_of(STEPS_PER_REFRESH)
-            && whitener.rebase(&pool, REBASE_TOLERANCE) == Rebased::Never
+            && whitener.rebase(&set, REBASE_TOLERANCE) == Rebased::Never
         {
             return Err(Error::Overflow);
         }
@@ -60,96 +60,95 @@ pub(super) fn solve(
         let doubt = 3.0 * pass_error(dim, triangular_spread(matrix, dim));
         let above = dim as f64 * (1.0 - doubt.min(LISTED_TOLERANCE));
         let found =
-            survey.pass(Query { matrix, center: &center, above, keep: LISTED_POINTS_MAX })?;
+            reader.pass(Query { matrix, center: &center, above, keep: LISTED_POINTS_MAX })?;
         let largest = found.largest;
         if !largest.is_finite() {
             return Err(Error::Overflow);
         }
         let farthest = found.far.first().map(|far| far.id);
-        progress
-            .note(&whitener, pool.len(), largest, || candidate(&pool, &whitener, center, found));
+        progress.note(&whitener, set.len(), largest, || candidate(&set, &whitener, center, found));
         if gap(dim, largest) <= options.epsilon {
             break Stop::Converged;
         }
         // Algorithm 3 is done before any step.
         let only_start = options.method == EllipsoidMethod::ThesisInitial;
-        if only_start || survey.passes() >= options.max_passes {
+        if only_start || reader.passes() >= options.max_passes {
             break Stop::PassBudget;
         }
         let Some(farthest) = farthest else { break Stop::Rounding };
         counters.steps += 1;
         let away = options.method == EllipsoidMethod::AwaySteps;
-        if !(away && step_away(&mut pool, &mut whitener, largest, &mut counters)) {
-            let row = survey.rows_from(&sample.origin, &[farthest])?;
-            pool.push(farthest, &row, 0.0);
-            let i = pool.position(farthest).expect("it has just been put there");
+        if !(away && step_away(&mut set, &mut whitener, largest, &mut counters)) {
+            let row = reader.rows_from(&sample.origin, &[farthest])?;
+            set.push(farthest, &row, 0.0);
+            let i = set.position(farthest).expect("it has just been put there");
             let (m, kappa) = (dim as f64 + 1.0, largest + 1.0);
-            step(&mut pool, &mut whitener, i, (kappa - m) / (m * (kappa - 1.0)));
+            step(&mut set, &mut whitener, i, (kappa - m) / (m * (kappa - 1.0)));
         }
     };
-    let core_set = pool.weights().iter().filter(|u| **u > 0.0).count();
+    let core_set = set.weights().iter().filter(|u| **u > 0.0).count();
     Ok(progress.into_outcome(stop, counters, core_set))
 }
 
 /// All points, with equal weights.
-fn all(survey: &Survey<'_>, sample: &Sample) -> Result<Pool, Error> {
-    let mut pool = Pool::new(survey.dim());
-    let ids: Vec<u64> = (0..survey.len()).collect();
+fn all(reader: &PointReader<'_>, sample: &Sample) -> Result<WorkingSet, Error> {
+    let mut set = WorkingSet::new(reader.dim());
+    let ids: Vec<u64> = (0..reader.len()).collect();
     for ids in ids.chunks(4096) {
-        let rows = survey.rows_from(&sample.origin, ids)?;
-        for (&id, row) in ids.iter().zip(rows.chunks_exact(survey.dim())) {
-            pool.push(id, row, 1.0);
+        let rows = reader.rows_from(&sample.origin, ids)?;
+        for (&id, row) in ids.iter().zip(rows.chunks_exact(reader.dim())) {
+            set.push(id, row, 1.0);
         }
     }
-    pool.normalise();
-    Ok(pool)
+    set.normalize();
+    Ok(set)
 }
 
 /// u ← (1 − β)u + βeᵢ, and the whitener with it: in its coordinates the new covariance is (1 − β)(I + βyy′).
-fn step(pool: &mut Pool, whitener: &mut Whitener, i: usize, beta: f64) {
-    let mut row = vec![0.0; pool.dim()];
-    pool.copy_row(i, &mut row);
+fn step(set: &mut WorkingSet, whitener: &mut Whitener, i: usize, beta: f64) {
+    let mut row = vec![0.0; set.dim()];
+    set.copy_row(i, &mut row);
     whitener.step(&row, beta);
-    let weights = pool.weights_mut();
+    let weights = set.weights_mut();
     weights.iter_mut().for_each(|u| *u *= 1.0 - beta);
     weights[i] = (weights[i] + beta).max(0.0);
 }
 
 /// Moves weight away from the point of least leverage, if that is farther below m than the largest is above.
 fn step_away(
-    pool: &mut Pool,
+    set: &mut WorkingSet,
     whitener: &mut Whitener,
     largest: f64,
     counters: &mut Counters,
 ) -> bool {
-    let m = pool.dim() as f64 + 1.0;
-    let leverages = whitener.apply(pool).leverages;
-    let with_weight = (0..pool.len()).filter(|&i| pool.weights()[i] > 0.0);
+    let m = set.dim() as f64 + 1.0;
+    let leverages = whitener.apply(set).leverages;
+    let with_weight = (0..set.len()).filter(|&i| set.weights()[i] > 0.0);
     let Some(i) = with_weight.min_by(|&a, &b| leverages[a].total_cmp(&leverages[b])) else {
         return false;
     };
     let kappa = leverages[i] + 1.0;
-    let u = pool.weights()[i];
+    let u = set.weights()[i];
     if m - kappa <= largest + 1.0 - m || u >= 1.0 {
         return false;
     }
     // In the form of Todd: u ← (u + λeᵢ)/(1 + λ), λ < 0.
     let wanted = (kappa - m) / ((m - 1.0) * kappa);
     let lambda = wanted.max(-u);
-    step(pool, whitener, i, lambda / (1.0 + lambda));
+    step(set, whitener, i, lambda / (1.0 + lambda));
     *counters.others.entry("away-steps".into()).or_default() += 1;
     if lambda > wanted {
-        pool.weights_mut()[i] = 0.0;
-        let id = pool.ids()[i];
-        let ids = pool.ids().to_vec();
-        pool.retain(|k| ids[k] != id);
+        set.weights_mut()[i] = 0.0;
+        let id = set.ids()[i];
+        let ids = set.ids().to_vec();
+        set.retain(|k| ids[k] != id);
         *counters.others.entry("drop-steps".into()).or_default() += 1;
     }
-    pool.normalise();
+    set.normalize();
     true
 }
 
-/// What the analysis promises of Algorithms 4 and 5, with its constants written out.
+/// Checks what the analysis promises of Algorithms 4 and 5, with its constants written out.
 ///
 /// With εᵢ = κ/m − 1 and δ the distance of ln det from its optimum: δ ≤ m·ln(1 + ε), and a step gains at least
 /// ln(1 + ε) − ε/(1 + ε). For ε ≥ 1 that is 0.278·ln(1 + ε) ≥ 0.278·δ/m, and at least 0.193: from δ₀ on no more than

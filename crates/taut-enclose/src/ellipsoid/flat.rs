@@ -18,9 +18,9 @@ use taut_points::{PointSource, Points, ReadError, Rows, Scalar, ScalarKind, Scra
 
 use super::counters::Counters;
 use super::outcome::{Candidate, Outcome, log_unit_ball};
+use super::point_reader::{PassResult, PointReader};
 use super::proof::{answer, settle, solution, spread};
 use super::sample::Sample;
-use super::survey::{Found, Survey};
 use super::whitener::{Rebased, Whitener};
 use super::{EllipsoidOptions, method};
 use crate::Error;
@@ -28,7 +28,7 @@ use crate::kernel::compensated::Map;
 use crate::kernel::vector::{add_scaled, dot};
 use crate::kernel::{Center, DoubleDouble};
 
-/// What residuals may be beyond the rounding of the coordinates, for √d of them, and still count as none.
+/// The excess of residuals over the rounding of the coordinates, for √d of them, and still count as none.
 const ROUNDINGS: f64 = 16.0;
 /// The zero is raised by this factor, up to the largest, for points that are neither flat nor have leverages.
 const ZERO_GROWTH: f64 = 8.0;
@@ -101,9 +101,9 @@ impl Span {
     }
 
     /// One pass for the point farthest outside the span, if any is outside by more than rounding.
-    fn farthest(&self, survey: &mut Survey<'_>) -> Result<Option<u64>, Error> {
+    fn farthest(&self, reader: &mut PointReader<'_>) -> Result<Option<u64>, Error> {
         let dim = self.origin.len();
-        let each = survey.visit(|first, rows| {
+        let each = reader.visit(|first, rows| {
             let mut best = (0.0, first);
             let mut row = vec![0.0; dim];
             for (id, values) in (first..).zip(rows.chunks_exact(dim)) {
@@ -152,8 +152,7 @@ impl Span {
     }
 }
 
-/// What the rank of a set turned out to be.
-pub(super) enum Look {
+pub(super) enum RankResult {
     /// That of the space: a sample that shows it, and its whitener.
     Full(Sample, Whitener),
     /// Less; solved.
@@ -161,29 +160,32 @@ pub(super) enum Look {
 }
 
 /// Takes a sample and decides the rank of the set; solves it if it is flat.
-pub(super) fn look(survey: &mut Survey<'_>, options: &EllipsoidOptions<'_>) -> Result<Look, Error> {
-    let mut sample = Sample::new(survey)?;
+pub(super) fn decide_rank(
+    reader: &mut PointReader<'_>,
+    options: &EllipsoidOptions<'_>,
+) -> Result<RankResult, Error> {
+    let mut sample = Sample::new(reader)?;
     if !sample.is_finite() {
         // The first row that is not finite is to be named; if there is none, differences overflow.
-        survey.visit(|_, _| ())?;
+        reader.visit(|_, _| ())?;
         return Err(Error::Overflow);
     }
     let extents = sample.extents();
-    if survey.len() > survey.dim() as u64 && extents.iter().all(|&e| e > 0.0) {
+    if reader.len() > reader.dim() as u64 && extents.iter().all(|&e| e > 0.0) {
         let (whitener, how) = sample.whitener(&extents);
         if how == Rebased::Plainly {
-            return Ok(Look::Full(sample, whitener));
+            return Ok(RankResult::Full(sample, whitener));
         }
     }
     let mut raised = 1.0;
     loop {
-        let span = span(survey, &mut sample, raised)?;
-        if span.basis.len() < survey.dim() {
-            return flat(survey, &span, options).map(|found| Look::Flat(Box::new(found)));
+        let span = span(reader, &mut sample, raised)?;
+        if span.basis.len() < reader.dim() {
+            return flat(reader, &span, options).map(|found| RankResult::Flat(Box::new(found)));
         }
         let (whitener, how) = sample.whitener(&sample.extents());
         if how != Rebased::Never {
-            return Ok(Look::Full(sample, whitener));
+            return Ok(RankResult::Full(sample, whitener));
         }
         if raised >= RAISED_MOST {
             return Err(Error::Overflow);
@@ -193,24 +195,24 @@ pub(super) fn look(survey: &mut Survey<'_>, options: &EllipsoidOptions<'_>) -> R
 }
 
 /// The span of all points, beginning with that of the sample, which takes up the points that are outside of it.
-fn span(survey: &mut Survey<'_>, sample: &mut Sample, raised: f64) -> Result<Span, Error> {
-    let dim = survey.dim();
+fn span(reader: &mut PointReader<'_>, sample: &mut Sample, raised: f64) -> Result<Span, Error> {
+    let dim = reader.dim();
     loop {
-        let mut rows = vec![0.0; sample.pool.len() * dim];
+        let mut rows = vec![0.0; sample.set.len() * dim];
         for (i, row) in rows.chunks_exact_mut(dim).enumerate() {
-            sample.pool.copy_row(i, row);
+            sample.set.copy_row(i, row);
         }
         let mut span = Span::new(&sample.origin, &sample.extents(), raised);
         span.grow(rows);
         if span.basis.len() == dim {
             return Ok(span);
         }
-        let Some(far) = span.farthest(survey)? else { return Ok(span) };
+        let Some(far) = span.farthest(reader)? else { return Ok(span) };
         // What is farthest outside, and is in the sample already, is rounding after all.
-        if sample.pool.contains(far) {
+        if sample.set.contains(far) {
             return Ok(span);
         }
-        let row = survey.rows_from(&sample.origin, &[far])?;
+        let row = reader.rows_from(&sample.origin, &[far])?;
         sample.add(&[far], &row);
     }
 }
@@ -260,26 +262,26 @@ impl PointSource for Projected<'_> {
 
 /// The ellipsoid in a subspace that all points lie in.
 fn flat(
-    survey: &mut Survey<'_>,
+    reader: &mut PointReader<'_>,
     span: &Span,
     options: &EllipsoidOptions<'_>,
 ) -> Result<Solution<Ellipsoid>, Error> {
-    let dim = survey.dim();
+    let dim = reader.dim();
     let directions = span.directions();
     let rank = directions.len() / dim;
     if rank == 0 {
-        return point(survey, options);
+        return point(reader, options);
     }
     let source =
-        Projected { source: survey.source(), origin: &span.origin, directions: &directions };
-    let mut projected = Survey::new(&source, survey.monitor())?;
+        Projected { source: reader.source(), origin: &span.origin, directions: &directions };
+    let mut projected = PointReader::new(&source, reader.monitor())?;
     let sample = Sample::new(&projected)?;
     let (whitener, how) = sample.whitener(&sample.extents());
     if how == Rebased::Never {
         return Err(Error::Overflow);
     }
     let outcome = method(&mut projected, &sample, whitener, options)?;
-    survey.count(projected.passes());
+    reader.count(projected.passes());
     let inner = &outcome.best;
     // M(y − c) = MB(x − o) − Mc for y = B(x − o).
     let mut matrix = vec![0.0; rank * dim];
@@ -289,7 +291,7 @@ fn flat(
         }
     }
     let center = lifted(&span.origin, &directions, &inner.center);
-    let (extents, distance) = extents(survey, &center, &directions)?;
+    let (extents, distance) = extents(reader, &center, &directions)?;
     // What no point makes anything of only has squares that vanish.
     for row in matrix.chunks_exact_mut(dim) {
         row.iter_mut()
@@ -298,16 +300,16 @@ fn flat(
             .for_each(|(m, _)| *m = 0.0);
     }
     let map = Map { matrix: &matrix, center: &center, triangular: false };
-    let settled = settle(survey, inner, map, spread(&matrix, &extents))?;
+    let settled = settle(reader, inner, map, spread(&matrix, &extents))?;
     let logs: f64 = (0..rank).map(|a| inner.matrix[a * rank + a].ln()).sum();
     let log_volume = log_unit_ball(rank) - logs - rank as f64 * settled.scale.ln();
     let basis = directions.chunks_exact(dim).map(<[f64]>::to_vec).collect();
     let hull = Hull { basis, distance };
     let answer = answer(&settled.factor, center, log_volume, Some(hull))?;
-    Ok(solution(survey, answer, outcome, settled.gap, options))
+    Ok(solution(reader, answer, outcome, settled.gap, options))
 }
 
-/// The centre in the space of the points.
+/// The center in the space of the points.
 pub(super) fn lifted(origin: &[f64], directions: &[f64], center: &Center) -> Center {
     let dim = origin.len();
     let mut terms: Vec<DoubleDouble> = origin.iter().map(|&o| o.into()).collect();
@@ -326,12 +328,12 @@ pub(super) fn lifted(origin: &[f64], directions: &[f64], center: &Center) -> Cen
 
 /// One pass for the largest |x_j − c_j| of each coordinate, and the largest distance from the subspace, rounded up.
 fn extents(
-    survey: &mut Survey<'_>,
+    reader: &mut PointReader<'_>,
     center: &Center,
     directions: &[f64],
 ) -> Result<(Vec<f64>, f64), Error> {
     let dim = center.dim();
-    let each = survey.visit(|_, rows| {
+    let each = reader.visit(|_, rows| {
         let mut extents = vec![0.0f64; dim];
         let mut distance = 0.0f64;
         let mut row = vec![0.0; dim];
@@ -358,23 +360,22 @@ fn extents(
         distance = distance.max(far);
     }
     let reach = extents.iter().fold(0.0f64, |m, v| m.max(*v));
-    // What rounding may have hidden: of r products with rows as long as √d times the reach.
+    // The amount that rounding may have hidden: of r products with rows as long as √d times the reach.
     let rounding = 4.0 * f64::EPSILON * (dim as f64).sqrt() * (dim + directions.len() / dim) as f64;
     Ok((extents, distance * (1.0 + 1e-12) + rounding * reach))
 }
 
-/// All points are one.
 fn point(
-    survey: &mut Survey<'_>,
+    reader: &mut PointReader<'_>,
     options: &EllipsoidOptions<'_>,
 ) -> Result<Solution<Ellipsoid>, Error> {
-    let center = Center { high: survey.rows(&[0])?, low: vec![] };
+    let center = Center { high: reader.rows(&[0])?, low: vec![] };
     let best = Candidate {
         support: vec![0],
         multipliers: vec![1.0],
         matrix: vec![],
         center: center.clone(),
-        found: Found { largest: 0.0, far: vec![], listed_above: 0.0 },
+        found: PassResult { largest: 0.0, far: vec![], listed_above: 0.0 },
     };
     let outcome = Outcome {
         best,
@@ -384,8 +385,8 @@ fn point(
         history: vec![],
         counters: Counters::default().into_named(),
     };
-    let (_, distance) = extents(survey, &center, &[])?;
+    let (_, distance) = extents(reader, &center, &[])?;
     let hull = Hull { basis: vec![], distance };
     let answer = answer(&[], center, 0.0, Some(hull))?;
-    Ok(solution(survey, answer, outcome, 0.0, options))
+    Ok(solution(reader, answer, outcome, 0.0, options))
 }

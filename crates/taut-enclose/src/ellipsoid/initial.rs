@@ -10,20 +10,24 @@
 
 use taut_points::{Distribution, generate};
 
-use super::pool::Pool;
+use super::point_reader::PointReader;
 use super::sample::Sample;
-use super::survey::Survey;
+use super::working_set::WorkingSet;
 use crate::Error;
 use crate::kernel::vector::{add_scaled, dot};
 
 /// X₀ with equal weights.
-pub(super) fn points(survey: &mut Survey<'_>, sample: &Sample, seed: u64) -> Result<Pool, Error> {
-    let dim = survey.dim();
-    let mut pool = Pool::new(dim);
-    if survey.len() <= 2 * dim as u64 {
-        let ids: Vec<u64> = (0..survey.len()).collect();
-        take(&mut pool, survey, &sample.origin, &ids)?;
-        return Ok(pool);
+pub(super) fn points(
+    reader: &mut PointReader<'_>,
+    sample: &Sample,
+    seed: u64,
+) -> Result<WorkingSet, Error> {
+    let dim = reader.dim();
+    let mut set = WorkingSet::new(dim);
+    if reader.len() <= 2 * dim as u64 {
+        let ids: Vec<u64> = (0..reader.len()).collect();
+        take(&mut set, reader, &sample.origin, &ids)?;
+        return Ok(set);
     }
     let extents = sample.extents();
     let directions: Vec<f64> =
@@ -31,37 +35,42 @@ pub(super) fn points(survey: &mut Survey<'_>, sample: &Sample, seed: u64) -> Res
     let mut span: Vec<Vec<f64>> = vec![];
     for direction in directions.chunks_exact(dim) {
         let mut b = direction.to_vec();
-        orthogonalise(&mut b, &span);
+        orthogonalize(&mut b, &span);
         let scaled: Vec<f64> = b.iter().zip(&extents).map(|(b, e)| b / e).collect();
-        let (most, least) = extremes(survey, &scaled, &sample.origin)?;
-        take(&mut pool, survey, &sample.origin, &[most, least])?;
-        let rows = survey.rows_from(&sample.origin, &[most, least])?;
+        let (most, least) = extremes(reader, &scaled, &sample.origin)?;
+        take(&mut set, reader, &sample.origin, &[most, least])?;
+        let rows = reader.rows_from(&sample.origin, &[most, least])?;
         let (p, q) = rows.split_at(dim);
         let mut difference: Vec<f64> =
             p.iter().zip(q).zip(&extents).map(|((p, q), e)| (q - p) / e).collect();
-        orthogonalise(&mut difference, &span);
+        orthogonalize(&mut difference, &span);
         let norm = dot(&difference, &difference).sqrt();
         if norm > 0.0 {
             difference.iter_mut().for_each(|v| *v /= norm);
             span.push(difference);
         }
     }
-    Ok(pool)
+    Ok(set)
 }
 
 /// Adds points, and makes all weights equal.
-fn take(pool: &mut Pool, survey: &Survey<'_>, origin: &[f64], ids: &[u64]) -> Result<(), Error> {
-    let rows = survey.rows_from(origin, ids)?;
+fn take(
+    set: &mut WorkingSet,
+    reader: &PointReader<'_>,
+    origin: &[f64],
+    ids: &[u64],
+) -> Result<(), Error> {
+    let rows = reader.rows_from(origin, ids)?;
     for (&id, row) in ids.iter().zip(rows.chunks_exact(origin.len())) {
-        pool.push(id, row, 1.0);
+        set.push(id, row, 1.0);
     }
-    pool.weights_mut().fill(1.0);
-    pool.normalise();
+    set.weights_mut().fill(1.0);
+    set.normalize();
     Ok(())
 }
 
 /// Takes from v its part in the span; twice, as once leaves what rounding makes of it.
-fn orthogonalise(v: &mut [f64], span: &[Vec<f64>]) {
+fn orthogonalize(v: &mut [f64], span: &[Vec<f64>]) {
     for other in span.iter().chain(span) {
         let product = dot(v, other);
         add_scaled(v, -product, other);
@@ -69,9 +78,9 @@ fn orthogonalise(v: &mut [f64], span: &[Vec<f64>]) {
 }
 
 /// One pass for the rows with the largest and least b′(x − o), the first of equals.
-fn extremes(survey: &mut Survey<'_>, b: &[f64], origin: &[f64]) -> Result<(u64, u64), Error> {
+fn extremes(reader: &mut PointReader<'_>, b: &[f64], origin: &[f64]) -> Result<(u64, u64), Error> {
     let shift: Vec<f64> = origin.to_vec();
-    let each = survey.visit(|first, rows| {
+    let each = reader.visit(|first, rows| {
         let mut row = vec![0.0; b.len()];
         let (mut most, mut least) = ((f64::NEG_INFINITY, first), (f64::INFINITY, first));
         for (id, x) in (first..).zip(rows.chunks_exact(b.len())) {

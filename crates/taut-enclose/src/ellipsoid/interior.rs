@@ -1,4 +1,4 @@
-//! The ellipsoid of a pool by an interior-point method: for pools of which a model would need thousands of exchanges.
+//! The ellipsoid of a working set by an interior-point method: for working sets of which a model would need thousands of exchanges.
 //!
 //! *Problem.* Points wᵢ = (yᵢ, 1) that lie on an ellipsoid but for rounding: every set of p = m(m + 1)/2 of them is
 //! nearly optimal, and an active set walks through a great many.
@@ -20,8 +20,8 @@ use super::counters::Counters;
 use super::dense::{cholesky, divide_rows};
 use super::factor::Factor;
 use super::newton::{REBASE_TOLERANCE, gap};
-use super::pool::{Pool, copy_row};
 use super::whitener::{Rebased, Whitener};
+use super::working_set::{WorkingSet, copy_row};
 use crate::Error;
 use crate::kernel::vector::dot;
 
@@ -36,22 +36,22 @@ const STEP_FRACTION: f64 = 0.98;
 /// One task multiplies this many columns of the normal matrix: fixed, so that the result does not depend on threads.
 const TILE_COLUMNS: usize = 64;
 
-/// Replaces the multipliers of a pool by nearly optimal ones, p − 1 at most; a gap of `tolerance` is good enough.
+/// Replaces the multipliers of a working set by nearly optimal ones, p − 1 at most; a gap of `tolerance` is good enough.
 pub(super) fn solve(
-    pool: &mut Pool,
+    set: &mut WorkingSet,
     whitener: &mut Whitener,
     tolerance: f64,
     counters: &mut Counters,
     monitor: &Monitor<'_>,
 ) -> Result<(), Error> {
-    let k = pool.len();
+    let k = set.len();
     // Every point needs a multiplier to start with.
-    pool.weights_mut().iter_mut().for_each(|u| *u = 0.5 * *u + 0.5 / k as f64);
-    if whitener.rebase(pool, REBASE_TOLERANCE) == Rebased::Never {
+    set.weights_mut().iter_mut().for_each(|u| *u = 0.5 * *u + 0.5 / k as f64);
+    if whitener.rebase(set, REBASE_TOLERANCE) == Rebased::Never {
         return Ok(());
     }
-    let mut state = State::new(pool, whitener);
-    let mut best = (f64::INFINITY, pool.weights().to_vec());
+    let mut state = State::new(set, whitener);
+    let mut best = (f64::INFINITY, set.weights().to_vec());
     let mut patience = STEPS_WITHOUT_PROGRESS_MAX;
     for _ in 0..STEPS_MAX {
         monitor.check().map_err(ReadError::from)?;
@@ -60,14 +60,14 @@ pub(super) fn solve(
             break;
         }
         let total: f64 = state.z.iter().sum();
-        pool.weights_mut().iter_mut().zip(&state.z).for_each(|(u, z)| *u = z / total);
+        set.weights_mut().iter_mut().zip(&state.z).for_each(|(u, z)| *u = z / total);
         let mut trial = whitener.clone();
-        if trial.rebase(pool, REBASE_TOLERANCE) == Rebased::Never {
+        if trial.rebase(set, REBASE_TOLERANCE) == Rebased::Never {
             break;
         }
-        let reached = gap(pool.dim(), trial.apply(pool).largest());
+        let reached = gap(set.dim(), trial.apply(set).largest());
         if reached < best.0 {
-            best = (reached, pool.weights().to_vec());
+            best = (reached, set.weights().to_vec());
             patience = STEPS_WITHOUT_PROGRESS_MAX;
         } else {
             patience -= 1;
@@ -78,12 +78,12 @@ pub(super) fn solve(
     }
     let mut order: Vec<usize> = (0..k).collect();
     order.sort_by(|&a, &b| best.1[b].total_cmp(&best.1[a]).then(a.cmp(&b)));
-    let weights = pool.weights_mut();
+    let weights = set.weights_mut();
     weights.fill(0.0);
     for &i in order.iter().take(state.p - 1) {
         weights[i] = best.1[i];
     }
-    pool.normalise();
+    set.normalize();
     Ok(())
 }
 
@@ -100,13 +100,13 @@ struct State {
 
 impl State {
     /// M a multiple of the identity inside the cone, which is where the whitener has brought the multipliers.
-    fn new(pool: &Pool, whitener: &Whitener) -> Self {
-        let (dim, m) = (pool.dim(), pool.dim() + 1);
+    fn new(set: &WorkingSet, whitener: &Whitener) -> Self {
+        let (dim, m) = (set.dim(), set.dim() + 1);
         let p = m * (m + 1) / 2;
-        let whitened = whitener.apply(pool);
-        let mut rows = Vec::with_capacity(pool.len() * p);
+        let whitened = whitener.apply(set);
+        let mut rows = Vec::with_capacity(set.len() * p);
         let mut w = vec![1.0; m];
-        for i in 0..pool.len() {
+        for i in 0..set.len() {
             copy_row(&whitened.blocks, dim, i, &mut w[..dim]);
             for a in 0..m {
                 rows.extend((0..a).map(|b| w[a] * w[b] * std::f64::consts::SQRT_2));
@@ -117,7 +117,7 @@ impl State {
         let mut matrix = vec![0.0; p];
         (0..m).for_each(|a| matrix[a * (a + 1) / 2 + a] = start);
         let s = whitened.leverages.iter().map(|l| 1.0 - start * (1.0 + l)).collect();
-        let z = pool.weights().iter().map(|u| u * m as f64).collect();
+        let z = set.weights().iter().map(|u| u * m as f64).collect();
         State { m, p, rows, matrix, s, z }
     }
 
@@ -199,7 +199,7 @@ impl State {
         Direction { matrix: matrix.to_vec(), s, z }
     }
 
-    /// How far M and s can go, at most 1, and `fraction` of the way to their border.
+    /// Returns how far M and s can go, at most 1, and `fraction` of the way to their border.
     fn primal_length(&self, direction: &Direction, fraction: f64) -> f64 {
         let mut length = longest(&self.s, &direction.s, fraction);
         for _ in 0..60 {
@@ -282,16 +282,16 @@ mod tests {
     fn the_path_ends_near_the_optimum_of_normal_points() {
         let (n, dim) = (300, 4);
         let rows: Vec<f64> = generate(Distribution::Normal, n, dim, 5).unwrap();
-        let mut pool = Pool::new(dim);
+        let mut set = WorkingSet::new(dim);
         for (i, row) in rows.chunks_exact(dim).enumerate() {
-            pool.push(i as u64, row, 1.0 / n as f64);
+            set.push(i as u64, row, 1.0 / n as f64);
         }
         let mut whitener = Whitener::of_scales(&[1.0; 4]);
         let mut counters = Counters::default();
-        solve(&mut pool, &mut whitener, 0.0, &mut counters, &Monitor::silent()).unwrap();
-        assert!(pool.weights().iter().filter(|u| **u > 0.0).count() < 15);
-        assert_eq!(whitener.rebase(&pool, REBASE_TOLERANCE), Rebased::Plainly);
-        assert!(gap(dim, whitener.apply(&pool).largest()) < 1e-6);
+        solve(&mut set, &mut whitener, 0.0, &mut counters, &Monitor::silent()).unwrap();
+        assert!(set.weights().iter().filter(|u| **u > 0.0).count() < 15);
+        assert_eq!(whitener.rebase(&set, REBASE_TOLERANCE), Rebased::Plainly);
+        assert!(gap(dim, whitener.apply(&set).largest()) < 1e-6);
         assert!((5..40).contains(&counters.interior));
     }
 

@@ -1,11 +1,11 @@
-//! The ellipsoid of a pool of points: Newton's method on the dual, each quadratic model solved exactly.
+//! The ellipsoid of a working set of points: Newton's method on the dual, each quadratic model solved exactly.
 //!
-//! *Problem.* Points p₁…p_k, m = d + 1: multipliers u ≥ 0 that maximise f(u) = ln det Σ uᵢqᵢqᵢ′ − m·Σuᵢ, qᵢ = (pᵢ, 1).
-//! Its maximiser sums to 1 by itself, and is that of the D-optimal design, the dual of the ellipsoid.
+//! *Problem.* Points p₁…p_k, m = d + 1: multipliers u ≥ 0 that maximize f(u) = ln det Σ uᵢqᵢqᵢ′ − m·Σuᵢ, qᵢ = (pᵢ, 1).
+//! Its maximizer sums to 1 by itself, and is that of the D-optimal design, the dual of the ellipsoid.
 //! *Idea.* In coordinates in which Σ uᵢwᵢwᵢ′ = 1 the second-order model of f is a non-negative least squares ([`nnls`]),
 //! solved from the points in use; then a step towards its solution, as long as f rises.
 //! *Guarantee.* f never falls. Near the optimum the number of right digits doubles with each step, degenerate or not:
-//! five to seven steps from uniform multipliers, one to three from those of a smaller pool.
+//! five to seven steps from uniform multipliers, one to three from those of a smaller working set.
 //! *Trap.* The largest leverage does not fall with every step: the best multipliers are kept.
 //! *Reference.* Sun and Freund, Operations Research 52(5), 2004, and Bowman and Heath, Math. Prog. Comp. 15, 2023, take
 //! Newton steps on the face of the points in use and drop one point at a time; here the face is part of each model.
@@ -16,8 +16,8 @@ use super::counters::Counters;
 use super::dense::line_search;
 use super::interior;
 use super::nnls::{self, Outcome};
-use super::pool::Pool;
 use super::whitener::{Rebased, Whitener};
+use super::working_set::WorkingSet;
 use crate::Error;
 
 /// A covariance this near the identity needs no further turn of the whitener.
@@ -26,7 +26,7 @@ pub(super) const REBASE_TOLERANCE: f64 = 0.1;
 const GRADIENT_RATIO_MIN: f64 = 0.02;
 /// Where N is nearer to 1 than this, the whole step is taken without a line search.
 const WHOLE_STEP: f64 = 0.2;
-/// After this many steps rounding is what is left; hard pools have needed thirty.
+/// After this many steps rounding is what is left; hard working sets have needed thirty.
 const STEPS_MAX: usize = 200;
 /// Of smaller gaps than [`SMALL_GAP`], this many steps that do not improve the best leverage show that it is the best.
 const STEPS_WITHOUT_PROGRESS_MAX: usize = 3;
@@ -39,7 +39,7 @@ pub(super) fn gap(dim: usize, largest: f64) -> f64 {
     (0.5 * dim * (largest / dim).ln()).max(0.0)
 }
 
-/// What gap of a pool is small enough.
+/// The gap of a working set that is small enough.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Tolerance {
     /// As long as every model is solved by pivots.
@@ -53,31 +53,31 @@ impl Tolerance {
     pub(super) const NONE: Self = Tolerance { easy: 0.0, hard: 0.0 };
 }
 
-/// Improves the multipliers of a pool until its gap is at most the tolerance, or rounding is in the way.
+/// Improves the multipliers of a working set until its gap is at most the tolerance, or rounding is in the way.
 ///
-/// Ends with the whitener of the multipliers, and says by what factor each |y|² may exceed d in the pool.
+/// Ends with the whitener of the multipliers, and says by what factor each |y|² may exceed d in the working set.
 pub(super) fn solve(
-    pool: &mut Pool,
+    set: &mut WorkingSet,
     whitener: &mut Whitener,
     tolerance: Tolerance,
     counters: &mut Counters,
     monitor: &Monitor<'_>,
 ) -> Result<f64, Error> {
-    let dim = pool.dim();
+    let dim = set.dim();
     let m = dim + 1;
     let mut best: Option<(f64, Vec<f64>)> = None;
     let mut patience = STEPS_WITHOUT_PROGRESS_MAX;
     let interior_steps = counters.interior;
     for _ in 0..STEPS_MAX {
         monitor.check().map_err(ReadError::from)?;
-        if whitener.rebase(pool, REBASE_TOLERANCE) == Rebased::Never {
+        if whitener.rebase(set, REBASE_TOLERANCE) == Rebased::Never {
             break;
         }
-        let whitened = whitener.apply(pool);
+        let whitened = whitener.apply(set);
         let largest = whitened.largest();
         let improves = best.as_ref().is_none_or(|(least, _)| largest < *least);
         if improves {
-            best = Some((largest, pool.weights().to_vec()));
+            best = Some((largest, set.weights().to_vec()));
         } else if gap(dim, largest) < SMALL_GAP {
             patience -= 1;
         }
@@ -88,14 +88,14 @@ pub(super) fn solve(
         }
         counters.steps += 1;
         let excess = largest - dim as f64;
-        let patience = nnls::patience(pool.len(), dim, interior_steps > 0, tried);
-        let u = pool.weights();
+        let patience = nnls::patience(set.len(), dim, interior_steps > 0, tried);
+        let u = set.weights();
         let model = nnls::solve(dim, &whitened, u, GRADIENT_RATIO_MIN * excess, patience, counters);
         let step = match model {
             Outcome::Solved(step) => step,
             // Once: what it hands back is a basis, and models made there are short.
             Outcome::Stuck if !tried => {
-                interior::solve(pool, whitener, 0.3 * tolerance.hard, counters, monitor)?;
+                interior::solve(set, whitener, 0.3 * tolerance.hard, counters, monitor)?;
                 continue;
             }
             Outcome::Stuck => break,
@@ -104,22 +104,22 @@ pub(super) fn solve(
         if t < 1e-12 {
             break;
         }
-        let weights = pool.weights_mut();
+        let weights = set.weights_mut();
         weights.iter_mut().for_each(|u| *u *= 1.0 - t);
         for (i, v) in step.weights {
             weights[i] += t * v;
         }
-        pool.normalise();
+        set.normalize();
     }
     let Some((largest, weights)) = best else { return Ok(f64::INFINITY) };
-    if weights != pool.weights() {
-        pool.weights_mut().copy_from_slice(&weights);
-        whitener.rebase(pool, REBASE_TOLERANCE);
+    if weights != set.weights() {
+        set.weights_mut().copy_from_slice(&weights);
+        whitener.rebase(set, REBASE_TOLERANCE);
     }
     Ok(largest)
 }
 
-/// How far to go towards the solution of the model, N being the matrix of that.
+/// Returns how far to go towards the solution of the model, N being the matrix of that.
 fn length(matrix: &[f64], m: usize) -> f64 {
     let mut e = matrix.to_vec();
     let mut square = 0.0;
@@ -140,34 +140,34 @@ fn length(matrix: &[f64], m: usize) -> f64 {
 mod tests {
     use super::*;
 
-    fn solved(rows: &[f64], dim: usize) -> (Pool, f64) {
-        let mut pool = Pool::new(dim);
+    fn solved(rows: &[f64], dim: usize) -> (WorkingSet, f64) {
+        let mut set = WorkingSet::new(dim);
         for (i, row) in rows.chunks_exact(dim).enumerate() {
-            pool.push(i as u64, row, 1.0);
+            set.push(i as u64, row, 1.0);
         }
-        pool.normalise();
+        set.normalize();
         let mut whitener = Whitener::of_scales(&vec![1.0; dim]);
         let (mut counters, monitor) = (Counters::default(), Monitor::silent());
         let tolerance = Tolerance { easy: 1e-13, hard: 1e-13 };
-        let largest = solve(&mut pool, &mut whitener, tolerance, &mut counters, &monitor).unwrap();
-        (pool, largest)
+        let largest = solve(&mut set, &mut whitener, tolerance, &mut counters, &monitor).unwrap();
+        (set, largest)
     }
 
     #[test]
     fn known_designs_are_found() {
-        // A triangle with an inner point, which gets no weight; a square with its centre.
-        let (pool, largest) = solved(&[0.0, 0.0, 5.0, 0.0, 0.0, 1.0, 1.0, 0.25], 2);
+        // A triangle with an inner point, which gets no weight; a square with its center.
+        let (set, largest) = solved(&[0.0, 0.0, 5.0, 0.0, 0.0, 1.0, 1.0, 0.25], 2);
         assert!(gap(2, largest) <= 1e-13);
-        assert!(pool.weights()[..3].iter().all(|u| (u - 1.0 / 3.0).abs() < 1e-13));
-        assert_eq!(pool.weights()[3], 0.0);
-        let (pool, largest) = solved(&[1.0, 1.0, -1.0, 1.0, -1.0, -1.0, 1.0, -1.0, 0.0, 0.0], 2);
+        assert!(set.weights()[..3].iter().all(|u| (u - 1.0 / 3.0).abs() < 1e-13));
+        assert_eq!(set.weights()[3], 0.0);
+        let (set, largest) = solved(&[1.0, 1.0, -1.0, 1.0, -1.0, -1.0, 1.0, -1.0, 0.0, 0.0], 2);
         assert!(gap(2, largest) <= 1e-13);
-        assert_eq!(pool.weights()[4], 0.0);
+        assert_eq!(set.weights()[4], 0.0);
         // On a line the two ends, half and half.
-        let (pool, largest) = solved(&[3.0, -1.0, 0.5, 2.9], 1);
+        let (set, largest) = solved(&[3.0, -1.0, 0.5, 2.9], 1);
         assert!(gap(1, largest) <= 1e-13);
-        assert!(pool.weights()[..2].iter().all(|u| (u - 0.5).abs() < 1e-15));
-        assert_eq!(pool.weights()[2..], [0.0, 0.0]);
+        assert!(set.weights()[..2].iter().all(|u| (u - 0.5).abs() < 1e-15));
+        assert_eq!(set.weights()[2..], [0.0, 0.0]);
     }
 
     #[test]

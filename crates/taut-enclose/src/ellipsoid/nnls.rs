@@ -2,11 +2,11 @@
 //!
 //! *Problem.* At multipliers u, in coordinates in which Σ uᵢwᵢwᵢ′ = 1 for wᵢ = (yᵢ, 1), the second-order model of
 //! ln det Σ vᵢwᵢwᵢ′ − m·Σvᵢ, m = d + 1, is (up to a constant) (2κ − m1)′v − v′Hv/2, κᵢ = |wᵢ|², Hᵢⱼ = (wᵢ·wⱼ)². Find
-//! its maximiser over v ≥ 0.
+//! its maximizer over v ≥ 0.
 //! *Idea.* Lawson and Hanson's active set with a triangular factor of H over the points in use. The gradient is
 //! gᵢ = bᵢ − wᵢ′Nwᵢ with the m × m matrix N = Σ vⱼwⱼwⱼ′: one sweep prices thousands of points without a row of H. Each
 //! sweep gives a batch, whose members are priced again, exactly, when their turn comes.
-//! *Guarantee.* The model rises with every step. At the end no point of the pool has a gradient above the tolerance.
+//! *Guarantee.* The model rises with every step. At the end no point of the working set has a gradient above the tolerance.
 //! *Trap.* A point whose column depends on those in use (a copy, or one of more than m(m + 1)/2) has no pivot. It enters
 //! by an exact exchange: weight moves to it along the dependence, on which the model is linear, until another leaves.
 //! *Trap.* The answer of a model may need thousands of exchanges where points lie on an ellipsoid up to rounding:
@@ -20,8 +20,8 @@ use faer::{Accum, MatMut, MatRef, Par};
 
 use super::counters::Counters;
 use super::factor::Factor;
-use super::pool::copy_row;
 use super::whitener::Whitened;
+use super::working_set::copy_row;
 use crate::kernel::triangle::{POINTS, Triangle, forms, moments};
 use crate::kernel::vector::dot;
 
@@ -36,15 +36,15 @@ const BLOCKED_FACTOR_MIN: usize = 96;
 /// From this size p = m(m + 1)/2 of a model on, a cold start guesses the points in use. Below, guessing gains nothing.
 const GUESSED_START_MIN: usize = 300;
 
-/// How a model ended.
+/// The way in which a model ended.
 pub(super) enum Outcome {
     /// Solved: the step to take.
     Solved(Step),
-    /// More steps than a model of this size should need: the caller has another solver for such pools.
+    /// More steps than a model of this size should need: the caller has another solver for such working sets.
     Stuck,
 }
 
-/// A maximiser of the model.
+/// A maximizer of the model.
 pub(super) struct Step {
     /// The points in use and their v.
     pub(super) weights: Vec<(usize, f64)>,
@@ -52,7 +52,7 @@ pub(super) struct Step {
     pub(super) matrix: Vec<f64>,
 }
 
-/// Solves the model over the pool `whitened`, from the multipliers `u`, until no gradient exceeds `tolerance`; gives up
+/// Solves the model over the working set `whitened`, from the multipliers `u`, until no gradient exceeds `tolerance`; gives up
 /// after as many exchanges and pivots as `patience` says.
 pub(super) fn solve(
     dim: usize,
@@ -181,7 +181,7 @@ impl<'a> ActiveSet<'a> {
         gram
     }
 
-    /// Takes up points with given v; those that depend on others are left out. Then the model is maximised over them.
+    /// Takes up points with given v; those that depend on others are left out. Then the model is maximized over them.
     fn start(&mut self, points: &[usize], v: &[f64], counters: &mut Counters) {
         if points.len() >= BLOCKED_FACTOR_MIN {
             let rows: Vec<f64> = points.iter().flat_map(|&i| self.row(i)).collect();
@@ -275,7 +275,7 @@ impl<'a> ActiveSet<'a> {
         }
     }
 
-    /// Goes to the maximiser of the model over the members, or as far as v ≥ 0 lets it, dropping who is in the way.
+    /// Goes to the maximizer of the model over the members, or as far as v ≥ 0 lets it, dropping who is in the way.
     fn settle(&mut self, counters: &mut Counters) {
         loop {
             let z = self.factor.solution();
@@ -311,7 +311,7 @@ impl<'a> ActiveSet<'a> {
         moments(self.dim, &blocks, &weights)
     }
 
-    /// gᵢ = bᵢ − wᵢ′Nwᵢ for all points of the pool.
+    /// gᵢ = bᵢ − wᵢ′Nwᵢ for all points of the working set.
     fn price(&self, matrix: &[f64]) -> Vec<f64> {
         let (dim, m) = (self.dim, self.dim + 1);
         // With N = [[A, n], [n′, ν]]: w′Nw = y′(Ty + 2n) + ν, T the lower triangle of A, doubled beside the diagonal.
@@ -356,20 +356,20 @@ impl<'a> ActiveSet<'a> {
 mod tests {
     use super::*;
     use crate::ellipsoid::newton::REBASE_TOLERANCE;
-    use crate::ellipsoid::pool::Pool;
     use crate::ellipsoid::whitener::{Rebased, Whitener};
+    use crate::ellipsoid::working_set::WorkingSet;
     use taut_points::{Distribution, generate};
 
     /// Rows with equal weights, under their whitener.
     fn whitened(rows: &[f64], dim: usize) -> Whitened {
-        let mut pool = Pool::new(dim);
+        let mut set = WorkingSet::new(dim);
         for (i, row) in rows.chunks_exact(dim).enumerate() {
-            pool.push(i as u64, row, 1.0);
+            set.push(i as u64, row, 1.0);
         }
-        pool.normalise();
+        set.normalize();
         let mut whitener = Whitener::of_scales(&vec![1.0; dim]);
-        assert_eq!(whitener.rebase(&pool, REBASE_TOLERANCE), Rebased::Plainly);
-        whitener.apply(&pool)
+        assert_eq!(whitener.rebase(&set, REBASE_TOLERANCE), Rebased::Plainly);
+        whitener.apply(&set)
     }
 
     /// v ≥ 0, g ≤ 0 and gv = 0, with g = b − Hv from all of H.

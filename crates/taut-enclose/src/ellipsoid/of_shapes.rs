@@ -1,10 +1,10 @@
-//! The minimum volume enclosing ellipsoid of balls or ellipsoids: pools of touching points.
+//! The minimum volume enclosing ellipsoid of balls or ellipsoids: working sets of touching points.
 //!
 //! *Problem.* Items {m + v : vv′ ⪯ S}: the ellipsoid of least volume that encloses them all.
 //! *Idea.* It is that of the points of all items, of which there is no end; but the methods for points only ask who lies
-//! outside. So the pool holds points of items, each known by its item and a direction; its ellipsoid is found as for
-//! points ([`newton`](super::newton)), a pass asks every item for its farthest point ([`pass`]), those outside join the pool, and so
-//! on until none is outside by more than the wanted gap. The multipliers of the pool prove the bound.
+//! outside. So the working set holds points of items, each known by its item and a direction; its ellipsoid is found as for
+//! points ([`newton`](super::newton)), a pass asks every item for its farthest point ([`pass`]), those outside join the working set, and so
+//! on until none is outside by more than the wanted gap. The multipliers of the working set prove the bound.
 //! *Guarantee.* Lower bounds never fall. All items are brought once to a frame in which a sample of them is round, with
 //! twice the digits; there, neither units nor the ratio of axes matter.
 //! *Cost.* O(r³) for an item that may reach outside, O(r²) for any other, in each of a dozen passes or two.
@@ -17,16 +17,16 @@ mod base;
 mod pass;
 mod proof;
 mod rounds;
-mod touches;
+mod support_points;
 
 use taut_certify::{Ellipsoid, EllipsoidCertificate, Solution, Trace};
 use taut_points::{InputError, Monitor, OwnedPoints, PointSource};
 
 use self::base::Base;
-use super::flat::{self, Look, lifted};
+use super::flat::{self, RankResult, lifted};
+use super::point_reader::PointReader;
 use super::rounds::center_of;
 use super::sample::Sample;
-use super::survey::Survey;
 use super::whitener::Rebased;
 use super::{EllipsoidMethod, EllipsoidOptions};
 use crate::Error;
@@ -51,9 +51,9 @@ pub(super) fn solve(
     let shapes = Shapes::read(source, options.inputs, monitor)?;
     let generators = generators(&shapes)?;
     let silent = Monitor { cancel: monitor.cancel, ..Monitor::silent() };
-    let mut survey = Survey::new(&generators, &silent)?;
-    match flat::look(&mut survey, options)? {
-        Look::Full(sample, whitener) => {
+    let mut reader = PointReader::new(&generators, &silent)?;
+    match flat::decide_rank(&mut reader, options)? {
+        RankResult::Full(sample, whitener) => {
             let dim = shapes.dim();
             let base = Base {
                 center: center_of(&sample.origin, &whitener),
@@ -64,7 +64,7 @@ pub(super) fn solve(
             };
             base.solve(&shapes, options, monitor)
         }
-        Look::Flat(found) => in_flat(&shapes, &found, &generators, options, monitor),
+        RankResult::Flat(found) => in_flat(&shapes, &found, &generators, options, monitor),
     }
 }
 
@@ -109,8 +109,8 @@ fn in_flat(
     let images = points.rows().flat_map(|row| map.point(row)).collect();
     let projected = OwnedPoints::new(images, rank).expect("whole rows, one at least");
     let silent = Monitor::silent();
-    let survey = Survey::new(&projected, &silent)?;
-    let sample = Sample::new(&survey)?;
+    let reader = PointReader::new(&projected, &silent)?;
+    let sample = Sample::new(&reader)?;
     let (whitener, how) = sample.whitener(&sample.extents());
     if how == Rebased::Never {
         return Err(Error::Overflow);

@@ -1,4 +1,4 @@
-//! How to look for the ellipsoid.
+//! Options to look for the ellipsoid.
 
 use taut_certify::Items;
 use taut_points::{InputError, Monitor, check_threads, choice, shown_number};
@@ -9,7 +9,7 @@ use crate::Error;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum EllipsoidMethod {
-    /// Pools of far points, and Newton's method on the dual of each: the best, and the default.
+    /// Working sets of far points, and Newton's method on the dual of each: the best, and the default.
     #[default]
     Newton,
     /// Algorithm 3 of the thesis: at most 2d points of which the ellipsoid is no more than d²ᵈ times too small.
@@ -35,10 +35,10 @@ choice! { "method", EllipsoidMethod {
     AwaySteps = "away-steps", "the same with steps away from near points; needs ε > 0";
 }}
 
-/// How to look for the ellipsoid. Write `EllipsoidOptions { epsilon: 1e-6, ..Default::default() }`.
+/// Options to look for the ellipsoid. Write `EllipsoidOptions { epsilon: 1e-6, ..Default::default() }`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EllipsoidOptions<'a> {
-    /// What the rows are: points, balls or ellipsoids. Default [`Items::Points`].
+    /// The kind of the rows: points, balls or ellipsoids. Default [`Items::Points`].
     pub inputs: Items,
     /// Wanted gap, log-volume ≤ optimum + ε; 0 asks for as little as rounding allows. Range [0, 1), default 1e-9.
     ///

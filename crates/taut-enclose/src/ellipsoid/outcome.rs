@@ -1,4 +1,4 @@
-//! What a method hands to the proof.
+//! The result that a method hands to the proof.
 
 use std::collections::BTreeMap;
 
@@ -6,7 +6,7 @@ use taut_certify::{PassBounds, Stop};
 
 use super::counters::Counters;
 use super::newton::gap;
-use super::survey::Found;
+use super::point_reader::PassResult;
 use super::whitener::Whitener;
 use crate::kernel::Center;
 
@@ -21,10 +21,10 @@ pub(super) struct Candidate {
     /// c.
     pub(super) center: Center,
     /// The pass with M and c.
-    pub(super) found: Found,
+    pub(super) found: PassResult,
 }
 
-/// How a method ended.
+/// The way in which a method ended.
 pub(super) struct Outcome {
     pub(super) best: Candidate,
     pub(super) stop: Stop,
@@ -63,7 +63,6 @@ impl Progress {
         }
     }
 
-    /// The gap of the best candidate.
     pub(super) fn best_gap(&self) -> f64 {
         self.best.as_ref().map_or(f64::INFINITY, |best| gap(self.dim, best.found.largest))
     }

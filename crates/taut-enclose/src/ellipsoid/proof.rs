@@ -12,7 +12,7 @@ use taut_certify::{Ellipsoid, EllipsoidCertificate, Hull, Items, Solution, Stop,
 
 use super::dense::{cholesky, divide_rows};
 use super::outcome::{Candidate, Outcome, log_unit_ball};
-use super::survey::Survey;
+use super::point_reader::PointReader;
 use super::{EllipsoidOptions, ROUNDING};
 use crate::Error;
 use crate::kernel::Center;
@@ -32,18 +32,18 @@ const MEASURED_POINTS_MAX: usize = 1 << 14;
 
 /// Turns an outcome for points that span the space into a solution.
 pub(super) fn prove(
-    survey: &mut Survey<'_>,
+    reader: &mut PointReader<'_>,
     outcome: Outcome,
     options: &EllipsoidOptions<'_>,
 ) -> Result<Solution<Ellipsoid>, Error> {
-    let dim = survey.dim();
+    let dim = reader.dim();
     let best = &outcome.best;
     let map = Map { matrix: &best.matrix, center: &best.center, triangular: true };
-    let settled = settle(survey, best, map, triangular_spread(&best.matrix, dim))?;
+    let settled = settle(reader, best, map, triangular_spread(&best.matrix, dim))?;
     let logs: f64 = (0..dim).map(|a| settled.factor[a * dim + a].ln()).sum();
     let log_volume = log_unit_ball(dim) - logs;
     let answer = answer(&settled.factor, best.center.clone(), log_volume, None)?;
-    Ok(solution(survey, answer, outcome, settled.gap, options))
+    Ok(solution(reader, answer, outcome, settled.gap, options))
 }
 
 /// Puts together an answer from F, r × d.
@@ -84,7 +84,7 @@ pub(super) fn answer(
 
 /// The solution of an outcome whose answer is settled.
 pub(super) fn solution(
-    survey: &Survey<'_>,
+    reader: &PointReader<'_>,
     answer: Ellipsoid,
     outcome: Outcome,
     gap: f64,
@@ -99,7 +99,7 @@ pub(super) fn solution(
     let trace = Trace {
         method: options.method.name().to_owned(),
         stop,
-        passes: survey.passes(),
+        passes: reader.passes(),
         iterations: outcome.iterations,
         core_set: outcome.core_set,
         history: outcome.history,
@@ -112,7 +112,7 @@ pub(super) fn solution(
         directions: vec![],
         left_out: vec![],
         gap,
-        points_hash: survey.hash(),
+        points_hash: reader.hash(),
     };
     Solution { answer, certificate, trace }
 }
@@ -151,7 +151,7 @@ pub(super) struct Settled {
 
 /// Scales M so that every point is inside; `spread` bounds | |M||x − c| | where |M(x − c)| ≤ 1.
 pub(super) fn settle(
-    survey: &mut Survey<'_>,
+    reader: &mut PointReader<'_>,
     best: &Candidate,
     map: Map<'_>,
     spread: f64,
@@ -163,13 +163,13 @@ pub(super) fn settle(
         let far = found.far.iter().take_while(|far| far.reach2 >= near);
         (far.map(|far| far.id).filter(|id| !in_support(id)).collect(), found.largest)
     } else {
-        let (far, largest) = measure(survey, map, near, spread)?;
+        let (far, largest) = measure(reader, map, near, spread)?;
         let others: Vec<u64> = far.iter().map(|far| far.id).filter(|id| !in_support(id)).collect();
         (if far.len() < MEASURED_POINTS_MAX { others } else { vec![] }, largest)
     };
     let all_measured = map.triangular && found.listed_above < near || !others.is_empty();
-    let support = survey.rows(&best.support)?;
-    let others = survey.rows(&others)?;
+    let support = reader.rows(&best.support)?;
+    let others = reader.rows(&others)?;
     let mut scale = 1.0 / all.sqrt();
     for attempt in 0.. {
         if attempt == SCALES_MAX || !all_measured {
@@ -194,13 +194,13 @@ pub(super) fn settle(
 /// One pass in which all points that may lie farthest out are measured with twice the digits: the largest
 /// |M(x − c)|², and who comes so near that rounding of F could put it first.
 fn measure(
-    survey: &mut Survey<'_>,
+    reader: &mut PointReader<'_>,
     map: Map<'_>,
     near: f64,
     spread: f64,
 ) -> Result<(Vec<Far>, f64), Error> {
     let dim = map.dim();
-    let lists = survey.visit(|first, rows| {
+    let lists = reader.visit(|first, rows| {
         let mut top = Top::new(MEASURED_POINTS_MAX);
         let mut scratch = vec![];
         let mut values = [0.0; 64];

@@ -1,13 +1,13 @@
-//! Pools of far points: a few passes over all points, and Newton's method on what they find.
+//! Working sets of far points: a few passes over all points, and Newton's method on what they find.
 //!
-//! *Idea.* A sample gives a whitener, a pass with it the points of largest leverage: the first pool. Its ellipsoid is
-//! found ([`newton`]), a pass lists the points outside, some of them join the pool, and so on until none is outside by
-//! more than the wanted gap. The pool's multipliers prove a lower bound for all points at any moment.
+//! *Idea.* A sample gives a whitener, a pass with it the points of largest leverage: the first working set. Its ellipsoid is
+//! found ([`newton`]), a pass lists the points outside, some of them join the working set, and so on until none is outside by
+//! more than the wanted gap. The working set's multipliers prove a lower bound for all points at any moment.
 //! Of many points in few dimensions the rounds are over the sample first, and then over the few points that a pass with
 //! its ellipsoid lists, as long as that list is known to hold every point outside ([`shortlist`]).
 //! *Guarantee.* Lower bounds never fall. One pass or two with a list; without, three to five on ordinary data and about a
-//! dozen where all points lie near one ellipsoid. The points in memory are those of the pool and of the list.
-//! *Trap.* The points farthest outside are often near-copies of each other, so each sector around the centre may only
+//! dozen where all points lie near one ellipsoid. The points in memory are those of the working set and of the list.
+//! *Trap.* The points farthest outside are often near-copies of each other, so each sector around the center may only
 //! give a few: a sector is a coordinate of the image and its sign.
 //! *Trap.* A point that lies very far outside gets weight at once: models are made at multipliers, and one of leverage
 //! 1e16 has no digit in a model made without it.
@@ -17,12 +17,12 @@ use taut_certify::Stop;
 use super::counters::Counters;
 use super::newton::{self, Tolerance, gap};
 use super::outcome::{Candidate, Outcome, Progress};
-use super::pool::{Pool, copy_row};
+use super::point_reader::{PassResult, PointReader, Query};
 use super::proof::{pass_error, triangular_spread};
 use super::sample::Sample;
 use super::shortlist::{self, Shortlist};
-use super::survey::{Found, Query, Survey};
 use super::whitener::Whitener;
+use super::working_set::{WorkingSet, copy_row};
 use super::{EllipsoidOptions, ROUNDING};
 use crate::Error;
 use crate::kernel::{Center, DoubleDouble};
@@ -33,7 +33,7 @@ use crate::top::Far;
 pub(super) const LISTED_TOLERANCE: f64 = 1e-6;
 /// A point this many times d beyond gets weight before the next step.
 const WEIGHTED_EXCESS_MIN: f64 = 100.0;
-/// A point of the pool with no multiplier whose |y|² is below this part of d is of no use any more.
+/// A point of the working set with no multiplier whose |y|² is below this part of d is of no use any more.
 const LEVERAGE_RATIO_MIN: f64 = 0.9;
 
 /// Where points lie on an ellipsoid up to rounding, none is useless by that measure, and each step of the interior-point
@@ -45,7 +45,7 @@ const STALE_PASSES_MAX: u32 = 3;
 /// Below this gap, rounding may be what keeps passes from improving it.
 const SMALL_GAP: f64 = 1e-6;
 
-/// Points of the first pool, and points that may join after a pass.
+/// Points of the first working set, and points that may join after a pass.
 fn sizes(dim: usize, n: u64) -> (usize, usize) {
     let p = (dim + 1) * (dim + 2) / 2;
     let first = match dim {
@@ -54,48 +54,48 @@ fn sizes(dim: usize, n: u64) -> (usize, usize) {
         21..=50 => p,
         _ => 1326.max(12 * dim),
     };
-    // Of many points a larger pool costs nothing beside a pass, and saves one.
+    // Of many points a larger working set costs nothing beside a pass, and saves one.
     let many = if n >= 100_000 { 1000 } else { 64 };
     let later = if dim <= 50 { p.min(600) } else { 6 * dim };
     (first.max(many), later.max(64))
 }
 
-/// The ellipsoid of the points of a survey that do not lie in a hyperplane.
+/// The ellipsoid of the points of a source that do not lie in a hyperplane.
 pub(super) fn solve(
-    survey: &mut Survey<'_>,
+    reader: &mut PointReader<'_>,
     sample: &Sample,
     mut whitener: Whitener,
     options: &EllipsoidOptions<'_>,
 ) -> Result<Outcome, Error> {
-    let dim = survey.dim();
+    let dim = reader.dim();
     let wanted = options.epsilon.max(ROUNDING * dim as f64);
-    let (first, later) = sizes(dim, survey.len());
+    let (first, later) = sizes(dim, reader.len());
     let mut counters = Counters::default();
     let mut progress = Progress::new(dim);
-    let share = shortlist::share(dim, &sample.pool, survey.len());
+    let share = shortlist::share(dim, &sample.set, reader.len());
     let mut list = share.map(|_| Shortlist::of_sample(sample));
     let share = share.unwrap_or(0.0);
-    let mut pool = match list {
-        Some(_) => pool_of_sample(sample, &whitener, first.min(4 * (dim + 1) * (dim + 2))),
-        None => first_pool(survey, sample, &mut whitener, first)?,
+    let mut set = match list {
+        Some(_) => working_set_of_sample(sample, &whitener, first.min(4 * (dim + 1) * (dim + 2))),
+        None => first_working_set(reader, sample, &mut whitener, first)?,
     };
     let mut later = later;
-    // With all points in the pool there is nothing to come.
-    let first = if pool.len() as u64 == survey.len() { 0.6 * wanted } else { 1e-2 };
+    // With all points in the working set there is nothing to come.
+    let first = if set.len() as u64 == reader.len() { 0.6 * wanted } else { 1e-2 };
     let mut tolerance = Tolerance { easy: first, hard: first };
     let mut last = f64::INFINITY;
     let (mut best, mut stale) = (f64::INFINITY, 0);
     // Of the rounds over a list.
     let (mut least, mut idle) = (f64::INFINITY, 0);
     let stop = loop {
-        newton::solve(&mut pool, &mut whitener, tolerance, &mut counters, survey.monitor())?;
+        newton::solve(&mut set, &mut whitener, tolerance, &mut counters, reader.monitor())?;
         let center = center_of(&sample.origin, &whitener);
         let matrix = whitener.matrix();
         let doubt = 3.0 * pass_error(dim, triangular_spread(matrix, dim));
         let above = dim as f64 * (1.0 - doubt.min(LISTED_TOLERANCE));
         let query = Query { matrix, center: &center, above, keep: 4 * later };
         let (found, all) = match &mut list {
-            None => (survey.pass(query)?, true),
+            None => (reader.pass(query)?, true),
             Some(list) => {
                 let mut found = list.pass(query)?;
                 let mut others = list.others(&whitener, doubt);
@@ -105,14 +105,14 @@ pub(super) fn solve(
                 let reached = gap(dim, found.largest);
                 let open = reached > wanted
                     && !(idle >= STALE_PASSES_MAX && reached < SMALL_GAP)
-                    && !outside(&found, dim, &pool).is_empty();
+                    && !outside(&found, dim, &set).is_empty();
                 let mut all = others < dim as f64;
                 if !all && !open {
-                    if survey.passes() >= options.max_passes && progress.best_gap() < f64::INFINITY
+                    if reader.passes() >= options.max_passes && progress.best_gap() < f64::INFINITY
                     {
                         break Stop::PassBudget;
                     }
-                    *list = Shortlist::of_pass(survey, query, &whitener, sample, share)?;
+                    *list = Shortlist::of_pass(reader, query, &whitener, sample, share)?;
                     found = list.pass(query)?;
                     others = list.others(&whitener, doubt);
                     all = true;
@@ -126,32 +126,32 @@ pub(super) fn solve(
         if !largest.is_finite() {
             return Err(Error::Overflow);
         }
-        let mut far = outside(&found, dim, &pool);
+        let mut far = outside(&found, dim, &set);
         far.truncate(4 * later);
-        let size = pool.len();
+        let size = set.len();
         if all {
-            progress.note(&whitener, size, largest, || candidate(&pool, &whitener, center, found));
+            progress.note(&whitener, size, largest, || candidate(&set, &whitener, center, found));
         }
         let reached = gap(dim, largest);
         if progress.best_gap() <= wanted {
             break Stop::Converged;
         }
-        if all && list.is_none() && survey.passes() >= options.max_passes {
+        if all && list.is_none() && reader.passes() >= options.max_passes {
             break Stop::PassBudget;
         }
         let added =
-            add(&mut pool, survey, &sample.origin, &whitener, &far, later, counters.interior > 0)?;
+            add(&mut set, reader, &sample.origin, &whitener, &far, later, counters.interior > 0)?;
         if all {
             stale = if progress.best_gap() < best { 0 } else { stale + 1 };
             best = progress.best_gap();
         }
-        // Rounds of a pool may pass without a better gap as long as that is large.
+        // Rounds of a working set may pass without a better gap as long as that is large.
         if added == 0 && tolerance == Tolerance::NONE
             || stale == STALE_PASSES_MAX && best < SMALL_GAP
         {
             break Stop::Rounding;
         }
-        // What is outside is in the pool already: only a sharper solution of the pool can help.
+        // What is outside is in the working set already: only a sharper solution of the working set can help.
         // The first time, nobody knows yet how thin the points lie: an interior point above that tells nothing.
         let part = if counters.interior == 0 { 1e-4 } else { 1e-2 };
         let hard = (part * reached).max(0.6 * wanted);
@@ -166,17 +166,17 @@ pub(super) fn solve(
         }
         last = reached;
         if largest > WEIGHTED_EXCESS_MIN * dim as f64 {
-            jump(&mut pool, added);
+            jump(&mut set, added);
         }
     };
-    let core_set = pool.len();
+    let core_set = set.len();
     Ok(progress.into_outcome(stop, counters, core_set))
 }
 
 /// Equal weights on points of a sample: those of large leverage, an affine basis, and what is extreme.
-fn pool_of_sample(sample: &Sample, whitener: &Whitener, size: usize) -> Pool {
-    let images = whitener.apply(&sample.pool);
-    let mut order: Vec<usize> = (0..sample.pool.len()).collect();
+fn working_set_of_sample(sample: &Sample, whitener: &Whitener, size: usize) -> WorkingSet {
+    let images = whitener.apply(&sample.set);
+    let mut order: Vec<usize> = (0..sample.set.len()).collect();
     let farther = |&a: &usize, &b: &usize| images.leverages[b].total_cmp(&images.leverages[a]);
     let size = size.min(order.len());
     if size < order.len() {
@@ -184,29 +184,29 @@ fn pool_of_sample(sample: &Sample, whitener: &Whitener, size: usize) -> Pool {
         order.truncate(size);
         order.sort_unstable();
     }
-    let mut pool = Pool::new(sample.pool.dim());
-    let mut row = vec![0.0; sample.pool.dim()];
+    let mut set = WorkingSet::new(sample.set.dim());
+    let mut row = vec![0.0; sample.set.dim()];
     for i in order.into_iter().chain(sample.spread(&images.blocks)) {
-        sample.pool.copy_row(i, &mut row);
-        pool.push(sample.pool.ids()[i], &row, 1.0);
+        sample.set.copy_row(i, &mut row);
+        set.push(sample.set.ids()[i], &row, 1.0);
     }
-    pool.normalise();
-    pool
+    set.normalize();
+    set
 }
 
 /// Equal weights on points of large leverage, on an affine basis, and on what is extreme in the sample.
-fn first_pool(
-    survey: &mut Survey<'_>,
+fn first_working_set(
+    reader: &mut PointReader<'_>,
     sample: &Sample,
     whitener: &mut Whitener,
     size: usize,
-) -> Result<Pool, Error> {
-    let dim = survey.dim();
-    let n = survey.len();
-    if n == sample.pool.len() as u64 && n <= 2 * size as u64 {
-        return Ok(sample.pool.clone());
+) -> Result<WorkingSet, Error> {
+    let dim = reader.dim();
+    let n = reader.len();
+    if n == sample.set.len() as u64 && n <= 2 * size as u64 {
+        return Ok(sample.set.clone());
     }
-    let images = whitener.apply(&sample.pool);
+    let images = whitener.apply(&sample.set);
     let mut leverages = images.leverages.clone();
     leverages.sort_unstable_by(|a, b| b.total_cmp(a));
     // Few of the listed points should be thrown away again, and enough should be listed.
@@ -214,23 +214,23 @@ fn first_pool(
     let above = leverages.get(rank as usize).copied().unwrap_or(0.0);
     let center = center_of(&sample.origin, whitener);
     let query = Query { matrix: whitener.matrix(), center: &center, above, keep: size };
-    let found = survey.pass(query)?;
-    let mut pool = Pool::new(dim);
+    let found = reader.pass(query)?;
+    let mut set = WorkingSet::new(dim);
     let ids: Vec<u64> = found.far.iter().map(|far| far.id).collect();
-    let rows = survey.rows_from(&sample.origin, &ids)?;
+    let rows = reader.rows_from(&sample.origin, &ids)?;
     for (&id, row) in ids.iter().zip(rows.chunks_exact(dim)) {
-        pool.push(id, row, 1.0);
+        set.push(id, row, 1.0);
     }
     let mut row = vec![0.0; dim];
     for i in sample.spread(&images.blocks) {
-        sample.pool.copy_row(i, &mut row);
-        pool.push(sample.pool.ids()[i], &row, 1.0);
+        sample.set.copy_row(i, &mut row);
+        set.push(sample.set.ids()[i], &row, 1.0);
     }
-    pool.normalise();
-    Ok(pool)
+    set.normalize();
+    Ok(set)
 }
 
-/// The centre of a whitener in the coordinates of the source; in two terms where rounding it to one could be seen.
+/// The center of a whitener in the coordinates of the source; in two terms where rounding it to one could be seen.
 pub(super) fn center_of(origin: &[f64], whitener: &Whitener) -> Center {
     /// A change of a leverage below this shows nothing: it is far below the rounding of a leverage.
     const LEVERAGE_CHANGE_MIN: f64 = 1e-16;
@@ -249,39 +249,39 @@ pub(super) fn center_of(origin: &[f64], whitener: &Whitener) -> Center {
 }
 
 pub(super) fn candidate(
-    pool: &Pool,
+    set: &WorkingSet,
     whitener: &Whitener,
     center: Center,
-    found: Found,
+    found: PassResult,
 ) -> Candidate {
-    let weighted = pool.ids().iter().zip(pool.weights()).filter(|(_, u)| **u > 0.0);
+    let weighted = set.ids().iter().zip(set.weights()).filter(|(_, u)| **u > 0.0);
     let mut pairs: Vec<(u64, f64)> = weighted.map(|(&id, &u)| (id, u)).collect();
     pairs.sort_unstable_by_key(|pair| pair.0);
     let (support, multipliers) = pairs.into_iter().unzip();
     Candidate { support, multipliers, matrix: whitener.matrix().to_vec(), center, found }
 }
 
-/// The points outside that are not in the pool.
-fn outside(found: &Found, dim: usize, pool: &Pool) -> Vec<Far> {
-    let beyond = |far: &&Far| far.reach2 > dim as f64 * (1.0 + 1e-14) && !pool.contains(far.id);
+/// The points outside that are not in the working set.
+fn outside(found: &PassResult, dim: usize, set: &WorkingSet) -> Vec<Far> {
+    let beyond = |far: &&Far| far.reach2 > dim as f64 * (1.0 + 1e-14) && !set.contains(far.id);
     found.far.iter().filter(beyond).copied().collect()
 }
 
-/// Takes some of the far points to the pool, and useless points out of it, more of them if the pool is `hard`; says how
+/// Takes some of the far points to the working set, and useless points out of it, more of them if the working set is `hard`; says how
 /// many were taken.
 fn add(
-    pool: &mut Pool,
-    survey: &Survey<'_>,
+    set: &mut WorkingSet,
+    reader: &PointReader<'_>,
     origin: &[f64],
     whitener: &Whitener,
     far: &[Far],
     most: usize,
     hard: bool,
 ) -> Result<usize, Error> {
-    let dim = pool.dim();
-    if pool.len() > 4 * most || hard {
-        let leverages = whitener.apply(pool).leverages;
-        let weights = pool.weights().to_vec();
+    let dim = set.dim();
+    if set.len() > 4 * most || hard {
+        let leverages = whitener.apply(set).leverages;
+        let weights = set.weights().to_vec();
         let mut least = LEVERAGE_RATIO_MIN * dim as f64;
         let spare = HARD_SPARE * (dim + 1) * (dim + 2) / 2;
         if hard {
@@ -292,11 +292,11 @@ fn add(
                 least = least.max(*bound);
             }
         }
-        pool.retain(|i| weights[i] > 0.0 || leverages[i] > least);
+        set.retain(|i| weights[i] > 0.0 || leverages[i] > least);
     }
     let ids: Vec<u64> = far.iter().map(|far| far.id).collect();
-    let rows = survey.rows_from(origin, &ids)?;
-    let mut arrivals = Pool::new(dim);
+    let rows = reader.rows_from(origin, &ids)?;
+    let mut arrivals = WorkingSet::new(dim);
     for (&id, row) in ids.iter().zip(rows.chunks_exact(dim)) {
         arrivals.push(id, row, 0.0);
     }
@@ -311,7 +311,7 @@ fn add(
         if *sector < each && added < most {
             *sector += 1;
             added += 1;
-            pool.push(id, row, 0.0);
+            set.push(id, row, 0.0);
         }
     }
     Ok(added)
@@ -324,10 +324,10 @@ fn sector(image: &[f64]) -> usize {
 }
 
 /// Half of the weight goes to the points that came last.
-fn jump(pool: &mut Pool, added: usize) {
-    let k = pool.len();
-    for (i, u) in pool.weights_mut().iter_mut().enumerate() {
+fn jump(set: &mut WorkingSet, added: usize) {
+    let k = set.len();
+    for (i, u) in set.weights_mut().iter_mut().enumerate() {
         *u = if i + added < k { *u / 2.0 } else { 0.5 / added as f64 };
     }
-    pool.normalise();
+    set.normalize();
 }

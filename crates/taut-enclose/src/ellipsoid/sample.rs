@@ -1,14 +1,14 @@
-//! A sample of the points: an origin, a first whitener, and the first points of a pool.
+//! A sample of the points: an origin, a first whitener, and the first points of a working set.
 //!
 //! *Idea.* Rows at equal distances. The mean of some of them is the origin of all calculations; the covariance of all
 //! makes leverages comparable before anything is known of the optimum.
 //! *Trap.* The points of largest leverage alone may lie in a plane: of data with few different points, or many copies,
-//! they may be copies of one. A pool like that has no ellipsoid, and gives leverages of 1e16 outside. So the points
+//! they may be copies of one. A working set like that has no ellipsoid, and gives leverages of 1e16 outside. So the points
 //! farthest from the span of those before them are taken, too: an affine basis.
 
-use super::pool::{Pool, copy_row};
-use super::survey::Survey;
+use super::point_reader::PointReader;
 use super::whitener::{Rebased, Whitener};
+use super::working_set::{WorkingSet, copy_row};
 use crate::Error;
 use crate::kernel::vector::dot;
 
@@ -21,44 +21,44 @@ const REBASE_TOLERANCE: f64 = 1e-3;
 
 /// Some of the points.
 pub(super) struct Sample {
-    /// What is taken from all coordinates before anything else.
+    /// The vector that is subtracted from all coordinates before anything else.
     pub(super) origin: Vec<f64>,
     /// The rows, relative to that, all with the same weight.
-    pub(super) pool: Pool,
+    pub(super) set: WorkingSet,
 }
 
 impl Sample {
-    pub(super) fn new(survey: &Survey<'_>) -> Result<Self, Error> {
-        let count = SAMPLE_ROWS.min(survey.len());
+    pub(super) fn new(reader: &PointReader<'_>) -> Result<Self, Error> {
+        let count = SAMPLE_ROWS.min(reader.len());
         let ids: Vec<u64> = (0..count)
-            .map(|k| (u128::from(k) * u128::from(survey.len()) / u128::from(count)) as u64)
+            .map(|k| (u128::from(k) * u128::from(reader.len()) / u128::from(count)) as u64)
             .collect();
-        let rows = survey.rows(&ids)?;
-        let dim = survey.dim();
+        let rows = reader.rows(&ids)?;
+        let dim = reader.dim();
         let origin = mean(&rows, dim);
-        let mut pool = Pool::with_room(dim, ids.len());
+        let mut set = WorkingSet::with_room(dim, ids.len());
         let mut row = vec![0.0; dim];
         for (&id, values) in ids.iter().zip(rows.chunks_exact(dim)) {
             for ((row, x), o) in row.iter_mut().zip(values).zip(&origin) {
                 *row = x - o;
             }
-            pool.push(id, &row, 1.0 / count as f64);
+            set.push(id, &row, 1.0 / count as f64);
         }
-        Ok(Sample { origin, pool })
+        Ok(Sample { origin, set })
     }
 
-    /// Whether all rows are finite, relative to the origin.
+    /// Returns true if all rows are finite, relative to the origin.
     pub(super) fn is_finite(&self) -> bool {
-        self.pool.blocks().iter().all(|v| v.is_finite())
+        self.set.blocks().iter().all(|v| v.is_finite())
     }
 
     /// The largest absolute value of each coordinate, relative to the origin.
     pub(super) fn extents(&self) -> Vec<f64> {
-        let dim = self.pool.dim();
+        let dim = self.set.dim();
         let mut extents = vec![0.0f64; dim];
         let mut row = vec![0.0; dim];
-        for i in 0..self.pool.len() {
-            self.pool.copy_row(i, &mut row);
+        for i in 0..self.set.len() {
+            self.set.copy_row(i, &mut row);
             extents.iter_mut().zip(&row).for_each(|(e, v)| *e = e.max(v.abs()));
         }
         extents
@@ -66,25 +66,25 @@ impl Sample {
 
     /// Takes up more rows, relative to the origin; all have the same weight then.
     pub(super) fn add(&mut self, ids: &[u64], rows: &[f64]) {
-        for (&id, row) in ids.iter().zip(rows.chunks_exact(self.pool.dim())) {
-            self.pool.push(id, row, 0.0);
+        for (&id, row) in ids.iter().zip(rows.chunks_exact(self.set.dim())) {
+            self.set.push(id, row, 0.0);
         }
-        self.pool.weights_mut().fill(1.0);
-        self.pool.normalise();
+        self.set.weights_mut().fill(1.0);
+        self.set.normalize();
     }
 
     /// A map that makes the covariance of the sample the identity, and what stood in its way.
     pub(super) fn whitener(&self, extents: &[f64]) -> (Whitener, Rebased) {
         let mut whitener = Whitener::of_scales(extents);
-        let how = whitener.rebase(&self.pool, REBASE_TOLERANCE);
+        let how = whitener.rebase(&self.set, REBASE_TOLERANCE);
         (whitener, how)
     }
 
     /// Positions of an affine basis, and of what is least and largest in each coordinate of `blocks`, the images of the
     /// sample under its whitener.
     pub(super) fn spread(&self, blocks: &[f64]) -> Vec<usize> {
-        let dim = self.pool.dim();
-        let k = self.pool.len();
+        let dim = self.set.dim();
+        let k = self.set.len();
         let mut rows = vec![0.0; k * dim];
         for (i, row) in rows.chunks_exact_mut(dim).enumerate() {
             copy_row(blocks, dim, i, row);

@@ -10,10 +10,10 @@
 use taut_points::Points;
 
 use super::dense::divide_rows;
-use super::pool::Pool;
+use super::point_reader::{PassResult, PointReader, Query, pass_over};
 use super::sample::Sample;
-use super::survey::{Found, Query, Survey, pass_over};
 use super::whitener::Whitener;
+use super::working_set::WorkingSet;
 use crate::Error;
 use crate::kernel::vector::dot;
 use crate::shapes::eigen::eigen;
@@ -41,38 +41,38 @@ pub(super) struct Shortlist {
 impl Shortlist {
     /// A sample, of which nothing follows for other points.
     pub(super) fn of_sample(sample: &Sample) -> Self {
-        let dim = sample.pool.dim();
-        let mut rows = vec![0.0; sample.pool.len() * dim];
+        let dim = sample.set.dim();
+        let mut rows = vec![0.0; sample.set.len() * dim];
         for (i, row) in rows.chunks_exact_mut(dim).enumerate() {
-            sample.pool.copy_row(i, row);
+            sample.set.copy_row(i, row);
             row.iter_mut().zip(&sample.origin).for_each(|(x, o)| *x += o);
         }
-        Shortlist { dim, ids: sample.pool.ids().to_vec(), rows, others: None }
+        Shortlist { dim, ids: sample.set.ids().to_vec(), rows, others: None }
     }
 
     /// One pass over all points, in which this whitener lists about a share of them.
     pub(super) fn of_pass(
-        survey: &mut Survey<'_>,
+        reader: &mut PointReader<'_>,
         query: Query<'_>,
         whitener: &Whitener,
         sample: &Sample,
         share: f64,
     ) -> Result<Self, Error> {
-        let share = share.min(MOST_LISTED / survey.len() as f64);
-        let mut leverages = whitener.apply(&sample.pool).leverages;
+        let share = share.min(MOST_LISTED / reader.len() as f64);
+        let mut leverages = whitener.apply(&sample.set).leverages;
         let rank =
             ((share * leverages.len() as f64) as usize + SAMPLE_RANK_MIN).min(leverages.len() - 1);
         let (_, &mut above, _) = leverages.select_nth_unstable_by(rank, |a, b| b.total_cmp(a));
         let query = Query { above: above.min(query.above), ..query };
-        let Some(taken) = survey.take(query, BLOCK_SHARE_MAX * share)? else {
+        let Some(taken) = reader.take(query, BLOCK_SHARE_MAX * share)? else {
             return Err(Error::Overflow);
         };
         let others = Some((whitener.clone(), taken.above));
-        Ok(Shortlist { dim: survey.dim(), ids: taken.ids, rows: taken.rows, others })
+        Ok(Shortlist { dim: reader.dim(), ids: taken.ids, rows: taken.rows, others })
     }
 
     /// A pass over the list.
-    pub(super) fn pass(&self, query: Query<'_>) -> Result<Found, Error> {
+    pub(super) fn pass(&self, query: Query<'_>) -> Result<PassResult, Error> {
         // A list of a pass holds the points with a multiplier, unless numbers have left their range.
         let points = Points::new(&self.rows, self.dim).ok().filter(|points| !points.is_empty());
         let points = points.ok_or(Error::Overflow)?;
@@ -119,11 +119,11 @@ impl Shortlist {
     }
 }
 
-/// What share of n points a first list should hold so that it covers the end; `None` where a list saves nothing.
+/// Returns what share of n points a first list should hold so that it covers the end; `None` where a list saves nothing.
 ///
 /// As many of k random points as determine an ellipsoid, p, lie on the border of theirs, and about p/k of all points
 /// outside. The list has to hold several times as many.
-pub(super) fn share(dim: usize, sample: &Pool, n: u64) -> Option<f64> {
+pub(super) fn share(dim: usize, sample: &WorkingSet, n: u64) -> Option<f64> {
     /// The list has this many times the points that determine the ellipsoid. Measured from 2 to 10 dimensions on
     /// shells: with half of it second lists are common.
     const LIST_FACTOR: f64 = 12.0;
@@ -147,21 +147,21 @@ mod tests {
             let values: Vec<f64> = generate(Distribution::Normal, 20_000, dim, 4).unwrap();
             let points = Points::new(&values, dim).unwrap();
             let monitor = Monitor::silent();
-            let mut survey = Survey::new(&points, &monitor).unwrap();
-            let sample = Sample::new(&survey).unwrap();
+            let mut reader = PointReader::new(&points, &monitor).unwrap();
+            let sample = Sample::new(&reader).unwrap();
             let (whitener, _) = sample.whitener(&sample.extents());
             let center = center_of(&sample.origin, &whitener);
             let query = Query { matrix: whitener.matrix(), center: &center, above: 1e9, keep: 10 };
-            let list = Shortlist::of_pass(&mut survey, query, &whitener, &sample, 0.05).unwrap();
+            let list = Shortlist::of_pass(&mut reader, query, &whitener, &sample, 0.05).unwrap();
             assert!((600..1700).contains(&list.ids.len()), "{}", list.ids.len());
-            // Steps to single points change shape and centre.
+            // Steps to single points change shape and center.
             let mut other = whitener.clone();
             for (step, beta) in [(3, 0.02), (500, 0.05), (4000, -0.0001)] {
                 other.step(&values[step * dim..][..dim], beta);
                 let center = center_of(&sample.origin, &other);
                 let query =
                     Query { matrix: other.matrix(), center: &center, above: 0.0, keep: 20_000 };
-                let found = survey.pass(query).unwrap();
+                let found = reader.pass(query).unwrap();
                 let free = |far: &&Far| list.ids.binary_search(&far.id).is_err();
                 let reached = found.far.iter().find(free).unwrap().reach2;
                 let bound = list.others(&other, 1e-12);

@@ -2,22 +2,22 @@
 //!
 //! *Idea.* With y = Mx − t for a lower triangular M, take mean ȳ and covariance Σ = LL′ of the images and replace M by
 //! L⁻¹M, t by L⁻¹(t + ȳ). Then the leverage κ − 1 of a point is |y|².
-//! *Guarantee.* Repeated, this *is* a Cholesky factorisation of the inverse covariance, but in steps each of which is
+//! *Guarantee.* Repeated, this *is* a Cholesky factorization of the inverse covariance, but in steps each of which is
 //! well conditioned: the last Σ is the identity up to rounding, so leverages are right to about 1e-15 wherever the
-//! points themselves say that much. On sets with axes in a ratio of 1e12 one factorisation has no digit right.
+//! points themselves say that much. On sets with axes in a ratio of 1e12 one factorization has no digit right.
 //! *Trap.* A covariance that rounding has made indefinite is shifted by a multiple of the identity, which costs one
 //! more turn and no accuracy (shifted CholeskyQR; Fukaya, Kannan, Nakatsukasa, Yamamoto, Yanagisawa, SIAM J. Sci.
 //! Comput. 42(1), 2020).
 
 use super::dense::{cholesky, divide_rows, forward};
-use super::pool::Pool;
+use super::working_set::WorkingSet;
 use crate::kernel::triangle::{POINTS, Triangle, images, moments};
 use crate::kernel::vector::dot;
 
 /// It is left at that after this many turns: each takes off at least some ten digits of a condition number.
 const TURNS_MAX: usize = 40;
 
-/// How a covariance became the identity.
+/// The way in which a covariance became the identity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Rebased {
     /// By plain factors.
@@ -37,9 +37,9 @@ pub(super) struct Whitener {
     shift: Vec<f64>,
 }
 
-/// The images of a pool.
+/// The images of a working set.
 pub(super) struct Whitened {
-    /// y, in blocks as the pool.
+    /// y, in blocks as the working set.
     pub(super) blocks: Vec<f64>,
     /// |y|² of each point.
     pub(super) leverages: Vec<f64>,
@@ -74,10 +74,10 @@ impl Whitener {
         center
     }
 
-    /// The images of all points of a pool.
-    pub(super) fn apply(&self, pool: &Pool) -> Whitened {
-        let mut whitened = self.apply_to(pool.blocks());
-        whitened.leverages.truncate(pool.len());
+    /// The images of all points of a working set.
+    pub(super) fn apply(&self, set: &WorkingSet) -> Whitened {
+        let mut whitened = self.apply_to(set.blocks());
+        whitened.leverages.truncate(set.len());
         whitened
     }
 
@@ -120,11 +120,11 @@ impl Whitener {
 
     /// Makes the covariance of the weighted points the identity; the last turn starts from one within `near` of it.
     ///
-    /// What it costs in rounding is known from what it returns.
-    pub(super) fn rebase(&mut self, pool: &Pool, near: f64) -> Rebased {
+    /// The returned value tells the cost in rounding.
+    pub(super) fn rebase(&mut self, set: &WorkingSet, near: f64) -> Rebased {
         let (dim, m) = (self.dim, self.dim + 1);
         let mut how = Rebased::Plainly;
-        let (points, weights) = pool.support();
+        let (points, weights) = set.support();
         for _ in 0..TURNS_MAX {
             let images = self.apply_to(&points);
             let moments = moments(dim, &images.blocks, &weights);

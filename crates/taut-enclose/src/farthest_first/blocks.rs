@@ -14,7 +14,6 @@ use crate::kernel::{Center, squared_distances};
 /// Rows that are looked at together.
 const CHUNK: usize = 128;
 
-/// A block of a source.
 pub(super) struct BlockLeaf<'s> {
     source: &'s dyn PointSource,
     frame: &'s Frame,

@@ -1,4 +1,4 @@
-//! Leaves of neighbours in up to three dimensions, with a box around each.
+//! Leaves of neighbors in up to three dimensions, with a box around each.
 //!
 //! *Idea.* Points in the order of a Hilbert curve, 256 to a leaf. A chosen point that is farther from the box than the
 //! farthest point of the leaf is from those before it changes nothing; one comparison rules out all 256. Of the chosen
@@ -17,7 +17,6 @@ use crate::frame::Frame;
 /// Points of a leaf, a multiple of [`GROUP_SIZE`]: fewer have a smaller box that rules out more, and more boxes are to be asked.
 const POINTS: usize = 256;
 
-/// Some neighbours.
 pub(super) struct BoxLeaf {
     /// Coordinate after coordinate of all points.
     columns: Vec<f64>,

@@ -22,9 +22,9 @@ pub(super) struct Chosen {
 pub(super) struct Scratch {
     /// As many values as there are missed points.
     pub(super) values: Vec<f64>,
-    /// One point as a centre.
+    /// One point as a center.
     pub(super) center: Option<Center>,
-    /// What a source reads to.
+    /// The buffer that a source reads into.
     pub(super) read: taut_points::Scratch,
 }
 

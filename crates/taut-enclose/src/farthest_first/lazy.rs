@@ -27,7 +27,7 @@ const BATCH_STORED: usize = 2;
 /// Most leaves that are brought up to date together.
 const BATCH_MAX: usize = 4096;
 
-/// How far a point is from the chosen ones (squared), as far as is known, and its row.
+/// The squared distance of a point from the chosen ones, as far as is known, and its row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Key {
     pub(super) value: f64,
@@ -74,11 +74,10 @@ pub(super) trait Leaf: Send {
 /// Leaves, and what share of all points one look at one of them reads.
 pub(super) struct Leaves<L> {
     pub(super) leaves: Vec<L>,
-    /// Whether the points of a leaf are read from a medium when it is updated.
+    /// True if the points of a leaf are read from a medium when it is updated.
     pub(super) stored: bool,
 }
 
-/// What is to be done.
 pub(super) struct Job<'a> {
     pub(super) source: &'a dyn PointSource,
     pub(super) monitor: &'a Monitor<'a>,
@@ -187,7 +186,7 @@ impl Job<'_> {
         }
     }
 
-    /// Whether every row is a copy of one in `order`, which distances too small to be squared leave open.
+    /// Tests whether every row is a copy of one in `order`, which distances too small to be squared leave open.
     fn all_are_copies(&self, order: &[u64]) -> Result<(), Error> {
         let dim = self.source.dim();
         // Adding 0 makes −0 and 0 one.

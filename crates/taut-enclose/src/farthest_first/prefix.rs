@@ -5,14 +5,14 @@ use taut_points::{InputError, PointSource, gather};
 
 use super::FarthestFirst;
 use crate::Error;
-use crate::apart::Apart;
+use crate::separated_set::SeparatedSet;
 
 impl FarthestFirst {
-    /// The first `k` points as centres of all, with the proof that no k centres have half their radius.
+    /// The first `k` points as centers of all, with the proof that no k centers have half their radius.
     ///
     /// `source` holds the points of the traversal; up to k of them are read. Where the order is shorter than `k` because all
-    /// other points are copies, there are fewer centres, the radius is 0, and so is the lower bound. `placement` says among which
-    /// centres to compare: the bound holds for both.
+    /// other points are copies, there are fewer centers, the radius is 0, and so is the lower bound. `placement` says among which
+    /// centers to compare: the bound holds for both.
     ///
     /// ```
     /// use taut_certify::Placement;
@@ -49,14 +49,14 @@ impl FarthestFirst {
         let radius = self.radii[taken - 1];
         let rows = self.order[..taken].to_vec();
         let after = self.order.get(taken).copied().or(self.next);
-        let apart = match after {
+        let separated = match after {
             Some(next) if radius > 0.0 => rows.iter().copied().chain([next]).collect(),
             _ => vec![],
         };
         let dim = source.dim();
         let centers = gather(source, &rows)?.chunks_exact(dim).map(<[f64]>::to_vec).collect();
         // The next point is as far from the nearest of the first k as any, and each of these was farther when it came.
-        Apart { rows: apart, distance: radius }.prove(
+        SeparatedSet { rows: separated, distance: radius }.prove(
             Centers {
                 centers,
                 rows: if placement == Placement::Rows { rows } else { vec![] },

@@ -1,10 +1,10 @@
 //! Leaves of rows in any dimension, where each row is looked at on its own.
 //!
-//! *Idea.* In many dimensions neighbours are hardly nearer than others, so a leaf is no more than some rows that follow each
+//! *Idea.* In many dimensions neighbors are hardly nearer than others, so a leaf is no more than some rows that follow each
 //! other. Each row knows how many chosen points it was compared with, and the nearest of them. A row that is nearer than
 //! the farthest point can be is left alone. Where the nearest point chosen is a, a point c at |a − c| ≥ 2|x − a| is no
 //! nearer: |x − c| ≥ |a − c| − |x − a|.
-//! *Trap.* A row is compared with eight chosen points at once, with the row in the place of the centre: (x − c)² and (c − x)²
+//! *Trap.* A row is compared with eight chosen points at once, with the row in the place of the center: (x − c)² and (c − x)²
 //! are the same number, so the values are those of a pass over the rows.
 //! *Reference.* Elkan, Using the triangle inequality to accelerate k-means, ICML 2003.
 
@@ -21,16 +21,14 @@ const LEAF_ROWS: usize = 256;
 /// Up to this dimension the kernel takes eight rows for the price of one; beyond, one at a time.
 const EIGHT_MAX: usize = 96;
 
-/// What is known of a row.
+/// The known facts about a row.
 #[derive(Clone, Copy)]
 struct Known {
     /// With how many chosen points it was compared.
     seen: u32,
-    /// Which of them is nearest.
     nearest: u32,
 }
 
-/// Some rows.
 pub(super) struct RowLeaf<'p, T> {
     points: Points<'p, T>,
     first_row: u64,
@@ -40,7 +38,6 @@ pub(super) struct RowLeaf<'p, T> {
     top: Top,
 }
 
-/// All rows in leaves.
 pub(super) fn leaves<'p, T: Scalar>(points: &Points<'p, T>) -> Leaves<RowLeaf<'p, T>> {
     let starts = (0..points.len()).into_par_iter().step_by(LEAF_ROWS);
     let leaves = starts

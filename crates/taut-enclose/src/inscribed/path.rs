@@ -1,6 +1,6 @@
 //! Newton steps along the central path of the inscribed ellipsoid, and what its multipliers prove.
 //!
-//! *Formula.* Minimise −ln det(1 + S) − μΣ ln Dᵢ, Dᵢ = (sᵢ − ãᵢ′w)² − |(1 + S)ãᵢ|², over symmetric S and w, in the frame of
+//! *Formula.* Minimize −ln det(1 + S) − μΣ ln Dᵢ, Dᵢ = (sᵢ − ãᵢ′w)² − |(1 + S)ãᵢ|², over symmetric S and w, in the frame of
 //! the current ellipsoid: its Hessian at S = 0, w = 0 is the metric of steps. After each step the frame moves along.
 //! At the minimum λᵢ = 2μsᵢ/Dᵢ satisfy Σλᵢãᵢ = 0 and Σλᵢãᵢãᵢ′/sᵢ = 1, so the gap is about Σλᵢ(sᵢ − |ãᵢ|) ≤ 2nμ.
 //! *Trap.* Where the ellipsoid is thin, rounding G moves its short axes by what is left of the long ones across them. So the
@@ -12,7 +12,7 @@ use taut_certify::{PassBounds, Stop};
 use taut_points::{Monitor, ReadError};
 
 use super::start::Interior;
-use super::{Found, HalfSpaces, InscribedOptions, ROUNDING, View, seen};
+use super::{HalfSpaces, InscribedOptions, PathResult, ROUNDING, View, seen};
 use crate::Error;
 use crate::ellipsoid::dense::cholesky;
 use crate::ellipsoid::outcome::log_unit_ball;
@@ -40,7 +40,7 @@ pub(super) fn follow(
     start: Interior,
     options: &InscribedOptions<'_>,
     monitor: &Monitor<'_>,
-) -> Result<Found, Error> {
+) -> Result<PathResult, Error> {
     let dim = sides.dim;
     let n = sides.rows().len();
     let mut center = start.center;
@@ -59,7 +59,7 @@ pub(super) fn follow(
         let Some((step, length)) = newton(&views, dim, mu) else { break Stop::Rounding };
         steps += 1;
         let moved = take(&mut center, &mut axes, &views, &step, length, mu, dim);
-        orthogonalise(&mut axes, dim);
+        orthogonalize(&mut axes, dim);
         views = view(&center, &axes);
         if mu <= last_mu {
             at_last += 1;
@@ -79,7 +79,7 @@ pub(super) fn follow(
     let multiplier =
         |View { normal: a, slack: s, unit }: &View| 2.0 * mu * s / (s * s - dot(a, a)) / unit;
     let lambda = views.iter().map(multiplier).collect();
-    Ok(Found { center, axes, lambda, steps, stop, history })
+    Ok(PathResult { center, axes, lambda, steps, stop, history })
 }
 
 /// Entries (k, l), k ≥ l, of a symmetric matrix, and by what they are multiplied in a vector of the same length.
@@ -228,7 +228,7 @@ fn take(
 }
 
 /// Turns the frame so that the columns of G are orthogonal: rotations of two columns at a time, after Jacobi.
-pub(super) fn orthogonalise(axes: &mut [f64], dim: usize) {
+pub(super) fn orthogonalize(axes: &mut [f64], dim: usize) {
     let largest = axes.iter().fold(0.0f64, |m, g| m.max(g.abs()));
     for _ in 0..SWEEPS_MAX {
         let mut is_orthogonal = true;
@@ -319,7 +319,7 @@ pub(super) fn corrected(views: &[View], mut lambda: Vec<f64>) -> Vec<f64> {
     lambda
 }
 
-/// What multipliers prove: the bound of the certificate.
+/// Returns what multipliers prove: the bound of the certificate.
 pub(super) fn gap(views: &[View], lambda: &[f64]) -> f64 {
     let dim = views[0].normal.len();
     let d = dim as f64;

@@ -1,12 +1,12 @@
 //! An interior point of a polytope, or the proof that there is none, or that it has no end.
 //!
-//! *Trap.* The programmes are solved in `f64` to some 1e-8, so that what the solver says proves nothing. A point is measured
+//! *Trap.* The programs are solved in `f64` to some 1e-8, so that what the solver says proves nothing. A point is measured
 //! again, a ray is brought to the faces it runs along and measured again, and multipliers of Farkas are moved by
 //! [`no_room`] to where their sum is 0 exactly, with a bound on what moving them costs. What remains is undecided.
-//! *Bounded.* With unit normals âᵢ, minimise |Σλᵢâᵢ|² over λ ≥ 1. If the sum is 0 and the normals span the space, no ray fits
+//! *Bounded.* With unit normals âᵢ, minimize |Σλᵢâᵢ|² over λ ≥ 1. If the sum is 0 and the normals span the space, no ray fits
 //! (Stiemke's theorem). Else v = −Σλᵢâᵢ has âᵢ′v ≤ 0 for all i by the conditions of the minimum: a ray. Where the normals do not
 //! span, what is orthogonal to all of them is one.
-//! *Interior.* The largest ball inside, a linear programme; if its radius is not positive, its multipliers are those of
+//! *Interior.* The largest ball inside, a linear program; if its radius is not positive, its multipliers are those of
 //! Farkas: Σλᵢâᵢ = 0 and Σλᵢbᵢ ≤ 0.
 
 use clarabel::algebra::CscMatrix;
@@ -20,7 +20,7 @@ use crate::Error;
 use crate::kernel::vector::{add_scaled, dot};
 use crate::shapes::eigen::eigen;
 
-/// What a conic solver leaves of a sum that is 0, for unit normals.
+/// The rest that a conic solver leaves of a sum that is 0, for unit normals.
 const ZERO: f64 = 1e-6;
 /// A ray may rise beyond a face by this for each dimension, as it is rounded.
 const RAY_RISE_MAX: f64 = 64.0 * f64::EPSILON;
@@ -34,7 +34,7 @@ const RADIUS_RATIO_MIN: f64 = 1e-9;
 /// A ball of which it is proved that it has no larger radius than this, offsets being 1 at most, counts as none.
 const PROVED_RADIUS_MIN: f64 = 1e-6;
 
-/// A centre, and the half axes of an ellipsoid around it inside, along the axes of coordinates.
+/// A center, and the half axes of an ellipsoid around it inside, along the axes of coordinates.
 pub(super) struct Interior {
     pub(super) center: Vec<f64>,
     pub(super) half_axes: Vec<f64>,
@@ -140,7 +140,7 @@ struct Spread {
     least: f64,
 }
 
-/// What the radius of a ball in the polytope is at most: from λ ≥ 0 with Σλᵢâᵢ = 0, Σλᵢbᵢ/Σλᵢ.
+/// Returns what the radius of a ball in the polytope is at most: from λ ≥ 0 with Σλᵢâᵢ = 0, Σλᵢbᵢ/Σλᵢ.
 ///
 /// *Idea.* The sum of the multipliers found is some r ≠ 0. With A the matrix of normals, of least singular value σ, there is
 /// w with A′w = −r and |w| ≤ |r|/σ, and likewise w₀ for the λ₀ ≥ 1 of a spread and its r₀. Then λ + w + t(λ₀ + w₀) has sum 0
@@ -254,7 +254,7 @@ fn dense(rows: usize, columns: usize, values: Vec<f64>) -> CscMatrix<f64> {
     CscMatrix::new(rows, columns, starts, places, values)
 }
 
-/// The solution and the multipliers of a conic programme, as good as they are: callers prove what they take from them.
+/// The solution and the multipliers of a conic program, as good as they are: callers prove what they take from them.
 fn conic(
     quadratic: &CscMatrix<f64>,
     objective: &[f64],

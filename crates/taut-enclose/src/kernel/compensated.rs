@@ -9,12 +9,12 @@ use super::{Center, DoubleDouble};
 /// Eight points side by side.
 type Eight = [f64; 8];
 
-/// A linear map by rows, r × d, and the centre it is taken from.
+/// A linear map by rows, r × d, and the center it is taken from.
 #[derive(Clone, Copy)]
 pub(crate) struct Map<'a> {
     pub(crate) matrix: &'a [f64],
     pub(crate) center: &'a Center,
-    /// Whether it is square and lower triangular; what is above the diagonal is not read then.
+    /// True if it is square and lower triangular; what is above the diagonal is not read then.
     pub(crate) triangular: bool,
 }
 

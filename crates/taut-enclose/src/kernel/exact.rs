@@ -12,7 +12,7 @@ use super::Center;
 pub(crate) struct DoubleDouble {
     /// The nearest `f64`.
     pub(crate) high: f64,
-    /// What it leaves out.
+    /// The part that it leaves out.
     pub(crate) low: f64,
 }
 
@@ -113,7 +113,7 @@ impl PartialOrd for DoubleDouble {
     }
 }
 
-/// Whether a number is not 0, but so small that the error of its square is no `f64` any more.
+/// Returns true if a number is not 0, but so small that the error of its square is no `f64` any more.
 pub(crate) fn vanishes(value: f64) -> bool {
     value != 0.0 && value.abs() < 2f64.powi(-450)
 }
@@ -124,7 +124,7 @@ pub(crate) struct Difference {
     high: Vec<f64>,
     low: Vec<f64>,
     tail: Vec<f64>,
-    /// Whether scaling or squaring loses digits at the lower end of the range of `f64`. What is lost is far less than
+    /// True if scaling or squaring loses digits at the lower end of the range of `f64`. What is lost is far less than
     /// one unit of the last place of anything near 1.
     pub(crate) vanishes: bool,
 }
@@ -147,7 +147,6 @@ impl Difference {
         difference
     }
 
-    /// Dimension.
     pub(crate) fn dim(&self) -> usize {
         self.high.len()
     }
@@ -169,7 +168,7 @@ impl Difference {
         squared(self)
     }
 
-    /// Whether its length is at most reach − r ≥ 0, decided exactly, for the ties that double-double cannot tell.
+    /// Returns true if its length is at most reach − r ≥ 0, decided exactly, for the ties that double-double cannot tell.
     ///
     /// Both squares are written out as sums of products, each product as two `f64` without error, and the sum of all
     /// is kept as an expansion whose last component has its sign (Shewchuk 1997, theorem 10). Exact unless it

@@ -1,4 +1,4 @@
-//! What is largest among many values, and whether all are finite, without a branch for each.
+//! Finds the largest of many values, and whether all are finite, without a branch for each.
 
 use super::vector::dispatched;
 
@@ -20,7 +20,7 @@ fn largest_body<const FUSED: bool>(values: &[f64]) -> f64 {
 }
 
 dispatched! {
-    /// Whether all values are finite.
+    /// Returns true if all values are finite.
     all_finite(values: &[f64]) -> bool, all_finite_body
 }
 

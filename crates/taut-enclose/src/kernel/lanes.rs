@@ -87,7 +87,7 @@ unsafe fn difference<L: Lanes, T: Scalar, const TWO_TERMS: bool>(
     j: usize,
     count: usize,
 ) -> L {
-    // SAFETY: the caller keeps j + count within the row and the centre.
+    // SAFETY: the caller keeps j + count within the row and the center.
     unsafe {
         let load = |from: *const f64| {
             if count == 8 { L::load(from.add(j)) } else { L::load_first(from.add(j), count) }
@@ -173,7 +173,7 @@ unsafe fn one_row_of<L: Lanes, T: Scalar, const TWO_TERMS: bool>(
 ) -> f64 {
     let dim = row.len();
     let x = row.as_ptr();
-    // SAFETY: coordinates j .. j + count stay below dim, the length of the row and of both terms of the centre.
+    // SAFETY: coordinates j .. j + count stay below dim, the length of the row and of both terms of the center.
     unsafe {
         let mut sums = [L::zero(); 4];
         let mut j = 0;

@@ -61,7 +61,7 @@ fn squared_distances_agree_with_double_double() {
 }
 
 #[test]
-fn a_row_does_not_depend_on_its_neighbours() {
+fn a_row_does_not_depend_on_its_neighbors() {
     for dim in [2, 5, 17, 200] {
         let values = normal(40, dim);
         let center = Center { high: vec![0.25; dim], low: vec![] };
@@ -97,7 +97,7 @@ fn ties_are_told_exactly() {
     // 0.1² + 0² against 0.1²: a tie whose squares do not fit into one f64.
     assert!(within(&[0.1, 0.0], 0.0, 0.0, 0.1, 0.0));
     assert!(!within(&[0.1, 0.0], 0.0, 0.0, 0.1f64.next_down(), 0.0));
-    // What double-double cannot hold decides: a tail of 2⁻²⁰⁰ in the centre, or a second coordinate of that size.
+    // What double-double cannot hold decides: a tail of 2⁻²⁰⁰ in the center, or a second coordinate of that size.
     let tiny = 2f64.powi(-200);
     assert!(within(&[1.0, 0.0], 0.0, tiny, 1.0, 0.0));
     assert!(!within(&[1.0, 0.0], 0.0, -tiny, 1.0, 0.0));
@@ -176,7 +176,7 @@ fn check_leverages<T: Scalar>(dim: usize, rows: usize, offset: f64, two_terms: b
         for other in &others {
             assert!((other[i] - exact).abs() <= 1e-15 * terms, "d {dim}, row {i}: {}", other[i]);
         }
-        // A row does not depend on its neighbours, nor on where it stands.
+        // A row does not depend on its neighbors, nor on where it stands.
         let mut alone = [0.0];
         let one = &values[i * dim..][..dim];
         triangle::leverages(one, &matrix, &center, &mut vec![], &mut alone);

@@ -4,8 +4,8 @@
 //! *Idea.* [`POINTS`] points stand coordinate by coordinate, so that a register holds one coordinate of eight of them.
 //! Two rows of T are worked on together: each load of points serves both, and eight accumulators hide the latency of
 //! the multiply-add. Rows of a block of points are brought into that order, eight by eight, in registers.
-//! *Guarantee.* What a point gets depends on it and on T, t alone, not on its neighbours.
-//! *Trap.* The centre is subtracted first: T(x − c), never Tx − Tc, which loses all digits far from the origin.
+//! *Guarantee.* What a point gets depends on it and on T, t alone, not on its neighbors.
+//! *Trap.* The center is subtracted first: T(x − c), never Tx − Tc, which loses all digits far from the origin.
 #![allow(unsafe_code)]
 
 use taut_points::Scalar;
@@ -342,7 +342,7 @@ unsafe fn arrange<L: Lanes, T: Scalar>(values: &[T], center: &Center, x: &mut [f
         unsafe { L::prefetch(ahead.wrapping_add(line)) };
     }
     let less = |column: L, j: usize| {
-        // SAFETY: features are the caller's promise; both terms of the centre have dim > j coordinates.
+        // SAFETY: features are the caller's promise; both terms of the center have dim > j coordinates.
         unsafe {
             let once = column.sub(L::broadcast(center.high[j]));
             match center.low.get(j) {

@@ -1,6 +1,6 @@
 //! Dot products and sums of vectors, in registers as wide as the processor has.
 //!
-//! Strict `f64` sums do not vectorise, and the baseline of x86-64 has no fused multiply-add, so the small dense
+//! Strict `f64` sums do not vectorize, and the baseline of x86-64 has no fused multiply-add, so the small dense
 //! algebra of the solvers goes through here: eight running sums, the same on every run.
 
 /// Calls the body, which must be `#[inline(always)]` code, compiled for the best instruction set there is.

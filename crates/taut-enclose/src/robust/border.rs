@@ -16,7 +16,7 @@
 //! *Guarantee.* The determinant falls with all that is accepted. Where no exchange is left no C-step leads on: a row kept
 //! that is farther than one left out has g < 0 with it.
 //! *Trap.* Rows beyond the border are not looked at while it moves: C-steps on all rows follow, and then the border
-//! anew, until neither leads on.
+//! again, until neither leads on.
 //! *Reference.* Hawkins, Computational Statistics & Data Analysis 17, 1994, for exchanges; the factor follows from the
 //! determinant lemma for the change of rank 2.
 
@@ -25,7 +25,7 @@ use super::search::{GOLDEN, mix};
 use super::starts::nearest;
 use crate::Error;
 use crate::ellipsoid::dense::{cholesky, forward};
-use crate::ellipsoid::survey::Survey;
+use crate::ellipsoid::point_reader::PointReader;
 use crate::kernel::vector::{add_scaled, dot};
 
 /// This many rows on either side are looked at. On 10⁵ points ends were no lower with 3000.
@@ -35,7 +35,7 @@ const PAIRED_ROWS: usize = 100;
 /// Part of the squared distances by which g has to be negative: a hundred times what rounding leaves of them.
 const ROUNDING: f64 = 1e-12;
 
-/// A kick bends distances, times h, at least this far; each size is twice the one before. On 10⁵ points kicks of 128
+/// A perturbation bends distances, times h, at least this far; each size is twice the one before. On 10⁵ points perturbations of 128
 /// and less led back to where they came from.
 const KICK_SIZE_MIN: f64 = 256.0;
 const KICK_SIZES: u64 = 6;
@@ -47,7 +47,6 @@ pub(super) struct Border {
     ids: Vec<u64>,
     /// y, row by row, in order of |y|.
     images: Vec<f64>,
-    /// What is kept now.
     state: State,
 }
 
@@ -106,7 +105,7 @@ impl State {
 
 impl Border {
     /// Of the rows kept in `raw`; nothing where all are kept.
-    pub(super) fn of(data: &mut Survey<'_>, raw: &Raw) -> Result<Option<Border>, Error> {
+    pub(super) fn of(data: &mut PointReader<'_>, raw: &Raw) -> Result<Option<Border>, Error> {
         let dim = data.dim();
         let distances = raw.estimate.distances(data)?;
         let h = raw.kept.iter().filter(|kept| **kept).count();
@@ -138,13 +137,13 @@ impl Border {
         Ok(Some(Border { dim, h, ids, images, state }))
     }
 
-    /// Goes down by C-steps and exchanges, and from `kicks` kicks; the rows kept in the end, where some were changed.
-    pub(super) fn search(mut self, raw: &Raw, kicks: u64) -> Option<Vec<bool>> {
+    /// Goes down by C-steps and exchanges, and from this many `perturbations`; the rows kept in the end, where some were changed.
+    pub(super) fn search(mut self, raw: &Raw, perturbations: u64) -> Option<Vec<bool>> {
         let first = self.state.clone();
         self.settle();
-        for which in 0..kicks {
+        for which in 0..perturbations {
             let here = self.state.clone();
-            let is_lower = self.kick(which).is_some() && {
+            let is_lower = self.perturb(which).is_some() && {
                 self.settle();
                 self.state.log_det < here.log_det - ROUNDING / self.h as f64
             };
@@ -235,7 +234,7 @@ impl Border {
     }
 
     /// Keeps the rows that are nearest when distances are bent along a row of the border.
-    fn kick(&mut self, which: u64) -> Option<()> {
+    fn perturb(&mut self, which: u64) -> Option<()> {
         let metric = self.state.metric(self.h)?;
         let images = self.seen(&metric);
         let count = self.state.kept.iter().filter(|kept| **kept).count();

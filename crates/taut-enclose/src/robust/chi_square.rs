@@ -1,6 +1,6 @@
 //! The χ² distribution, and the factors by which scatters are made consistent at the normal distribution.
 //!
-//! *Idea.* With d degrees of freedom, P(χ² ≤ x) is the regularised incomplete gamma function P(d/2, x/2): a series of
+//! *Idea.* With d degrees of freedom, P(χ² ≤ x) is the regularized incomplete gamma function P(d/2, x/2): a series of
 //! positive terms to the left of its bulk, a continued fraction to the right.
 //! *Reference.* Croux, Haesbroeck, J. Multivariate Analysis 71, 1999, for the consistency; Pison, Van Aelst, Willems,
 //! Metrika 55, 2002, for small samples: their formulas with the coefficients their simulations gave.
@@ -77,7 +77,7 @@ pub(super) fn quantile(p: f64, d: usize) -> f64 {
     x
 }
 
-/// By what the covariance of the part `kept` of normal points, those nearest the centre, falls short: its inverse.
+/// By what the covariance of the part `kept` of normal points, those nearest the center, falls short: its inverse.
 pub(super) fn consistency(kept: f64, d: usize) -> f64 {
     if kept >= 1.0 {
         return 1.0;
@@ -115,7 +115,7 @@ const REWEIGHTED: SmallSample = SmallSample {
     ],
 };
 
-/// What the determinant criterion of n points in dimension d falls short of for h of them kept; α is in [0.5, 1].
+/// Returns what the determinant criterion of n points in dimension d falls short of for h of them kept; α is in [0.5, 1].
 ///
 /// Where n is so small that the formula leaves what it was fitted to, and says less than 0 or more than 50, it is 1.
 fn small_sample(table: &SmallSample, alpha: f64, n: usize, d: usize) -> f64 {
@@ -196,7 +196,7 @@ mod tests {
         for d in [1, 2, 5, 40, 300] {
             for p in [1e-6, 0.1, 0.5, 0.9, 0.999_999] {
                 let off = probability(quantile(p, d), d) / p - 1.0;
-                // What rounding the quantile costs far out.
+                // The cost of rounding the quantile far out.
                 assert!(off.abs() < 1e-14 * (10 + d) as f64, "{p}, {d}: {off:e}");
             }
         }

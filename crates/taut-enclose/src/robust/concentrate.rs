@@ -1,6 +1,6 @@
 //! C-steps: from a metric to the h rows nearest in it, to the metric these say, until nothing changes.
 //!
-//! *Guarantee.* Each step that changes the rows lowers what is minimised, det S or the volume of the ellipsoid
+//! *Guarantee.* Each step that changes the rows lowers what is minimized, det S or the volume of the ellipsoid
 //! ([`enclosing`]), so the steps end, at rows that are the h nearest in their own metric. That is a local optimum under
 //! C-steps and no more: finding the least determinant or volume of all is NP-hard.
 //! *Reference.* Rousseeuw, Van Driessen, Technometrics 41, 1999, theorem 1.
@@ -8,12 +8,12 @@
 use taut_certify::RobustMethod;
 use taut_points::{Monitor, Points};
 
-use super::estimate::{Estimate, Look};
+use super::estimate::{Estimate, RankedEstimate};
 use super::flat::{Flat, hull};
 use super::starts::nearest;
 use super::{RobustOptions, enclosing};
 use crate::Error;
-use crate::ellipsoid::survey::Survey;
+use crate::ellipsoid::point_reader::PointReader;
 
 /// The rows kept and their estimate.
 pub(super) struct Raw {
@@ -22,13 +22,13 @@ pub(super) struct Raw {
 }
 
 /// Where steps ended.
-pub(super) enum Found {
+pub(super) enum ConcentrationResult {
     Full(Raw),
     /// In a hyperplane that holds the rows kept: their determinant is 0.
     Flat(Flat),
 }
 
-/// What is to be least.
+/// The quantity to minimize.
 #[derive(Clone, Copy)]
 pub(super) enum Criterion {
     /// The determinant of the covariance.
@@ -58,7 +58,7 @@ impl Criterion {
 /// The metric of the rows kept, found with the help of another that is not too far off.
 pub(super) fn estimate(
     criterion: Criterion,
-    data: &mut Survey<'_>,
+    data: &mut PointReader<'_>,
     metric: &Estimate,
     kept: &[bool],
 ) -> Result<Result<Estimate, Flat>, Error> {
@@ -66,25 +66,25 @@ pub(super) fn estimate(
         return enclosing::estimate(data, kept, epsilon);
     }
     match metric.of_rows(data, kept)? {
-        Look::Full(estimate) => Ok(Ok(estimate)),
-        Look::Noise(estimate) => Ok(hull(data, kept)?.map_or(Ok(estimate), Err)),
-        Look::Singular => hull(data, kept)?.map(Err).ok_or(Error::Overflow),
+        RankedEstimate::Full(estimate) => Ok(Ok(estimate)),
+        RankedEstimate::Noise(estimate) => Ok(hull(data, kept)?.map_or(Ok(estimate), Err)),
+        RankedEstimate::Singular => hull(data, kept)?.map(Err).ok_or(Error::Overflow),
     }
 }
 
 /// C-steps from a metric, `limit` of them at most.
 pub(super) fn concentrate(
     criterion: Criterion,
-    data: &mut Survey<'_>,
+    data: &mut PointReader<'_>,
     start: &Estimate,
     h: usize,
     limit: usize,
     steps: &mut u64,
-) -> Result<Found, Error> {
+) -> Result<ConcentrationResult, Error> {
     let mut kept = nearest(&start.distances(data)?, h);
     let mut here = match estimate(criterion, data, start, &kept)? {
         Ok(estimate) => estimate,
-        Err(flat) => return Ok(Found::Flat(flat)),
+        Err(flat) => return Ok(ConcentrationResult::Flat(flat)),
     };
     for _ in 1..limit {
         *steps += 1;
@@ -94,7 +94,7 @@ pub(super) fn concentrate(
         }
         let better = match estimate(criterion, data, &here, &next)? {
             Ok(estimate) => estimate,
-            Err(flat) => return Ok(Found::Flat(flat)),
+            Err(flat) => return Ok(ConcentrationResult::Flat(flat)),
         };
         // Rows that differ by rounding alone could follow each other in a circle.
         let leads_on = better.log_det() < here.log_det() - criterion.least_step();
@@ -103,7 +103,7 @@ pub(super) fn concentrate(
         }
         (kept, here) = (next, better);
     }
-    Ok(Found::Full(Raw { estimate: here, kept }))
+    Ok(ConcentrationResult::Full(Raw { estimate: here, kept }))
 }
 
 /// C-steps until they end, from the nearest half by a ranking.
@@ -114,10 +114,10 @@ pub(super) fn from_ranking(
     ranking: &[f64],
     h: usize,
     steps: &mut u64,
-) -> Result<Found, Error> {
+) -> Result<ConcentrationResult, Error> {
     let points = Points::new(values, dim).expect("rows of the dimension");
     let silent = Monitor::silent();
-    let mut data = Survey::new(&points, &silent)?;
+    let mut data = PointReader::new(&points, &silent)?;
     let half = ranking.len().div_ceil(2);
     for count in [half, h] {
         let kept = nearest(ranking, count);
@@ -125,7 +125,7 @@ pub(super) fn from_ranking(
         match estimate(criterion, &mut data, &metric, &kept)? {
             Ok(start) => return concentrate(criterion, &mut data, &start, h, usize::MAX, steps),
             // Half of the points may lie in a hyperplane that does not hold h of them.
-            Err(flat) if count == h => return Ok(Found::Flat(flat)),
+            Err(flat) if count == h => return Ok(ConcentrationResult::Flat(flat)),
             Err(_) => {}
         }
     }

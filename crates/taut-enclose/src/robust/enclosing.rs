@@ -14,7 +14,7 @@ use taut_points::Points;
 
 use super::estimate::Estimate;
 use super::flat::{Flat, Part};
-use crate::ellipsoid::survey::Survey;
+use crate::ellipsoid::point_reader::PointReader;
 use crate::kernel::vector::dot;
 use crate::{EllipsoidOptions, Error, ellipsoid};
 
@@ -22,7 +22,7 @@ use crate::{EllipsoidOptions, Error, ellipsoid};
 const KEPT_REACH_MAX: f64 = 1.0 + 1e-9;
 
 /// An ellipsoid around rows, and what its metric says of all rows of the space it is in.
-pub(super) struct Around {
+pub(super) struct EnclosingMetric {
     pub(super) enclosure: Enclosure,
     /// Rows enclosed, ascending.
     pub(super) kept: Vec<u64>,
@@ -33,7 +33,7 @@ pub(super) struct Around {
 }
 
 fn around(
-    data: &Survey<'_>,
+    data: &PointReader<'_>,
     ids: &[u64],
     epsilon: f64,
 ) -> Result<Solution<taut_certify::Ellipsoid>, Error> {
@@ -44,7 +44,7 @@ fn around(
 
 /// The metric of the smallest ellipsoid around the rows kept, or the subspace they lie in.
 pub(super) fn estimate(
-    data: &Survey<'_>,
+    data: &PointReader<'_>,
     kept: &[bool],
     epsilon: f64,
 ) -> Result<Result<Estimate, Flat>, Error> {
@@ -61,10 +61,10 @@ pub(super) fn estimate(
 
 /// The smallest ellipsoid around rows, and around all that it encloses besides.
 pub(super) fn enclose(
-    data: &mut Survey<'_>,
+    data: &mut PointReader<'_>,
     mut kept: Vec<u64>,
     epsilon: f64,
-) -> Result<Around, Error> {
+) -> Result<EnclosingMetric, Error> {
     let dim = data.dim();
     loop {
         let found = around(data, &kept, epsilon)?;
@@ -116,6 +116,6 @@ pub(super) fn enclose(
         let enclosure = Enclosure { ellipsoid: found.answer, certificate };
         let metric = Estimate { center, tail, matrix };
         let metric = if metric.dim() > 0 { metric.with_needed_tail() } else { metric };
-        return Ok(Around { enclosure, kept, part, metric });
+        return Ok(EnclosingMetric { enclosure, kept, part, metric });
     }
 }

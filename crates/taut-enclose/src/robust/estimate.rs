@@ -1,4 +1,4 @@
-//! Mean and covariance of the rows kept, as a centre and a whitener, and the passes that find them.
+//! Mean and covariance of the rows kept, as a center and a whitener, and the passes that find them.
 //!
 //! *Idea.* S is never formed: M, lower triangular, stands for M′M = S⁻¹. A pass takes moments of y = M(x − c) for the
 //! rows kept; their covariance C = LL′ replaces M by L⁻¹M. Near the end C is nearly the identity, so neither units,
@@ -12,7 +12,7 @@
 
 use crate::Error;
 use crate::ellipsoid::dense::{cholesky, divide_rows, forward};
-use crate::ellipsoid::survey::Survey;
+use crate::ellipsoid::point_reader::PointReader;
 use crate::kernel::triangle::{POINTS, Triangle, images, leverages, moments};
 use crate::kernel::vector::dot;
 use crate::kernel::{Center, DoubleDouble};
@@ -33,14 +33,14 @@ const CENTER_ROUNDING_MAX: f64 = 1.0 / 128.0;
 #[derive(Clone, Debug)]
 pub(super) struct Estimate {
     pub(super) center: Vec<f64>,
-    /// What is to be added to `center` for c; empty stands for zeros.
+    /// The vector to add to `center` for c; empty stands for zeros.
     pub(super) tail: Vec<f64>,
     /// Lower triangular by rows, zeros above: M′M = S⁻¹.
     pub(super) matrix: Vec<f64>,
 }
 
-/// What the rows kept say.
-pub(super) enum Look {
+/// The estimate from the rows kept.
+pub(super) enum RankedEstimate {
     /// Mean and covariance.
     Full(Estimate),
     /// The same, but some direction is as thin as rounding of the coordinates.
@@ -49,7 +49,7 @@ pub(super) enum Look {
     Singular,
 }
 
-/// What one pass tells of the rows kept.
+/// The moments of the rows kept, from one pass.
 struct Moments {
     /// Σ yy′, Σ y and Σ 1 for y = M(x − c): (d + 1) × (d + 1), lower triangle.
     sums: Vec<f64>,
@@ -70,7 +70,7 @@ impl Moments {
         self.highs.iter_mut().zip(&other.highs).for_each(|(high, x)| *high = high.max(*x));
     }
 
-    /// Whether some coordinate is the same in all rows.
+    /// Returns true if some coordinate is the same in all rows.
     fn is_constant(&self) -> bool {
         self.lows.iter().zip(&self.highs).any(|(low, high)| low == high)
     }
@@ -83,7 +83,7 @@ impl Moments {
 
 impl Estimate {
     /// A first metric: the largest distance of a coordinate from that of the first row kept is 1.
-    pub(super) fn rough(data: &mut Survey<'_>, kept: &[bool]) -> Result<Self, Error> {
+    pub(super) fn rough(data: &mut PointReader<'_>, kept: &[bool]) -> Result<Self, Error> {
         let dim = data.dim();
         let first = kept.iter().position(|&kept| kept).unwrap_or(0) as u64;
         let center = data.rows(&[first])?;
@@ -144,7 +144,7 @@ impl Estimate {
     }
 
     /// |M(x − c)|² of all rows.
-    pub(super) fn distances(&self, data: &mut Survey<'_>) -> Result<Vec<f64>, Error> {
+    pub(super) fn distances(&self, data: &mut PointReader<'_>) -> Result<Vec<f64>, Error> {
         let center = Center { high: self.center.clone(), low: self.tail.clone() };
         let dim = self.dim();
         let blocks = data.visit(|_, rows| {
@@ -159,7 +159,7 @@ impl Estimate {
         Ok(all)
     }
 
-    fn moments(&self, data: &mut Survey<'_>, kept: &[bool]) -> Result<Moments, Error> {
+    fn moments(&self, data: &mut PointReader<'_>, kept: &[bool]) -> Result<Moments, Error> {
         let dim = self.dim();
         let shift = vec![0.0; dim];
         let blocks = data.visit(|first, rows| {
@@ -193,7 +193,11 @@ impl Estimate {
     }
 
     /// Mean and covariance (divisor k − 1) of the k rows kept.
-    pub(super) fn of_rows(&self, data: &mut Survey<'_>, kept: &[bool]) -> Result<Look, Error> {
+    pub(super) fn of_rows(
+        &self,
+        data: &mut PointReader<'_>,
+        kept: &[bool],
+    ) -> Result<RankedEstimate, Error> {
         let dim = self.dim();
         let mut next = self.clone();
         for _ in 0..TURNS_MAX {
@@ -205,7 +209,7 @@ impl Estimate {
             let last = &moments[dim * (dim + 1)..];
             let count = last[dim];
             if count < dim as f64 + 1.0 || found.is_constant() {
-                return Ok(Look::Singular);
+                return Ok(RankedEstimate::Singular);
             }
             let mut mean: Vec<f64> = last[..dim].iter().map(|s| s / count).collect();
             let mut covariance = vec![0.0; dim * dim];
@@ -218,7 +222,7 @@ impl Estimate {
             // No deviation at all, exactly.
             let deviates = |a: usize| covariance[a * dim + a] > 0.0;
             if !(0..dim).all(deviates) {
-                return Ok(Look::Singular);
+                return Ok(RankedEstimate::Singular);
             }
             let Some((lower, is_near)) = factor(covariance, dim) else {
                 return Err(Error::Overflow);
@@ -231,18 +235,22 @@ impl Estimate {
             }
             divide_rows(&lower, dim, &mut next.matrix);
             if next.matrix.iter().any(|m| !m.is_finite()) {
-                return Ok(Look::Singular);
+                return Ok(RankedEstimate::Singular);
             }
             next = next.with_needed_tail();
             if is_near {
                 let is_noise = next.is_noise(&found.sizes());
-                return Ok(if is_noise { Look::Noise(next) } else { Look::Full(next) });
+                return Ok(if is_noise {
+                    RankedEstimate::Noise(next)
+                } else {
+                    RankedEstimate::Full(next)
+                });
             }
         }
-        Ok(Look::Singular)
+        Ok(RankedEstimate::Singular)
     }
 
-    /// Whether rounding of coordinates of these sizes could make up what is left of some direction.
+    /// Returns true if rounding of coordinates of these sizes could make up what is left of some direction.
     fn is_noise(&self, sizes: &[f64]) -> bool {
         let dim = self.dim();
         let is_clear = |row: &[f64]| {

@@ -6,17 +6,16 @@ use taut_points::{Monitor, Points};
 use super::chi_square::{
     mcd_reweighted_scale, mcd_scale, mve_reweighted_scale, mve_scale, quantile,
 };
-use super::concentrate::{Criterion, Found, Raw};
-use super::enclosing::Around;
-use super::estimate::{Estimate, Look};
+use super::concentrate::{ConcentrationResult, Criterion, Raw};
+use super::enclosing::EnclosingMetric;
+use super::estimate::{Estimate, RankedEstimate};
 use super::flat::{Flat, Part, hull};
 use super::{RobustOptions, enclosing, search};
 use crate::Error;
-use crate::ellipsoid::survey::Survey;
+use crate::ellipsoid::point_reader::PointReader;
 
 /// An estimate with all it was made from.
 pub(super) struct Fit {
-    /// Rows kept.
     pub(super) kept: Vec<bool>,
     pub(super) objective: f64,
     pub(super) raw_scale: f64,
@@ -60,14 +59,14 @@ struct Descent {
 
 /// Finds the rows to keep, within a subspace if h rows lie in one.
 fn descend(
-    data: &mut Survey<'_>,
+    data: &mut PointReader<'_>,
     h: usize,
     options: &RobustOptions<'_>,
     steps: &mut u64,
 ) -> Result<Descent, Error> {
     let flat = match search::solve(Criterion::of(options), data, h, steps)? {
-        Found::Full(raw) => return Ok(Descent { part: None, raw: Some(raw) }),
-        Found::Flat(flat) => flat,
+        ConcentrationResult::Full(raw) => return Ok(Descent { part: None, raw: Some(raw) }),
+        ConcentrationResult::Flat(flat) => flat,
     };
     let part = flat.holding(data, h)?;
     if part.flat.rank() == 0 {
@@ -75,7 +74,7 @@ fn descend(
     }
     let points = Points::new(&part.values, part.flat.rank()).expect("rows of the rank");
     let silent = Monitor::silent();
-    let mut within = Survey::new(&points, &silent)?;
+    let mut within = PointReader::new(&points, &silent)?;
     let inner = descend(&mut within, h, options, steps)?;
     data.count(within.passes());
     let part = match inner.part {
@@ -91,7 +90,7 @@ fn descend(
 
 /// Finds the rows to keep and fits, within a subspace if h rows lie in one.
 pub(super) fn place(
-    data: &mut Survey<'_>,
+    data: &mut PointReader<'_>,
     h: usize,
     options: &RobustOptions<'_>,
     steps: &mut u64,
@@ -105,7 +104,8 @@ pub(super) fn place(
         (Some(part), Some(raw)) => marked(&raw.kept, |row| part.ids[row]),
         (None, raw) => raw.as_ref().map_or(vec![], |raw| marked(&raw.kept, |row| row as u64)),
     };
-    let Around { enclosure, kept, part, metric } = enclosing::enclose(data, kept, options.epsilon)?;
+    let EnclosingMetric { enclosure, kept, part, metric } =
+        enclosing::enclose(data, kept, options.epsilon)?;
     let mark = |ids: &mut dyn Iterator<Item = u64>| -> Vec<bool> {
         let mut kept = kept.iter().copied().peekable();
         ids.map(|id| kept.next_if_eq(&id).is_some()).collect()
@@ -124,7 +124,7 @@ fn marked(marks: &[bool], id: impl Fn(usize) -> u64) -> Vec<u64> {
 
 /// Weighs outliers out where the rows kept are.
 fn finish(
-    data: &mut Survey<'_>,
+    data: &mut PointReader<'_>,
     part: Option<Part>,
     raw: Option<Raw>,
     enclosure: Option<Enclosure>,
@@ -136,7 +136,7 @@ fn finish(
         (Some(part), Some(raw)) => {
             let points = Points::new(&part.values, part.flat.rank()).expect("rows of the rank");
             let silent = Monitor::silent();
-            reweighted(&mut Survey::new(&points, &silent)?, raw, h, options)?
+            reweighted(&mut PointReader::new(&points, &silent)?, raw, h, options)?
         }
         (part, None) => {
             let rows = part.as_ref().map_or(0, |part| part.ids.len());
@@ -169,7 +169,7 @@ fn point(rows: usize, h: usize) -> Fit {
 
 /// Weighs out what lies beyond the quantile in the metric of the rows kept.
 fn reweighted(
-    data: &mut Survey<'_>,
+    data: &mut PointReader<'_>,
     raw: Raw,
     h: usize,
     options: &RobustOptions<'_>,
@@ -188,16 +188,16 @@ fn reweighted(
         RobustMethod::Trim => Some(Unweighted::Trimmed),
         _ => (h == n).then_some(Unweighted::AllKept),
     };
-    let look = match settled {
-        Some(_) => Look::Singular,
+    let ranked = match settled {
+        Some(_) => RankedEstimate::Singular,
         None => match raw.estimate.of_rows(data, &weighed)? {
             // What rounding alone gave a determinant has none.
-            Look::Noise(_) if hull(data, &weighed)?.is_some() => Look::Singular,
-            look => look,
+            RankedEstimate::Noise(_) if hull(data, &weighed)?.is_some() => RankedEstimate::Singular,
+            ranked => ranked,
         },
     };
-    let (estimate, weighed, scale, unweighted) = match look {
-        Look::Full(estimate) | Look::Noise(estimate) => {
+    let (estimate, weighed, scale, unweighted) = match ranked {
+        RankedEstimate::Full(estimate) | RankedEstimate::Noise(estimate) => {
             let scale = match options.method {
                 RobustMethod::Mcd => mcd_reweighted_scale(left, h, n, dim),
                 _ => mve_reweighted_scale(left, n, dim),
@@ -205,7 +205,7 @@ fn reweighted(
             (estimate, weighed, scale, None)
         }
         // Of all rows nothing is weighed out, trimming is done; and what is left must not be flat.
-        Look::Singular => {
+        RankedEstimate::Singular => {
             (raw.estimate, kept.clone(), raw_scale, settled.or(Some(Unweighted::Flat)))
         }
     };

@@ -8,7 +8,7 @@
 use taut_certify::Hull;
 use taut_points::Points;
 
-use crate::ellipsoid::survey::Survey;
+use crate::ellipsoid::point_reader::PointReader;
 use crate::kernel::vector::{add_scaled, dot};
 use crate::{EllipsoidOptions, Error, ellipsoid};
 
@@ -42,7 +42,7 @@ pub(super) struct Part {
 }
 
 /// The subspace that holds the rows kept, if they lie in one.
-pub(super) fn hull(data: &mut Survey<'_>, kept: &[bool]) -> Result<Option<Flat>, Error> {
+pub(super) fn hull(data: &mut PointReader<'_>, kept: &[bool]) -> Result<Option<Flat>, Error> {
     let ids: Vec<u64> = (0..).zip(kept).filter(|(_, kept)| **kept).map(|(id, _)| id).collect();
     let rows = data.rows(&ids)?;
     let points = Points::new(&rows, data.dim()).expect("rows of the dimension");
@@ -78,7 +78,7 @@ impl Flat {
         for direction in self.basis.chunks_exact(self.dim()) {
             let product = dot(&rest, direction);
             add_scaled(&mut rest, -product, direction);
-            // What only rounding keeps from 0: left as it is, a column of such numbers would count as one of its own.
+            // A column that only rounding keeps from 0: left as it is, a column of such numbers would count as one of its own.
             let size: f64 = offset.iter().zip(direction).map(|(x, b)| (x * b).abs()).sum();
             let is_zero =
                 product.abs() <= ZERO_ROUNDINGS * (self.dim() + 4) as f64 * f64::EPSILON * size;
@@ -90,7 +90,7 @@ impl Flat {
     /// Widened where rounding has put some of the h rows it was made from outside.
     ///
     /// Fails where these are farther off than rows of a subspace may be.
-    pub(super) fn holding(mut self, data: &mut Survey<'_>, h: usize) -> Result<Part, Error> {
+    pub(super) fn holding(mut self, data: &mut PointReader<'_>, h: usize) -> Result<Part, Error> {
         let (ids, values) = self.rows_on(data)?;
         if ids.len() >= h {
             return Ok(Part { flat: self, ids, values });
@@ -126,7 +126,10 @@ impl Flat {
     }
 
     /// The rows on the subspace: their numbers, and their coordinates in it.
-    pub(super) fn rows_on(&self, data: &mut Survey<'_>) -> Result<(Vec<u64>, Vec<f64>), Error> {
+    pub(super) fn rows_on(
+        &self,
+        data: &mut PointReader<'_>,
+    ) -> Result<(Vec<u64>, Vec<f64>), Error> {
         let dim = self.dim();
         let blocks = data.visit(|first, rows| {
             let (mut ids, mut values) = (vec![], vec![]);
@@ -198,7 +201,7 @@ mod tests {
         let values: Vec<f64> = (0..9).flat_map(|i| [f64::from(i), f64::from(i) * slope]).collect();
         let points = Points::new(&values, 2).expect("pairs");
         let silent = Monitor::silent();
-        let mut data = Survey::new(&points, &silent)?;
+        let mut data = PointReader::new(&points, &silent)?;
         let axis = Flat { origin: vec![0.0; 2], basis: vec![1.0, 0.0], distance: 0.0 };
         axis.holding(&mut data, 6).map(|part| part.ids.len())
     }

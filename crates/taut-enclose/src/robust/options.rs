@@ -1,14 +1,14 @@
-//! What to keep, and how sure to be.
+//! The options of robust ellipsoids.
 
 use taut_certify::RobustMethod;
 use taut_points::{InputError, Monitor, check_threads, shown_number};
 
 use crate::Error;
 
-/// How to estimate. Write `RobustOptions { method: RobustMethod::Mve, ..Default::default() }`.
+/// Options to estimate. Write `RobustOptions { method: RobustMethod::Mve, ..Default::default() }`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobustOptions<'a> {
-    /// What is to be minimised. Default [`RobustMethod::Mcd`].
+    /// The quantity to minimize. Default [`RobustMethod::Mcd`].
     pub method: RobustMethod,
     /// About which part α of the points is kept; the answer bears that the others are anything. `None`, the default, is
     /// 0.5 for `mcd` and `mve`, 0.9 for `trim`.

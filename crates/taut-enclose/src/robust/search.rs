@@ -16,12 +16,14 @@ use rayon::prelude::*;
 use taut_points::{Monitor, Points};
 
 use super::border::Border;
-use super::concentrate::{Criterion, Found, Raw, concentrate, estimate, from_ranking};
-use super::estimate::{Estimate, Look};
+use super::concentrate::{
+    ConcentrationResult, Criterion, Raw, concentrate, estimate, from_ranking,
+};
+use super::estimate::{Estimate, RankedEstimate};
 use super::flat::Flat;
-use super::starts::{START_COUNT, Standardised};
+use super::starts::{START_COUNT, Standardized};
 use crate::Error;
-use crate::ellipsoid::survey::Survey;
+use crate::ellipsoid::point_reader::PointReader;
 
 /// Rankings look at this many points; with more than twice as many, a sample of this size stands for them.
 const SAMPLE_SIZE: usize = 2000;
@@ -37,16 +39,16 @@ const BEST_ELEMENTS: usize = 10;
 const CANDIDATES_MAX: usize = 6;
 /// At most this many of them go on to the end.
 const FINALISTS_MAX: usize = 4;
-/// The best of them is given at most this many kicks at the border.
-const KICKS_MAX: u64 = 40;
+/// The best of them is given at most this many perturbations at the border.
+const PERTURBATIONS_MAX: u64 = 40;
 
 /// Finds the h rows, or a hyperplane that holds so many.
 pub(super) fn solve(
     criterion: Criterion,
-    data: &mut Survey<'_>,
+    data: &mut PointReader<'_>,
     h: usize,
     steps: &mut u64,
-) -> Result<Found, Error> {
+) -> Result<ConcentrationResult, Error> {
     let (n, dim) = (data.len() as usize, data.dim());
     let size = SAMPLE_SIZE.max(20 * dim);
     let ids = by_hash(data, if n > 2 * size { size } else { n })?;
@@ -57,12 +59,16 @@ pub(super) fn solve(
     for (found, taken) in ends {
         *steps += taken;
         match found {
-            Found::Full(raw) if candidates.iter().all(|other| other.kept != raw.kept) => {
+            ConcentrationResult::Full(raw)
+                if candidates.iter().all(|other| other.kept != raw.kept) =>
+            {
                 candidates.push(raw);
             }
-            Found::Full(_) => {}
-            Found::Flat(flat) if holds(&flat, data, h)? => return Ok(Found::Flat(flat)),
-            Found::Flat(_) => {}
+            ConcentrationResult::Full(_) => {}
+            ConcentrationResult::Flat(flat) if holds(&flat, data, h)? => {
+                return Ok(ConcentrationResult::Flat(flat));
+            }
+            ConcentrationResult::Flat(_) => {}
         }
     }
     if candidates.is_empty() {
@@ -71,14 +77,14 @@ pub(super) fn solve(
         let metric = Estimate::rough(data, &all)?;
         return match estimate(criterion, data, &metric, &all)? {
             Ok(start) => concentrate(criterion, data, &start, h, usize::MAX, steps),
-            Err(flat) => Ok(Found::Flat(flat)),
+            Err(flat) => Ok(ConcentrationResult::Flat(flat)),
         };
     }
     best(&mut candidates, CANDIDATES_MAX);
     for (limit, left) in [(2, FINALISTS_MAX), (usize::MAX, FINALISTS_MAX)] {
         for candidate in &mut candidates {
             match concentrate(criterion, data, &candidate.estimate, h, limit, steps)? {
-                Found::Full(raw) => *candidate = raw,
+                ConcentrationResult::Full(raw) => *candidate = raw,
                 flat => return Ok(flat),
             }
         }
@@ -87,43 +93,43 @@ pub(super) fn solve(
         candidates.dedup_by(|a, b| a.kept == b.kept);
     }
     if let Criterion::Determinant = criterion {
-        for kicks in [0, KICKS_MAX] {
+        for perturbations in [0, PERTURBATIONS_MAX] {
             for candidate in &mut candidates {
-                if let Some(flat) = polish(data, candidate, h, kicks, steps)? {
-                    return Ok(Found::Flat(flat));
+                if let Some(flat) = polish(data, candidate, h, perturbations, steps)? {
+                    return Ok(ConcentrationResult::Flat(flat));
                 }
             }
             best(&mut candidates, 1);
         }
     }
-    Ok(Found::Full(candidates.swap_remove(0)))
+    Ok(ConcentrationResult::Full(candidates.swap_remove(0)))
 }
 
 /// Goes down at the border and by C-steps on all rows, by turns, until neither leads on; a hyperplane, if that ends in
 /// one.
 fn polish(
-    data: &mut Survey<'_>,
+    data: &mut PointReader<'_>,
     raw: &mut Raw,
     h: usize,
-    mut kicks: u64,
+    mut perturbations: u64,
     steps: &mut u64,
 ) -> Result<Option<Flat>, Error> {
     while let Some(border) = Border::of(data, raw)? {
-        let Some(kept) = border.search(raw, kicks) else { break };
+        let Some(kept) = border.search(raw, perturbations) else { break };
         let start = match estimate(Criterion::Determinant, data, &raw.estimate, &kept)? {
             Ok(start) => start,
             Err(flat) => return Ok(Some(flat)),
         };
         let next = match concentrate(Criterion::Determinant, data, &start, h, usize::MAX, steps)? {
-            Found::Full(next) => next,
-            Found::Flat(flat) => return Ok(Some(flat)),
+            ConcentrationResult::Full(next) => next,
+            ConcentrationResult::Flat(flat) => return Ok(Some(flat)),
         };
-        // What rounding alone gained could be lost and gained for ever.
+        // What rounding alone gained could be lost and gained endlessly.
         let leads_on = next.estimate.log_det() < raw.estimate.log_det();
         if !leads_on {
             break;
         }
-        (*raw, kicks) = (next, 0);
+        (*raw, perturbations) = (next, 0);
     }
     Ok(None)
 }
@@ -140,9 +146,9 @@ fn ends_on_sample(
     sample: &[f64],
     dim: usize,
     part: usize,
-) -> Result<Vec<(Found, u64)>, Error> {
+) -> Result<Vec<(ConcentrationResult, u64)>, Error> {
     let simplices = best_simplices(sample, dim, part)?;
-    let points = Standardised::of(sample, dim);
+    let points = Standardized::of(sample, dim);
     let silent = Monitor::silent();
     (0..START_COUNT + simplices.len())
         .into_par_iter()
@@ -155,7 +161,7 @@ fn ends_on_sample(
                 }
                 Some(simplex) => {
                     let view = Points::new(sample, dim).expect("rows of the dimension");
-                    let mut data = Survey::new(&view, &silent)?;
+                    let mut data = PointReader::new(&view, &silent)?;
                     let start = &simplices[simplex];
                     concentrate(criterion, &mut data, start, part, usize::MAX, &mut steps)?
                 }
@@ -181,13 +187,17 @@ fn best_simplices(sample: &[f64], dim: usize, part: usize) -> Result<Vec<Estimat
     let ends: Vec<Option<Estimate>> = (0..SIMPLEX_COUNT)
         .into_par_iter()
         .map(|which| {
-            let mut data = Survey::new(&view, &silent)?;
+            let mut data = PointReader::new(&view, &silent)?;
             let kept = simplex(which, few, dim);
             let metric = Estimate::rough(&mut data, &kept)?;
-            let Look::Full(mut here) = metric.of_rows(&mut data, &kept)? else { return Ok(None) };
+            let RankedEstimate::Full(mut here) = metric.of_rows(&mut data, &kept)? else {
+                return Ok(None);
+            };
             for _ in 0..2 {
                 let kept = super::starts::nearest(&here.distances(&mut data)?, part);
-                let Look::Full(next) = here.of_rows(&mut data, &kept)? else { return Ok(None) };
+                let RankedEstimate::Full(next) = here.of_rows(&mut data, &kept)? else {
+                    return Ok(None);
+                };
                 here = next;
             }
             Ok(Some(here))
@@ -213,13 +223,13 @@ fn simplex(which: u64, n: usize, dim: usize) -> Vec<bool> {
     marks
 }
 
-/// Whether at least h rows lie on a subspace.
-fn holds(flat: &Flat, data: &mut Survey<'_>, h: usize) -> Result<bool, Error> {
+/// Tests whether at least h rows lie on a subspace.
+fn holds(flat: &Flat, data: &mut PointReader<'_>, h: usize) -> Result<bool, Error> {
     Ok(flat.rows_on(data)?.0.len() >= h)
 }
 
 /// The rows whose bits hash lowest, in that order.
-fn by_hash(data: &mut Survey<'_>, size: usize) -> Result<Vec<u64>, Error> {
+fn by_hash(data: &mut PointReader<'_>, size: usize) -> Result<Vec<u64>, Error> {
     let dim = data.dim();
     let blocks = data.visit(|first, rows| {
         let hashes = rows.chunks_exact(dim).map(hash);
@@ -243,7 +253,7 @@ fn keep_least(list: &mut Vec<(u64, u64)>, size: usize) {
 /// 2⁶⁴ over the golden ratio.
 pub(super) const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
 
-/// The finaliser of SplitMix64 (Steele, Lea, Flood 2014).
+/// The finalizer of SplitMix64 (Steele, Lea, Flood 2014).
 pub(super) fn mix(h: u64) -> u64 {
     let h = (h ^ (h >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
     let h = (h ^ (h >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);

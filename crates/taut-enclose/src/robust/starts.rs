@@ -4,7 +4,7 @@
 //! *Idea.* Coordinates are brought to median 0 and scale 1. Six matrices that single outliers cannot bend far, each of
 //! another kind, give directions: the correlations of hyperbolic tangents, of ranks and of normal scores, the
 //! covariance of signs, that of the half nearest the medians, and the raw OGK matrix of pairs. In the eigenvectors of
-//! each, scales are taken anew by Qn and a centre by medians, and points are ranked by the distance these say.
+//! each, scales are taken again by Qn and a center by medians, and points are ranked by the distance these say.
 //! *Guarantee.* A function of the points, of their order only where distances are equal. Shifted and scaled coordinates
 //! give the same rankings; turned ones need not: medians by coordinate are not the medians of turned points.
 //! *Trap.* Where half of the points lie in a hyperplane a scale is 0. It is taken as a trifle, so that exactly those
@@ -17,7 +17,7 @@ use super::eigen::eigenvectors;
 use super::scale::{median, qn};
 use crate::kernel::vector::dot;
 
-/// How many there are.
+/// The number of them.
 pub(super) const START_COUNT: usize = 6;
 
 /// This part of the largest scale stands for a scale of 0.
@@ -27,23 +27,23 @@ const SCALE_RATIO_MIN: f64 = 1e-10;
 const PAIR_ROWS: usize = 500;
 
 /// Points by columns, each of median 0 and scale 1.
-pub(super) struct Standardised {
+pub(super) struct Standardized {
     columns: Vec<Vec<f64>>,
     rows: usize,
 }
 
-impl Standardised {
+impl Standardized {
     /// Of rows of dimension `dim`; what does not fit into `f64` is infinite and ranks last.
     pub(super) fn of(values: &[f64], dim: usize) -> Self {
         let rows = values.len() / dim;
         let columns = (0..dim)
             .map(|j| {
                 let mut column: Vec<f64> = values.iter().skip(j).step_by(dim).copied().collect();
-                standardise(&mut column);
+                standardize(&mut column);
                 column
             })
             .collect();
-        Standardised { columns, rows }
+        Standardized { columns, rows }
     }
 
     /// Squared distances by start `which` of [`START_COUNT`].
@@ -71,7 +71,6 @@ impl Standardised {
         self.columns.len()
     }
 
-    /// The correlations of transformed columns.
     fn correlation(&self, transform: impl Fn(&[f64]) -> Vec<f64>) -> Vec<f64> {
         let columns: Vec<Vec<f64>> = self
             .columns
@@ -152,7 +151,7 @@ impl Standardised {
         })
     }
 
-    /// Distances in the eigenvectors of a matrix, with scales and a centre of their own.
+    /// Distances in the eigenvectors of a matrix, with scales and a center of their own.
     fn refined(&self, mut matrix: Vec<f64>) -> Vec<f64> {
         let dim = self.dim();
         let vectors = eigenvectors(&mut matrix, dim);
@@ -228,7 +227,7 @@ fn combined(columns: &[Vec<f64>], weights: &[f64]) -> Vec<f64> {
 }
 
 /// To median 0 and scale 1: Qn, or where half of the values are equal the mean distance from the median, or nothing.
-fn standardise(column: &mut [f64]) {
+fn standardize(column: &mut [f64]) {
     let mut sorted = column.to_vec();
     let center = median(&mut sorted);
     let n = sorted.len() as f64;
@@ -278,7 +277,7 @@ mod tests {
         let mut values: Vec<f64> =
             (0..100).flat_map(|i| [f64::from(i % 10), f64::from(i / 10) * 3.0]).collect();
         (0..30).for_each(|i| values.extend([1000.0 + f64::from(i % 5), 500.0 + f64::from(i)]));
-        let points = Standardised::of(&values, 2);
+        let points = Standardized::of(&values, 2);
         for which in 0..START_COUNT {
             let kept = nearest(&points.distances(which), 65);
             assert!(kept[100..].iter().all(|kept| !kept), "start {which}");

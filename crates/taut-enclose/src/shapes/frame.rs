@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::Shapes;
 use crate::kernel::{Center, DoubleDouble};
 
-/// A linear map by rows, r × d, and the centre it is taken from.
+/// A linear map by rows, r × d, and the center it is taken from.
 #[derive(Clone, Copy)]
 pub(crate) struct Map<'a> {
     pub(crate) matrix: &'a [f64],
@@ -62,7 +62,7 @@ impl Map<'_> {
         congruence(*self, shapes, i)
     }
 
-    /// P(p − c) for the point of an item that lies farthest in the direction a; the centre where Sa = 0.
+    /// P(p − c) for the point of an item that lies farthest in the direction a; the center where Sa = 0.
     pub(crate) fn touching(&self, shapes: &Shapes, i: usize, a: &[f64]) -> Vec<f64> {
         let mut offset = self.offset(shapes.center(i));
         for (x, v) in offset.iter_mut().zip(step(shapes, i, a)) {

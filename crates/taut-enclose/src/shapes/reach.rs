@@ -1,6 +1,6 @@
 //! The point of an ellipsoid that lies farthest from the origin.
 //!
-//! *Problem.* Along the axes of the ellipsoid: maximise |h + Λ^½z|² over |z| ≤ 1, for a diagonal Λ ⪰ 0.
+//! *Problem.* Along the axes of the ellipsoid: maximize |h + Λ^½z|² over |z| ≤ 1, for a diagonal Λ ⪰ 0.
 //! *Formula.* z = Λ^½h/(μ − Λ) for the μ ≥ λ₁ = max λ with |z| = 1, and the largest value is φ(μ) = μ(1 + Σ hₖ²/(μ − λₖ)),
 //! which bounds it from above for every μ > λ₁.
 //! *Idea.* The unknown is δ = μ − λ₁, so that no digit of μ − λₖ is lost; Newton steps on 1/|z| = 1, which is nearly

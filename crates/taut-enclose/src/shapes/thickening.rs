@@ -2,8 +2,8 @@
 //!
 //! *Definition.* With D the diagonal of S, a row stands for S + 2τD, where τ is the least of 2⁻⁵⁶, 2⁻⁵⁵, … for which S + τD
 //! is positive semidefinite, and for S itself where S is: see [`Items::Ellipsoids`](taut_certify::Items::Ellipsoids).
-//! *Idea.* A matrix is positive definite if all pivots of its factorisation are positive. Rows and columns are brought
-//! to sizes of about 1 by powers of two, and the factorisation is done in doubled precision, on the safe side by 2e-27.
+//! *Idea.* A matrix is positive definite if all pivots of its factorization are positive. Rows and columns are brought
+//! to sizes of about 1 by powers of two, and the factorization is done in doubled precision, on the safe side by 2e-27.
 //! *Trap.* An eigenvalue in `f64` is known to 1e-16 at best, and τ is of that size: from eigenvalues the checker's τ could
 //! not be found again, and answers would be refused.
 
@@ -41,7 +41,7 @@ pub(super) fn thickening(shape: &[f64], dim: usize) -> Option<f64> {
     Some(2.0 * tau)
 }
 
-/// Whether S + (τ − e)D has positive pivots, with an e that is more than factorising is off by.
+/// Returns true if S + (τ − e)D has positive pivots, with an e that is more than factorizing is off by.
 fn is_definite(rows: &[Vec<f64>], tau: f64) -> bool {
     let n = rows.len();
     let e = 64.0 * ((n + 4) * (n + 4)) as f64 * ROUNDOFF;

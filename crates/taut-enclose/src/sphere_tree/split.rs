@@ -1,7 +1,7 @@
 //! Points in two sets, so that the larger of their two balls is small.
 //!
 //! *Idea.* Two points far apart, found by going twice to the farthest; every point goes with the nearer of them. Then, as in
-//! Lloyd's method, the balls of both sets, and every point to the nearer centre, as long as the larger ball shrinks.
+//! Lloyd's method, the balls of both sets, and every point to the nearer center, as long as the larger ball shrinks.
 //! *Guarantee.* Neither set is empty. The first two sets have at most twice the radius of the best ones.
 //! *Trap.* Sizes of all kinds meet in one tree: distances are taken in units of the ball at hand.
 
@@ -11,7 +11,7 @@ use taut_points::{Points, Scalar};
 use crate::frame::exponent;
 use crate::{BallOptions, Error, ball};
 
-/// Most times that centres are moved; few sets ask for more than five.
+/// Most times that centers are moved; few sets ask for more than five.
 const MOVES_MAX: usize = 8;
 /// A ball that only says which of two sets is nearer need not be exact.
 const EPSILON: f64 = 1e-4;
@@ -99,7 +99,7 @@ impl Units {
         farthest.0
     }
 
-    /// Whether each point is as near to `first` as to `second`.
+    /// Tests whether each point is as near to `first` as to `second`.
     fn sides<T: Scalar>(self, points: &Points<'_, T>, first: &[f64], second: &[f64]) -> Vec<bool> {
         points.rows().map(|row| self.square(row, first) <= self.square(row, second)).collect()
     }

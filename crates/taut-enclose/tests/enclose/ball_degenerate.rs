@@ -276,11 +276,11 @@ fn far_from_the_origin() {
             assert_eq!(found.answer.center_tail.is_empty(), offset <= 10.0);
         }
     }
-    // Neighbours among the numbers of double precision.
+    // Neighbors among the numbers of double precision.
     let one = 1e8f64;
     let values = [one, one.next_up(), one.next_up().next_up(), one.next_down()];
-    known("neighbouring numbers", &values, 1, 1.5 * (one.next_up() - one));
-    judged("neighbouring points", &values, 2);
+    known("neighboring numbers", &values, 1, 1.5 * (one.next_up() - one));
+    judged("neighboring points", &values, 2);
 }
 
 #[test]
@@ -328,7 +328,7 @@ fn the_largest_numbers() {
 
 #[test]
 fn the_smallest_numbers() {
-    // With spacing 5e-324 a centre is far from exact, but the ball must enclose, and say how tight it is.
+    // With spacing 5e-324 a center is far from exact, but the ball must enclose, and say how tight it is.
     let tiny = 5e-324;
     for values in [
         vec![0.0, tiny],

@@ -33,11 +33,11 @@ fn two_balls() {
     let found = exact_of_balls("apart", &[0.0, 0.0, 1.0, 6.0, 0.0, 2.0], 3, 1e-15);
     close(found.answer.radius, 4.5, 1e-15);
     close(found.answer.center[0], 3.5, 1e-15);
-    // One inside the other, tangent from inside, equal centres, equal balls.
+    // One inside the other, tangent from inside, equal centers, equal balls.
     for (small, name) in [
         ([1.0, 0.0, 1.0], "inside"),
         ([2.0, 0.0, 1.0], "tangent"),
-        ([0.0, 0.0, 2.0], "one centre"),
+        ([0.0, 0.0, 2.0], "one center"),
         ([0.0, 0.0, 3.0], "equal"),
         ([0.0, 3.0, 0.0], "a point on the border"),
     ] {
@@ -74,15 +74,15 @@ fn one_covers_all() {
 }
 
 #[test]
-fn common_centre() {
+fn common_center() {
     for dim in [1, 3, 20] {
         let mut values = vec![];
         for i in 0..50 {
             values.extend(vec![0.1; dim]);
             values.push(f64::from(i * 7 % 50));
         }
-        // The centre may be rounded to the digits that matter beside the radius.
-        let found = exact_of_balls("one centre", &values, dim + 1, 1e-15);
+        // The center may be rounded to the digits that matter beside the radius.
+        let found = exact_of_balls("one center", &values, dim + 1, 1e-15);
         close(found.answer.radius, 49.0, 1e-15);
     }
 }

@@ -167,8 +167,8 @@ fn doctored_answers_are_refused() {
     refused("other items", &|s| s.certificate.items = taut_certify::Items::Points);
     refused("too many multipliers", &|s| s.certificate.multipliers.push(0.1));
     for j in 0..4 {
-        refused("a moved centre", &|s| s.answer.center[j] += 1e-7);
-        refused("a moved centre", &|s| s.answer.center[j] -= 1e-7);
+        refused("a moved center", &|s| s.answer.center[j] += 1e-7);
+        refused("a moved center", &|s| s.answer.center[j] -= 1e-7);
     }
     for k in 0..found.certificate.support.len() {
         refused("another multiplier", &|s| s.certificate.multipliers[k] *= 1.01);

@@ -1,4 +1,4 @@
-//! What is refused, what stops early, and that neither threads nor the kind of source change a byte.
+//! Tests what is refused, what stops early, and that neither threads nor the kind of source change a byte.
 
 use std::io::Write;
 use std::ops::Range;

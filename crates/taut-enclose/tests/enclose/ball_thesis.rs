@@ -28,7 +28,7 @@ fn solve(
     ball(&points, &BallOptions { inputs: items, ..options.clone() }).unwrap()
 }
 
-/// How far the item that reaches farthest reaches, by plain loops.
+/// Returns how far the item that reaches farthest reaches, by plain loops.
 fn reach(values: &[f64], columns: usize, items: Items, ball: &Ball) -> f64 {
     let dim = items.dim(columns);
     let center = |j: usize| ball.center[j] + ball.center_tail.get(j).copied().unwrap_or(0.0);
@@ -92,7 +92,7 @@ fn judge(name: &str, values: &[f64], columns: usize, items: Items, options: &Bal
     assert!(trace.history.iter().all(|b| b.upper >= best * (1.0 - 1e-9)), "{name}");
 }
 
-/// Normal centres; radii |normal| · spread.
+/// Normal centers; radii |normal| · spread.
 fn balls(n: usize, dim: usize, seed: u64, spread: f64) -> Vec<f64> {
     let mut values: Vec<f64> = generate(Distribution::Normal, n, dim + 1, seed).unwrap();
     values.chunks_mut(dim + 1).for_each(|row| row[dim] = spread * row[dim].abs());
@@ -133,7 +133,7 @@ fn balls_are_solved_to_epsilon() {
     }
 }
 
-/// Radii ten thousand times the spread of the centres, all but equal: what counts is what is left of them.
+/// Radii ten thousand times the spread of the centers, all but equal: what counts is what is left of them.
 #[test]
 fn large_balls_close_together_are_solved() {
     let mut values = balls(80, 3, 21, 0.3);
@@ -147,7 +147,7 @@ fn large_balls_close_together_are_solved() {
 fn a_ball_that_covers_the_others_is_the_answer() {
     let mut covering = balls(100, 4, 3, 1.0);
     covering[5 * 17 + 4] = 50.0;
-    // Concentric balls, and all balls of one centre.
+    // Concentric balls, and all balls of one center.
     let concentric: Vec<f64> = [1.0, 2.0, 3.0, 2.0].iter().flat_map(|&r| [0.5, 0.5, r]).collect();
     for method in THESIS {
         for seed in [0, 17, 2] {
@@ -232,7 +232,7 @@ fn the_limit_of_the_conic_solver_is_reported_and_ends_the_method() {
     }
 }
 
-/// Inputs on which the conic solver once gave up, or left multipliers that missed its own centre.
+/// Inputs on which the conic solver once gave up, or left multipliers that missed its own center.
 #[test]
 fn nearly_cospherical_sets_and_lattices_are_solved() {
     let normal = |n, seed| generate::<f64>(Distribution::Normal, n, 5, seed).unwrap();

@@ -1,4 +1,4 @@
-//! Any bytes as items: all centres pass the checker, and so do the seeds of the fuzz target.
+//! Any bytes as items: all centers pass the checker, and so do the seeds of the fuzz target.
 
 #[path = "centers_any/bytes.rs"]
 mod bytes;

@@ -1,7 +1,7 @@
 //! Answers of the solver, damaged: the checker refuses every one that claims or proves what is not so.
 //!
 //! Some changes leave a claim true, and such a certificate may pass: another point of the core-set, another k. They count as damage only
-//! where k centres are at hand that show that the claim is false.
+//! where k centers are at hand that show that the claim is false.
 
 use std::collections::BTreeMap;
 
@@ -105,7 +105,7 @@ impl Sound {
         }
     }
 
-    /// Whether some row that counts is clearly outside.
+    /// Returns true if some row that counts is clearly outside.
     fn is_outside(&self) -> bool {
         let answer = &self.found.answer;
         (0..self.len() as u64).filter(|row| !answer.outliers.contains(row)).any(|row| {
@@ -114,7 +114,7 @@ impl Sound {
         })
     }
 
-    /// Whether k centres smaller than the lower bound are known that hold these rows but z: then nothing can prove it by these rows.
+    /// Returns true if k centers smaller than the lower bound are known that hold these rows but z: then nothing can prove it by these rows.
     fn is_false(&self, core_set: &[u64], k: usize, z: u64) -> bool {
         if core_set.len() as u64 <= z {
             return true;
@@ -136,7 +136,7 @@ impl Sound {
         reaches[reaches.len() - 1 - z as usize] < self.found.answer.lower_bound * (1.0 - 1e-7)
     }
 
-    /// The same for centres among all rows, which are taken greedily: each next one holds the most of what is left.
+    /// The same for centers among all rows, which are taken greedily: each next one holds the most of what is left.
     fn is_false_of_rows(&self, core_set: &[u64], k: usize, z: u64) -> bool {
         let least = self.found.answer.lower_bound * (1.0 - 1e-7);
         let dim = self.columns - usize::from(self.options.weights);
@@ -213,7 +213,7 @@ fn numbers(damage: &mut Damage<'_>) {
     }
 }
 
-/// Fewer centres and points left out than there are, and more of them than the core-set proves anything for.
+/// Fewer centers and points left out than there are, and more of them than the core-set proves anything for.
 fn question(damage: &mut Damage<'_>) {
     let found = &damage.sound.found;
     let (k, z) = (found.certificate.k, found.certificate.outliers);
@@ -258,30 +258,30 @@ fn centers(damage: &mut Damage<'_>) {
             for step in [-1.0, -1e-6, 1e-6, 1.0] {
                 let moved = |s: &mut Sound| s.found.answer.centers[center][column] += step;
                 match damage.sound.options.placement {
-                    Placement::Free => damage.if_outside("centre moved", moved),
-                    Placement::Rows => damage.to("centre moved from its row", moved),
+                    Placement::Free => damage.if_outside("center moved", moved),
+                    Placement::Rows => damage.to("center moved from its row", moved),
                 }
             }
-            damage.to("centre not finite", |s| {
+            damage.to("center not finite", |s| {
                 s.found.answer.centers[center][column] = f64::NAN;
             });
         }
-        damage.if_outside("centre dropped", |s| {
+        damage.if_outside("center dropped", |s| {
             s.found.answer.centers.remove(center);
             if !s.found.answer.rows.is_empty() {
                 s.found.answer.rows.remove(center);
             }
             s.found.answer.assignment.clear();
         });
-        damage.to("centre too short", |s| _ = s.found.answer.centers[center].pop());
+        damage.to("center too short", |s| _ = s.found.answer.centers[center].pop());
     }
     for position in 0..answer.rows.len() {
         let n = damage.sound.len() as u64;
         for row in [(answer.rows[position] + 1) % n, n, u64::MAX] {
-            damage.to("row of a centre", |s| s.found.answer.rows[position] = row);
+            damage.to("row of a center", |s| s.found.answer.rows[position] = row);
         }
     }
-    damage.to("no centres", |s| s.found.answer.centers.clear());
+    damage.to("no centers", |s| s.found.answer.centers.clear());
 }
 
 fn lists(damage: &mut Damage<'_>) {
@@ -396,7 +396,7 @@ fn every_damaged_answer_is_refused() {
 
 fn name_of(proof: &LowerBound) -> &'static str {
     match proof {
-        LowerBound::Apart => "apart",
+        LowerBound::Separated => "apart",
         LowerBound::Branches { .. } => "branches",
     }
 }

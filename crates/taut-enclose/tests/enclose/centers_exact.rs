@@ -1,4 +1,4 @@
-//! Centres against a brute force over all colourings, and every proof replayed by code of its own.
+//! Centers against a brute force over all colorings, and every proof replayed by code of its own.
 
 use centers::{brute_force, judge};
 use proptest::collection::vec;
@@ -14,7 +14,7 @@ fn seeded(cases: u32) -> Config {
     Config { cases, rng_seed: RngSeed::Fixed(50), failure_persistence: None, ..Config::default() }
 }
 
-/// All colourings are gone through of at most this many items.
+/// All colorings are gone through of at most this many items.
 const ITEMS_MAX: usize = 12;
 
 /// Small integers for ties, copies and lines, or reals; with their dimension. One time in three as many as there may be.

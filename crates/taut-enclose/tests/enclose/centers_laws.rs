@@ -1,10 +1,10 @@
-//! Laws that centres obey, inputs at the edges, and the optima of real places.
+//! Laws that centers obey, inputs at the edges, and the optima of real places.
 
 use centers::judge;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
 use taut_certify::{Centers, Items, LowerBound, Placement, Solution, Stop};
-use taut_enclose::{CentersMethod, CentersOptions, CoverOptions, Error, centers};
+use taut_enclose::{CentersMethod, CentersOptions, Error, StreamingOptions, centers};
 use taut_points::{Distribution, InputError, Points, generate};
 
 use crate::centers;
@@ -55,7 +55,7 @@ fn cloud() -> impl Strategy<Value = (Vec<f64>, usize)> {
 proptest! {
     #![proptest_config(seeded(40))]
 
-    /// More centres are never worse, nor is leaving out more.
+    /// More centers are never worse, nor is leaving out more.
     #[test]
     fn the_radius_falls_with_k_and_outliers((values, dim) in cloud()) {
         let n = (values.len() / dim) as u64;
@@ -126,7 +126,7 @@ proptest! {
             prop_assert!(other.answer.radius >= best.lower_bound);
             let gap = match method {
                 CentersMethod::FarthestFirst => 1.0,
-                CentersMethod::Stream(_) => CoverOptions::default().factor() - 1.0,
+                CentersMethod::Stream(_) => StreamingOptions::default().factor() - 1.0,
                 _ => 0.05,
             };
             prop_assert!(other.certificate.gap <= gap * (1.0 + 1e-9), "{method}: {}", other.certificate.gap);
@@ -167,7 +167,7 @@ fn few_and_equal_items() {
     assert_eq!(found(&three, 2, 3, &fine()).answer.radius, 0.0);
     let two = found(&three, 2, 2, &fine());
     assert_eq!((two.answer.radius, two.trace.stop), (1.0, Stop::Converged));
-    assert_eq!(two.certificate.proof, LowerBound::Apart);
+    assert_eq!(two.certificate.proof, LowerBound::Separated);
     // One more may be left out: it is the far one, or nothing has to be.
     let options = CentersOptions { outliers: 1, ..fine() };
     let one = found(&three, 2, 1, &options);
@@ -249,9 +249,9 @@ fn logs_are_followed() {
     }
 }
 
-/// Corners of a triangle around a point of weight 3, which draws the centre to itself.
+/// Corners of a triangle around a point of weight 3, which draws the center to itself.
 #[test]
-fn a_weight_draws_the_centre() {
+fn a_weight_draws_the_center() {
     let rows = [0.0, 0.0, 3.0, 4.0, 0.0, 1.0];
     let options = CentersOptions { weights: true, ..fine() };
     let points = Points::new(&rows, 3).unwrap();
@@ -281,7 +281,8 @@ fn wrong_input_is_named() {
     assert_eq!(option(CentersOptions { weights: true, ..thesis }, 1), "weights");
     assert_eq!(option(CentersOptions { placement: Placement::Rows, ..thesis }, 1), "placement");
 
-    let stream = CentersOptions { method: CentersMethod::Stream(CoverOptions::DEFAULT), ..plain };
+    let stream =
+        CentersOptions { method: CentersMethod::Stream(StreamingOptions::DEFAULT), ..plain };
     assert_eq!(option(CentersOptions { outliers: 1, ..stream }, 1), "outliers");
     assert_eq!(option(CentersOptions { weights: true, ..stream }, 1), "weights");
     assert_eq!(option(CentersOptions { assignment: true, ..stream }, 1), "assignment");

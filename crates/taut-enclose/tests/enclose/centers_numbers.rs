@@ -1,7 +1,7 @@
 //! Numbers of all sizes: whatever is answered is confirmed by the checker, and answers to one question agree.
 
 use taut_certify::{Centers, Items, Placement, Solution, Stop};
-use taut_enclose::{CentersMethod, CentersOptions, CoverOptions, Error, centers};
+use taut_enclose::{CentersMethod, CentersOptions, Error, StreamingOptions, centers};
 use taut_points::{Distribution, Points, generate};
 
 /// SplitMix64 (Steele, Lea, Flood, OOPSLA 2014).
@@ -129,12 +129,12 @@ impl Case {
             methods.push(CentersMethod::Thesis);
         }
         if is_plain && self.items == Items::Points && !self.options.assignment {
-            methods.push(CentersMethod::Stream(CoverOptions::DEFAULT));
+            methods.push(CentersMethod::Stream(StreamingOptions::DEFAULT));
         }
         methods
     }
 
-    /// What is wrong with the answers, if anything.
+    /// Returns what is wrong with the answers, if anything.
     fn judge(&self) -> Result<(), String> {
         let points = Points::new(&self.values, self.columns).unwrap();
         let mut bounds = vec![];
@@ -232,7 +232,7 @@ fn far_and_scaled_rows_have_the_same_radius() {
             let far: Vec<f64> = values.iter().map(|x| x + offset).collect();
             let other = solve(&far);
             assert!(other.lower_bound <= plain.radius && plain.lower_bound <= other.radius);
-            // Centres are rounded to units of the offset, the bound is not.
+            // Centers are rounded to units of the offset, the bound is not.
             let unit = offset.abs() * f64::EPSILON * (dim as f64).sqrt();
             assert!(other.radius <= plain.radius * (1.0 + 1e-9) + unit, "seed {seed} at {offset}");
             assert!(
@@ -247,7 +247,7 @@ fn far_and_scaled_rows_have_the_same_radius() {
 
 /// Places count by their coordinates, however near they are to each other.
 #[test]
-fn as_many_centres_as_places_leave_no_radius() {
+fn as_many_centers_as_places_leave_no_radius() {
     for near in [1e-20f64, 1e-160, 1e-200, 1e-300, 5e-324] {
         let values = [0.0, 0.0, near, 0.0, -0.0, 0.0, 1.0, 0.0, near, 0.0, 1.0, near];
         let points = Points::new(&values, 2).unwrap();
@@ -284,9 +284,9 @@ fn as_many_centres_as_places_leave_no_radius() {
     }
 }
 
-/// Which centre each point has, is no reason for other centres.
+/// Which center each point has, is no reason for other centers.
 #[test]
-fn an_assignment_leaves_the_centres_as_they_are() {
+fn an_assignment_leaves_the_centers_as_they_are() {
     for (n, dim, seed) in [(1, 2, 1), (500, 2, 2), (300, 7, 3)] {
         let values: Vec<f64> = generate(Distribution::Normal, n, dim, seed).unwrap();
         let points = Points::new(&values, dim).unwrap();

@@ -2,8 +2,8 @@
 
 use taut_certify::{Items, LowerBound, Placement};
 use taut_enclose::{
-    CentersMethod, CentersOptions, CoverOptions, FarthestFirstOptions, SphereTreeOptions, centers,
-    farthest_first, sphere_tree,
+    CentersMethod, CentersOptions, FarthestFirstOptions, SphereTreeOptions, StreamingOptions,
+    centers, farthest_first, sphere_tree,
 };
 use taut_points::{Blocks, Distribution, Points, generate};
 
@@ -44,7 +44,7 @@ fn many(n: usize, columns: usize) -> Vec<f64> {
 }
 
 #[test]
-fn free_centres() {
+fn free_centers() {
     let plain = CentersOptions { assignment: true, ..Default::default() };
     let plane = many(150_000, 2);
     let found = same_centers("tree", &plane, 2, Items::Points, 6, plain);
@@ -73,7 +73,7 @@ fn long_searches() {
 }
 
 #[test]
-fn centres_among_the_rows() {
+fn centers_among_the_rows() {
     let rows =
         CentersOptions { placement: Placement::Rows, assignment: true, ..Default::default() };
     let values: Vec<f64> = generate(Distribution::Uniform, 3000, 2, 3).unwrap();
@@ -96,7 +96,7 @@ fn traversals_streams_and_trees() {
     });
     same("stream", |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let method = CentersMethod::Stream(CoverOptions::default());
+        let method = CentersMethod::Stream(StreamingOptions::default());
         let cover =
             || centers(&points, 20, &CentersOptions { method, ..Default::default() }).unwrap();
         pool.install(cover).to_json()

@@ -1,4 +1,4 @@
-//! Certificates of robust and inscribed ellipsoids and of centres with one or two things changed in their structure: no check panics.
+//! Certificates of robust and inscribed ellipsoids and of centers with one or two things changed in their structure: no check panics.
 
 #[path = "certificates/edits.rs"]
 mod edits;

@@ -59,7 +59,7 @@ fn points_as_ellipsoids_give_what_points_give() {
     assert_eq!(dispatched, ellipsoid(&rows, &all).unwrap());
 }
 
-/// Two unit balls with centres ±h on an axis: half axes a along it and b across, of least a·b^(d − 1) such that
+/// Two unit balls with centers ±h on an axis: half axes a along it and b across, of least a·b^(d − 1) such that
 /// (h + cos t)²/a² + sin² t/b² ≤ 1 for all t.
 #[test]
 fn two_balls_have_the_ellipsoid_of_revolution_around_them() {

@@ -73,7 +73,7 @@ proptest! {
         let repeated: Vec<f64> = (0..copies).flat_map(|_| values.clone()).collect();
         let repeated = exact("repeated", &repeated, dim, GAP);
         prop_assert!((repeated.answer.log_volume - volume).abs() < 2.0 * GAP);
-        // Halfway to the centre every point is inside.
+        // Halfway to the center every point is inside.
         let center = &plain.answer.center;
         let halves = values.iter().enumerate().map(|(k, x)| 0.5 * (x + center[k % dim]));
         let filled: Vec<f64> = values.iter().copied().chain(halves).collect();

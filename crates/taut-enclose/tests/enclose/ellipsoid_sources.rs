@@ -87,13 +87,13 @@ fn a_monitor_hears_of_passes_and_can_stop() {
     let points = Points::new(&values, 3).unwrap();
     let passes = AtomicU64::new(0);
     let stop = AtomicBool::new(false);
-    let hear = |pass: u64, _: u64| {
+    let record = |pass: u64, _: u64| {
         passes.fetch_max(pass, Ordering::Relaxed);
         if pass == 1 {
             stop.store(true, Ordering::Relaxed);
         }
     };
-    let monitor = Monitor { on_pass: Some(&hear), cancel: Some(&stop), ..Monitor::silent() };
+    let monitor = Monitor { on_pass: Some(&record), cancel: Some(&stop), ..Monitor::silent() };
     let stopped = ellipsoid(&points, &EllipsoidOptions { monitor, ..within(1e-12) });
     assert!(
         matches!(stopped, Err(Error::Input(InputError::Read(ReadError::Cancelled(_))))),

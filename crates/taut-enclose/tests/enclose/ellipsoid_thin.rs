@@ -39,7 +39,7 @@ fn normals(rng: &mut Random, count: usize) -> Vec<f64> {
     (0..count).map(|_| normal(rng)).collect()
 }
 
-/// A centre, and the lower triangle of Σ bb′.
+/// A center, and the lower triangle of Σ bb′.
 fn item(center: &[f64], columns: &[Vec<f64>]) -> Vec<f64> {
     let mut row = center.to_vec();
     for j in 0..center.len() {
@@ -191,9 +191,9 @@ fn an_offset_of_one_column_hides_nothing_in_others() {
     }
 }
 
-/// How flat a set must be is a part of its own extent, not of how far away a centre is put.
+/// How flat a set must be is a part of its own extent, not of how far away a center is put.
 #[test]
-fn a_far_centre_makes_no_set_flat() {
+fn a_far_center_makes_no_set_flat() {
     let mut rng = Random::of(4);
     let values = normals(&mut rng, 24);
     let rows = Points::new(&values, 2).unwrap();

@@ -19,7 +19,7 @@ fn log_ball(dim: usize) -> f64 {
     start + (first..=dim).step_by(2).map(|d| f64::ln(std::f64::consts::TAU / d as f64)).sum::<f64>()
 }
 
-/// The box of these half widths around a centre.
+/// The box of these half widths around a center.
 fn sides_of_box(center: &[f64], widths: &[f64]) -> Vec<f64> {
     let dim = widths.len();
     let mut rows = vec![];
@@ -157,8 +157,8 @@ fn doctored_answers_are_refused() {
     refused("fewer rows", &|s| s.answer.axes.truncate(2));
     refused("fewer multipliers", &|s| s.certificate.multipliers.truncate(1));
     for j in 0..3 {
-        refused("a moved centre", &|s| s.answer.center[j] += 1e-6);
-        refused("a moved centre", &|s| s.answer.center[j] -= 1e-6);
+        refused("a moved center", &|s| s.answer.center[j] += 1e-6);
+        refused("a moved center", &|s| s.answer.center[j] -= 1e-6);
         for k in 0..3 {
             refused("a bent axis", &|s| s.answer.axes[j][k] += 1e-6);
             refused("a NaN", &|s| s.answer.axes[j][k] = f64::NAN);
@@ -226,7 +226,7 @@ fn long_boxes_that_stand_askew() {
     }
 }
 
-/// The box of these half widths around a centre, turned by 30 degrees in the plane of the first two axes.
+/// The box of these half widths around a center, turned by 30 degrees in the plane of the first two axes.
 fn sides_of_turned_box(center: &[f64], widths: &[f64]) -> Vec<f64> {
     let dim = widths.len();
     let (cos, sin) = (0.75f64.sqrt(), 0.5);

@@ -7,22 +7,22 @@ use taut_points::Points;
 
 use crate::robust;
 
-type Found = Solution<RobustEllipsoid>;
+type Solved = Solution<RobustEllipsoid>;
 
 /// A change of one thing.
 struct Mutation {
     name: String,
-    apply: Box<dyn Fn(&mut Found)>,
+    apply: Box<dyn Fn(&mut Solved)>,
 }
 
-fn mutation(name: impl Into<String>, apply: impl Fn(&mut Found) + 'static) -> Mutation {
+fn mutation(name: impl Into<String>, apply: impl Fn(&mut Solved) + 'static) -> Mutation {
     Mutation { name: name.into(), apply: Box::new(apply) }
 }
 
 /// A number made a little larger or smaller: by `part` of `size`.
-type Number = fn(&mut Found, usize) -> &mut f64;
+type Number = fn(&mut Solved, usize) -> &mut f64;
 
-fn numbers(found: &Found) -> Vec<Mutation> {
+fn numbers(found: &Solved) -> Vec<Mutation> {
     let (dim, rank) = (found.answer.center.len(), found.answer.factor.len());
     let tables: [(&str, Number, usize); 3] = [
         ("matrix", |f, at| entry(&mut f.answer.matrix, at), dim * dim),
@@ -45,7 +45,7 @@ fn numbers(found: &Found) -> Vec<Mutation> {
     for at in 0..dim {
         let size = deviation(at).max(1e-3);
         for part in [1e-5, -1e-5, 1.0, -3.0, f64::NAN] {
-            all.push(mutation(format!("centre {at} by {part}"), move |found| {
+            all.push(mutation(format!("center {at} by {part}"), move |found| {
                 found.answer.center[at] += part * size;
             }));
         }
@@ -79,8 +79,8 @@ fn entry(table: &mut [Vec<f64>], at: usize) -> &mut f64 {
 }
 
 /// Rows taken from and added to lists, one by one.
-fn lists(found: &Found, n: u64) -> Vec<Mutation> {
-    type List = fn(&mut Found) -> &mut Vec<u64>;
+fn lists(found: &Solved, n: u64) -> Vec<Mutation> {
+    type List = fn(&mut Solved) -> &mut Vec<u64>;
     let mut all = vec![];
     let lists: [(&str, List); 3] = [
         ("flagged", |f| &mut f.answer.flagged),
@@ -121,13 +121,13 @@ fn lists(found: &Found, n: u64) -> Vec<Mutation> {
     all
 }
 
-fn others(found: &Found) -> Vec<Mutation> {
+fn others(found: &Solved) -> Vec<Mutation> {
     let mut all = vec![
         mutation("one more kept", |f| f.certificate.kept += 1),
         mutation("one less kept", |f| f.certificate.kept -= 1),
         mutation("nothing kept", |f| f.certificate.kept = 0),
         mutation("hash", |f| f.certificate.points_hash.0 ^= 1),
-        mutation("no centre", |f| f.answer.center.clear()),
+        mutation("no center", |f| f.answer.center.clear()),
         mutation("a row of the matrix", |f| _ = f.answer.matrix.pop()),
         mutation("a row of the factor", |f| _ = f.answer.factor.pop()),
         mutation("a number of the factor", |f| _ = f.answer.factor[0].pop()),
@@ -209,7 +209,7 @@ fn every_doctored_answer_is_rejected() {
 }
 
 /// An answer by hand, in the plane, for any rows kept: right in all but, perhaps, the choice of the rows.
-fn by_hand(found: &Found, values: &[f64], kept: &[u64]) -> Found {
+fn by_hand(found: &Solved, values: &[f64], kept: &[u64]) -> Solved {
     let rows: Vec<f64> =
         kept.iter().flat_map(|&row| values[2 * row as usize..][..2].to_vec()).collect();
     let (center, covariance) = classical(&rows, 2);
@@ -250,7 +250,7 @@ fn rows_that_a_c_step_improves_are_rejected() {
     let found = solve("mcd", &values, 2, &by(RobustMethod::Mcd));
     let out = &found.certificate.left_out;
     let kept: Vec<u64> = (0..80).filter(|row| !out.contains(row)).collect();
-    // Right in all but that points could be weighed anew: the distances are judged before that.
+    // Right in all but that points could be weighed again: the distances are judged before that.
     let right = by_hand(&found, &values, &kept).check(&points).unwrap_err();
     assert!(matches!(right, CheckError::Rejected(Violation::Reweighting { .. })), "{right}");
     for at in 0..kept.len() {
@@ -265,8 +265,8 @@ fn rows_that_a_c_step_improves_are_rejected() {
     }
 }
 
-/// What refuses a forgery: something consistent in itself that claims too much.
-fn refused(what: &str, forged: &Found, values: &[f64], dim: usize) -> Violation {
+/// Returns what refuses a forgery: something consistent in itself that claims too much.
+fn refused(what: &str, forged: &Solved, values: &[f64], dim: usize) -> Violation {
     match forged.check(&Points::new(values, dim).unwrap()) {
         Err(CheckError::Rejected(violation)) => violation,
         other => panic!("{what}: {other:?}"),
@@ -376,7 +376,7 @@ fn an_ellipsoid_grown_or_shrunk_is_refused_at_any_size() {
 }
 
 #[test]
-fn tails_of_centres_are_small() {
+fn tails_of_centers_are_small() {
     let values = contaminated(80, 2, 20, 6.0, 12);
     for method in RobustMethod::ALL {
         let found = solve("tail", &values, 2, &by(method));
@@ -384,7 +384,7 @@ fn tails_of_centres_are_small() {
         let center = forged.answer.center.clone();
         forged.answer.center = vec![1e6, -1e6];
         forged.answer.center_tail = vec![center[0] - 1e6, center[1] + 1e6];
-        let refusal = refused("a centre in its tail", &forged, &values, 2);
+        let refusal = refused("a center in its tail", &forged, &values, 2);
         assert!(matches!(refusal, Violation::Number { .. }), "{method}: {refusal}");
     }
 }
@@ -460,7 +460,7 @@ fn a_quantile_too_far_out_is_refused() {
 
 /// Nothing is left unweighted without a reason, and no reason is given that does not hold.
 #[test]
-fn why_nothing_is_weighed_anew_must_be_true() {
+fn why_nothing_is_weighed_again_must_be_true() {
     let values = contaminated(80, 2, 20, 6.0, 12);
     let found = solve("mcd", &values, 2, &by(RobustMethod::Mcd));
     assert_eq!(found.certificate.unweighted, None);

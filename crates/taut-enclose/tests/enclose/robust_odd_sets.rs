@@ -82,7 +82,7 @@ fn whatever_is_answered_is_proved() {
     assert!(refused.is_empty(), "{refused:#?}");
 }
 
-/// What is wrong with an answer to a set that has one, in words; nothing if the checker passes it.
+/// Returns what is wrong with an answer to a set that has one, in words; nothing if the checker passes it.
 fn refusal(name: &str, values: &[f64], dim: usize, options: &RobustOptions<'_>) -> Option<String> {
     let points = Points::new(values, dim).unwrap();
     let verdict = match robust_ellipsoid(&points, options) {

@@ -16,7 +16,7 @@ fn tree(values: &[f64], dim: usize, leaf_size: usize) -> SphereTree {
     tree.unwrap()
 }
 
-/// The distance of a point to the centre of a ball, which may be a sum of two numbers.
+/// The distance of a point to the center of a ball, which may be a sum of two numbers.
 fn reach(point: &[f64], ball: &Ball) -> f64 {
     let tail = |j: usize| ball.center_tail.get(j).copied().unwrap_or(0.0);
     let less: Vec<f64> = (0..point.len()).map(|j| point[j] - ball.center[j] - tail(j)).collect();
@@ -131,16 +131,16 @@ fn larger_child(tree: &SphereTree) -> f64 {
     children.map(|child| tree.nodes[child].ball.radius).into_iter().fold(0.0, f64::max)
 }
 
-/// Whatever point comes first, centres that are moved make the larger ball of some sets smaller, and of none larger.
+/// Whatever point comes first, centers that are moved make the larger ball of some sets smaller, and of none larger.
 #[test]
-fn the_split_is_improved_by_moving_the_centres() {
+fn the_split_is_improved_by_moving_the_centers() {
     let mut better = 0;
     for seed in 0..40 {
         let dim = 2 + seed as usize % 3;
         let values: Vec<f64> = generate(Distribution::Normal, 60, dim, seed).unwrap();
         let [least, largest] = larger_of_the_farthest_pair(&values, dim);
         let moved = larger_child(&tree(&values, dim, 4));
-        // Centres are moved for balls that are within 1e-4 of the smallest.
+        // Centers are moved for balls that are within 1e-4 of the smallest.
         assert!(moved <= largest * (1.0 + 2e-4), "seed {seed}: {moved} against {largest}");
         better += usize::from(moved < 0.99 * least);
     }

@@ -12,7 +12,7 @@ use super::distance::Edges;
 pub(super) struct Cell {
     pub(super) low: [f64; 2],
     pub(super) high: [f64; 2],
-    /// Whether the moved lower corner is inside.
+    /// True if the moved lower corner is inside.
     pub(super) is_inside: bool,
 }
 
@@ -38,7 +38,7 @@ impl Cell {
         [0, 1].map(|k| 0.5 * self.low[k] + 0.5 * self.high[k])
     }
 
-    /// Whether the moved p, a point of the cell, is inside. `list` has all edges that meet the cell.
+    /// Tests whether the moved p, a point of the cell, is inside. `list` has all edges that meet the cell.
     pub(super) fn is_inside(&self, p: [f64; 2], edges: &Edges, list: &[u32]) -> bool {
         let turn = [p[0], self.low[1]];
         let changes = |edge: &&u32| {
@@ -49,7 +49,7 @@ impl Cell {
         self.is_inside != (list.iter().filter(changes).count() % 2 == 1)
     }
 
-    /// Whether rounding leaves a middle along an axis.
+    /// Returns true if rounding leaves a middle along an axis.
     pub(super) fn has_middle(&self, axis: usize) -> bool {
         let middle = self.center()[axis];
         self.low[axis] < middle && middle < self.high[axis]
@@ -66,7 +66,7 @@ impl Cell {
     }
 }
 
-/// Whether an edge crosses the horizontal line through the moved p, to the left of it.
+/// Tests whether an edge crosses the horizontal line through the moved p, to the left of it.
 fn is_left([a, b]: [[f64; 2]; 2], p: [f64; 2]) -> bool {
     if (a[1] <= p[1]) == (b[1] <= p[1]) {
         return false;
@@ -75,7 +75,7 @@ fn is_left([a, b]: [[f64; 2]; 2], p: [f64; 2]) -> bool {
     !orient(low, high, p).is_positive()
 }
 
-/// Whether an edge crosses the vertical line through the moved p, below it.
+/// Tests whether an edge crosses the vertical line through the moved p, below it.
 fn is_below([a, b]: [[f64; 2]; 2], p: [f64; 2]) -> bool {
     if (a[0] <= p[0]) == (b[0] <= p[0]) {
         return false;

@@ -11,7 +11,7 @@ pub(super) struct Edges {
     /// The vertices as given.
     pub(super) exact: Vec<[f64; 2]>,
     scaled: Vec<[f64; 2]>,
-    /// Of each edge its vector over its squared length, so that a foot takes no division; 0 where that overflows.
+    /// Of each edge its vector over its squared length, so that a projection takes no division; 0 where that overflows.
     inverse: Vec<[f64; 2]>,
     /// The product of both is the power of two that brings the largest coordinate to [1, 2).
     factors: [f64; 2],
@@ -41,7 +41,6 @@ impl Edges {
         [points[edge], points[if edge + 1 == points.len() { 0 } else { edge + 1 }]]
     }
 
-    /// The ends of an edge as given.
     pub(super) fn segment(&self, edge: u32) -> [[f64; 2]; 2] {
         self.ends(&self.exact, edge)
     }
@@ -108,7 +107,7 @@ impl Edges {
         (self.accurate(p, edge) - self.error(p, edge)) * (1.0 - 32.0 * U)
     }
 
-    /// What products of differences may be off by in the checker as well, relative to the length of an edge.
+    /// Returns what products of differences may be off by in the checker as well, relative to the length of an edge.
     fn error(&self, p: [f64; 2], edge: u32) -> f64 {
         let [a, b] = self.ends(&self.scaled, edge);
         let size = |p: [f64; 2], q: [f64; 2]| (p[0] - q[0]).abs() + (p[1] - q[1]).abs();

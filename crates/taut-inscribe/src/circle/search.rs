@@ -32,7 +32,7 @@ const GAP_GROWTH: f64 = 16.0;
 /// Edges up to which weights are sought in cells that are much larger than the circle.
 const LIST_OF_LARGE_CELL_MAX: usize = 64;
 
-/// How many times as much distances change along the shorter side of a cell that is split there.
+/// The factor by which distances change along the shorter side of a cell that is split there.
 const CHANGE_RATIO: f64 = 4.0;
 
 /// Half diagonal of a cell, in radii, above which it is much larger than the circle.
@@ -42,16 +42,15 @@ const LARGE_CELL: f64 = 4.0;
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// A circle is thin when its scaled radius is less than this many times the rounding errors of plain distances.
-const THIN: f64 = 1e12;
+const THIN_CIRCLE_ROUNDINGS: f64 = 1e12;
 
 /// Cells between two looks at the monitor.
-const CELLS_BETWEEN_LOOKS: u64 = 256;
+const CELLS_BETWEEN_CHECKS: u64 = 256;
 
 /// Denominators of the weights in a certificate, as powers of two; the first that closes the cell is taken.
 const WEIGHT_BITS: [u32; 4] = [6, 16, 32, 50];
 
-/// What a search found.
-pub(super) struct Found {
+pub(super) struct SearchResult {
     /// The center in coordinates of the input, if there is one.
     pub(super) center: Option<[f64; 2]>,
     /// The scaled radius: no edge is nearer.
@@ -60,7 +59,6 @@ pub(super) struct Found {
     pub(super) upper: f64,
     pub(super) log: Log,
     pub(super) stop: Stop,
-    /// Cells of all searches.
     pub(super) cells: u64,
     pub(super) searches: u64,
 }
@@ -87,7 +85,10 @@ impl Leaf {
 }
 
 /// Finds the largest circle, and the log that proves it.
-pub(super) fn search(edges: &Edges, options: &CircleOptions<'_>) -> Result<Found, Cancelled> {
+pub(super) fn search(
+    edges: &Edges,
+    options: &CircleOptions<'_>,
+) -> Result<SearchResult, Cancelled> {
     let monitor = &options.monitor;
     let mut search = Search { edges, monitor, center: None, radius: 0.0, cells: 0 };
     search.best_first(options.epsilon)?;
@@ -97,7 +98,7 @@ pub(super) fn search(edges: &Edges, options: &CircleOptions<'_>) -> Result<Found
         let before = search.radius;
         let Some((log, upper)) = search.depth_first(gap, options.max_cells)? else {
             if search.center.is_none() {
-                return Ok(Found {
+                return Ok(SearchResult {
                     center: None,
                     radius: 0.0,
                     upper: f64::INFINITY,
@@ -121,7 +122,7 @@ pub(super) fn search(edges: &Edges, options: &CircleOptions<'_>) -> Result<Found
             stop = Stop::Rounding;
         }
         let (center, cells) = (search.center, search.cells);
-        return Ok(Found { center, radius, upper, log, stop, cells, searches });
+        return Ok(SearchResult { center, radius, upper, log, stop, cells, searches });
     }
 }
 
@@ -134,7 +135,7 @@ struct Search<'a> {
     cells: u64,
 }
 
-/// What is known of a cell.
+/// The known facts about a cell.
 enum Outcome {
     /// No edge meets it, and it is outside.
     Outside,
@@ -245,7 +246,7 @@ impl Search<'_> {
         gap: f64,
     ) -> Result<Outcome, Cancelled> {
         self.cells += 1;
-        if self.cells.is_multiple_of(CELLS_BETWEEN_LOOKS) {
+        if self.cells.is_multiple_of(CELLS_BETWEEN_CHECKS) {
             self.monitor.check()?;
         }
         let edges = self.edges;
@@ -277,7 +278,7 @@ impl Search<'_> {
             return Ok(Outcome::Open(single, bound, axis));
         }
         // Plain distances will do where the circle is much larger than their rounding errors.
-        let is_thin = self.radius.max(clearance) < ROUNDING * THIN;
+        let is_thin = self.radius.max(clearance) < ROUNDING * THIN_CIRCLE_ROUNDINGS;
         let from = |corner, edge| match is_thin {
             true => edges.accurate(corner, edge),
             false => edges.distance(corner, edge),

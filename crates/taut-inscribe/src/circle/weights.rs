@@ -13,7 +13,7 @@ const ROUNDS_MAX: usize = 8;
 /// Relative change of the value below which an edge does not lower it.
 const VALUE_SLACK: f64 = 1e-13;
 
-/// How far below 0 rounding may take a weight of an optimal strategy.
+/// The amount by which rounding may take a weight below 0 of an optimal strategy.
 const WEIGHT_SLACK: f64 = 1e-12;
 
 /// Edges with weights that sum to 1.

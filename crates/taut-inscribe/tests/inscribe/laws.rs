@@ -1,4 +1,4 @@
-//! What must not change the answer, or change it in a known way.
+//! Tests what must not change the answer, or change it in a known way.
 
 use super::common::{Ring, proved, solve, solve_with, star_shaped, tour, verify};
 use taut_certify::{AnySolution, Stop};

@@ -4,13 +4,13 @@ use super::common::{Ring, comb, proved, solve, star_shaped, tour};
 use taut_certify::{AnySolution, CheckError, Fault, InscribedCircle, Solution, Violation};
 use taut_points::{Points, PointsHash, hash_points};
 
-type Found = Solution<InscribedCircle>;
+type Solved = Solution<InscribedCircle>;
 
 fn rings() -> [Ring; 3] {
     [star_shaped(11, 20), tour(12, 24), comb(4, 0.7)]
 }
 
-fn violation(found: &Found, ring: &[[f64; 2]]) -> Option<Violation> {
+fn violation(found: &Solved, ring: &[[f64; 2]]) -> Option<Violation> {
     match found.check(&Points::new(ring.as_flattened(), 2).unwrap()) {
         Ok(_) => None,
         Err(CheckError::Rejected(violation)) => Some(violation),
@@ -18,7 +18,7 @@ fn violation(found: &Found, ring: &[[f64; 2]]) -> Option<Violation> {
     }
 }
 
-fn assert_rejected(ring: &[[f64; 2]], words: &str, change: impl Fn(&mut Found)) {
+fn assert_rejected(ring: &[[f64; 2]], words: &str, change: impl Fn(&mut Solved)) {
     let mut found = solve(ring).unwrap();
     change(&mut found);
     let said = violation(&found, ring).map(|violation| violation.to_string());
@@ -141,7 +141,7 @@ fn changed_leaves_prove_no_more_than_is_true() {
         let (found, _) = proved(&ring);
         let true_radius = found.answer.radius;
         let still_true =
-            |changed: &Found| match changed.check(&Points::new(ring.as_flattened(), 2).unwrap()) {
+            |changed: &Solved| match changed.check(&Points::new(ring.as_flattened(), 2).unwrap()) {
                 Ok(verdict) => assert!(verdict.upper >= true_radius * (1.0 - 1e-14)),
                 Err(CheckError::Rejected(_)) => {}
                 Err(error) => panic!("{error}"),
@@ -219,7 +219,7 @@ fn other_points_are_rejected() {
 }
 
 #[test]
-fn an_edge_in_the_circle_is_blamed_on_its_row() {
+fn an_edge_in_the_circle_is_named_by_its_row() {
     let square = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
     let mut found = solve(&square).unwrap();
     found.answer.center[0] = 1.5;

@@ -13,10 +13,10 @@ use std::sync::Mutex;
 
 use tempfile::NamedTempFile;
 
-/// What the names of temporary files begin with.
+/// The beginning of the names of temporary files.
 const PREFIX: &str = ".taut-tmp-";
 
-/// How often a new file may be taken away before its lock, by one process after the other.
+/// The number of times that a new file may be taken away before its lock, by one process after the other.
 const ATTEMPTS_MAX: usize = 8;
 
 /// The temporary files of this process that have not taken their names.

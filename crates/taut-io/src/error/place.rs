@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::shown::Clean;
+use super::display::Printable;
 
 /// Where a value stands in a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -23,7 +23,7 @@ impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: {}, column {}", self.path, Row(self.row, self.line), self.column)?;
         match &self.name {
-            Some(name) => write!(f, " (`{}`)", Clean(name)),
+            Some(name) => write!(f, " (`{}`)", Printable(name)),
             None => write!(f, " (counted from 0)"),
         }
     }
@@ -43,7 +43,7 @@ impl fmt::Display for Row {
 
 /// Where in a file of a mesh something stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MeshPlace {
+pub enum FilePlace {
     /// Nowhere in particular.
     File,
     /// A line of text, from 1.
@@ -52,12 +52,12 @@ pub enum MeshPlace {
     Element(&'static str, u64),
 }
 
-impl fmt::Display for MeshPlace {
+impl fmt::Display for FilePlace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            MeshPlace::File => Ok(()),
-            MeshPlace::Line(line) => write!(f, "line {line}: "),
-            MeshPlace::Element(kind, number) => write!(f, "{kind} {number}: "),
+            FilePlace::File => Ok(()),
+            FilePlace::Line(line) => write!(f, "line {line}: "),
+            FilePlace::Element(kind, number) => write!(f, "{kind} {number}: "),
         }
     }
 }

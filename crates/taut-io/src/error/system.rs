@@ -1,11 +1,11 @@
-//! What errors of the operating system mean for a file.
+//! Explains what errors of the operating system mean for a file.
 
 use std::io;
 
 use crate::{Content, Error, Format};
 
 impl Error {
-    /// What an error of opening or reading the file shown as `path` means, for those who read it themselves.
+    /// Returns what an error of opening or reading the file shown as `path` means, for those who read it themselves.
     pub fn reading(path: &str, source: io::Error) -> Error {
         let path = path.to_owned();
         match source.kind() {
@@ -20,7 +20,7 @@ impl Error {
         }
     }
 
-    /// What an error of creating or writing `path` means.
+    /// Returns what an error of creating or writing `path` means.
     pub(crate) fn writing(path: &str, source: io::Error) -> Error {
         let path = path.to_owned();
         match source.kind() {
@@ -31,7 +31,7 @@ impl Error {
         }
     }
 
-    /// What an error of writing a file means that would have replaced `path`.
+    /// Returns what an error of writing a file means that would have replaced `path`.
     pub(crate) fn replacing(path: &str, source: io::Error) -> Error {
         match Error::writing(path, source) {
             Error::Write { path, source } => Error::Replace { path, source },

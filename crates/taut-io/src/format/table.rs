@@ -3,7 +3,7 @@
 use super::Content::{self, Curves, Points, Surface, Triangulation};
 use super::Format;
 
-/// What can be done with some content in a format.
+/// The operations on some content in a format.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Access {
     Read,

@@ -1,9 +1,9 @@
-//! Colours as files write them: up to 255, or up to 1.
+//! Colors as files write them: up to 255, or up to 1.
 //!
 //! *Idea.* Few formats say which of the two they mean, so the whole file tells: a value above 1 means that 255 is full, and
 //! so do colors without any fraction. Where the format always means fractions, its reader says so of every color.
 
-/// Colours as far as they were read.
+/// Colors as far as they were read.
 #[derive(Default)]
 pub(super) struct Colors {
     values: Vec<[f32; 3]>,
@@ -23,7 +23,6 @@ impl Colors {
         Ok(())
     }
 
-    /// Number of colors.
     pub(super) fn len(&self) -> usize {
         self.values.len()
     }

@@ -8,12 +8,12 @@
 use super::MeshView;
 use crate::Error;
 use crate::words::put_number;
-use crate::write::Out;
+use crate::write::OutputFile;
 
 const HEAD: &[u8] =
     b"0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1009\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n";
 
-pub(super) fn write(mesh: &MeshView<'_>, out: &mut Out<'_>) -> Result<(), Error> {
+pub(super) fn write(mesh: &MeshView<'_>, out: &mut OutputFile<'_>) -> Result<(), Error> {
     let vertices = mesh.places();
     out.put(HEAD)?;
     out.each(mesh.triangles(), |&[a, b, c], bytes| {

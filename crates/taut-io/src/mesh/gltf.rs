@@ -14,7 +14,7 @@ use super::MeshView;
 use super::normal::unit;
 use crate::Error;
 use crate::words::put_number;
-use crate::write::Out;
+use crate::write::OutputFile;
 
 /// The magic number, and the types of the two chunks of a binary file.
 const MAGIC: &[u8; 4] = b"glTF";
@@ -25,14 +25,13 @@ const BIN: &[u8; 4] = b"BIN\0";
 const FILE_HEADER: u64 = 12;
 const CHUNK_HEADER: u64 = 8;
 
-/// What the buffer holds, in order.
+/// The contents of the buffer, in order.
 struct Buffer<'a> {
     mesh: &'a MeshView<'a>,
     /// Normals of length 1.
     normals: Option<Vec<[f64; 3]>>,
 }
 
-/// A run of values in the buffer.
 struct Run {
     /// The attribute of vertices; none of corners.
     attribute: Option<&'static str>,
@@ -41,7 +40,7 @@ struct Run {
     component: u32,
     size: usize,
     count: usize,
-    /// What else is said of it.
+    /// Further remarks about it.
     more: String,
 }
 
@@ -131,7 +130,7 @@ impl<'a> Buffer<'a> {
     /// Hands the bytes of the buffer to `out`, through `encode`.
     fn write(
         &self,
-        out: &mut Out<'_>,
+        out: &mut OutputFile<'_>,
         mut encode: impl FnMut(&[u8], &mut Vec<u8>),
     ) -> Result<(), Error> {
         let mut place = |at: &[f64; 3], bytes: &mut Vec<u8>| {
@@ -166,7 +165,7 @@ fn binary_len(json: &str, buffer: u64) -> u64 {
     FILE_HEADER + CHUNK_HEADER + (json.len() as u64).next_multiple_of(4) + CHUNK_HEADER + buffer
 }
 
-pub(super) fn write_binary(mesh: &MeshView<'_>, out: &mut Out<'_>) -> Result<(), Error> {
+pub(super) fn write_binary(mesh: &MeshView<'_>, out: &mut OutputFile<'_>) -> Result<(), Error> {
     let buffer = Buffer::new(mesh);
     let mut json = buffer.json("");
     let too_large = || Error::MeshTooLarge { path: out.path.to_owned() };
@@ -180,7 +179,7 @@ pub(super) fn write_binary(mesh: &MeshView<'_>, out: &mut Out<'_>) -> Result<(),
     buffer.write(out, |values, bytes| bytes.extend_from_slice(values))
 }
 
-pub(super) fn write_json(mesh: &MeshView<'_>, out: &mut Out<'_>) -> Result<(), Error> {
+pub(super) fn write_json(mesh: &MeshView<'_>, out: &mut OutputFile<'_>) -> Result<(), Error> {
     let buffer = Buffer::new(mesh);
     // The place of the bytes is marked, and they are written there.
     const MARK: &str = "\u{1}";

@@ -13,10 +13,10 @@ use std::io::BufRead;
 
 use super::colors::fraction;
 use super::writing::Job;
-use super::{Building, printable};
+use super::{MeshBuilder, printable};
 use crate::words::{Line, put_number, put_numbers, put_place, put_whole, whole, words};
-use crate::write::Out;
-use crate::{Error, MeshPlace};
+use crate::write::OutputFile;
+use crate::{Error, FilePlace};
 
 /// The keyword of simplices of so many vertices.
 const KEYWORDS: [&[u8]; 3] = [b"p", b"l", b"f"];
@@ -56,11 +56,11 @@ struct Normals {
     all: Vec<[f64; 3]>,
     /// The normal of each vertex, as far as corners have named one.
     of_vertex: Vec<Option<u32>>,
-    /// Whether the corners of a vertex disagree.
+    /// True if the corners of a vertex disagree.
     differ: bool,
 }
 
-pub(super) fn read(mesh: &mut Building<'_>, stream: Box<dyn BufRead>) -> Result<(), Error> {
+pub(super) fn read(mesh: &mut MeshBuilder<'_>, stream: Box<dyn BufRead>) -> Result<(), Error> {
     mesh.first = 1;
     let mut lines = mesh.lines(stream, 0).joined();
     let mut normals = Normals::default();
@@ -114,7 +114,7 @@ pub(super) fn read(mesh: &mut Building<'_>, stream: Box<dyn BufRead>) -> Result<
         mesh.expect("vertices", vertices, mesh.vertices.len() as u64)?;
         mesh.expect("simplices", promised, simplices)?;
         if lines.cut() {
-            return Err(mesh.damaged(MeshPlace::File, "its last line has no end"));
+            return Err(mesh.damaged(FilePlace::File, "its last line has no end"));
         }
     }
     mesh.normals = normals.by_vertex(mesh.vertices.len());
@@ -122,8 +122,8 @@ pub(super) fn read(mesh: &mut Building<'_>, stream: Box<dyn BufRead>) -> Result<
 }
 
 fn numbers<'a>(
-    mesh: &Building<'_>,
-    at: MeshPlace,
+    mesh: &MeshBuilder<'_>,
+    at: FilePlace,
     words: impl Iterator<Item = &'a [u8]>,
     values: &mut Vec<f64>,
 ) -> Result<(), Error> {
@@ -135,7 +135,7 @@ fn numbers<'a>(
 }
 
 /// Coordinates, then nothing, a weight, a color, or a color and its opacity.
-fn read_vertex(mesh: &mut Building<'_>, at: MeshPlace, values: &[f64]) -> Result<(), Error> {
+fn read_vertex(mesh: &mut MeshBuilder<'_>, at: FilePlace, values: &[f64]) -> Result<(), Error> {
     match *values {
         [x, y, z] | [x, y, z, _] => mesh.vertex(at, [x, y, z]),
         [x, y, z, r, g, b] | [x, y, z, r, g, b, _] => {
@@ -152,8 +152,8 @@ fn read_vertex(mesh: &mut Building<'_>, at: MeshPlace, values: &[f64]) -> Result
 
 /// The vertex of a corner, from 0; its normal is noted.
 fn read_corner(
-    mesh: &Building<'_>,
-    at: MeshPlace,
+    mesh: &MeshBuilder<'_>,
+    at: FilePlace,
     word: &[u8],
     normals: &mut Normals,
 ) -> Result<i64, Error> {
@@ -215,14 +215,14 @@ impl Normals {
     }
 }
 
-/// What our comment promises: vertices and simplices.
+/// Returns what our comment promises: vertices and simplices.
 fn counts(comment: &[u8]) -> Option<(u64, u64)> {
     let text = std::str::from_utf8(comment).ok()?;
     let (vertices, simplices) = text.strip_prefix("# ")?.split_once(" vertices, ")?;
     Some((vertices.parse().ok()?, simplices.strip_suffix(" simplices")?.parse().ok()?))
 }
 
-pub(super) fn write(job: &Job<'_>, out: &mut Out<'_>) -> Result<(), Error> {
+pub(super) fn write(job: &Job<'_>, out: &mut OutputFile<'_>) -> Result<(), Error> {
     let (normals, colors) = (job.mesh.normals, job.mesh.colors);
     let (vertices, simplices) = (job.mesh.vertex_count(), job.mesh.simplex_count());
     out.put(format!("# {vertices} vertices, {simplices} simplices\n").as_bytes())?;

@@ -1,26 +1,26 @@
 //! Object File Format: `OFF`, the counts, then vertices and faces, a line each.
 //!
 //! Letters before `OFF` say what a vertex has after its coordinates, in this order: `N` a normal, `C` a color, and
-//! first of all letters but last of all values `ST` a place in a texture, which is passed over. Colours of three or four
+//! first of all letters but last of all values `ST` a place in a texture, which is passed over. Colors of three or four
 //! values are read without the letter too, as many programs write them so.
 //! *Reference.* Geomview manual, section OFF.
 
 use std::io::BufRead;
 
 use super::writing::Job;
-use super::{Building, printable};
+use super::{MeshBuilder, printable};
 use crate::words::{Lines, put_ids, put_number, put_numbers, whole, words};
-use crate::write::Out;
-use crate::{Error, MeshPlace};
+use crate::write::OutputFile;
+use crate::{Error, FilePlace};
 
-/// What the letters before `OFF` say.
+/// The meaning of the letters before `OFF`.
 struct Letters {
     texture: bool,
     color: bool,
     normal: bool,
 }
 
-pub(super) fn read(mesh: &mut Building<'_>, stream: Box<dyn BufRead>) -> Result<(), Error> {
+pub(super) fn read(mesh: &mut MeshBuilder<'_>, stream: Box<dyn BufRead>) -> Result<(), Error> {
     let mut lines = mesh.lines(stream, 0);
     let (at, line) = next(&mut lines, mesh, || "its first line".into())?;
     let mut rest = words(line);
@@ -78,17 +78,17 @@ pub(super) fn read(mesh: &mut Building<'_>, stream: Box<dyn BufRead>) -> Result<
 /// The next line that is not only a comment; `what` is missing where there is none.
 fn next<'a>(
     lines: &'a mut Lines,
-    mesh: &Building<'_>,
+    mesh: &MeshBuilder<'_>,
     what: impl Fn() -> String,
-) -> Result<(MeshPlace, &'a [u8]), Error> {
+) -> Result<(FilePlace, &'a [u8]), Error> {
     lines.skip_comments(mesh)?;
     match lines.current() {
         Some(line) => Ok((line.at, line.words)),
-        None => Err(mesh.damaged(MeshPlace::File, format!("it ends before {}", what()))),
+        None => Err(mesh.damaged(FilePlace::File, format!("it ends before {}", what()))),
     }
 }
 
-fn letters(mesh: &Building<'_>, at: MeshPlace, word: &[u8]) -> Result<Letters, Error> {
+fn letters(mesh: &MeshBuilder<'_>, at: FilePlace, word: &[u8]) -> Result<Letters, Error> {
     let shown = || printable(word);
     let before = word
         .strip_suffix(b"OFF")
@@ -108,9 +108,9 @@ fn letters(mesh: &Building<'_>, at: MeshPlace, word: &[u8]) -> Result<Letters, E
 }
 
 fn read_vertex(
-    mesh: &mut Building<'_>,
+    mesh: &mut MeshBuilder<'_>,
     letters: &Letters,
-    at: MeshPlace,
+    at: FilePlace,
     line: &[u8],
     values: &mut Vec<f64>,
 ) -> Result<(), Error> {
@@ -139,7 +139,7 @@ fn read_vertex(
     }
 }
 
-pub(super) fn write(job: &Job<'_>, out: &mut Out<'_>) -> Result<(), Error> {
+pub(super) fn write(job: &Job<'_>, out: &mut OutputFile<'_>) -> Result<(), Error> {
     let (normals, colors) = (job.mesh.normals, job.mesh.colors);
     let word = match (colors, normals) {
         (None, None) => "OFF",

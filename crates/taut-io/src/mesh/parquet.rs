@@ -12,14 +12,14 @@ use parquet::errors::ParquetError;
 use parquet::file::properties::WriterProperties;
 use parquet::file::reader::ChunkReader;
 
-use super::Building;
+use super::MeshBuilder;
 use super::writing::Job;
 use crate::input::{self, Medium};
 use crate::read::{Seekable, first_line, quiet, thrift};
-use crate::write::Out;
-use crate::{Error, Format, MeshPlace, ReadOptions};
+use crate::write::OutputFile;
+use crate::{Error, FilePlace, Format, ReadOptions};
 
-pub(super) fn write(job: &Job<'_>, out: &mut Out<'_>) -> Result<(), Error> {
+pub(super) fn write(job: &Job<'_>, out: &mut OutputFile<'_>) -> Result<(), Error> {
     let (path, failure, width) = (out.path, out.failure, job.mesh.width);
     let failed = |source: ParquetError| failure(path, source.into());
     let field = |i| Field::new(format!("v{i}"), DataType::UInt32, false);
@@ -43,12 +43,12 @@ pub(super) fn write(job: &Job<'_>, out: &mut Out<'_>) -> Result<(), Error> {
     writer.close().map(drop).map_err(failed)
 }
 
-pub(super) fn read(mesh: &mut Building<'_>, medium: Medium) -> Result<(), Error> {
+pub(super) fn read(mesh: &mut MeshBuilder<'_>, medium: Medium) -> Result<(), Error> {
     let options = ReadOptions::default();
     let job = input::Job { path: mesh.path, format: Format::Parquet, options: &options };
     let seekable = medium.seekable(&job)?;
     let damaged =
-        mesh.damaged(MeshPlace::File, "its decoder stumbled over bytes that contradict each other");
+        mesh.damaged(FilePlace::File, "its decoder stumbled over bytes that contradict each other");
     // The decoder checks most, but not all, of what a damaged file can hold before it indexes into it.
     quiet::catch(|| match seekable {
         Seekable::File(file) => read_chunks(mesh, file),
@@ -57,8 +57,11 @@ pub(super) fn read(mesh: &mut Building<'_>, medium: Medium) -> Result<(), Error>
     .unwrap_or(Err(damaged))
 }
 
-fn read_chunks<R: ChunkReader + 'static>(mesh: &mut Building<'_>, chunks: R) -> Result<(), Error> {
-    let at = MeshPlace::File;
+fn read_chunks<R: ChunkReader + 'static>(
+    mesh: &mut MeshBuilder<'_>,
+    chunks: R,
+) -> Result<(), Error> {
+    let at = FilePlace::File;
     let builder = thrift::open(chunks).map_err(|e| mesh.damaged(at, first_line(&e)))?;
     let names: Vec<&str> = builder.schema().fields().iter().map(|f| f.name().as_str()).collect();
     let width = names.len();
@@ -72,7 +75,7 @@ fn read_chunks<R: ChunkReader + 'static>(mesh: &mut Building<'_>, chunks: R) -> 
     let mut simplex = vec![0; width];
     for batch in batches {
         let batch =
-            batch.map_err(|e| mesh.damaged(MeshPlace::Element("row", row), first_line(&e)))?;
+            batch.map_err(|e| mesh.damaged(FilePlace::Element("row", row), first_line(&e)))?;
         let columns =
             batch.columns().iter().map(ids).collect::<Option<Vec<_>>>().ok_or_else(|| {
                 mesh.unsupported(
@@ -84,7 +87,7 @@ fn read_chunks<R: ChunkReader + 'static>(mesh: &mut Building<'_>, chunks: R) -> 
             for (id, column) in simplex.iter_mut().zip(&columns) {
                 *id = column[i];
             }
-            mesh.simplex(MeshPlace::Element("row", row), &simplex, width, u32::MAX.into())?;
+            mesh.simplex(FilePlace::Element("row", row), &simplex, width, u32::MAX.into())?;
             row += 1;
         }
     }

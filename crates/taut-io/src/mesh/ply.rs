@@ -11,18 +11,18 @@ mod header;
 mod values;
 
 use super::writing::{Encoding, Job};
-use super::{Building, MeshView, Vertices, printable};
+use super::{MeshBuilder, MeshView, Vertices, printable};
 use crate::cursor::{Cursor, Kind};
 use crate::words::{put_number, put_numbers, put_whole};
-use crate::write::Out;
-use crate::{Error, MeshPlace};
+use crate::write::OutputFile;
+use crate::{Error, FilePlace};
 use header::Element;
 use values::Values;
 
 /// The element of simplices of so many vertices.
 const ELEMENTS: [&str; 4] = ["point", "edge", "face", "tetra"];
 
-/// What the property of a vertex is, by its name.
+/// The role of the property of a vertex, by its name.
 #[derive(Clone, Copy)]
 enum Role {
     Place(usize),
@@ -41,11 +41,11 @@ impl Role {
     }
 }
 
-pub(super) fn read(mesh: &mut Building<'_>, mut cursor: Cursor<'_>) -> Result<(), Error> {
+pub(super) fn read(mesh: &mut MeshBuilder<'_>, mut cursor: Cursor<'_>) -> Result<(), Error> {
     let header = header::read(mesh, &mut cursor)?;
     let promised: u64 = vertices_of(&header.elements).map(|element| element.count).sum();
     if vertices_of(&header.elements).count() != 1 {
-        return Err(mesh.damaged(MeshPlace::File, "it does not declare elements `vertex` once"));
+        return Err(mesh.damaged(FilePlace::File, "it does not declare elements `vertex` once"));
     }
     let mut values = Values::new(mesh, cursor, &header);
     for element in &header.elements {
@@ -58,7 +58,7 @@ pub(super) fn read(mesh: &mut Building<'_>, mut cursor: Cursor<'_>) -> Result<()
                 }
                 _ if element.count > 0 && (mesh.is_triangulation() || name == "tristrips") => {
                     let problem = format!("there are elements `{}`", printable(name.as_bytes()));
-                    return Err(mesh.unsupported(MeshPlace::File, problem));
+                    return Err(mesh.unsupported(FilePlace::File, problem));
                 }
                 _ => pass_over(mesh, &mut values, element)?,
             },
@@ -72,7 +72,7 @@ fn vertices_of(elements: &[Element]) -> impl Iterator<Item = &Element> {
 }
 
 fn read_vertices(
-    mesh: &mut Building<'_>,
+    mesh: &mut MeshBuilder<'_>,
     values: &mut Values<'_>,
     element: &Element,
 ) -> Result<(), Error> {
@@ -81,7 +81,7 @@ fn read_vertices(
     };
     if let Some(axis) = ["x", "y", "z"].into_iter().find(|axis| !has(axis)) {
         let problem = format!("its vertices have no property `{axis}`");
-        return Err(mesh.damaged(MeshPlace::File, problem));
+        return Err(mesh.damaged(FilePlace::File, problem));
     }
     let has_normals = ["nx", "ny", "nz"].into_iter().all(has);
     let has_colors = ["red", "green", "blue"].into_iter().all(has);
@@ -116,7 +116,7 @@ fn read_vertices(
 
 /// Reads polygons where `width` is 3, else simplices of so many vertices.
 fn read_simplices(
-    mesh: &mut Building<'_>,
+    mesh: &mut MeshBuilder<'_>,
     values: &mut Values<'_>,
     element: &Element,
     width: usize,
@@ -149,7 +149,11 @@ fn read_simplices(
     Ok(())
 }
 
-fn pass_over(mesh: &Building<'_>, values: &mut Values<'_>, element: &Element) -> Result<(), Error> {
+fn pass_over(
+    mesh: &MeshBuilder<'_>,
+    values: &mut Values<'_>,
+    element: &Element,
+) -> Result<(), Error> {
     for number in 0..element.count {
         let place = values.begin(mesh, "element", number)?;
         element.properties.iter().try_for_each(|found| values.skip(mesh, found, place))?;
@@ -187,7 +191,7 @@ fn header_of(mesh: &MeshView<'_>, encoding: Encoding) -> String {
     )
 }
 
-pub(super) fn write(job: &Job<'_>, out: &mut Out<'_>) -> Result<(), Error> {
+pub(super) fn write(job: &Job<'_>, out: &mut OutputFile<'_>) -> Result<(), Error> {
     let (normals, colors) = (job.mesh.normals, job.mesh.colors);
     out.put(header_of(job.mesh, job.encoding).as_bytes())?;
     let text = job.encoding == Encoding::Text;

@@ -9,12 +9,12 @@ use super::MeshView;
 use super::normal::unit_normal;
 use crate::Error;
 use crate::words::{put_numbers, put_whole};
-use crate::write::Out;
+use crate::write::OutputFile;
 
-pub(super) fn write(mesh: &MeshView<'_>, out: &mut Out<'_>) -> Result<(), Error> {
+pub(super) fn write(mesh: &MeshView<'_>, out: &mut OutputFile<'_>) -> Result<(), Error> {
     let (vertices, triangles) = (mesh.places(), mesh.triangles());
     let has_area = |ids: &&[u32; 3]| unit_normal(ids.map(|id| vertices[id as usize])).is_some();
-    let vectors = |name: &str, vectors: &[[f64; 3]], out: &mut Out<'_>| {
+    let vectors = |name: &str, vectors: &[[f64; 3]], out: &mut OutputFile<'_>| {
         out.put(format!("{name} {{ {}", vectors.len()).as_bytes())?;
         out.each(vectors, |&vector, bytes| {
             bytes.extend_from_slice(b",\n<");

@@ -3,7 +3,7 @@
 use std::io::BufRead;
 use std::path::Path;
 
-use super::building::Building;
+use super::builder::MeshBuilder;
 use super::{Mesh, obj, off, ply, stl, vtu, xyz};
 use crate::cursor::Cursor;
 use crate::error::shown_path;
@@ -19,7 +19,7 @@ use crate::{Content, Error, Format};
 /// [`Content::Surface`] asks for triangles and vertices. Vertices keep their order, used or not; of stl, corners with equal
 /// coordinates are one vertex. A polygon of more than three corners becomes the fan of triangles around its first corner,
 /// which is right where the polygon is convex. Normals and colors are kept where each vertex has one, and only one; all else
-/// that files hold of edges, faces, textures, materials and opacity is passed over. Colours that are full at 1 are brought to
+/// that files hold of edges, faces, textures, materials and opacity is passed over. Colors that are full at 1 are brought to
 /// 255.
 ///
 /// # Errors
@@ -73,7 +73,7 @@ fn read(
     let (_, medium) = medium.decompressed(shown, compression, true)?;
     #[cfg(feature = "arrow")]
     if format == Format::Parquet {
-        let mut mesh = Building::new(shown, format, content, None);
+        let mut mesh = MeshBuilder::new(shown, format, content, None);
         super::parquet::read(&mut mesh, medium)?;
         return mesh.finish();
     }
@@ -90,7 +90,7 @@ pub(crate) fn read_stream(
     shown: &str,
     memory: Option<u64>,
 ) -> Result<Mesh, Error> {
-    let mut mesh = Building::new(shown, format, content, memory);
+    let mut mesh = MeshBuilder::new(shown, format, content, memory);
     match format {
         Format::Ply => ply::read(&mut mesh, Cursor::new(stream, shown))?,
         Format::Obj => obj::read(&mut mesh, stream)?,

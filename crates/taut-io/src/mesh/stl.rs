@@ -14,11 +14,11 @@ use std::io::{BufRead, Read};
 
 use super::normal::unit_normal;
 use super::writing::{Encoding, Job};
-use super::{Building, printable};
+use super::{MeshBuilder, printable};
 use crate::cursor::Cursor;
 use crate::words::{put_place, words};
-use crate::write::Out;
-use crate::{Error, MeshPlace};
+use crate::write::OutputFile;
+use crate::{Error, FilePlace};
 
 /// This many bytes are looked at to tell text from binary: the head of a binary file and nine triangles.
 const SNIFFED_BYTES: u64 = 84 + 9 * 50;
@@ -36,8 +36,8 @@ impl Weld {
     /// The number of the vertex at this place, a new one if there is none.
     fn id(
         &mut self,
-        mesh: &mut Building<'_>,
-        place: MeshPlace,
+        mesh: &mut MeshBuilder<'_>,
+        place: FilePlace,
         at: [f64; 3],
     ) -> Result<i64, Error> {
         // Adding 0 turns −0 into 0.
@@ -53,7 +53,7 @@ impl Weld {
 }
 
 pub(super) fn read(
-    mesh: &mut Building<'_>,
+    mesh: &mut MeshBuilder<'_>,
     mut stream: Box<dyn BufRead>,
     path: &str,
 ) -> Result<(), Error> {
@@ -77,14 +77,14 @@ fn is_text(head: &[u8]) -> bool {
     first.eq_ignore_ascii_case(b"solid") && head.iter().all(printed)
 }
 
-fn read_binary(mesh: &mut Building<'_>, mut cursor: Cursor<'_>) -> Result<(), Error> {
-    cursor.skip(HEAD, mesh, MeshPlace::File)?;
+fn read_binary(mesh: &mut MeshBuilder<'_>, mut cursor: Cursor<'_>) -> Result<(), Error> {
+    cursor.skip(HEAD, mesh, FilePlace::File)?;
     let mut count = [0; 4];
-    cursor.fill(&mut count, mesh, MeshPlace::File)?;
+    cursor.fill(&mut count, mesh, FilePlace::File)?;
     let mut weld = Weld::default();
     let mut record = [0; 50];
     for facet in 0..u64::from(u32::from_le_bytes(count)) {
-        let place = MeshPlace::Element("facet", facet);
+        let place = FilePlace::Element("facet", facet);
         cursor.fill(&mut record, mesh, place)?;
         let mut corners = [0; 3];
         for (corner, bytes) in corners.iter_mut().zip(record[12..48].chunks_exact(12)) {
@@ -101,16 +101,16 @@ fn read_binary(mesh: &mut Building<'_>, mut cursor: Cursor<'_>) -> Result<(), Er
         true => Ok(()),
         false => {
             let problem = format!("it promises {} facets, but goes on after them", mesh.len());
-            Err(mesh.damaged(MeshPlace::File, problem))
+            Err(mesh.damaged(FilePlace::File, problem))
         }
     }
 }
 
-fn read_text(mesh: &mut Building<'_>, stream: Box<dyn BufRead>) -> Result<(), Error> {
+fn read_text(mesh: &mut MeshBuilder<'_>, stream: Box<dyn BufRead>) -> Result<(), Error> {
     let mut lines = mesh.lines(stream, 0);
     let mut weld = Weld::default();
     let mut corners: Vec<i64> = Vec::new();
-    // What the next line may begin with; of a loop, the corners are counted.
+    // The words that the next line may begin with; of a loop, the corners are counted.
     let mut expected: &[&str] = &["solid"];
     while lines.advance(mesh)? {
         let at = lines.place();
@@ -146,15 +146,15 @@ fn read_text(mesh: &mut Building<'_>, stream: Box<dyn BufRead>) -> Result<(), Er
         ["solid"] => Ok(()),
         _ => {
             let problem = format!("it ends where `{}` was expected", expected.join("` or `"));
-            Err(mesh.damaged(MeshPlace::File, problem))
+            Err(mesh.damaged(FilePlace::File, problem))
         }
     }
 }
 
 /// Three coordinates; further numbers are passed over.
 fn read_vertex<'a>(
-    mesh: &Building<'_>,
-    at: MeshPlace,
+    mesh: &MeshBuilder<'_>,
+    at: FilePlace,
     words: impl Iterator<Item = &'a [u8]>,
 ) -> Result<[f64; 3], Error> {
     let (mut found, mut count) = ([0.0; 3], 0);
@@ -171,7 +171,7 @@ fn read_vertex<'a>(
     }
 }
 
-pub(super) fn write(job: &Job<'_>, out: &mut Out<'_>) -> Result<(), Error> {
+pub(super) fn write(job: &Job<'_>, out: &mut OutputFile<'_>) -> Result<(), Error> {
     let (vertices, triangles) = (job.mesh.places(), job.mesh.triangles());
     let corners = |ids: &[u32; 3]| ids.map(|id| vertices[id as usize]);
     if job.encoding == Encoding::Text {

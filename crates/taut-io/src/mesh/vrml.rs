@@ -6,10 +6,10 @@ use super::MeshView;
 use super::colors::fraction;
 use crate::Error;
 use crate::words::{put_numbers, put_whole};
-use crate::write::Out;
+use crate::write::OutputFile;
 
-pub(super) fn write(mesh: &MeshView<'_>, out: &mut Out<'_>) -> Result<(), Error> {
-    let vectors = |vectors: &[[f64; 3]], out: &mut Out<'_>| {
+pub(super) fn write(mesh: &MeshView<'_>, out: &mut OutputFile<'_>) -> Result<(), Error> {
+    let vectors = |vectors: &[[f64; 3]], out: &mut OutputFile<'_>| {
         out.each(vectors, |&vector, bytes| {
             put_numbers(vector, b" ", bytes);
             bytes.extend_from_slice(b",\n");

@@ -3,11 +3,11 @@
 //! *Trap.* Raw bytes within XML are no XML, although VTK and ParaView write and read them so: only what stands before
 //! the underscore that begins them is read as tags.
 
-use super::Building;
+use super::MeshBuilder;
 use super::writing::Job;
 use crate::cursor::{Cursor, Kind};
-use crate::write::Out;
-use crate::{Error, MeshPlace};
+use crate::write::OutputFile;
+use crate::{Error, FilePlace};
 
 /// VTK's numbers of the cells of so many vertices: vertex, line, triangle, tetra.
 const CELLS: [u8; 4] = [1, 3, 5, 10];
@@ -16,7 +16,7 @@ const CELLS: [u8; 4] = [1, 3, 5, 10];
 const LONGEST_TAG: u64 = 1 << 16;
 const MOST_TAGS: usize = 1 << 10;
 
-pub(super) fn write(job: &Job<'_>, out: &mut Out<'_>) -> Result<(), Error> {
+pub(super) fn write(job: &Job<'_>, out: &mut OutputFile<'_>) -> Result<(), Error> {
     let (vertices, width) = (job.mesh.vertex_count(), job.mesh.width as u64);
     let cells = job.mesh.simplex_count() as u64;
     // Each array is its length in bytes, as 8 bytes, and its values.
@@ -59,7 +59,6 @@ pub(super) fn write(job: &Job<'_>, out: &mut Out<'_>) -> Result<(), Error> {
     out.put(b"\n</AppendedData>\n</VTKFile>\n")
 }
 
-/// A tag with its attributes.
 struct Tag {
     name: String,
     attributes: Vec<(String, String)>,
@@ -78,49 +77,49 @@ struct Array {
     offset: u64,
 }
 
-pub(super) fn read(mesh: &mut Building<'_>, cursor: &mut Cursor<'_>) -> Result<(), Error> {
+pub(super) fn read(mesh: &mut MeshBuilder<'_>, cursor: &mut Cursor<'_>) -> Result<(), Error> {
     let mut tags: Vec<Tag> = Vec::new();
     while tags.last().is_none_or(|tag| tag.name != "AppendedData") {
         let text = cursor.text_before(b'>', LONGEST_TAG)?;
         let text =
-            text.ok_or_else(|| mesh.damaged(MeshPlace::File, "there is no appended data"))?;
+            text.ok_or_else(|| mesh.damaged(FilePlace::File, "there is no appended data"))?;
         tags.extend(
-            tag(&text).ok_or_else(|| mesh.damaged(MeshPlace::File, "its description is no XML"))?,
+            tag(&text).ok_or_else(|| mesh.damaged(FilePlace::File, "its description is no XML"))?,
         );
         if tags.len() > MOST_TAGS {
-            return Err(mesh.damaged(MeshPlace::File, "its description has no end"));
+            return Err(mesh.damaged(FilePlace::File, "its description has no end"));
         }
     }
     let mark = cursor.text_before(b'_', LONGEST_TAG)?;
     if mark.is_none_or(|blank| !blank.trim().is_empty()) {
         return Err(
-            mesh.damaged(MeshPlace::File, "its appended data do not begin with an underscore")
+            mesh.damaged(FilePlace::File, "its appended data do not begin with an underscore")
         );
     }
     let find = |name: &str| tags.iter().find(|tag| tag.name == name);
     let file = find("VTKFile")
-        .ok_or_else(|| mesh.damaged(MeshPlace::File, "there is no tag `VTKFile`"))?;
+        .ok_or_else(|| mesh.damaged(FilePlace::File, "there is no tag `VTKFile`"))?;
     let wanted =
         [("type", "UnstructuredGrid"), ("byte_order", "LittleEndian"), ("header_type", "UInt64")];
     for (key, value) in wanted {
         if file.get(key) != Some(value) {
-            return Err(mesh.unsupported(MeshPlace::File, format!("its `{key}` is not {value}")));
+            return Err(mesh.unsupported(FilePlace::File, format!("its `{key}` is not {value}")));
         }
     }
     if file.get("compressor").is_some()
         || find("AppendedData").and_then(|tag| tag.get("encoding")) != Some("raw")
     {
-        return Err(mesh.unsupported(MeshPlace::File, "its data are compressed or encoded"));
+        return Err(mesh.unsupported(FilePlace::File, "its data are compressed or encoded"));
     }
     let pieces: Vec<&Tag> = tags.iter().filter(|tag| tag.name == "Piece").collect();
     let [piece] = pieces[..] else {
-        return Err(mesh.unsupported(MeshPlace::File, format!("it has {} pieces", pieces.len())));
+        return Err(mesh.unsupported(FilePlace::File, format!("it has {} pieces", pieces.len())));
     };
     let count = |key: &str| {
         piece
             .get(key)
             .and_then(|count| count.parse::<u64>().ok())
-            .ok_or_else(|| mesh.damaged(MeshPlace::File, format!("its piece has no count `{key}`")))
+            .ok_or_else(|| mesh.damaged(FilePlace::File, format!("its piece has no count `{key}`")))
     };
     let (vertices, cells) = (count("NumberOfPoints")?, count("NumberOfCells")?);
     let mut arrays = Vec::new();
@@ -132,7 +131,7 @@ pub(super) fn read(mesh: &mut Building<'_>, cursor: &mut Cursor<'_>) -> Result<(
     arrays.sort_by_key(|array| array.offset);
     let (mut ids, mut ends, mut types) = (Vec::new(), Vec::new(), Vec::new());
     for array in &arrays {
-        let place = MeshPlace::Element(array.name, 0);
+        let place = FilePlace::Element(array.name, 0);
         let skipped = array.offset.checked_sub(cursor.at - start);
         let skipped = skipped.ok_or_else(|| mesh.damaged(place, "the arrays overlap"))?;
         cursor.skip(skipped, mesh, place)?;
@@ -156,11 +155,11 @@ pub(super) fn read(mesh: &mut Building<'_>, cursor: &mut Cursor<'_>) -> Result<(
     let rest = cursor.rest(1 << 10)?;
     let closing: Vec<u8> = rest.into_iter().filter(|b| !b.is_ascii_whitespace()).collect();
     if closing != b"</AppendedData></VTKFile>" {
-        return Err(mesh.damaged(MeshPlace::File, "the appended data do not end with its tags"));
+        return Err(mesh.damaged(FilePlace::File, "the appended data do not end with its tags"));
     }
     let mut from = 0;
     for (number, (&end, &kind)) in (0..).zip(ends.iter().zip(&types)) {
-        let place = MeshPlace::Element("cell", number);
+        let place = FilePlace::Element("cell", number);
         let width = CELLS.iter().position(|&cell| i64::from(cell) == kind).map(|place| place + 1);
         let width = width
             .ok_or_else(|| mesh.unsupported(place, format!("it is of type {kind}, no simplex")))?;
@@ -173,13 +172,12 @@ pub(super) fn read(mesh: &mut Building<'_>, cursor: &mut Cursor<'_>) -> Result<(
     mesh.expect("ids", ids.len() as u64, from as u64)
 }
 
-/// The array of this name.
-fn array(mesh: &Building<'_>, tags: &[Tag], name: &'static str) -> Result<Array, Error> {
+fn array(mesh: &MeshBuilder<'_>, tags: &[Tag], name: &'static str) -> Result<Array, Error> {
     let is_it = |tag: &&Tag| tag.name == "DataArray" && tag.get("Name") == Some(name);
     let tag = tags
         .iter()
         .find(is_it)
-        .ok_or_else(|| mesh.damaged(MeshPlace::File, format!("there is no array `{name}`")))?;
+        .ok_or_else(|| mesh.damaged(FilePlace::File, format!("there is no array `{name}`")))?;
     let kind = match tag.get("type") {
         Some("Float64") => Kind::F64,
         Some("Float32") => Kind::F32,
@@ -190,25 +188,25 @@ fn array(mesh: &Building<'_>, tags: &[Tag], name: &'static str) -> Result<Array,
         Some("UInt8") => Kind::U8,
         _ => {
             return Err(
-                mesh.unsupported(MeshPlace::File, format!("array `{name}` is of an odd type"))
+                mesh.unsupported(FilePlace::File, format!("array `{name}` is of an odd type"))
             );
         }
     };
     let offset = tag.get("offset").and_then(|offset| offset.parse().ok());
     match (tag.get("format"), offset) {
         (Some("appended"), Some(offset)) => Ok(Array { name, kind, offset }),
-        _ => Err(mesh.unsupported(MeshPlace::File, format!("array `{name}` is not appended"))),
+        _ => Err(mesh.unsupported(FilePlace::File, format!("array `{name}` is not appended"))),
     }
 }
 
 fn read_points(
-    mesh: &mut Building<'_>,
+    mesh: &mut MeshBuilder<'_>,
     cursor: &mut Cursor<'_>,
     kind: Kind,
     vertices: u64,
 ) -> Result<(), Error> {
     for number in 0..vertices {
-        let place = MeshPlace::Element("point", number);
+        let place = FilePlace::Element("point", number);
         let mut at = [0.0; 3];
         for x in &mut at {
             *x = cursor.real(kind, mesh, place)?;
@@ -219,14 +217,14 @@ fn read_points(
 }
 
 fn numbers(
-    mesh: &Building<'_>,
+    mesh: &MeshBuilder<'_>,
     cursor: &mut Cursor<'_>,
     array: &Array,
     count: u64,
     to: &mut Vec<i64>,
 ) -> Result<(), Error> {
     for number in 0..count {
-        to.push(cursor.whole(array.kind, mesh, MeshPlace::Element(array.name, number))?);
+        to.push(cursor.whole(array.kind, mesh, FilePlace::Element(array.name, number))?);
     }
     Ok(())
 }

@@ -8,18 +8,18 @@ use super::{MeshView, Vertices, dxf, gltf, obj, off, ply, pov, stl, vrml, vtu};
 use crate::create::AtomicFile;
 use crate::error::shown_path;
 use crate::format::format_to_write;
-use crate::write::{Out, Points};
+use crate::write::{OutputFile, Points};
 use crate::{Content, Error, Format};
 
 /// Simplices in one piece of output.
 const PIECE_SIMPLICES: usize = 1 << 14;
 
-/// How to write a mesh. Write `MeshOptions { encoding: Encoding::Text, ..Default::default() }`.
+/// Options to write a mesh. Write `MeshOptions { encoding: Encoding::Text, ..Default::default() }`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MeshOptions {
     /// The format; by default that of the extension.
     pub format: Option<Format>,
-    /// How ply and stl are written, which know both ways. Default [`Encoding::Binary`].
+    /// The way in which ply and stl are written, which know both ways. Default [`Encoding::Binary`].
     pub encoding: Encoding,
 }
 
@@ -33,7 +33,7 @@ pub enum Encoding {
     Text,
 }
 
-/// What every writer is told.
+/// The data that every writer gets.
 pub(super) struct Job<'a> {
     pub(super) mesh: &'a MeshView<'a>,
     pub(super) encoding: Encoding,
@@ -97,7 +97,7 @@ pub fn mesh_file(
         Content::Triangulation => check_triangulation(mesh, &shown, format)?,
         _ => check_surface(mesh, &shown, format, options.encoding)?,
     }
-    let mut out = Out::create(path, &shown, compression)?;
+    let mut out = OutputFile::create(path, &shown, compression)?;
     let job = Job { mesh, encoding: options.encoding, monitor };
     match format {
         Format::Ply => ply::write(&job, &mut out)?,
@@ -180,7 +180,7 @@ impl Job<'_> {
     /// Writes what `write` makes of each vertex and its number.
     pub(super) fn each_vertex(
         &self,
-        out: &mut Out<'_>,
+        out: &mut OutputFile<'_>,
         mut write: impl FnMut(usize, [f64; 3], &mut Vec<u8>),
     ) -> Result<(), Error> {
         let source = match self.mesh.vertices {
@@ -207,7 +207,7 @@ impl Job<'_> {
     /// Writes what `write` makes of each simplex.
     pub(super) fn each_simplex(
         &self,
-        out: &mut Out<'_>,
+        out: &mut OutputFile<'_>,
         mut write: impl FnMut(&[u32], &mut Vec<u8>),
     ) -> Result<(), Error> {
         let mut bytes = Vec::new();

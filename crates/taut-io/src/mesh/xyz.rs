@@ -8,15 +8,15 @@
 use std::io::BufRead;
 use std::path::Path;
 
-use super::Building;
+use super::MeshBuilder;
 use super::normal::unit;
 use crate::words::{whole, words};
-use crate::{Compression, Error, MeshPlace};
+use crate::{Compression, Error, FilePlace};
 
-/// How far the length of a normal may be from 1: files keep as few as three digits of each coordinate.
+/// The largest deviation of the length of a normal from 1: files keep as few as three digits of each coordinate.
 const NORMAL_SLACK: f64 = 1e-2;
 
-/// What three columns are, where the name of the file says it.
+/// The role of three columns, where the name of the file states it.
 #[derive(Clone, Copy, PartialEq)]
 enum Role {
     Normal,
@@ -31,7 +31,7 @@ struct Columns {
 }
 
 pub(super) fn read(
-    mesh: &mut Building<'_>,
+    mesh: &mut MeshBuilder<'_>,
     stream: Box<dyn BufRead>,
     name: &Path,
 ) -> Result<(), Error> {
@@ -72,7 +72,7 @@ pub(super) fn read(
     }
     if let Some(count) = count {
         let promised = u64::try_from(count)
-            .map_err(|_| mesh.damaged(MeshPlace::File, format!("it promises {count} points")))?;
+            .map_err(|_| mesh.damaged(FilePlace::File, format!("it promises {count} points")))?;
         mesh.expect("points", promised, mesh.vertices.len() as u64)?;
     }
     let (inner, _) = Compression::split(name);
@@ -88,8 +88,8 @@ pub(super) fn read(
 }
 
 /// Gives columns to the mesh as what they are; of two alike, the second is refused.
-fn take(mesh: &mut Building<'_>, columns: Columns, told: Option<Role>) -> Result<(), Error> {
-    let at = MeshPlace::File;
+fn take(mesh: &mut MeshBuilder<'_>, columns: Columns, told: Option<Role>) -> Result<(), Error> {
+    let at = FilePlace::File;
     let is_normal = |vector: &[f64; 3]| {
         let length = vector.iter().map(|x| x * x).sum::<f64>().sqrt();
         unit(*vector).is_none() || (length - 1.0).abs() <= NORMAL_SLACK

@@ -18,7 +18,7 @@ use super::columnar::Plan;
 use super::{Decoded, first_line, guarded};
 use crate::input::Job;
 use crate::limits;
-use crate::{Error, Format, MeshPlace};
+use crate::{Error, FilePlace, Format};
 
 const MAGIC: &[u8] = b"ARROW1";
 
@@ -41,7 +41,7 @@ pub(super) fn read(job: &Job<'_>, stream: Box<dyn BufRead>) -> Result<Decoded, E
 struct Batches<'a> {
     job: &'a Job<'a>,
     stream: Box<dyn BufRead>,
-    /// Whether a footer follows the stream.
+    /// True if a footer follows the stream.
     file: bool,
     schema: SchemaRef,
     held: Vec<usize>,
@@ -232,7 +232,7 @@ fn damaged(job: &Job<'_>, problem: &str) -> Error {
     Error::Damaged {
         path: job.path.to_owned(),
         format: Format::Arrow,
-        place: MeshPlace::File,
+        place: FilePlace::File,
         problem: problem.to_owned(),
     }
 }

@@ -1,4 +1,4 @@
-//! What parquet and arrow share: choosing columns of a schema, and batches of columns to rows of points.
+//! The parts that parquet and arrow share: choosing columns of a schema, and batches of columns to rows of points.
 
 use arrow_array::cast::AsArray;
 use arrow_array::types::{
@@ -19,7 +19,7 @@ pub(super) struct Plan {
     /// Their numbers in the schema, in the order of the coordinates; of a list column only its own.
     pub(super) numbers: Vec<usize>,
     names: Vec<String>,
-    /// Whether the only column holds whole points.
+    /// True if the only column holds whole points.
     list: bool,
     pub(super) scalar: ScalarKind,
 }
@@ -256,7 +256,7 @@ fn exact(integer: i128) -> Result<f64, i128> {
     if integer as f64 as i128 == integer { Ok(integer as f64) } else { Err(integer) }
 }
 
-/// What a list is made of; any other type is made of itself.
+/// Returns what a list is made of; any other type is made of itself.
 fn element(kind: &DataType) -> &DataType {
     match kind {
         DataType::List(field) | DataType::LargeList(field) | DataType::FixedSizeList(field, _) => {

@@ -65,7 +65,7 @@ fn find_delimiter(line: &[u8]) -> Delimiter {
     if fields(best) == 1 { Delimiter::White } else { best }
 }
 
-/// Whether the first row holds names.
+/// Tests whether the first row holds names.
 fn is_header(job: &Job<'_>, first: &[Cow<'_, [u8]>], line: u64) -> Result<bool, Error> {
     let columns = job.options.columns.as_ref();
     match job.options.header {
@@ -110,7 +110,7 @@ fn is_header(job: &Job<'_>, first: &[Cow<'_, [u8]>], line: u64) -> Result<bool, 
     }
 }
 
-/// Whether the names of a selection stand in the row, and all it selects may be names.
+/// Returns true if the names of a selection stand in the row, and all it selects may be names.
 fn holds_names(job: &Job<'_>, columns: &Columns, first: &[Cow<'_, [u8]>]) -> bool {
     let names: Vec<String> =
         first.iter().map(|name| String::from_utf8_lossy(name).into_owned()).collect();
@@ -119,13 +119,13 @@ fn holds_names(job: &Job<'_>, columns: &Columns, first: &[Cow<'_, [u8]>]) -> boo
     numbers.is_ok_and(|numbers| numbers.iter().all(|&column| may_be_name(&first[column])))
 }
 
-/// Whether all selected fields are numbers.
+/// Tests whether all selected fields are numbers.
 fn all_numbers(job: &Job<'_>, columns: &Columns, first: &[Cow<'_, [u8]>]) -> Result<bool, Error> {
     let numbers = columns.resolve(job.path, &[], first.len())?;
     Ok(numbers.iter().all(|&column| is_number(&first[column])))
 }
 
-/// Whether a field is no number but begins as one, or is what tables write where a number is missing.
+/// Tests whether a field is no number but begins as one, or is what tables write where a number is missing.
 pub(crate) fn is_failed_value(field: &[u8]) -> bool {
     const MISSING_WORDS: [&[u8]; 6] = [b"", b"NA", b"N/A", b"null", b"none", b"?"];
     let starts = matches!(field.first(), Some(b'0'..=b'9' | b'+' | b'-' | b'.'));

@@ -23,7 +23,7 @@ pub(super) fn read(job: &Job<'_>, mut stream: Box<dyn BufRead>) -> Result<Decode
     let damaged = |problem| Error::Damaged {
         path: job.path.to_owned(),
         format: Format::GeoJson,
-        place: crate::MeshPlace::File,
+        place: crate::FilePlace::File,
         problem,
     };
     let document = json::parse(&text).map_err(damaged)?;
@@ -45,10 +45,9 @@ pub(super) fn read(job: &Job<'_>, mut stream: Box<dyn BufRead>) -> Result<Decode
     Ok(Decoded { source: sink.finish()?, columns, numbers: Some(numbers) })
 }
 
-/// What is wrong, as the end of a sentence about the file.
+/// The problem, as the end of a sentence about the file.
 type Problem = String;
 
-/// The positions of a document.
 fn document_positions(document: &Value) -> Result<Vec<[f64; 2]>, Problem> {
     let features = match kind(document, "the document")? {
         "FeatureCollection" => array(field(document, "features", "the document")?, "`features`")?,
@@ -80,7 +79,6 @@ fn document_positions(document: &Value) -> Result<Vec<[f64; 2]>, Problem> {
     Ok(found)
 }
 
-/// The positions of a geometry.
 fn geometry_positions(geometry: &Value, place: &str) -> Result<Vec<[f64; 2]>, Problem> {
     let kind = kind(geometry, place)?;
     let coordinates = || {

@@ -6,7 +6,7 @@ use memchr::{memchr, memchr_iter};
 
 use crate::input::Job;
 use crate::limits::longest_line;
-use crate::{Error, Format, MeshPlace};
+use crate::{Error, FilePlace, Format};
 
 /// A quote that is still open after this many bytes is a mistake, not a field.
 const LONGEST_QUOTE: usize = 1 << 20;
@@ -43,7 +43,6 @@ impl<'a> Lines<'a> {
         }
     }
 
-    /// The next line and its number.
     pub(super) fn next(&mut self) -> Result<Option<(u64, &[u8])>, Error> {
         let Some(length) = self.length()? else { return Ok(None) };
         self.number += 1;
@@ -128,7 +127,7 @@ impl<'a> Lines<'a> {
             return Err(Error::Damaged {
                 path: self.path.to_owned(),
                 format: self.format,
-                place: MeshPlace::File,
+                place: FilePlace::File,
                 problem: "it holds zero bytes, so it is no text in UTF-8".to_owned(),
             });
         }

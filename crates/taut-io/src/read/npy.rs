@@ -19,7 +19,6 @@ use crate::{Error, Format, Place};
 /// Values read at a time.
 const CHUNK: usize = 1 << 13;
 
-/// What a header says.
 pub(super) struct Header {
     element: Element,
     big_endian: bool,
@@ -57,7 +56,6 @@ impl Header {
         }
     }
 
-    /// Bytes of all values.
     fn bytes(&self) -> Option<u64> {
         self.n.checked_mul(self.dim as u64)?.checked_mul(self.element.size() as u64)
     }

@@ -13,7 +13,7 @@ use taut_points::Blocks;
 use super::columnar::Plan;
 use super::{Decoded, first_line, guarded, thrift};
 use crate::input::{Job, Medium};
-use crate::{Error, Format, MeshPlace};
+use crate::{Error, FilePlace, Format};
 
 pub(super) fn read(job: &Job<'_>, medium: Medium) -> Result<Decoded, Error> {
     guarded(job, || match medium.seekable(job)? {
@@ -22,7 +22,7 @@ pub(super) fn read(job: &Job<'_>, medium: Medium) -> Result<Decoded, Error> {
     })
 }
 
-/// What can be read at any place; parquet keeps its index at the end.
+/// The sources that can be read at any place; parquet keeps its index at the end.
 pub(crate) enum Seekable {
     File(File),
     Bytes(Bytes),
@@ -32,7 +32,7 @@ fn read_chunks<R: ChunkReader + 'static>(job: &Job<'_>, chunks: R) -> Result<Dec
     let damaged = |problem: String| Error::Damaged {
         path: job.path.to_owned(),
         format: Format::Parquet,
-        place: MeshPlace::File,
+        place: FilePlace::File,
         problem,
     };
     let builder = thrift::open(chunks).map_err(|e| damaged(first_line(&e)))?;

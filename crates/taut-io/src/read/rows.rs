@@ -9,11 +9,11 @@ use std::borrow::Cow;
 use memchr::memchr;
 
 use crate::input::Job;
-use crate::number::{self, Misread};
+use crate::number::{self, NumberError};
 use crate::sink::Sink;
 use crate::{Error, Place};
 
-/// What parts the columns.
+/// The delimiter of the columns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Delimiter {
     /// This byte; spaces around fields do not count.
@@ -85,9 +85,9 @@ fn skip_white(mut text: &[u8], delimiter: Delimiter) -> &[u8] {
     text
 }
 
-/// Whether a field is written as a number; NaN, infinities and what is too small for an `f64` are numbers too.
+/// Returns true if a field is written as a number; NaN, infinities and what is too small for an `f64` are numbers too.
 pub(super) fn is_number(field: &[u8]) -> bool {
-    number::parse(field.trim_ascii()) != Err(Misread::NotANumber)
+    number::parse(field.trim_ascii()) != Err(NumberError::NotANumber)
 }
 
 /// Appends the numbers of a row to `out`; false (and some rubbish in `out`) when it is not all plain finite numbers.
@@ -147,7 +147,6 @@ impl<'a> Rows<'a> {
         self.numbers.as_ref().map_or(self.width, Vec::len)
     }
 
-    /// Names of the coordinates.
     pub(super) fn coordinate_names(&self) -> Vec<String> {
         match &self.numbers {
             Some(numbers) => {
@@ -199,10 +198,10 @@ impl<'a> Rows<'a> {
             match number::parse(text.trim_ascii()) {
                 Ok(value) if value.is_finite() => self.row.push(value),
                 Ok(_) => return Err(Error::NonFinite { place: place(), value: shown(text) }),
-                Err(Misread::Underflow) => {
+                Err(NumberError::Underflow) => {
                     return Err(Error::Underflow { place: place(), value: shown(text) });
                 }
-                Err(Misread::NotANumber) => {
+                Err(NumberError::NotANumber) => {
                     return Err(Error::NotANumber {
                         place: place(),
                         value: shown(text),
@@ -215,7 +214,7 @@ impl<'a> Rows<'a> {
     }
 }
 
-/// What to do about a field that is no number.
+/// Returns what to do about a field that is no number.
 fn hint(text: &[u8]) -> &'static str {
     let comma = text.contains(&b',') && text.iter().all(|b| b"0123456789,+-eE".contains(b));
     match text {

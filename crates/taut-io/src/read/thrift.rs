@@ -18,7 +18,7 @@ use parquet::errors::ParquetError;
 use parquet::file::reader::ChunkReader;
 
 use format::{FILE_META_DATA, PAGE_HEADER};
-use walk::{Unsound, walk};
+use walk::{StructureError, walk};
 
 /// The first window for a page header, bytes: few headers are larger.
 const FIRST_WINDOW: u64 = 1 << 10;
@@ -33,7 +33,7 @@ pub(crate) fn open<R: ChunkReader + 'static>(
     let metadata = ArrowReaderMetadata::load(&chunks, ArrowReaderOptions::default())?;
     for column in metadata.metadata().row_groups().iter().flat_map(|group| group.columns()) {
         let start = column.dictionary_page_offset().unwrap_or(column.data_page_offset());
-        // What is negative or beyond the file is for the decoder to refuse.
+        // The decoder refuses sizes that are negative or beyond the file.
         if let (Ok(start), Ok(length)) =
             (u64::try_from(start), u64::try_from(column.compressed_size()))
         {
@@ -50,8 +50,8 @@ fn check_footer(chunks: &impl ChunkReader) -> Result<(), ParquetError> {
     let Some(start) = end.checked_sub(length) else { return Ok(()) };
     let footer = chunks.get_bytes(start, length as usize)?;
     match walk(&footer, FILE_META_DATA) {
-        Err(Unsound::Wrong) => Err(refused("the footer")),
-        Ok(_) | Err(Unsound::Cut) => Ok(()),
+        Err(StructureError::Wrong) => Err(refused("the footer")),
+        Ok(_) | Err(StructureError::Cut) => Ok(()),
     }
 }
 
@@ -65,7 +65,7 @@ fn check_pages(chunks: &impl ChunkReader, start: u64, end: u64) -> Result<(), Pa
             match walk(&bytes, PAGE_HEADER) {
                 Ok(header) => break header,
                 // Also at the end of the file: there the decoder takes no byte for a double, and might go through 2³¹ of them.
-                Err(Unsound::Cut) if window < left.min(HEADER_MAX) => window *= 8,
+                Err(StructureError::Cut) if window < left.min(HEADER_MAX) => window *= 8,
                 Err(_) => return Err(refused("a page header")),
             }
         };

@@ -12,7 +12,7 @@ use super::lines::Lines;
 use super::rows::{Delimiter, Rows, is_number, shown, split};
 use crate::input::Job;
 use crate::sink::Sink;
-use crate::{Error, Format, MeshPlace};
+use crate::{Error, FilePlace, Format};
 
 pub(super) fn read(job: &Job<'_>, stream: Box<dyn BufRead>) -> Result<Decoded, Error> {
     let mut lines = Lines::new(stream, job);
@@ -81,7 +81,7 @@ fn dimension(job: &Job<'_>, lines: &mut Lines<'_>) -> Result<u64, Error> {
     Err(damaged(job, "it has no NODE_COORD_SECTION, so no coordinates".to_owned()))
 }
 
-/// Whether a line is a node: EOF, `-1` and the next section end the list.
+/// Returns true if a line is a node: EOF, `-1` and the next section end the list.
 fn is_node(line: &[u8]) -> bool {
     let line = line.trim_ascii();
     line != b"-1" && line.split(|b| b.is_ascii_whitespace()).next().is_some_and(is_number)
@@ -91,7 +91,7 @@ fn damaged(job: &Job<'_>, problem: String) -> Error {
     Error::Damaged {
         path: job.path.to_owned(),
         format: Format::Tsplib,
-        place: MeshPlace::File,
+        place: FilePlace::File,
         problem,
     }
 }

@@ -9,7 +9,7 @@ use super::lines::Lines;
 use super::rows::{Delimiter, Rows, is_number, split};
 use crate::input::Job;
 use crate::sink::Sink;
-use crate::{Error, Format, MeshPlace};
+use crate::{Error, FilePlace, Format};
 
 pub(super) fn read(job: &Job<'_>, stream: Box<dyn BufRead>) -> Result<Decoded, Error> {
     let mut lines = Lines::new(stream, job);
@@ -37,7 +37,7 @@ pub(super) fn read(job: &Job<'_>, stream: Box<dyn BufRead>) -> Result<Decoded, E
         return Err(Error::Damaged {
             path: job.path.to_owned(),
             format: Format::Xyz,
-            place: MeshPlace::File,
+            place: FilePlace::File,
             problem,
         });
     }
@@ -67,7 +67,7 @@ pub(super) fn read(job: &Job<'_>, stream: Box<dyn BufRead>) -> Result<Decoded, E
     Ok(Decoded { source: sink.finish()?, columns, numbers })
 }
 
-/// Whether a line holds a point: at least three numbers, and nothing else but a symbol before them.
+/// Returns true if a line holds a point: at least three numbers, and nothing else but a symbol before them.
 fn is_row(line: &[u8]) -> bool {
     let fields = split(line, Delimiter::White);
     let numbers = fields.iter().rev().take_while(|field| is_number(field)).count();

@@ -10,7 +10,7 @@ use parquet::basic::Compression;
 use parquet::file::properties::WriterProperties;
 use taut_points::{Points as View, Rows, Scalar, ScalarKind};
 
-use super::{Out, Points};
+use super::{OutputFile, Points};
 use crate::Error;
 
 /// Bytes of encoded points in a row group.
@@ -20,7 +20,7 @@ const ROW_GROUP: usize = 64 << 20;
 /// KiB for each column, whatever the number of rows.
 const COLUMNS_MAX: usize = 1000;
 
-pub(super) fn write_parquet(points: &Points<'_>, out: &mut Out<'_>) -> Result<(), Error> {
+pub(super) fn write_parquet(points: &Points<'_>, out: &mut OutputFile<'_>) -> Result<(), Error> {
     let (path, failure) = (out.path, out.failure);
     let wide = points.source.dim() > COLUMNS_MAX;
     let list = wide && points.columns.is_empty();
@@ -44,7 +44,7 @@ pub(super) fn write_parquet(points: &Points<'_>, out: &mut Out<'_>) -> Result<()
     writer.close().map(drop).map_err(failed)
 }
 
-pub(super) fn write_arrow(points: &Points<'_>, out: &mut Out<'_>) -> Result<(), Error> {
+pub(super) fn write_arrow(points: &Points<'_>, out: &mut OutputFile<'_>) -> Result<(), Error> {
     let (path, failure, schema) = (out.path, out.failure, schema(points));
     let failed = |source: arrow_schema::ArrowError| {
         failure(

@@ -2,10 +2,10 @@
 
 use taut_points::{Rows, ScalarKind};
 
-use super::{Out, Points};
+use super::{OutputFile, Points};
 use crate::{Error, NpyArray};
 
-pub(super) fn write(points: &Points<'_>, out: &mut Out<'_>) -> Result<(), Error> {
+pub(super) fn write(points: &Points<'_>, out: &mut OutputFile<'_>) -> Result<(), Error> {
     let dtype = match points.source.scalar() {
         ScalarKind::F32 => "<f4".to_owned(),
         ScalarKind::F64 => "<f8".to_owned(),
@@ -17,7 +17,7 @@ pub(super) fn write(points: &Points<'_>, out: &mut Out<'_>) -> Result<(), Error>
     write_values(points, out)
 }
 
-pub(super) fn write_values(points: &Points<'_>, out: &mut Out<'_>) -> Result<(), Error> {
+pub(super) fn write_values(points: &Points<'_>, out: &mut OutputFile<'_>) -> Result<(), Error> {
     points.blocks(|rows| match rows {
         Rows::F32(rows) => out.put(bytemuck::cast_slice(rows.values())),
         Rows::F64(rows) => out.put(bytemuck::cast_slice(rows.values())),

@@ -2,10 +2,14 @@
 
 use taut_points::{Rows, Scalar};
 
-use super::{Out, Points};
+use super::{OutputFile, Points};
 use crate::Error;
 
-pub(super) fn write(points: &Points<'_>, delimiter: u8, out: &mut Out<'_>) -> Result<(), Error> {
+pub(super) fn write(
+    points: &Points<'_>,
+    delimiter: u8,
+    out: &mut OutputFile<'_>,
+) -> Result<(), Error> {
     if let Some(header) = header(points.columns, delimiter) {
         out.put(&header)?;
     }

@@ -359,7 +359,7 @@ mod tables {
         bytes
     }
 
-    /// What both formats say, which must be the same.
+    /// Returns what both formats say, which must be the same.
     fn both(columns: &[(&str, ArrayRef)], selected: Option<&str>) -> Result<Input, String> {
         let options = ReadOptions {
             columns: selected.map(|text| text.parse().unwrap()),

@@ -161,11 +161,11 @@ fn writing_hears_the_monitor() {
     let source =
         GeneratedSource::new(Distribution::Uniform, 200_000, 1, 1, ScalarKind::F32).unwrap();
     let (heard, stop) = (AtomicU64::new(0), AtomicBool::new(false));
-    let hear = |count| {
+    let record = |count| {
         heard.fetch_add(count, Ordering::Relaxed);
         stop.store(true, Ordering::Relaxed);
     };
-    let monitor = Monitor { on_points: Some(&hear), cancel: Some(&stop), ..Monitor::silent() };
+    let monitor = Monitor { on_points: Some(&record), cancel: Some(&stop), ..Monitor::silent() };
     let path = folder.path().join("p.npy");
     assert!(write_points(&source, &[], &path, None, &monitor).is_err());
     assert_eq!(heard.load(Ordering::Relaxed), 65_536);

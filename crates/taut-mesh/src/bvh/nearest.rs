@@ -2,7 +2,7 @@
 //!
 //! *Problem.* Given p, find the triangle of least distance and that distance.
 //! *Idea.* Go down the tree into the nearer box first, and turn back where a box is farther than the best triangle so far. The
-//! nearest point of a triangle is the foot of p if that lies within, else it is on a side; the foot is a mean of the corners
+//! nearest point of a triangle is the projection of p if that lies within, else it is on a side; the projection is a mean of the corners
 //! with the areas of the opposite parts as weights.
 //! *Guarantee.* Exact up to rounding, for triangles without area too: what is called nearest is always a mean of corners, so
 //! the distance is never that of a point beyond the triangle. Of triangles at one distance the one of the lowest number is
@@ -14,9 +14,7 @@ use super::{Bounds, Bvh, Stack};
 /// A triangle, and how far away it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Nearest {
-    /// The square of the distance.
     pub(crate) square: f64,
-    /// The number of the triangle.
     pub(crate) number: u32,
 }
 
@@ -80,7 +78,6 @@ pub(crate) fn normal([a, b, c]: &[[f64; 3]; 3]) -> [f64; 3] {
     cross(less(*b, *a), less(*c, *a))
 }
 
-/// The square of the distance of p from a triangle.
 fn square_distance(p: &[f64; 3], triangle: &[[f64; 3]; 3]) -> f64 {
     let n = normal(triangle);
     // As seen from p.
@@ -90,8 +87,8 @@ fn square_distance(p: &[f64; 3], triangle: &[[f64; 3]; 3]) -> f64 {
     let sum = weights[0] + weights[1] + weights[2];
     if sum > 0.0 && weights.iter().all(|&weight| weight >= 0.0) {
         let [u, v, w] = weights.map(|weight| weight / sum);
-        let foot: [f64; 3] = std::array::from_fn(|k| u * a[k] + v * b[k] + w * c[k]);
-        return sides.min(dot(foot, foot));
+        let projection: [f64; 3] = std::array::from_fn(|k| u * a[k] + v * b[k] + w * c[k]);
+        return sides.min(dot(projection, projection));
     }
     sides
 }
@@ -101,8 +98,8 @@ fn side(a: [f64; 3], b: [f64; 3]) -> f64 {
     let along = less(b, a);
     let length = dot(along, along);
     let share = if length > 0.0 { (-dot(a, along) / length).clamp(0.0, 1.0) } else { 0.0 };
-    let foot: [f64; 3] = std::array::from_fn(|k| a[k] + share * along[k]);
-    dot(foot, foot)
+    let projection: [f64; 3] = std::array::from_fn(|k| a[k] + share * along[k]);
+    dot(projection, projection)
 }
 
 #[cfg(test)]
@@ -169,7 +166,7 @@ mod tests {
         assert_eq!(Bvh::new(&[]).nearest(&[0.0; 3]), None);
     }
 
-    /// The foot of a point on the plane of a needle may be wrong by much of its length, but not the distance.
+    /// The projection of a point on the plane of a needle may be wrong by much of its length, but not the distance.
     #[test]
     fn needles_keep_their_distance() {
         for k in 0..200 {

@@ -16,9 +16,9 @@ fn open(vertices: &[[f64; 2]]) -> Polyline<'_> {
 }
 
 /// A regular polygon of n vertices.
-fn circle(n: usize, radius: f64, centre: [f64; 2]) -> Vec<[f64; 2]> {
+fn circle(n: usize, radius: f64, center: [f64; 2]) -> Vec<[f64; 2]> {
     let at = |k: usize| (TAU * k as f64 / n as f64).sin_cos();
-    (0..n).map(at).map(|(sin, cos)| [centre[0] + radius * cos, centre[1] + radius * sin]).collect()
+    (0..n).map(at).map(|(sin, cos)| [center[0] + radius * cos, center[1] + radius * sin]).collect()
 }
 
 #[test]
@@ -191,7 +191,7 @@ fn plain_distance(p: [f64; 2], (a, b): Segment) -> f64 {
     if (0.0..=length).contains(&along) { across } else { ends[0].min(ends[1]) }
 }
 
-/// Whether two segments of whole numbers meet, by exact rational intersection.
+/// Returns true if two segments of whole numbers meet, by exact rational intersection.
 fn plain_meet((a, b): Segment, (c, d): Segment) -> bool {
     let int = |p: [f64; 2]| p.map(|v| v as i64);
     let [a, b, c, d] = [a, b, c, d].map(int);

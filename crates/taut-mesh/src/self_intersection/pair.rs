@@ -1,4 +1,4 @@
-//! Whether two triangles share more than their common vertices.
+//! Decides whether two triangles share more than their common vertices.
 //!
 //! *Problem.* Triangles A and B with area, s of whose vertices are common: is there a point in both that is not in the hull of
 //! these?
@@ -30,7 +30,7 @@ impl Face {
     }
 }
 
-/// Whether two triangles with area share a point that is not in the hull of their common vertices.
+/// Returns true if two triangles with area share a point that is not in the hull of their common vertices.
 pub(super) fn meet(mut a: Face, mut b: Face) -> bool {
     // Common vertices come first, in the same order.
     let mut common = 0;
@@ -65,7 +65,7 @@ pub(super) fn meet(mut a: Face, mut b: Face) -> bool {
     }
 }
 
-/// Whether the corners of a triangle are not on one line.
+/// Tests whether the corners of a triangle are not on one line.
 pub(super) fn has_area(corners: &[[f64; 3]; 3]) -> bool {
     (0..3).any(|axis| !turn(corners, axis).is_zero())
 }
@@ -79,17 +79,17 @@ fn sides([a, b, c]: &[[f64; 3]; 3], other: &[[f64; 3]; 3], common: usize) -> [Si
     )
 }
 
-/// Whether all are on the same side, and none in the plane.
+/// Returns true if all are on the same side, and none in the plane.
 fn apart(sides: &[Sign]) -> bool {
     !sides[0].is_zero() && sides.iter().all(|&side| side == sides[0])
 }
 
-/// Whether not two of these are opposite.
+/// Tests whether not two of these are opposite.
 fn agree(signs: [Sign; 3]) -> bool {
     !(signs.contains(&Sign::Positive) && signs.contains(&Sign::Negative))
 }
 
-/// Whether a segment, its ends on these sides of the triangle's plane, meets the triangle.
+/// Tests whether a segment, its ends on these sides of the triangle's plane, meets the triangle.
 fn pierces(triangle: &[[f64; 3]; 3], [p, q]: [[f64; 3]; 2], ends: [Sign; 2]) -> bool {
     let [a, b, c] = *triangle;
     match ends {
@@ -99,7 +99,7 @@ fn pierces(triangle: &[[f64; 3]; 3], [p, q]: [[f64; 3]; 2], ends: [Sign; 2]) -> 
     }
 }
 
-/// Whether a segment of the triangle's plane meets the triangle.
+/// Tests whether a segment of the triangle's plane meets the triangle.
 fn meets_in_plane(triangle: &[[f64; 3]; 3], segment: [[f64; 3]; 2]) -> bool {
     let axis = axis_with_area(triangle);
     let [a, b, c] = triangle.map(|p| project(p, axis));
@@ -109,7 +109,7 @@ fn meets_in_plane(triangle: &[[f64; 3]; 3], segment: [[f64; 3]; 2]) -> bool {
         || around.iter().any(|&[from, to]| crossing::meet((p, q), (from, to)))
 }
 
-/// Whether two triangles of one plane, whose first two corners are common, lie on the same side of that edge.
+/// Tests whether two triangles of one plane, whose first two corners are common, lie on the same side of that edge.
 fn overlap_at_edge(p: &[[f64; 3]; 3], q: &[[f64; 3]; 3]) -> bool {
     let axis = axis_with_area(p);
     turn(p, axis) == turn(q, axis)

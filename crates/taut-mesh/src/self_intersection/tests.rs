@@ -12,7 +12,7 @@ fn of(shape: &Shape) -> SelfIntersections {
 /// A triangle by its corners on a grid.
 type Grid = [[i64; 3]; 3];
 
-/// Whether two triangles that name their vertices meet, whichever way round they are given.
+/// Tests whether two triangles that name their vertices meet, whichever way round they are given.
 fn pair(vertices: &[[i64; 3]], triangles: [[u32; 3]; 2]) -> bool {
     let vertices: Vec<[f64; 3]> = vertices.iter().map(|p| p.map(|x| x as f64)).collect();
     let turned =
@@ -145,7 +145,7 @@ fn the_answer_does_not_depend_on_threads() {
     }
 }
 
-/// Whether the origin is a convex combination of these points: of one, two, three or four of them, by Carathéodory.
+/// Tests whether the origin is a convex combination of these points: of one, two, three or four of them, by Carathéodory.
 fn around_origin(points: &[[i64; 3]]) -> bool {
     let dot = |a: [i64; 3], b: [i64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let cross = |a: [i64; 3], b: [i64; 3]| {
@@ -187,7 +187,7 @@ fn around_origin(points: &[[i64; 3]]) -> bool {
     false
 }
 
-/// Whether two triangles with area share more than their common vertices, by the existence of a combination.
+/// Tests whether two triangles with area share more than their common vertices, by the existence of a combination.
 fn plain(vertices: &[[i64; 3]], one: [u32; 3], other: [u32; 3]) -> bool {
     let at = |k: &u32| vertices[*k as usize];
     let from = |a: [i64; 3], b: [i64; 3]| [a[0] - b[0], a[1] - b[1], a[2] - b[2]];

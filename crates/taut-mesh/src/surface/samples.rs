@@ -97,7 +97,7 @@ mod tests {
             sums[triangle][1] += p[1];
         }
         assert_eq!(counts, [1000, 0, 3000, 5000, 0]);
-        // Centres of mass: of 1000 independent points within 10 they are off by 10/√12/√1000 = 0.09; four times that.
+        // Centers of mass: of 1000 independent points within 10 they are off by 10/√12/√1000 = 0.09; four times that.
         for k in [0, 2, 3] {
             let [_, b, c] = triangles[k].1;
             for x in 0..2 {

@@ -9,14 +9,14 @@
 use crate::TriangleMesh;
 use crate::mesh::repeats;
 
-/// How much two sets have in common.
+/// The overlap of two sets.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Shared {
     /// Size of the set of the reference, each thing counted once.
     pub reference: usize,
     /// Size of the set of the result.
     pub result: usize,
-    /// How many are in both.
+    /// The number of elements in both.
     pub both: usize,
 }
 

@@ -241,7 +241,7 @@ fn plain(shape: &Shape) -> Topology {
         sets.iter().map(own).collect::<Vec<_>>()
     };
     let slots: BTreeSet<usize> = (0..kept.len()).collect();
-    let neighbours = |a: usize, b: usize| {
+    let neighbors = |a: usize, b: usize| {
         edges.values().any(|on| on.iter().any(|x| x.0 == a) && on.iter().any(|x| x.0 == b))
     };
     let component = |part: &BTreeSet<usize>| {
@@ -279,7 +279,7 @@ fn plain(shape: &Shape) -> Topology {
             genus: manifold.then_some((if orientable { lacking / 2 } else { lacking }) as u64),
         }
     };
-    let components: Vec<Component> = parts(&slots, neighbours).iter().map(component).collect();
+    let components: Vec<Component> = parts(&slots, neighbors).iter().map(component).collect();
     let vertices: BTreeSet<u32> = kept.iter().flat_map(|k| k.1).collect();
     let count = |wanted: &dyn Fn(&On) -> bool| edges.values().filter(|on| wanted(on)).count();
     let good = components.iter().all(|p| p.manifold && p.orientable);

@@ -94,7 +94,7 @@ pub struct KdTree<const D: usize> {
     /// Of each bucket the rows of its points; the largest number where there is no point.
     rows: Pages<u32>,
     len: usize,
-    /// Whether all coordinates are [`wide::is_plain`].
+    /// True if all coordinates are [`wide::is_plain`].
     plain: bool,
 }
 
@@ -122,7 +122,7 @@ impl<const D: usize> KdTree<D> {
         self.len
     }
 
-    /// Whether there is no point.
+    /// Returns true if there is no point.
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }

@@ -53,8 +53,8 @@ struct Side<const D: usize> {
     offsets: [f64; D],
 }
 
-/// What a search keeps.
-trait Found {
+/// The points that a search keeps.
+trait NearestSet {
     /// The largest squared distance at which a point may still count.
     fn reach(&self) -> f64;
 
@@ -63,9 +63,9 @@ trait Found {
 }
 
 /// The nearest point so far.
-struct One(Nearest);
+struct NearestOne(Nearest);
 
-impl Found for One {
+impl NearestSet for NearestOne {
     #[inline(always)]
     fn reach(&self) -> f64 {
         self.0.distance2
@@ -102,7 +102,7 @@ impl Found for One {
 }
 
 /// The k nearest points so far, the farthest on top.
-struct Several<F> {
+struct NearestHeap<F> {
     heap: BinaryHeap<Candidate<u64, F>>,
     k: usize,
     ties: F,
@@ -155,7 +155,7 @@ pub(super) fn keep<S: Ord, F: Fn(u32, u32) -> Ordering>(
     }
 }
 
-impl<F: Fn(u32, u32) -> Ordering + Copy> Found for Several<F> {
+impl<F: Fn(u32, u32) -> Ordering + Copy> NearestSet for NearestHeap<F> {
     #[inline(always)]
     fn reach(&self) -> f64 {
         match self.heap.peek() {
@@ -180,14 +180,14 @@ impl<F: Fn(u32, u32) -> Ordering + Copy> Found for Several<F> {
 }
 
 /// The k nearest points so far, where these are few: in order, which costs less than a heap up to [`ORDERED_LIST_MAX`].
-struct Few<F> {
+struct NearestList<F> {
     /// Squared distances as bits, which have their order, and rows.
     found: Vec<(u64, u32)>,
     k: usize,
     ties: F,
 }
 
-impl<F: Fn(u32, u32) -> Ordering + Copy> Found for Few<F> {
+impl<F: Fn(u32, u32) -> Ordering + Copy> NearestSet for NearestList<F> {
     #[inline(always)]
     fn reach(&self) -> f64 {
         self.found.get(self.k - 1).map_or(f64::INFINITY, |&(bits, _)| f64::from_bits(bits))
@@ -249,7 +249,7 @@ impl<const D: usize> KdTree<D> {
         if !(self.plain && is_plain(place)) {
             return self.nearest_wide(place, 1, |a, b| a.cmp(&b), probe).first().copied();
         }
-        let mut found = One(Nearest { row: u32::MAX, distance2: f64::INFINITY });
+        let mut found = NearestOne(Nearest { row: u32::MAX, distance2: f64::INFINITY });
         self.search(Level::best(), place, &mut found, probe);
         (found.0.row != u32::MAX).then_some(found.0)
     }
@@ -304,14 +304,14 @@ impl<const D: usize> KdTree<D> {
             return self.nearest_wide(place, k, ties, probe);
         }
         if k <= ORDERED_LIST_MAX {
-            let mut few = Few { found: Vec::with_capacity(k), k, ties };
+            let mut few = NearestList { found: Vec::with_capacity(k), k, ties };
             self.search(Level::best(), place, &mut few, probe);
             let nearest =
                 |(bits, row): (u64, u32)| Nearest { row, distance2: f64::from_bits(bits) };
             return few.found.into_iter().map(nearest).collect();
         }
         let heap = BinaryHeap::with_capacity(k.min(self.len));
-        let mut found = Several { heap, k, ties };
+        let mut found = NearestHeap { heap, k, ties };
         self.search(Level::best(), place, &mut found, probe);
         let sorted = found.heap.into_sorted_vec().into_iter();
         let nearest =
@@ -334,7 +334,7 @@ impl<const D: usize> KdTree<D> {
         found
     }
 
-    /// Tells a probe of the arrays; once, ahead of the first probed call.
+    /// Tells a probe of the arrays; once, ahead of the first instrumented call.
     pub fn place<P: Probe>(&self, probe: &mut P) {
         probe.place(self.nodes.words());
         probe.place(self.coordinates.words());
@@ -344,7 +344,7 @@ impl<const D: usize> KdTree<D> {
     /// Runs a search with the instructions of a level.
     #[allow(unsafe_code, reason = "dispatch of a vector kernel")]
     #[inline]
-    fn search<F: Found, P: Probe>(
+    fn search<F: NearestSet, P: Probe>(
         &self,
         level: Level,
         place: [f64; D],
@@ -368,18 +368,23 @@ impl<const D: usize> KdTree<D> {
 
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx512f")]
-    fn search_avx512<F: Found, P: Probe>(&self, place: [f64; D], found: &mut F, probe: &mut P) {
+    fn search_avx512<F: NearestSet, P: Probe>(
+        &self,
+        place: [f64; D],
+        found: &mut F,
+        probe: &mut P,
+    ) {
         self.search_by(place, found, probe);
     }
 
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2")]
-    fn search_avx2<F: Found, P: Probe>(&self, place: [f64; D], found: &mut F, probe: &mut P) {
+    fn search_avx2<F: NearestSet, P: Probe>(&self, place: [f64; D], found: &mut F, probe: &mut P) {
         self.search_by(place, found, probe);
     }
 
     #[inline(always)]
-    fn search_by<F: Found, P: Probe>(&self, place: [f64; D], found: &mut F, probe: &mut P) {
+    fn search_by<F: NearestSet, P: Probe>(&self, place: [f64; D], found: &mut F, probe: &mut P) {
         if self.len == 0 {
             return;
         }
@@ -506,7 +511,7 @@ fn distances<const D: usize>(
 #[cfg(test)]
 pub(super) fn nearest_by_all<const D: usize>(tree: &KdTree<D>, place: [f64; D]) -> Vec<Nearest> {
     let search = |level| {
-        let mut found = One(Nearest { row: u32::MAX, distance2: f64::INFINITY });
+        let mut found = NearestOne(Nearest { row: u32::MAX, distance2: f64::INFINITY });
         tree.search(level, place, &mut found, &mut NoProbe);
         found.0
     };

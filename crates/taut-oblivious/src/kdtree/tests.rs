@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use super::query::nearest_by_all;
 use super::*;
 
-/// What an interpreter has time for, or else all.
+/// Returns what an interpreter has time for, or else all.
 fn miri_or(few: usize, all: usize) -> usize {
     if cfg!(miri) { few } else { all }
 }

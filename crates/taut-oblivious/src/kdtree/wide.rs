@@ -32,7 +32,7 @@ const fn two_to(exponent: i64) -> f64 {
     f64::from_bits(((1023 + exponent) as u64) << 52)
 }
 
-/// Whether the squares of differences of such coordinates are neither infinite nor too small to be exact to rounding: each
+/// Tests whether the squares of differences of such coordinates are neither infinite nor too small to be exact to rounding: each
 /// is zero, or between 2⁻⁴⁰⁰ and 2⁵⁰⁰, so that a difference is zero or more than 2⁻⁴⁵³.
 #[inline(always)]
 pub(super) fn is_plain<const D: usize>(place: [f64; D]) -> bool {

@@ -31,7 +31,7 @@ pub(in crate::matrix) mod tiles;
 /// a fifth.
 const STRIP_COLUMNS: usize = 48;
 /// A band has this many rows: their pages, one for each row of a wide matrix, stay among the two or three thousand
-/// whose translation the processor keeps. Walked from top to bottom, a strip of more rows would ask for each page anew.
+/// whose translation the processor keeps. Walked from top to bottom, a strip of more rows would ask for each page again.
 const BAND_ROWS: usize = 1024;
 /// A strip of a band has this many columns.
 const WALK_COLUMNS: usize = 64;
@@ -121,7 +121,7 @@ pub fn transpose_instrumented<T: Pod, P: Probe>(
     Ok(())
 }
 
-/// Whether `length` is that of a `rows` × `columns` matrix.
+/// Tests whether `length` is that of a `rows` × `columns` matrix.
 pub(crate) fn check_length(
     name: &'static str,
     length: usize,
@@ -135,7 +135,7 @@ pub(crate) fn check_length(
     Err(Error::Option { name, value, expected: "as many elements as rows times columns" })
 }
 
-/// What all strips of one transposition share.
+/// The shape that all strips of one transposition share.
 struct Shape {
     level: Level,
     rows: usize,
@@ -146,7 +146,7 @@ struct Shape {
     task_columns: usize,
     /// Elements of a line of the cache.
     line: usize,
-    /// Whether the target is written past the caches.
+    /// True if the target is written past the caches.
     past: bool,
 }
 

@@ -77,7 +77,7 @@ impl FileMatrix {
     }
 }
 
-/// How to transpose a file. Write `TransposeFileOptions { memory: 64 << 20, ..Default::default() }`.
+/// Options to transpose a file. Write `TransposeFileOptions { memory: 64 << 20, ..Default::default() }`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TransposeFileOptions {
     /// Most bytes of both buffers together, at least two elements; turning a tile takes some 40 KiB a thread besides.
@@ -91,7 +91,7 @@ impl Default for TransposeFileOptions {
     }
 }
 
-/// What a transposition of a file did.
+/// The result of the transposition of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FileTransposition {
     /// Bytes read: those of the matrix.
@@ -106,7 +106,7 @@ pub struct FileTransposition {
 
 /// Writes the file `to`: `header`, then the transpose of the matrix in the file `from`.
 ///
-/// The names may be the same. `monitor` hears of one pass and of the elements of each tile. The target is written without
+/// The names may be the same. `monitor` is told of one pass and of the elements of each tile. The target is written without
 /// a name, or under a temporary one in its folder, brought to the disk and named. Where there is an earlier file of that
 /// name, also behind a symbolic link, it is replaced and its permissions are kept. Room on the disk is reserved before the
 /// work where the system can. O(rows · columns) and `options.memory` bytes.
@@ -174,7 +174,6 @@ fn transpose_through<F: Store + Borrow<File>>(
     Ok(Pending::new(done, target, to, None))
 }
 
-/// Opens a file that ends with `matrix`.
 fn open(path: &Path, matrix: &FileMatrix) -> Result<File, Error> {
     let (file, about) = store::open(path).map_err(failed(path))?;
     let bytes = about.len();
@@ -186,7 +185,7 @@ fn open(path: &Path, matrix: &FileMatrix) -> Result<File, Error> {
     }
 }
 
-/// What the system said, and of which file.
+/// Returns what the system said, and of which file.
 fn failed(path: &Path) -> impl Fn(std::io::Error) -> Error + use<> {
     let path = PathBuf::from(path);
     move |source| Error::File { path: path.display().to_string(), source }

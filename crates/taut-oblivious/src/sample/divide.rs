@@ -5,7 +5,7 @@
 //! densely filled, a set of bits takes the place of sorting.
 //! *Guarantee.* Each set of k numbers comes with the same probability, up to the rounding of hypergeometric numbers. O(k)
 //! for any n below 2⁶⁴; each node has random numbers of its own, so threads change nothing.
-//! *Trap.* Drawing k numbers and dropping those that come twice gives too few; dropping some of too many favours sets.
+//! *Trap.* Drawing k numbers and dropping those that come twice gives too few; dropping some of too many favors sets.
 //! Drawing on until k are different is exact, since the next new number is any of those not yet drawn, all equally likely.
 //! *Reference.* P. Sanders, S. Lamm, L. Hübschle-Schneider, E. Schrade, C. Dachsbacher, *Efficient parallel random
 //! sampling: vectorized, cache-efficient, and online*, TOMS 44(3), 2018.

@@ -2,7 +2,7 @@
 //!
 //! *Idea.* xoshiro256++, whose state is filled from the seed and the number of the node by a bijective mixer. Nodes have
 //! streams of their own, so that it does not matter which of them is drawn first, or where.
-//! *Trap.* `x mod n` favours small numbers; a product of 128 bits and a rare second draw do not.
+//! *Trap.* `x mod n` favors small numbers; a product of 128 bits and a rare second draw do not.
 //! *References.* D. Blackman, S. Vigna, *Scrambled linear pseudorandom number generators*, TOMS 47(4), 2021;
 //! D. Lemire, *Fast random integer generation in an interval*, TOMACS 29(1), 2019.
 
@@ -13,7 +13,6 @@ use crate::random::split_mix;
 pub(super) struct Random([u64; 4]);
 
 impl Random {
-    /// The stream of a node.
     pub(super) fn new(seed: u64, node: u64) -> Self {
         let mut state = seed;
         let mut state = split_mix(&mut state) ^ node.wrapping_mul(0xD6E8_FEB8_6659_FD93);

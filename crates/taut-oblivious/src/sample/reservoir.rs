@@ -53,7 +53,7 @@ impl<T> Reservoir<T> {
         }
     }
 
-    /// How many of the next items are not kept, so that a source that can leave items out may do so.
+    /// Returns how many of the next items are not kept, so that a source that can leave items out may do so.
     pub fn passing(&self) -> u64 {
         if self.k == 0 { u64::MAX } else { self.pass }
     }

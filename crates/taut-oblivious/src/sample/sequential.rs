@@ -52,7 +52,7 @@ impl Sequential {
         (self.random.unit().ln() / k).exp()
     }
 
-    /// How many numbers to leave out, by method A: P(S ≥ s) = Π (n − k − i) / (n − i) over i < s.
+    /// Returns how many numbers to leave out, by method A: P(S ≥ s) = Π (n − k − i) / (n − i) over i < s.
     fn walk(&mut self) -> u64 {
         let (mut rest, mut top) = (self.n as f64, (self.n - self.k) as f64);
         let lot = self.random.unit();
@@ -67,7 +67,7 @@ impl Sequential {
         left_out
     }
 
-    /// How many numbers to leave out, by method D.
+    /// Returns how many numbers to leave out, by method D.
     fn leap(&mut self) -> u64 {
         let (n, k) = (self.n as f64, self.k as f64);
         let free = n - k + 1.0;

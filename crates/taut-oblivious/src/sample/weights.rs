@@ -13,7 +13,7 @@ use super::random::Random;
 /// Weights below this share of the mode's no longer count.
 const WEIGHT_RATIO_MIN: f64 = 1e-22;
 
-/// How many of `draws` numbers without replacement from `population` are among the first `first` of them.
+/// Returns how many of `draws` numbers without replacement from `population` are among the first `first` of them.
 pub(super) fn hypergeometric(random: &mut Random, population: u64, first: u64, draws: u64) -> u64 {
     let low = draws.saturating_sub(population - first);
     let high = draws.min(first);
@@ -29,7 +29,7 @@ pub(super) fn hypergeometric(random: &mut Random, population: u64, first: u64, d
     walk(random, low, high, mode.clamp(low, high), up)
 }
 
-/// How many of `n` events of probability `p` happen.
+/// Returns how many of `n` events of probability `p` happen.
 pub(super) fn binomial(random: &mut Random, n: u64, p: f64) -> u64 {
     if p <= 0.0 || n == 0 {
         return 0;

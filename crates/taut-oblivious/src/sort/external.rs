@@ -3,7 +3,7 @@
 //! *Problem.* n records of w bytes in a file, a key in each, a limit on memory.
 //! *Idea.* Read what fits, sort it, write it as a run; then merge all runs at once. All runs stand in one file, so three
 //! files are open however many runs there are. If so many runs come together that their blocks would be tiny,
-//! neighbouring runs are merged into longer ones first.
+//! neighboring runs are merged into longer ones first.
 //! *Guarantee.* Stable: the output is a function of the input and the place of the key, whatever the memory and the
 //! threads. Each byte is read twice and written twice while there are at most some memory / 256 KiB runs of nine tenths of
 //! the memory, 240 GB for 256 MiB (below 16 MiB of memory some 60 runs); a file that fits is read and written once. The
@@ -40,7 +40,7 @@ pub use layout::{KeyKind, RecordLayout};
 
 use crate::store::Pending;
 
-/// How to sort a file. Write `FileSortOptions { memory: 1 << 30, ..Default::default() }`.
+/// Options to sort a file. Write `FileSortOptions { memory: 1 << 30, ..Default::default() }`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FileSortOptions {
     /// Most bytes of memory for records and what is needed to sort them; the program itself comes on top. At least
@@ -61,17 +61,17 @@ impl Default for FileSortOptions {
     }
 }
 
-/// What proves that two files hold the same records, in whatever order.
+/// A fingerprint that proves that two files hold the same records, in whatever order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Multiset {
     /// Number of records.
     pub records: u64,
     /// Sum of the hashes of all records, modulo 2¹²⁸. Two multisets that differ agree in it by chance only, as far as
-    /// hashes are random numbers; it is no defence against somebody who means to deceive.
+    /// hashes are random numbers; it is no defense against somebody who means to deceive.
     pub hash: u128,
 }
 
-/// How a file was sorted: its certificate, and counters.
+/// The result of sorting a file: its certificate, and counters.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct FileSort {
     /// The records that were read. If they did not fit, those that came back from the runs for the output were found to be
@@ -89,7 +89,7 @@ pub struct FileSort {
 
 /// Sorts the records of a file by their key into another file, or into the same one.
 ///
-/// Stable. `monitor` hears of a pass over the records while runs are made, one for each merge of some runs into a longer
+/// Stable. `monitor` is told of a pass over the records while runs are made, one for each merge of some runs into a longer
 /// one, and one for the last merge; it can stop the work after any block. Until the output is complete, `output` is
 /// untouched. Where the system has files without a name, nothing is left behind even if the process is killed, but for
 /// the file of [`FileSortOptions::resume`], which is removed when the output is there. Room for runs, also those of merges in

@@ -43,7 +43,7 @@ fn compare<P: Probe>(keys: &mut [u64], probe: &mut P) {
     probe.write(keys);
 }
 
-/// What needs the vector kernels.
+/// The parts that need the vector kernels.
 #[cfg(target_arch = "x86_64")]
 mod vector {
     use super::{Avx512, NoProbe, Probe, compare};
@@ -54,7 +54,7 @@ mod vector {
     /// From this many keys on, the pivot is the median of more than one sample.
     const MANY_SAMPLES_MIN: usize = 1 << 12;
 
-    /// The pivot: nearly the median of 56 keys, seven times eight neighbours; where there are many keys, the median of
+    /// The pivot: nearly the median of 56 keys, seven times eight neighbors; where there are many keys, the median of
     /// 128 from as many places.
     fn pivot(kernel: Avx512, keys: &[u64]) -> u64 {
         if keys.len() < MANY_SAMPLES_MIN {

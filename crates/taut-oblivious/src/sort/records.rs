@@ -5,7 +5,7 @@
 //! the words are sorted by the vector kernels, and the records gathered in their order.
 //! *Guarantee.* Stable, so that the result is a function of the input whatever the machine and the threads. O(n) passes
 //! of memory for keys that spread; a bucket that is too large is dealt again, at most 65 times. Some megabytes of room for
-//! each thread, or for as many threads as a limit has room for ([`Rooms`]).
+//! each thread, or for as many threads as a limit has room for ([`BucketBuffers`]).
 //! *Trap.* Words that agree in the bits they have room for must be told apart by the rest of the key, and records that
 //! agree in all of it stay in order since the number in the bucket is the last part of the word.
 //! *Trap.* A look at all keys for the smallest and the largest costs a pass of memory. Those of a sample are as good: what
@@ -41,27 +41,27 @@ const SAMPLE_SIZES: (usize, usize) = (64, 1 << 12);
 const FEW_RANKS: u64 = 256;
 
 pub(super) use parts::{Parts, bucket_bytes, parts};
-use rooms::Room;
-pub(super) use rooms::{Rooms, room_bytes};
+use rooms::BucketBuffer;
+pub(super) use rooms::{BucketBuffers, room_bytes};
 
 /// Sorts records by their rank, on as many threads as there are rooms for.
 pub(super) fn sort<T: Copy + Send + Sync, P: Probe>(
     records: &mut [T],
     rank: &(impl Fn(&T) -> u64 + Sync),
-    rooms: &Rooms<T>,
+    rooms: &BucketBuffers<T>,
     probe: &mut P,
 ) {
     probe.place(records);
     if P::IS_RECORDING || rayon::current_num_threads() == 1 {
-        rooms.within(|room| alone(records, rank, Look::Sample, room, probe));
+        rooms.within(|room| alone(records, rank, RankRecords::Sample, room, probe));
     } else {
-        shared(records, rank, Look::Sample, rooms);
+        shared(records, rank, RankRecords::Sample, rooms);
     }
 }
 
 /// At which records to look for the lowest and the highest rank.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Look {
+enum RankRecords {
     Sample,
     All,
 }
@@ -70,12 +70,12 @@ enum Look {
 fn alone<T: Copy, P: Probe>(
     records: &mut [T],
     rank: &impl Fn(&T) -> u64,
-    look: Look,
-    room: &mut Room<T>,
+    extremes_of: RankRecords,
+    room: &mut BucketBuffer<T>,
     probe: &mut P,
 ) {
-    for range in divide(records, rank, look, true, room, probe) {
-        alone(&mut records[range], rank, Look::All, room, probe);
+    for range in divide(records, rank, extremes_of, true, room, probe) {
+        alone(&mut records[range], rank, RankRecords::All, room, probe);
     }
 }
 
@@ -83,35 +83,35 @@ fn alone<T: Copy, P: Probe>(
 fn shared<T: Copy + Send + Sync>(
     records: &mut [T],
     rank: &(impl Fn(&T) -> u64 + Sync),
-    look: Look,
-    rooms: &Rooms<T>,
+    extremes_of: RankRecords,
+    rooms: &BucketBuffers<T>,
 ) {
-    if look == Look::All && !rooms.shares(records) {
-        return rooms.within(|room| alone(records, rank, look, room, &mut NoProbe));
+    if extremes_of == RankRecords::All && !rooms.shares(records) {
+        return rooms.within(|room| alone(records, rank, extremes_of, room, &mut NoProbe));
     }
     // A room is given back before other threads are waited for: whoever has one comes to an end.
-    let large = rooms.within(|room| divide(records, rank, look, false, room, &mut NoProbe));
+    let large = rooms.within(|room| divide(records, rank, extremes_of, false, room, &mut NoProbe));
     let parts = cut(records, &large);
     drop(large);
-    parts.into_par_iter().for_each(|records| shared(records, rank, Look::All, rooms));
+    parts.into_par_iter().for_each(|records| shared(records, rank, RankRecords::All, rooms));
 }
 
 /// Deals a part into buckets and, if one thread is `alone` with it, sorts those that are small; what is left to be sorted.
 fn divide<T: Copy, P: Probe>(
     records: &mut [T],
     rank: &impl Fn(&T) -> u64,
-    look: Look,
+    extremes_of: RankRecords,
     alone: bool,
-    room: &mut Room<T>,
+    room: &mut BucketBuffer<T>,
     probe: &mut P,
 ) -> Vec<Range<usize>> {
-    match deal(records, rank, look, room, probe) {
+    match deal(records, rank, extremes_of, room, probe) {
         Deal::Sorted(_) => Vec::new(),
         Deal::Dealt(mut dealt) => put(&mut dealt, rank, alone, room, probe),
     }
 }
 
-/// What became of records that were to be dealt.
+/// The result of distributing records.
 enum Deal<'a, T> {
     /// They are in order.
     Sorted(&'a mut [T]),
@@ -122,8 +122,8 @@ enum Deal<'a, T> {
 fn deal<'a, T: Copy, P: Probe>(
     records: &'a mut [T],
     rank: &impl Fn(&T) -> u64,
-    look: Look,
-    room: &mut Room<T>,
+    extremes_of: RankRecords,
+    room: &mut BucketBuffer<T>,
     probe: &mut P,
 ) -> Deal<'a, T> {
     if records.len() <= STANDARD_SORT_MAX {
@@ -143,7 +143,8 @@ fn deal<'a, T: Copy, P: Probe>(
         unknown(records, rank, room, probe);
         return Deal::Sorted(records);
     }
-    let sample = if look == Look::Sample { sample(records, rank) } else { Vec::new() };
+    let sample =
+        if extremes_of == RankRecords::Sample { sample(records, rank) } else { Vec::new() };
     let (mut low, mut high) = ends(sample.iter().copied());
     if low >= high {
         (low, high) = ends(records.iter().map(rank));
@@ -167,7 +168,7 @@ fn put<T: Copy, P: Probe>(
     dealt: &mut Dealt<'_, T>,
     rank: &impl Fn(&T) -> u64,
     alone: bool,
-    room: &mut Room<T>,
+    room: &mut BucketBuffer<T>,
     probe: &mut P,
 ) -> Vec<Range<usize>> {
     let most = most::<T>();
@@ -197,7 +198,6 @@ fn ends(ranks: impl Iterator<Item = u64>) -> (u64, u64) {
     ranks.fold((u64::MAX, 0), |(low, high), rank| (low.min(rank), high.max(rank)))
 }
 
-/// The ranks of some records.
 fn sample<T>(records: &[T], rank: &impl Fn(&T) -> u64) -> Vec<u64> {
     let count = (records.len() / SAMPLE_SIZES.0).clamp(1, SAMPLE_SIZES.1);
     let mut place = 0.0;
@@ -234,7 +234,7 @@ impl Scale {
         Self { low, range, shift }
     }
 
-    /// Whether more than a quarter of the records come to one bucket, as far as a sample says; none says so.
+    /// Returns true if more than a quarter of the records come to one bucket, as far as a sample says; none says so.
     fn crowds(&self, sample: &[u64]) -> bool {
         let mut sizes = vec![0; self.buckets()];
         sample.iter().for_each(|&rank| sizes[self.bucket(rank)] += 1);
@@ -274,7 +274,7 @@ fn few<T, P: Probe>(records: &mut [T], rank: impl Fn(&T) -> u64, probe: &mut P) 
 fn unknown<T: Copy, P: Probe>(
     records: &mut [T],
     rank: &impl Fn(&T) -> u64,
-    room: &mut Room<T>,
+    room: &mut BucketBuffer<T>,
     probe: &mut P,
 ) {
     room.copy(records.len()).extend_from_slice(records);
@@ -286,11 +286,11 @@ fn unknown<T: Copy, P: Probe>(
 fn gather<T: Copy, P: Probe>(
     to: &mut [T],
     rank: &impl Fn(&T) -> u64,
-    room: &mut Room<T>,
+    room: &mut BucketBuffer<T>,
     probe: &mut P,
 ) {
     room.words();
-    let Room { words, copy } = room;
+    let BucketBuffer { words, copy } = room;
     probe.place(copy);
     probe.write(copy);
     if copy.len() <= STANDARD_SORT_MAX {
@@ -362,7 +362,7 @@ fn runs(words: &[u64], number_bits: u32) -> Vec<Range<usize>> {
 fn settle<T: Copy, P: Probe>(
     records: &mut [T],
     rank: &impl Fn(&T) -> u64,
-    room: &mut Room<T>,
+    room: &mut BucketBuffer<T>,
     probe: &mut P,
 ) {
     probe.read(records);

@@ -71,7 +71,6 @@ impl Draft {
     }
 }
 
-/// A file with a name of its own.
 fn named(folder: &Path) -> io::Result<(File, TempPath)> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".taut-");
@@ -88,7 +87,6 @@ fn named(folder: &Path) -> io::Result<(File, TempPath)> {
     Ok(builder.tempfile_in(folder).map_err(refused)?.into_parts())
 }
 
-/// The folder of a file.
 pub(crate) fn folder(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }

@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
 
 use super::Store;
 
-/// What goes wrong.
+/// The fault that occurs.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Fault {
     /// The call of this number, from 0, is refused: a read, a write, or a wait for the disk.
@@ -25,14 +25,14 @@ pub(crate) enum Fault {
     Cut(u64),
 }
 
-/// What happened to a file.
+/// The record of what happened to a file.
 #[derive(Debug, Default)]
 pub(crate) struct Record {
     /// Reads, writes and waits.
     pub(crate) calls: AtomicU64,
     /// Reads and writes past the cache.
     pub(crate) past_cache: AtomicU64,
-    /// Whether something went wrong.
+    /// States whether something went wrong.
     pub(crate) has_failed: AtomicBool,
 }
 
@@ -53,7 +53,7 @@ impl<'a> Faulty<'a> {
         how
     }
 
-    /// How much of so many bytes at a place are moved.
+    /// Returns how much of so many bytes at a place are moved.
     fn part(&self, bytes: usize, at: u64, is_write: bool) -> io::Result<usize> {
         let call = self.record.calls.fetch_add(1, Relaxed);
         self.record.past_cache.fetch_add(self.is_past.load(Relaxed).into(), Relaxed);

@@ -11,7 +11,7 @@ use crate::error::Error;
 ///
 /// Dropped without [`publish`](Self::publish) it leaves the earlier file as it was.
 pub struct Pending<R, F = File> {
-    /// How it was made.
+    /// The way in which it was made.
     pub found: R,
     draft: Draft<F>,
     path: PathBuf,
@@ -52,7 +52,7 @@ impl<R, F> Pending<R, F> {
     }
 }
 
-/// What the system said, and of which file.
+/// Returns what the system said, and of which file.
 fn failed(path: &Path) -> impl FnOnce(std::io::Error) -> Error {
     let path = path.display().to_string();
     move |source| Error::File { path, source }

@@ -28,7 +28,7 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static COUNTING: Counting = Counting;
 
-/// What a piece of work returns, and the most bytes it has allocated at once.
+/// Returns what a piece of work returns, and the most bytes it has allocated at once.
 pub(crate) fn peak<R>(work: impl FnOnce() -> R) -> (R, usize) {
     let before = NOW.load(Relaxed);
     PEAK.store(before, Relaxed);

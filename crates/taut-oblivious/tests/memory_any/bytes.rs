@@ -1,4 +1,4 @@
-//! What the fuzzer calls with any bytes, and the tests with seeds.
+//! Tests what the fuzzer calls with any bytes, and the tests with seeds.
 
 use taut_oblivious::external::{FileSortOptions, KeyKind, RecordLayout, sort_file};
 use taut_points::Monitor;

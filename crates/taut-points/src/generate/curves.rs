@@ -31,7 +31,7 @@ pub struct TestCurve {
 pub struct TruthCurves {
     /// The curves, each as points on it, equally spaced along it; of an arc both ends are among them.
     pub loops: Vec<Vec<[f64; 2]>>,
-    /// Whether each curve closes: an edge leads from its last point to its first.
+    /// States whether each curve closes: an edge leads from its last point to its first.
     pub closed: Vec<bool>,
     /// The local feature size at each of these points.
     pub features: Vec<Vec<f64>>,
@@ -43,7 +43,7 @@ pub struct TruthCurves {
     pieces: Vec<Piece>,
     /// The parameter of each point; of a closed curve the last is that of the first, one period later.
     parameters: Vec<Vec<f64>>,
-    /// What the formulas are multiplied by.
+    /// The factor that the formulas are multiplied by.
     scale: f64,
 }
 
@@ -128,7 +128,7 @@ impl TestCurve {
 }
 
 impl TruthCurves {
-    /// The edges between neighbouring points: curve, number of the first point, and length, divided by f unless `plain`.
+    /// The edges between neighboring points: curve, number of the first point, and length, divided by f unless `plain`.
     fn edges(&self, plain: bool) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
         self.loops.iter().enumerate().flat_map(move |(curve, points)| {
             let (n, features) = (points.len(), &self.features[curve]);

@@ -30,7 +30,7 @@ pub enum Distribution {
         /// Half the thickness t ≥ 0; 1e-8 makes the hardest instances for a minimum enclosing ball.
         thickness: f64,
     },
-    /// Normal clouds around centres that are uniform in the unit cube; point i belongs to cloud i mod count.
+    /// Normal clouds around centers that are uniform in the unit cube; point i belongs to cloud i mod count.
     Clusters {
         /// Number of clouds, at least 1.
         count: u64,
@@ -65,7 +65,7 @@ pub enum Distribution {
     /// Along a spiral of Archimedes in the plane, r = φ / (2π·turns), from the origin to distance 1; r² is uniform,
     /// which is nearly uniform in length.
     Spiral {
-        /// How often it goes around, ≥ 0.
+        /// The number of turns, ≥ 0.
         turns: f64,
     },
     /// Two parallel segments of the plane: x uniform in [0, 1), y = i mod 2.
@@ -88,7 +88,7 @@ pub enum Distribution {
     },
 }
 
-/// What a distribution may be told when it is called by its name; what is left out has its default.
+/// The parameters of a distribution that is given by its name; what is left out has its default.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Parameters {
     /// Half the thickness of a shell, at least 0. Default 0.1.
@@ -104,7 +104,7 @@ pub struct Parameters {
     pub side: Option<u64>,
     /// Degrees by which a grid is turned. Default 0.
     pub angle: Option<f64>,
-    /// How often a spiral goes around, at least 0. Default 10.
+    /// The number of turns of a spiral, at least 0. Default 10.
     pub turns: Option<f64>,
     /// Standard deviation of the noise of a torus, at least 0. Default 1e-4.
     pub noise: Option<f64>,
@@ -119,7 +119,7 @@ impl Distribution {
         ("poisson", "each coordinate Poisson with mean 1: a lattice with many ties"),
         ("sphere", "uniform on the unit sphere"),
         ("shell", "uniform in direction, 1 ± T from the origin"),
-        ("clusters", "normal clouds around K centres in the unit cube"),
+        ("clusters", "normal clouds around K centers in the unit cube"),
         ("clouds", "the same, but of widths from 1e-5 to 1e-2"),
         ("simplex", "vertices of a regular simplex with unit edges, then points inside"),
         ("polygon", "K points at equal angles on the unit circle, in turn"),

@@ -16,8 +16,8 @@ pub(super) fn stream(seed: u64, number: u64) -> ChaCha8Rng {
     random
 }
 
-/// The stream of a centre or a town: counted down from the last, so that it is none of a point.
-fn stream_of_centre(seed: u64, number: u64) -> ChaCha8Rng {
+/// The stream of a center or a town: counted down from the last, so that it is none of a point.
+fn stream_of_center(seed: u64, number: u64) -> ChaCha8Rng {
     stream(seed, u64::MAX - number)
 }
 
@@ -38,16 +38,16 @@ pub(super) fn draw(distribution: &Distribution, seed: u64, i: u64, out: &mut [f6
             direction(&mut random, radius, out);
         }
         Distribution::Clusters { count, spread } => {
-            let mut centre = stream_of_centre(seed, i % count);
+            let mut center = stream_of_center(seed, i % count);
             out.fill_with(|| {
                 let offset = normal(&mut random);
-                centre.random::<f64>() + spread * offset
+                center.random::<f64>() + spread * offset
             });
         }
         Distribution::Clouds { count } => {
-            let mut centre = stream_of_centre(seed, i % count);
-            let spread = 10f64.powf(-5.0 + 3.0 * centre.random::<f64>());
-            out.fill_with(|| centre.random::<f64>() + spread * normal(&mut random));
+            let mut center = stream_of_center(seed, i % count);
+            let spread = 10f64.powf(-5.0 + 3.0 * center.random::<f64>());
+            out.fill_with(|| center.random::<f64>() + spread * normal(&mut random));
         }
         Distribution::Simplex => simplex(&mut random, i, out),
         Distribution::Polygon { vertices } => {
@@ -169,7 +169,7 @@ fn road(seed: u64, i: u64, towns: u64) -> [f64; 2] {
     let mut random = stream(seed, i / ROAD_POINTS);
     // log(rank + 1) uniform: rank k has a probability of log((k + 1) / k), nearly 1 / k.
     let rank = (towns as f64 + 1.0).powf(random.random()) as u64;
-    let mut town = stream_of_centre(seed, (rank - 1).min(towns - 1));
+    let mut town = stream_of_center(seed, (rank - 1).min(towns - 1));
     let mut at: [f64; 2] =
         std::array::from_fn(|_| town.random::<f64>() + 0.01 * normal(&mut random));
     let mut heading = FRAC_PI_2 * random.random_range(0..4) as f64 + 0.05 * normal(&mut random);

@@ -4,7 +4,7 @@ use std::str::FromStr;
 
 use crate::Error;
 
-/// How radii are distributed. Written as `equal:R`, `uniform:A:B` or `exponential:MEAN`.
+/// The way in which radii are distributed. Written as `equal:R`, `uniform:A:B` or `exponential:MEAN`.
 ///
 /// ```
 /// use taut_points::generate::RadiusLaw;

@@ -28,7 +28,7 @@ pub(super) fn shuffled(seed: u64, number: u64, last: u64) -> u64 {
     }
 }
 
-/// The finaliser of SplitMix64 (Steele, Lea and Flood, OOPSLA 2014): each bit depends on all.
+/// The finalizer of SplitMix64 (Steele, Lea and Flood, OOPSLA 2014): each bit depends on all.
 fn mix(mut x: u64) -> u64 {
     x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -46,7 +46,7 @@ mod tests {
             let (again, other) = (places.clone(), (0..n).map(|i| shuffled(6, i, n - 1)));
             if n >= 15 {
                 assert!(!places.is_sorted() && !other.eq(again.iter().copied()), "{n}");
-                // Neighbours are n / 3 apart on average.
+                // Neighbors are n / 3 apart on average.
                 let apart: f64 = again.windows(2).map(|p| p[0].abs_diff(p[1]) as f64).sum();
                 let apart = apart / ((n - 1) * n) as f64;
                 assert!((0.2..0.5).contains(&apart) || n < 1000, "{n}: {apart}");

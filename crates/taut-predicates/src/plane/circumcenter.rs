@@ -1,4 +1,4 @@
-//! Where a circumcentre lies, and the smallest circle of an edge, by exact signs of rational functions.
+//! Where a circumcenter lies, and the smallest circle of an edge, by exact signs of rational functions.
 
 use crate::cascade;
 use crate::number::{Number, Polynomial};
@@ -50,15 +50,15 @@ impl Polynomial<8> for Nearer {
     }
 }
 
-/// Whether q lies inside (positive), on (zero) or outside the circle with diameter ab, the smallest one through a
+/// Tests whether q lies inside (positive), on (zero) or outside the circle with diameter ab, the smallest one through a
 /// and b. An edge of a Delaunay triangulation with no vertex inside it is a Gabriel edge.
 #[must_use]
 pub fn in_diametral_circle(a: Point, b: Point, q: Point) -> Sign {
     cascade::sign::<InDiametralCircle, 4>(&[[q[0], a[0]], [q[1], a[1]], [b[0], q[0]], [b[1], q[1]]])
 }
 
-/// The sign of coordinate `axis` of the circumcentre of abc, less t: on which side of a cut it lies. The triangle may
-/// turn either way; zero for three points of a line, which have no circumcentre.
+/// The sign of coordinate `axis` of the circumcenter of abc, less t: on which side of a cut it lies. The triangle may
+/// turn either way; zero for three points of a line, which have no circumcenter.
 ///
 /// # Panics
 /// If `axis` is not 0 or 1.
@@ -72,8 +72,8 @@ pub fn circumcenter_side(a: Point, b: Point, c: Point, axis: usize, t: f64) -> S
     numerator * orient(a, b, c)
 }
 
-/// Whether the circumcentre of abc is nearer to r (positive) or to s (negative), or as near to one as to the other.
-/// The triangle may turn either way; zero for three points of a line, which have no circumcentre.
+/// Tests whether the circumcenter of abc is nearer to r (positive) or to s (negative), or as near to one as to the other.
+/// The triangle may turn either way; zero for three points of a line, which have no circumcenter.
 #[must_use]
 pub fn circumcenter_nearer(a: Point, b: Point, c: Point, r: Point, s: Point) -> Sign {
     let [b_, c_, r_, s_] = [b, c, r, s].map(|p| [[p[0], a[0]], [p[1], a[1]]]);

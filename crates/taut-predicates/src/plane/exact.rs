@@ -198,7 +198,7 @@ pub(crate) fn any_length<const PERTURBED: bool>(
     })
 }
 
-/// Whether all are at most so large; not if one is NaN.
+/// Returns true if all are at most so large; not if one is NaN.
 #[inline(always)]
 fn within(differences: &[f64], max: f64) -> bool {
     differences.iter().fold(true, |within, d| within & (d.abs() <= max))

@@ -32,7 +32,7 @@ pub(crate) fn in_circle<N: Number>(p: &[[N; 2]; 3], cofactors: &[N; 3]) -> N {
     lift(&p[0]) * cofactors[0] + lift(&p[1]) * cofactors[1] + lift(&p[2]) * cofactors[2]
 }
 
-/// One coordinate of the numerator U of the circumcentre U/2[uv] of the triangle 0uv.
+/// One coordinate of the numerator U of the circumcenter U/2[uv] of the triangle 0uv.
 #[inline(always)]
 pub(crate) fn numerator<N: Number>(u: &[N; 2], v: &[N; 2], axis: usize) -> N {
     match axis {

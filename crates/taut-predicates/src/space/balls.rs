@@ -21,7 +21,7 @@ impl Polynomial<6> for InDiametralSphere {
     }
 }
 
-/// w·N − |n|²|w|², where n = u × v and C = a + N/2|n|² is the centre of the facet's circumcircle: the power of q with
+/// w·N − |n|²|w|², where n = u × v and C = a + N/2|n|² is the center of the facet's circumcircle: the power of q with
 /// respect to its equatorial sphere is |w|² − w·N/|n|².
 struct InEquatorialSphere;
 
@@ -57,7 +57,7 @@ impl Polynomial<15> for ShrunkSphere {
     }
 }
 
-/// Normal n = u × v of the triangle 0uv, and N = (n × u)|v|² + (v × n)|u|², where N/2|n|² is its circumcentre.
+/// Normal n = u × v of the triangle 0uv, and N = (n × u)|v|² + (v × n)|u|², where N/2|n|² is its circumcenter.
 #[inline(always)]
 fn circle<N: Number>(u: &[N; 3], v: &[N; 3]) -> ([N; 3], [N; 3]) {
     let n = cross(u, v);
@@ -65,7 +65,7 @@ fn circle<N: Number>(u: &[N; 3], v: &[N; 3]) -> ([N; 3], [N; 3]) {
     (n, [0, 1, 2].map(|i| nu[i] * v2 + vn[i] * u2))
 }
 
-/// Whether q lies inside (positive), on (zero) or outside the sphere with diameter ab, the smallest one through a and
+/// Tests whether q lies inside (positive), on (zero) or outside the sphere with diameter ab, the smallest one through a and
 /// b.
 #[must_use]
 pub fn in_diametral_sphere(a: Point, b: Point, q: Point) -> Sign {
@@ -79,7 +79,7 @@ pub fn in_diametral_sphere(a: Point, b: Point, q: Point) -> Sign {
     ])
 }
 
-/// Whether q lies inside (positive), on (zero) or outside the smallest sphere through a, b and c. A facet of a Delaunay
+/// Tests whether q lies inside (positive), on (zero) or outside the smallest sphere through a, b and c. A facet of a Delaunay
 /// triangulation with no vertex inside it is a Gabriel facet. Zero for three points of a line.
 #[must_use]
 pub fn in_equatorial_sphere(a: Point, b: Point, c: Point, q: Point) -> Sign {
@@ -111,7 +111,7 @@ impl EquatorialSphere {
         Self { corners: [a, b, c], numerator, squared: lift(&n), largest }
     }
 
-    /// Whether q lies inside (positive), on (zero) or outside.
+    /// Tests whether q lies inside (positive), on (zero) or outside.
     #[must_use]
     #[inline]
     pub fn side(&self, q: Point) -> Sign {
@@ -124,8 +124,8 @@ impl EquatorialSphere {
     }
 }
 
-/// Whether d lies inside (positive), on (zero) or outside the smallest sphere through a, b and c, shrunk about its
-/// centre by the factor 1 − ε, ε in [0, 1]. Never positive for three points of a line, which have no such sphere.
+/// Tests whether d lies inside (positive), on (zero) or outside the smallest sphere through a, b and c, shrunk about its
+/// center by the factor 1 − ε, ε in [0, 1]. Never positive for three points of a line, which have no such sphere.
 #[must_use]
 pub fn shrunk_sphere(a: Point, b: Point, c: Point, d: Point, epsilon: f64) -> Sign {
     let points = [b, c, d];

@@ -1,4 +1,4 @@
-//! Where a circumcentre lies, by exact signs of rational functions.
+//! Where a circumcenter lies, by exact signs of rational functions.
 
 use crate::cascade;
 use crate::number::{Number, Polynomial};
@@ -38,8 +38,8 @@ impl Polynomial<15> for Nearer {
     }
 }
 
-/// The sign of coordinate `axis` of the circumcentre of abcd, less t: on which side of a cut it lies. The tetrahedron
-/// may be of either orientation; zero for four points of a plane, which have no circumcentre.
+/// The sign of coordinate `axis` of the circumcenter of abcd, less t: on which side of a cut it lies. The tetrahedron
+/// may be of either orientation; zero for four points of a plane, which have no circumcenter.
 ///
 /// # Panics
 /// If `axis` is not 0, 1 or 2.
@@ -58,8 +58,8 @@ pub fn circumcenter_side(a: Point, b: Point, c: Point, d: Point, axis: usize, t:
     numerator * orient(a, b, c, d)
 }
 
-/// Whether the circumcentre of abcd is nearer to r (positive) or to s (negative), or as near to one as to the other.
-/// The tetrahedron may be of either orientation; zero for four points of a plane, which have no circumcentre.
+/// Tests whether the circumcenter of abcd is nearer to r (positive) or to s (negative), or as near to one as to the other.
+/// The tetrahedron may be of either orientation; zero for four points of a plane, which have no circumcenter.
 #[must_use]
 pub fn circumcenter_nearer(a: Point, b: Point, c: Point, d: Point, r: Point, s: Point) -> Sign {
     let points = [b, c, d, r, s];

@@ -53,7 +53,7 @@ pub(crate) fn in_sphere<N: Number>(p: &[[N; 3]; 4], cofactors: &[N; 4]) -> N {
         + (lift(&p[2]) * cofactors[2] + lift(&p[3]) * cofactors[3])
 }
 
-/// One coordinate of the numerator U of the circumcentre U/2·det(u, v, w) of the tetrahedron 0uvw.
+/// One coordinate of the numerator U of the circumcenter U/2·det(u, v, w) of the tetrahedron 0uvw.
 #[inline(always)]
 pub(crate) fn numerator<N: Number>(u: &[N; 3], v: &[N; 3], w: &[N; 3], axis: usize) -> N {
     let cross = |u: &[N; 3], v: &[N; 3]| {

@@ -21,7 +21,7 @@ impl Polynomial<10> for EquatorialRadius {
     }
 }
 
-/// 4ρ²·det(u, v, w)² − |U|², where the circumcentre of 0uvw is U/2·det(u, v, w).
+/// 4ρ²·det(u, v, w)² − |U|², where the circumcenter of 0uvw is U/2·det(u, v, w).
 struct SphereRadius;
 
 impl Polynomial<10> for SphereRadius {

@@ -1,4 +1,4 @@
-//! Circumcentres and smallest balls: 350 000 cases.
+//! Circumcenters and smallest balls: 350 000 cases.
 
 use num_bigint::BigInt;
 
@@ -15,7 +15,7 @@ fn in_diametral(truth: &Exactly, a: usize, b: usize, q: usize) -> Sign {
     oracle::sign(&terms.sum::<BigInt>())
 }
 
-/// Whether the circumcentre of the simplex `vertices` is beyond coordinate `axis` of point t.
+/// Tests whether the circumcenter of the simplex `vertices` is beyond coordinate `axis` of point t.
 fn side(truth: &Exactly, vertices: &[usize], axis: usize, t: usize) -> Sign {
     let (numerators, denominator) = truth.circumcenter(vertices);
     let beyond = &numerators[axis] - &truth.points[t][axis] * &denominator;

@@ -81,7 +81,7 @@ pub(crate) fn case<const D: usize, const V: usize>(
                 p
             })
         }
-        // Neighbours on a sphere.
+        // Neighbors on a sphere.
         8 => {
             let (start, width) = (random.unit() * 3.0, random.pick(&[1.0, 1e-3, 1e-7]));
             [(); V].map(|()| {

@@ -9,7 +9,7 @@ use crate::tests::cases::{case, lattice_sphere};
 use crate::tests::oracle::{self, Exactly};
 use crate::tests::{Met, Random};
 
-/// The sign of ρ − R for the sphere with this centre, in integers: ρ²·denominator² against |p·denominator − numerators|².
+/// The sign of ρ − R for the sphere with this center, in integers: ρ²·denominator² against |p·denominator − numerators|².
 /// The last point of `truth` is (ρ, 0, 0), so that ρ is in the same unit.
 fn against(truth: &Exactly, vertices: &[usize]) -> Sign {
     let center = truth.circumcenter(vertices);

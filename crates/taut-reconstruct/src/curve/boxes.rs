@@ -1,7 +1,7 @@
 //! A packed tree of boxes over things that already come in Hilbert order.
 //!
 //! *Problem.* Curves fill a vanishing part of the plane, so a uniform grid over them is either empty or crowded.
-//! *Idea.* Items along a Hilbert curve are near their neighbours in memory: eight in a row make a leaf, eight leaves a node, up to
+//! *Idea.* Items along a Hilbert curve are near their neighbors in memory: eight in a row make a leaf, eight leaves a node, up to
 //! one root. Nothing is sorted and no pointer is kept; a level is an array of boxes.
 //! *Guarantee.* The lower bounds that prune are computed with the same roundings as distances of points and are monotone in
 //! them: no item within the bound, ties included, is passed over. 4.6 bytes an item.

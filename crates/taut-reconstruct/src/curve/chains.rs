@@ -24,7 +24,7 @@ const NONE: u32 = u32::MAX;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Chain {
     /// The sites in order: from the end with the smaller number, or of a closed one from the smallest site towards the smaller
-    /// of its neighbours.
+    /// of its neighbors.
     pub(super) sites: Vec<u32>,
     /// Whether an edge leads from the last back to the first.
     pub(super) closed: bool,
@@ -75,7 +75,7 @@ pub(super) fn remove_crossings(sites: &[[f64; 2]], edges: &mut Vec<[u32; 2]>) ->
     crossings::remove(sites, edges)
 }
 
-/// For each site its neighbours by edges of degree at most two; the smaller one first.
+/// For each site its neighbors by edges of degree at most two; the smaller one first.
 fn links(sites: usize, edges: &[[u32; 2]]) -> Vec<[u32; 2]> {
     let mut links = vec![[NONE; 2]; sites];
     for &[a, b] in edges {

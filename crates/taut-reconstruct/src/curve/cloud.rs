@@ -5,7 +5,7 @@ use taut_points::{InputError, Monitor, PointSource, Rows, Scratch};
 
 use crate::Error;
 
-/// Sites, the distinct points, numbered along a Hilbert curve: neighbours in the plane are near in memory, and the numbers do not
+/// Sites, the distinct points, numbered along a Hilbert curve: neighbors in the plane are near in memory, and the numbers do not
 /// depend on the order of the input.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Cloud {

@@ -1,4 +1,4 @@
-//! Neighbours of any place among points that are sorted along a Hilbert curve.
+//! Neighbors of any place among points that are sorted along a Hilbert curve.
 //!
 //! *Guarantee.* Answers are exact; equal distances go to the smaller number, so answers do not depend on how the search goes.
 
@@ -89,7 +89,7 @@ impl<'a> Index<'a> {
             found.resize(FAN_OUT, Vec::new());
             let mut far2 = 0.0f64;
             for (i, found) in points.clone().zip(found.iter_mut()) {
-                // Its neighbours in number bound the distance from the start.
+                // Its neighbors in number bound the distance from the start.
                 found.clear();
                 let first = i.saturating_sub(k).min(self.points.len().saturating_sub(2 * k));
                 let last = self.points.len().min(first + 2 * k);

@@ -94,11 +94,11 @@ pub enum CurveMethod {
     /// certified; else [`Corners`](Self::Corners).
     #[default]
     Auto,
-    /// For noisy points: which neighbours belong together is decided first, and then the curve is fitted along the order they have.
+    /// For noisy points: which neighbors belong together is decided first, and then the curve is fitted along the order they have.
     Fit,
     /// For noisy points, the algorithm of section 4.1 of the thesis, step by step.
     Thesis(CurveThesisOptions),
-    /// For noisy points, its crude form of section 4.1.2: centres along eigenvectors, and a tour through them.
+    /// For noisy points, its crude form of section 4.1.2: centers along eigenvectors, and a tour through them.
     ThesisCrude(CurveThesisOptions),
     /// Crust of Amenta, Bern and Eppstein (1998), for samples without noise at ε < 0.252.
     Crust,
@@ -120,10 +120,10 @@ pub enum CurveMethod {
 choice! { "method", CurveMethod {
     Auto = "auto",
         "fit where the points are noisy, else nn-crust or fit where that is certified, else corners";
-    Fit = "fit", "for noise: neighbours first, then a fit along the order they have";
-    Thesis(CurveThesisOptions::DEFAULT) = "thesis", "for noise: slabs and centre points, step by step";
+    Fit = "fit", "for noise: neighbors first, then a fit along the order they have";
+    Thesis(CurveThesisOptions::DEFAULT) = "thesis", "for noise: slabs and center points, step by step";
     ThesisCrude(CurveThesisOptions::DEFAULT) = "thesis-crude",
-        "for noise: centres along eigenvectors, and a tour";
+        "for noise: centers along eigenvectors, and a tour";
     Crust = "crust", "no noise, samples at ε < 0.252: Amenta, Bern and Eppstein";
     OneStepCrust = "one-step-crust", "no noise, ε < 0.42: Gold and Snoeyink";
     NnCrust = "nn-crust", "no noise, ε < 1/3: Dey and Kumar";

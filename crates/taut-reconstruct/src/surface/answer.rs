@@ -20,14 +20,14 @@ use super::spheres::Point;
 use super::witness::{located, witnesses};
 use crate::Error;
 
-/// What a method found, in terms of sites.
+/// The facets that a method found, in terms of sites.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Facets {
     /// Delaunay facets, counter-clockwise from outside.
     pub(super) triangles: Vec<[u32; 3]>,
     /// For each of them a cell that has it and its place there, if that is known.
     pub(super) facets: Option<Vec<u32>>,
-    /// Whether closed parts face outwards, or inwards if they are inside others, by construction. Else they are turned.
+    /// True if closed parts face outwards, or inwards if they are inside others, by construction. Else they are turned.
     pub(super) is_outward: bool,
     /// Where that is known, for sites that no triangle has whether they are inside.
     pub(super) inside: Vec<bool>,
@@ -78,7 +78,6 @@ impl Sites {
     }
 }
 
-/// The answer.
 pub(super) fn finish(
     method: SurfaceMethod,
     mode: Promise,
@@ -106,7 +105,7 @@ pub(super) fn finish(
     if is_surface && !facets.is_outward {
         outward::turn(cells, &mut facets.triangles, &found);
     }
-    // What labels say of points holds where these are when they are labelled.
+    // What labels say of points holds where these are when they are labeled.
     let mut unused = unused(&facets, sites, is_surface && changes.elsewhere.is_none());
     if let Some(copies) = changes.copies {
         // Points that met when they were moved are no copies where they were given.
@@ -170,7 +169,6 @@ fn unused(facets: &Facets, sites: &Sites, is_surface: bool) -> Unused {
     rows
 }
 
-/// The topology as the certificate has it.
 fn numbers(found: &Topology) -> SurfaceTopology {
     let components = found.components.iter().map(|one| SurfaceComponent {
         first_triangle: one.first_triangle,

@@ -9,7 +9,7 @@
 use rayon::prelude::*;
 
 use super::cells::Cells;
-use super::media::Media;
+use super::parity::ParityUnionFind;
 
 /// Cells or vertices of one task.
 const TASK: usize = 1 << 13;
@@ -173,7 +173,7 @@ impl Links {
     }
 }
 
-/// Whether a link is one cycle, all of whose sides run the same way round, as of a vertex within a surface.
+/// Tests whether a link is one cycle, all of whose sides run the same way round, as of a vertex within a surface.
 pub(super) fn is_cycle(link: &[[u32; 2]]) -> bool {
     /// Up to this many sides, looking through all of them is as fast as sorting.
     const LINEAR_SEARCH_MAX: usize = 24;
@@ -186,7 +186,7 @@ pub(super) fn is_cycle(link: &[[u32; 2]]) -> bool {
     is_round(link, |site| place(site).map(|k| sorted[k]))
 }
 
-/// Whether the walk along the sides of a link comes back by all of them, and by no vertex twice.
+/// Tests whether the walk along the sides of a link comes back by all of them, and by no vertex twice.
 fn is_round(link: &[[u32; 2]], leaves: impl Fn(u32) -> Option<usize>) -> bool {
     let Some(&[first, mut at]) = link.first() else { return false };
     let mut length = 1;
@@ -199,19 +199,19 @@ fn is_round(link: &[[u32; 2]], leaves: impl Fn(u32) -> Option<usize>) -> bool {
     length == link.len()
 }
 
-/// Whether a link is one path or one cycle, whichever way its sides run, as of a vertex within a surface or on its boundary.
+/// Tests whether a link is one path or one cycle, whichever way its sides run, as of a vertex within a surface or on its boundary.
 pub(super) fn is_fan(link: &[[u32; 2]]) -> bool {
     let mut ends: Vec<(u32, u32)> = Vec::with_capacity(2 * link.len());
     for (side, [a, b]) in (0..).zip(link) {
         ends.extend([(*a, side), (*b, side)]);
     }
     ends.sort_unstable();
-    let mut media = Media::new(link.len());
+    let mut parity = ParityUnionFind::new(link.len());
     let mut parts = link.len();
     for at_site in ends.chunk_by(|a, b| a.0 == b.0) {
         match at_site {
             [_] => {}
-            [one, other] => parts -= usize::from(media.join(one.1, other.1, false)),
+            [one, other] => parts -= usize::from(parity.join(one.1, other.1, false)),
             _ => return false,
         }
     }

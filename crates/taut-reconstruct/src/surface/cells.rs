@@ -76,7 +76,6 @@ impl Cells {
         Self { sites: vertices, beyond }
     }
 
-    /// How many cells there are.
     pub(super) fn len(&self) -> usize {
         self.sites.len()
     }
@@ -153,7 +152,7 @@ impl Moving {
         let sources = (0..4).fold(0, |all, k| all | (sorted[k] as usize & 3) << (2 * k));
         let [_, b, c, d] = sorted.map(|from| u128::from(from >> 2));
         let [sources, places] = POSITIVE[sources];
-        // What comes to each place, rather than where each goes: what was just written at a place that varies is slow to read.
+        // Iterates over the places and finds their cells, not the reverse: data just written at varying places are slow to read.
         let source = [0, 2, 4, 6].map(|shift| usize::from(sources >> shift & 3));
         Self {
             name: b << 64 | c << 32 | d,

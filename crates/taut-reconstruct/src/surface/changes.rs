@@ -1,4 +1,4 @@
-//! What was done to points before a surface was sought, in terms of all rows.
+//! The changes of points before a surface was sought, in terms of all rows.
 //!
 //! *Trap.* A checker sees places alone: of rows in one place the first stands for all, whatever became of the others. So where an outlier
 //! is in the place of a row that was kept, both are left out.

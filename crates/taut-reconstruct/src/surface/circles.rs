@@ -1,4 +1,4 @@
-//! How large the circles of triangles are where their vertices were given.
+//! Measures how large the circles of triangles are where their vertices were given.
 //!
 //! *Problem.* The triangles of an alpha shape were found among moved points. Where these were given their circles can be larger than the
 //! radius of the shape. Name the least `f64`, from this radius on, that none exceeds.
@@ -11,9 +11,9 @@ use taut_predicates::space::equatorial_radius;
 use super::alpha::least;
 use super::scaled::Scale;
 use super::spheres::Point;
-use super::vector::{circumcentre, dot, minus};
+use super::vector::{circumcenter, dot, minus};
 
-/// What an alpha shape of a radius promises of its triangles in other places: a radius, unless a triangle is flat there or its circle is
+/// Returns what an alpha shape of a radius promises of its triangles in other places: a radius, unless a triangle is flat there or its circle is
 /// larger than all numbers.
 pub(super) fn promise(places: &[Point], triangles: &[[u32; 3]], radius: f64) -> Promise {
     let corners = |triangle: &[u32; 3]| triangle.map(|row| places[row as usize]);
@@ -29,7 +29,7 @@ pub(super) fn promise(places: &[Point], triangles: &[[u32; 3]], radius: f64) -> 
     let scale = Scale::of(places);
     let size = |triangle: &[u32; 3]| {
         let [a, b, c] = corners(triangle).map(|place| scale.apply(place));
-        let center = circumcentre(minus(b, a), minus(c, a));
+        let center = circumcenter(minus(b, a), minus(c, a));
         dot(center, center).sqrt()
     };
     // Roundings leave it next to the largest radius, and no number for flat triangles, which are left out here.

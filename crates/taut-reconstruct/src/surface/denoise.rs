@@ -1,10 +1,10 @@
 //! Noise taken out of points before a surface is sought: outliers left out, the others moved towards the sheet they are around.
 //!
-//! *Idea.* An outlier is a point whose neighbours are much farther from it than theirs are from them. Each other point is moved along the
-//! normal of its nearest neighbours onto the paraboloid that fits them best, a few times over.
-//! *Guarantee.* A function of the points: neighbours come in the order of their distances, equal ones in that of their coordinates.
+//! *Idea.* An outlier is a point whose neighbors are much farther from it than theirs are from them. Each other point is moved along the
+//! normal of its nearest neighbors onto the paraboloid that fits them best, a few times over.
+//! *Guarantee.* A function of the points: neighbors come in the order of their distances, equal ones in that of their coordinates.
 //! O(n log n).
-//! *Trap.* Edges are rounded by about the distance of the neighbours, and thin plates pulled together; hence never by default. Planes
+//! *Trap.* Edges are rounded by about the distance of the neighbors, and thin plates pulled together; hence never by default. Planes
 //! in the place of paraboloids, motion by mean curvature, shrink the bunny by two thousandths of its diagonal in four rounds: more
 //! than the noise.
 //! *Reference.* Cazals and Pouget, *Estimating differential quantities using polynomial fitting of osculating jets*, Comput. Aided Geom.
@@ -20,14 +20,13 @@ use super::neighbors::of_neighbors;
 use super::spheres::{Point, dot, minus};
 use crate::Error;
 
-/// A point must be this many times farther from its neighbours than they are from theirs for an outlier.
+/// A point must be this many times farther from its neighbors than they are from theirs for an outlier.
 const OUTLIER_DISTANCE_RATIO: f64 = 3.0;
 
 /// Points after the pre-pass.
 pub(super) struct Denoised {
     /// Those that are no outliers, moved.
     pub(super) points: Vec<Point>,
-    /// For each the row that it was.
     pub(super) rows: Vec<u32>,
     /// The rows of the others.
     pub(super) outliers: Vec<u32>,
@@ -94,7 +93,7 @@ pub(super) fn firsts(points: &[Point]) -> Vec<u32> {
     first
 }
 
-/// By point, whether its neighbours are much farther from it than theirs from them.
+/// By point, whether its neighbors are much farther from it than theirs from them.
 fn outliers(points: &[Point], neighbors: usize) -> Result<Vec<bool>, Error> {
     let distances: Vec<(f64, Vec<u32>)> = of_neighbors(points, neighbors, |_, near| {
         let sum: f64 = near.iter().map(|near| near.distance2.sqrt()).sum();
@@ -211,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn a_bump_is_put_down_and_a_stray_point_left_out() {
+    fn a_bump_is_flattened_and_an_outlier_left_out() {
         let mut points: Vec<Point> =
             (0..400).map(|k| [f64::from(k % 20), f64::from(k / 20), 0.0]).collect();
         points[210][2] = 0.2;

@@ -18,7 +18,7 @@ use rayon::prelude::*;
 use taut_delaunay::{GHOST, decode};
 
 use super::cells::Cells;
-use super::looks::{Look, look, looks};
+use super::quad_quality::{QuadQuality, quad_qualities, quad_quality};
 use super::spheres::{Point, cross, dot, minus};
 
 /// The sum of angles must be less by more than this, in radians.
@@ -35,25 +35,25 @@ pub(super) fn swap(cells: &Cells, points: &[Point], inside: &mut [bool]) -> u64 
     let task = |begin: usize| {
         let some = begin as u32..cells.len().min(begin + TASK) as u32;
         let all: Vec<_> = some.filter_map(|cell| Quadrangle::of(cell, cells, labels)).collect();
-        let looks = looks(&all, cells, points);
-        let seen = all.into_iter().map(|quadrangle| quadrangle.cell).zip(looks);
-        seen.filter(|(_, look)| look.is_rounder || look.is_bent).collect()
+        let quad_qualities = quad_qualities(&all, cells, points);
+        let seen = all.into_iter().map(|quadrangle| quadrangle.cell).zip(quad_qualities);
+        seen.filter(|(_, quad_quality)| quad_quality.is_rounder || quad_quality.is_bent).collect()
     };
     // Most are as they should be, which is seen in parallel; the others are looked at again, one after another.
     let begins: Vec<usize> = (0..cells.len()).step_by(TASK).collect();
-    let looks_by_task: Vec<Vec<(u32, Look)>> = begins.into_par_iter().map(task).collect();
-    let looks_of_all = looks_by_task.concat();
-    let of = |is: fn(&Look) -> bool| {
-        let those = looks_of_all.iter().filter(move |(_, look)| is(look));
+    let looks_by_task: Vec<Vec<(u32, QuadQuality)>> = begins.into_par_iter().map(task).collect();
+    let qualities_of_all = looks_by_task.concat();
+    let of = |is: fn(&QuadQuality) -> bool| {
+        let those = qualities_of_all.iter().filter(move |(_, quad_quality)| is(quad_quality));
         those.map(|&(cell, _)| cell).collect::<Vec<u32>>()
     };
     let is_rounder =
-        |quadrangle: &Quadrangle, _: &[bool]| look(quadrangle, cells, points).is_rounder;
+        |quadrangle: &Quadrangle, _: &[bool]| quad_quality(quadrangle, cells, points).is_rounder;
     let is_flatter =
         |quadrangle: &Quadrangle, inside: &[bool]| quadrangle.is_flatter(cells, points, inside);
-    let rounder = of(|look| look.is_rounder);
+    let rounder = of(|quad_quality| quad_quality.is_rounder);
     let (first, mut bent) = swap_where(is_rounder, Quadrangle::neighbors, rounder, cells, inside);
-    bent.extend(of(|look| look.is_bent));
+    bent.extend(of(|quad_quality| quad_quality.is_bent));
     bent.sort_unstable();
     bent.dedup();
     let (second, _) = swap_where(is_flatter, Quadrangle::around, bent, cells, inside);
@@ -119,7 +119,7 @@ impl Quadrangle {
         [normal(b, c, d), normal(a, d, c), normal(a, b, d), normal(a, c, b)]
     }
 
-    /// Whether the angles around the other two triangles are much less, and one of them is that of a sharp edge.
+    /// Returns true if the angles around the other two triangles are much less, and one of them is that of a sharp edge.
     fn is_flatter(&self, cells: &Cells, points: &[Point], inside: &[bool]) -> bool {
         let normals = self.normals(cells, points);
         let now = self.others.map(|i| normals[i]);
@@ -162,7 +162,7 @@ impl Quadrangle {
         has_sharp && is_more(turns)
     }
 
-    /// Whether the other diagonal is no edge of the border.
+    /// Returns true if the other diagonal is no edge of the border.
     fn can_be_swapped(&self, cells: &Cells, inside: &[bool]) -> bool {
         self.beyond(cells, inside, self.others, self.ends[0]).is_none()
     }
@@ -190,7 +190,6 @@ impl Quadrangle {
         }
     }
 
-    /// The cells across.
     fn neighbors(&self, cells: &Cells, _: &[bool]) -> Vec<u32> {
         (0..4).map(|i| cells.across(self.cell, i).0).collect()
     }
@@ -215,7 +214,7 @@ fn normal(a: Point, b: Point, c: Point) -> Point {
     cross(minus(b, a), minus(c, a))
 }
 
-/// Whether the angles now are larger in sum than those then, by more than [`ANGLE_GAIN_MIN`].
+/// Tests whether the angles now are larger in sum than those then, by more than [`ANGLE_GAIN_MIN`].
 fn is_more(turns: &[[[Point; 2]; 2]]) -> bool {
     let sum = |angle: fn([Point; 2]) -> f64| {
         turns.iter().map(|&[now, then]| angle(now) - angle(then)).sum::<f64>()
@@ -232,7 +231,7 @@ fn angle([a, b]: [Point; 2]) -> f64 {
     dot(c, c).sqrt().atan2(dot(a, b))
 }
 
-/// How much the angles of two vectors to any third one differ at most: their own angle, if they have one. Of a third one that is so short
+/// Returns how much the angles of two vectors to any third one differ at most: their own angle, if they have one. Of a third one that is so short
 /// itself, angles are roundings, which nothing bounds; no swap hangs on these.
 fn most([a, b]: [Point; 2]) -> f64 {
     /// Squares of vectors so short that products of two of them are no longer numbers of full precision.
@@ -263,7 +262,7 @@ fn nearly_angle([a, b]: [Point; 2]) -> f64 {
     if along.is_sign_negative() { PI - acute } else { acute }
 }
 
-/// Whether it is that of a sharp edge.
+/// Tests whether it is that of a sharp edge.
 fn is_sharp([a, b]: [Point; 2]) -> bool {
     let along = dot(a, b);
     along <= 0.0 || along * along <= SHARP_COS_SQUARE * dot(a, a) * dot(b, b)

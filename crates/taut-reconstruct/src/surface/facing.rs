@@ -83,7 +83,7 @@ impl Part {
         Self { triangles, last, span }
     }
 
-    /// Whether its triangles run counter-clockwise as seen from beyond it.
+    /// Returns true if its triangles run counter-clockwise as seen from beyond it.
     fn faces_outwards(&self, places: &[Point]) -> bool {
         let at = |site: u32| places[site as usize];
         let v = at(self.last);
@@ -107,7 +107,7 @@ impl Part {
         before.is_none_or(|&[q, _]| space::orient(v, at(w), at(p), at(q)).is_negative())
     }
 
-    /// Whether a point that is not on it is within.
+    /// Returns true if a point that is not on it is within.
     fn is_around(&self, places: &[Point], p: Point) -> bool {
         let [least, most] = self.span;
         let crossed = |triangle: &&[u32; 3]| crosses(triangle.map(|site| places[site as usize]), p);
@@ -123,13 +123,13 @@ fn turn_along(axis: usize, [a, b, c]: [Point; 3]) -> Sign {
     plane::orient(a, b, c)
 }
 
-/// Whether the edge from v to `one` is steeper than that to `other`, as the head of this file has it.
+/// Returns true if the edge from v to `one` is steeper than that to `other`, as the head of this file has it.
 fn is_steeper(v: Point, one: Point, other: Point) -> bool {
     let turns = [2, 1, 0].into_iter().map(|axis| turn_along(axis, [v, other, one]));
     turns.into_iter().find(|turn| !turn.is_zero()).is_some_and(Sign::is_positive)
 }
 
-/// Whether the ray from p towards larger x crosses a triangle that p is not on, once it is moved.
+/// Tests whether the ray from p towards larger x crosses a triangle that p is not on, once it is moved.
 fn crosses(triangle: [Point; 3], p: Point) -> bool {
     let [a, b, c] = triangle;
     let facing = turn_along(0, triangle);

@@ -1,7 +1,7 @@
 //! Which facets of a triangulation can be part of a surface.
 //!
 //! *Problem.* Of the 14 facets a sample point has, two are triangles of the surface.
-//! *Idea.* The shrunk equatorial sphere of a facet, its smallest sphere shrunk by 1 − ε about its centre, is to be empty. The two
+//! *Idea.* The shrunk equatorial sphere of a facet, its smallest sphere shrunk by 1 − ε about its center, is to be empty. The two
 //! vertices opposite are asked; for ε = 0 that is the Gabriel property. Beside that, facets may be limited in size.
 //! *Guarantee.* All signs are exact.
 //! *Trap.* For ε > 0 two vertices are not all sites: where one of them lies inside the equatorial sphere by a hair and makes a flat
@@ -56,7 +56,7 @@ impl AlphaFilter {
     }
 }
 
-/// What a facet has to pass.
+/// The tests that a facet has to pass.
 pub(super) struct Filter {
     epsilon: f64,
     emptiness: Emptiness,
@@ -83,7 +83,7 @@ impl Filter {
         Ok(Self { epsilon, emptiness, alpha })
     }
 
-    /// Whether a finite facet passes all of it.
+    /// Returns true if a finite facet passes all of it.
     pub(super) fn passes(&self, sides: &Sides, side: Side) -> bool {
         self.is_small(sides, side)
             && !sides.apexes(side).any(|site| self.shrunk_holds(sides, side, site))
@@ -104,7 +104,7 @@ impl Filter {
         shrunk_sphere(a, b, c, sides.points[site as usize], self.epsilon).is_positive()
     }
 
-    /// Whether the shrunk sphere is empty of all sites. The sites within a ball are joined by Delaunay edges within it: so those
+    /// Returns true if the shrunk sphere is empty of all sites. The sites within a ball are joined by Delaunay edges within it: so those
     /// inside the equatorial sphere or on it are met by walking through the stars of such sites, from the corners on.
     fn no_site_within(&self, sides: &Sides, side: Side) -> bool {
         let corners = facet(sides, side);
@@ -141,13 +141,13 @@ fn facet(sides: &Sides, side: Side) -> [[f64; 3]; 3] {
     sides.sorted(side).map(|site| sides.points[site as usize])
 }
 
-/// Whether the smallest sphere of a facet has at most this radius.
+/// Returns true if the smallest sphere of a facet has at most this radius.
 pub(super) fn facet_at_most(sides: &Sides, side: Side, limit: f64) -> bool {
     let [a, b, c] = facet(sides, side);
     !equatorial_radius(a, b, c, limit).is_negative()
 }
 
-/// Whether the sphere of a cell has at most this radius; that of a ghost is infinite.
+/// Returns true if the sphere of a cell has at most this radius; that of a ghost is infinite.
 pub(super) fn cell_at_most(sides: &Sides, cell: u32, limit: f64) -> bool {
     if sides.is_ghost(cell) {
         return limit == f64::INFINITY;
@@ -156,14 +156,14 @@ pub(super) fn cell_at_most(sides: &Sides, cell: u32, limit: f64) -> bool {
     limit == f64::INFINITY || !sphere_radius(a, b, c, d, limit).is_negative()
 }
 
-/// Whether the smallest sphere of a facet is empty of all sites.
+/// Returns true if the smallest sphere of a facet is empty of all sites.
 pub(super) fn is_gabriel(sides: &Sides, side: Side) -> bool {
     let [a, b, c] = facet(sides, side);
     let inside = |site: u32| in_equatorial_sphere(a, b, c, sides.points[site as usize]);
     !sides.apexes(side).any(|site| inside(site).is_positive())
 }
 
-/// Whether an empty ball of at most this radius has a facet on its boundary.
+/// Returns true if an empty ball of at most this radius has a facet on its boundary.
 pub(super) fn in_complex(sides: &Sides, side: Side, limit: f64) -> bool {
     let cells = [side, sides.mirror(side)].map(|side| side >> 2);
     let finite = |&cell: &u32| !sides.is_ghost(cell) && cell_at_most(sides, cell, limit);

@@ -32,7 +32,6 @@ struct Spheres<'a> {
     flat: f64,
 }
 
-/// A vector in each lane.
 pub(super) type Vectors<S> = [<S as Simd>::f64s; 3];
 
 #[inline(always)]
@@ -56,7 +55,7 @@ pub(super) fn cross<S: Simd>(simd: S, a: Vectors<S>, b: Vectors<S>) -> Vectors<S
 /// By corner, axis and lane.
 type Corners = [[[f64; MOST_LANES]; 3]; 4];
 
-/// What comes out of a block of lanes.
+/// The result of a block of lanes.
 #[derive(Clone, Copy, Default)]
 struct Block {
     center: [[f64; MOST_LANES]; 3],

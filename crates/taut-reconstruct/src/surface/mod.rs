@@ -1,9 +1,9 @@
 //! Surfaces through samples of space.
 //!
 //! *Problem.* Points were sampled from the boundary of bodies, or from sheets. Find the surface that has them for its vertices.
-//! *Idea.* Do not grow the surface: label the cells of the Delaunay triangulation. How the spheres of two neighbouring cells meet says
-//! whether they are of one medium or on two sides of the surface, and how surely (`strengths`); the strongest spanning tree of what is
-//! said labels all cells (`tree`); small parts that the facets around them object to are turned over (`flips`); the surface is where
+//! *Idea.* Do not grow the surface: label the cells of the Delaunay triangulation. How the spheres of two neighboring cells meet says
+//! whether they are of one medium or on two sides of the surface, and how surely (`dual_edges`); the strongest spanning tree of what is
+//! said labels all cells (`tree`); small parts that the facets around them object to are turned over (`relabel_parts`); the surface is where
 //! the labels change (`border`), and where that is no surface, single cells are (`repair`).
 //! *Guarantee.* A function of the point set: neither the order of the input, nor the number of threads, nor the unit matters. Triangles
 //! are Delaunay facets, so they meet in common edges and vertices alone; without defects named, it is a surface.
@@ -17,31 +17,31 @@ mod changes;
 mod circles;
 mod denoise;
 mod diagonals;
-mod doubled;
+mod dual_edges;
 mod facing;
 mod filter;
 mod flats;
-mod flips;
-mod islands;
-mod labelled;
+mod labeled;
 mod lanes;
-mod looks;
-mod media;
+mod merged_labelings;
 mod neighbors;
 mod one_sided;
 mod options;
 mod orient;
 mod outward;
+mod parity;
 mod prune;
+mod quad_quality;
+mod relabel_parts;
+mod relabel_regions;
 mod repair;
 mod scaled;
-mod seam;
 mod sides;
 mod spheres;
 mod stars;
-mod strengths;
 pub mod thesis;
 mod tree;
+mod two_sum;
 mod vector;
 mod witness;
 
@@ -57,7 +57,7 @@ use answer::{Facets, Sites, finish};
 use cells::Cells;
 use changes::Changes;
 use denoise::{Denoised, denoise};
-use labelled::surface_of_labels;
+use labeled::surface_of_labels;
 use scaled::Scale;
 use thesis::{ThesisOptions, thesis_surface};
 
@@ -124,7 +124,6 @@ pub fn surface(
     })
 }
 
-/// The coordinates of rows that have three.
 fn coordinates(rows: Rows<'_>) -> Vec<[f64; 3]> {
     match rows {
         Rows::F32(points) => points.rows().map(|p| [0, 1, 2].map(|k| f64::from(p[k]))).collect(),
@@ -187,7 +186,7 @@ fn solve(
     finish(options.method.kind(), mode, facets, (&cells, &sites), changes, points_hash)
 }
 
-/// What the front of the thesis finds.
+/// Returns what the front of the thesis finds.
 fn of_front(space: &Space, how: &ThesisOptions, monitor: &Monitor<'_>) -> Result<Facets, Error> {
     if let Some(seed) = how.joggle {
         let (value, expected) = (seed.to_string(), "none, as joggled points are not those given");
@@ -225,7 +224,7 @@ fn of_alpha(space: &Space, radius: Option<f64>) -> Result<(Promise, Facets), Err
     Ok((mode, facets))
 }
 
-/// How samples of surfaces are triangulated. Their simplices reach from one side of a body to the other, and so through all cells that
+/// Returns how samples of surfaces are triangulated. Their simplices reach from one side of a body to the other, and so through all cells that
 /// threads could share: 10⁶ points of dc take two threads with a cell each half as long again as one thread alone.
 fn in_one_cell<'a>(monitor: &Monitor<'a>) -> DelaunayOptions<'a> {
     DelaunayOptions { cells: Some(1), monitor: *monitor, ..DelaunayOptions::default() }

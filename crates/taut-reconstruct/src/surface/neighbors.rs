@@ -14,7 +14,7 @@ use taut_oblivious::kdtree::{KdTree, Nearest};
 use super::spheres::Point;
 use crate::Error;
 
-/// For each point something of its nearest neighbours, the nearest first and itself among them, on all threads.
+/// For each point something of its nearest neighbors, the nearest first and itself among them, on all threads.
 pub(super) fn of_neighbors<R: Send>(
     points: &[Point],
     count: usize,
@@ -33,7 +33,7 @@ pub(super) fn of_neighbors<R: Send>(
     Ok(by_row.into_iter().flatten().collect())
 }
 
-/// What the tree refuses, as a surface says it.
+/// Returns what the tree refuses, as a surface says it.
 fn refused(error: taut_oblivious::Error, points: usize) -> Error {
     match error {
         taut_oblivious::Error::NonFinite { row, column, value } => {

@@ -1,4 +1,4 @@
-//! How a surface is sought.
+//! Defines how a surface is sought.
 
 use taut_certify::SurfaceMethod as Kind;
 use taut_points::{InputError, Monitor, choice};
@@ -7,12 +7,12 @@ use super::filter::{AlphaFilter, Emptiness};
 use super::thesis::ThesisOptions;
 use crate::Error;
 
-/// How to seek a surface; [`Default`] is what most people want.
+/// Options to seek a surface; [`Default`] is what most people want.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SurfaceOptions<'a> {
     /// The way to find it; default [`SurfaceMethod::Tree`] with everything closed.
     pub method: SurfaceMethod,
-    /// Whether noise is taken out of the points first, and how; default `None`, which leaves them as they are.
+    /// States whether noise is taken out of the points first, and how; default `None`, which leaves them as they are.
     pub denoise: Option<Denoise>,
     /// Threads to use, 1 to 1024; `None` takes those of the current rayon pool. The answer does not depend on it.
     pub threads: Option<usize>,
@@ -24,7 +24,7 @@ pub struct SurfaceOptions<'a> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum SurfaceMethod {
-    /// Cells labelled inside or outside by a signed spanning tree.
+    /// Cells labeled inside or outside by a signed spanning tree.
     Tree(SurfaceMode),
     /// The advancing front of the thesis. Joggled points are others than those given, and refused: for them there is
     /// [`thesis_surface_of_points`](crate::thesis::thesis_surface_of_points).
@@ -100,7 +100,7 @@ impl SurfaceOptions<'_> {
     }
 }
 
-/// Whether a surface may have boundaries.
+/// States whether a surface may have boundaries.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum SurfaceMode {
     /// The boundary of bodies: every component is closed, gaps in the samples are spanned.
@@ -115,12 +115,12 @@ choice! { "mode", SurfaceMode {
     Open = "open", "sheets may end where their samples end";
 }}
 
-/// How noise is taken out of points before a surface is sought.
+/// The way in which noise is taken out of points before a surface is sought.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Denoise {
-    /// How many nearest points, itself among them, say where the sheet of a point is. From 4 to 1000, default 24.
+    /// The number of nearest points, itself among them, that determine the sheet of a point. From 4 to 1000, default 24.
     pub neighbors: usize,
-    /// How many times each point is moved onto the paraboloid that fits its neighbours best; 0 moves none and leaves out outliers
+    /// The number of times that each point is moved onto the paraboloid that fits its neighbors best; 0 moves none and leaves out outliers
     /// alone. At most 100, default 2.
     pub iterations: u32,
     /// Where the vertices of the surface are; default [`Positions::Projected`].
@@ -128,7 +128,7 @@ pub struct Denoise {
 }
 
 impl Denoise {
-    /// What is outside its range.
+    /// Refuses values outside their ranges.
     pub(super) fn check(&self) -> Result<(), Error> {
         let wrong = |name, value: String, expected| {
             Err(Error::Input(InputError::Option { name, value, expected }))

@@ -5,7 +5,7 @@
 //! *Guarantee.* O(n log n), a function of the triangles in their order.
 
 use super::border::{Face, parts};
-use super::media::Media;
+use super::parity::ParityUnionFind;
 use super::spheres::{Point, cross, dot, minus};
 
 /// A side of a triangle: its ends in order, the number of the triangle, and whether it runs along the side in that order.
@@ -23,15 +23,15 @@ fn sides_of(faces: &[Face]) -> Vec<Side> {
     sides
 }
 
-/// Whether some part has one side: no way to turn its triangles makes all alike.
+/// Returns true if some part has one side: no way to turn its triangles makes all alike.
 pub(super) fn has_one_side(faces: &[Face]) -> bool {
     let sides = sides_of(faces);
-    let mut media = Media::new(faces.len());
+    let mut parity = ParityUnionFind::new(faces.len());
     sides.chunk_by(|one, other| one.0 == other.0).any(|edge| match edge {
         [one, other] => {
             let is_turned = one.2 == other.2;
-            !media.join(one.1, other.1, is_turned)
-                && (media.root(one.1) ^ media.root(other.1)) & 1 != u32::from(is_turned)
+            !parity.join(one.1, other.1, is_turned)
+                && (parity.root(one.1) ^ parity.root(other.1)) & 1 != u32::from(is_turned)
         }
         _ => false,
     })
@@ -40,13 +40,13 @@ pub(super) fn has_one_side(faces: &[Face]) -> bool {
 /// Turns triangles alike, and closed parts outward.
 pub(super) fn orient(faces: &mut [Face], points: &[Point]) {
     let sides = sides_of(faces);
-    let mut media = Media::new(faces.len());
+    let mut parity = ParityUnionFind::new(faces.len());
     for edge in sides.chunk_by(|one, other| one.0 == other.0) {
         if let [one, other] = edge {
-            media.join(one.1, other.1, one.2 == other.2);
+            parity.join(one.1, other.1, one.2 == other.2);
         }
     }
-    let (sides, _) = media.numbered();
+    let (sides, _) = parity.numbered();
     let turn = |face: &mut Face| face.sites.swap(1, 2);
     let opposite = (0u32..).zip(&mut *faces).filter(|(number, _)| sides[*number as usize] & 1 == 1);
     opposite.for_each(|(_, face)| turn(face));

@@ -12,7 +12,7 @@ use taut_mesh::Topology;
 use super::border::parts_of;
 use super::cells::Cells;
 
-/// How many closed parts are around a cell.
+/// The number of closed parts that are around a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Depth {
     Unknown,
@@ -83,7 +83,7 @@ fn sorted(mut sites: [u32; 3]) -> [u32; 3] {
     sites
 }
 
-/// Whether two orders of the same three sites turn the same way.
+/// Tests whether two orders of the same three sites turn the same way.
 fn same_turn(a: [u32; 3], b: [u32; 3]) -> bool {
     (0..3).any(|k| a == [b[k], b[(k + 1) % 3], b[(k + 2) % 3]])
 }

@@ -3,7 +3,7 @@
 //! *Problem.* Labels close every surface, over the boundary of a sheet with triangles that nothing was sampled from. They are long
 //! beside the edges around them, but how long is too long depends on how even the samples are: of random ones every edge in
 //! a thousand is four times as long as most, of a scan none twice.
-//! *Idea.* The edges at a vertex and at its neighbours have a median and quartiles; a triangle is suspect whose longest edge exceeds
+//! *Idea.* The edges at a vertex and at its neighbors have a median and quartiles; a triangle is suspect whose longest edge exceeds
 //! the median at one of its vertices by more than [`EDGE_SPREADS_MAX`] times the distance between the quartiles there. Suspects that hang
 //! together by edges are left out if the border around them is at least [`RIM_EDGES_MIN`] edges long; smaller ones are gaps that chance leaves.
 //! *Trap.* A multiple of the median alone serves either scans or random samples: the bunny wants at most 3.5, a random hemisphere at
@@ -56,7 +56,7 @@ fn length(points: &[Point], a: u32, b: u32) -> f64 {
     dot(off, off).sqrt()
 }
 
-/// How long an edge at a site may be.
+/// Returns how long an edge at a site may be.
 fn limit(site: u32, links: &Links, points: &[Point]) -> f64 {
     let mut lengths = Vec::new();
     let mut add = |from: u32| {
@@ -110,7 +110,7 @@ fn without_small_fans(faces: &[Face], sites: usize) -> Option<Vec<Face>> {
     let mut dropped: Vec<[u32; 3]> = Vec::new();
     for site in failing {
         let mut fans = fans(links.at(site));
-        // The largest stays, of several the one with the smallest neighbour.
+        // The largest stays, of several the one with the smallest neighbor.
         fans.sort_by_key(|fan| (std::cmp::Reverse(fan.len()), fan.iter().copied().min()));
         for side in fans.into_iter().skip(1).flatten() {
             let mut name = [site, side[0], side[1]];

@@ -1,10 +1,10 @@
 //! Vertices at which the border is no surface, or is not at all, put right by turning a few cells over.
 //!
 //! *Idea.* Around a vertex of a surface the cells inside hang together by facets, and so do those outside. Where they do not, a cell, two
-//! neighbours, or a whole part of the star changes sides: the change that leaves the fewest parts too many at all vertices it
+//! neighbors, or a whole part of the star changes sides: the change that leaves the fewest parts too many at all vertices it
 //! touches, and of those the one that the strengths of the facets object to least.
 //! *Guarantee.* Each change lowers the number of parts too many, so it ends. A cell changes only to a side that it has a facet with,
-//! so no island arises. Vertices are taken in the order of their numbers, cells in the order of their sites, and sums are exact: the
+//! so no small region arises. Vertices are taken in the order of their numbers, cells in the order of their sites, and sums are exact: the
 //! answer is a function of the points.
 
 use std::collections::{BTreeSet, HashMap};
@@ -16,11 +16,11 @@ use taut_points::{Cancelled, Monitor};
 use super::cells::Cells;
 use super::stars::{Star, Stars};
 
-/// What a facet says: s in steps, more than 0 for the same side.
-pub(super) type Strength<'a> = &'a dyn Fn(u32, usize) -> i64;
+/// The signed weight of a facet: s in steps, more than 0 for the same side.
+pub(super) type Weight<'a> = &'a dyn Fn(u32, usize) -> i64;
 
 /// A star is repaired if it has at most this many cells. Samples of surfaces have stars of twenty cells, random ones of
-/// a hundred; a vertex with more is far from all surfaces around it, as the centre of a ball is, and its star would
+/// a hundred; a vertex with more is far from all surfaces around it, as the center of a ball is, and its star would
 /// take the square of its size.
 const STAR_CELLS_MAX: usize = 512;
 
@@ -29,7 +29,7 @@ pub(super) fn repair(
     cells: &Cells,
     inside: &mut [bool],
     defects: Vec<u32>,
-    strength: Strength<'_>,
+    weight: Weight<'_>,
     ghosts_may: bool,
     monitor: &Monitor<'_>,
 ) -> Result<u64, Cancelled> {
@@ -37,7 +37,7 @@ pub(super) fn repair(
         return Ok(0);
     }
     let mut changes = 0;
-    let mut bench = Bench { cells, stars: Stars::of(cells, &defects), strength, ghosts_may };
+    let mut bench = Bench { cells, stars: Stars::of(cells, &defects), weight, ghosts_may };
     let mut waiting = BTreeSet::from_iter(defects);
     let mut stuck = BTreeSet::new();
     while let Some(site) = waiting.pop_first() {
@@ -69,18 +69,18 @@ pub(super) fn repair(
 struct Bench<'a> {
     cells: &'a Cells,
     stars: Stars<'a>,
-    strength: Strength<'a>,
+    weight: Weight<'a>,
     ghosts_may: bool,
 }
 
 /// A star with the labels of its cells, and how many parts too many it has.
-struct Around {
+struct StarDefect {
     star: Rc<Star>,
     labels: Vec<bool>,
     defect: u32,
 }
 
-impl Around {
+impl StarDefect {
     /// By how much the defect would be less, were some cells turned over.
     fn gain(&self, change: &[u32]) -> i64 {
         let mut labels = self.labels.clone();
@@ -94,11 +94,11 @@ impl Around {
 }
 
 impl Bench<'_> {
-    fn around(&mut self, inside: &[bool], site: u32, near: Option<u32>) -> Around {
+    fn around(&mut self, inside: &[bool], site: u32, near: Option<u32>) -> StarDefect {
         let star = self.stars.star(site, near);
         let labels: Vec<bool> = star.cells.iter().map(|&cell| inside[cell as usize]).collect();
         let defect = star.defect(&labels);
-        Around { star, labels, defect }
+        StarDefect { star, labels, defect }
     }
 
     /// The sites of some cells, each with one of these.
@@ -114,7 +114,7 @@ impl Bench<'_> {
     /// The change at a site that lowers the defects around it most.
     fn best_change(&mut self, inside: &[bool], site: u32) -> Option<Vec<u32>> {
         let own = self.around(inside, site, None);
-        let mut known: HashMap<u32, Around> = HashMap::new();
+        let mut known: HashMap<u32, StarDefect> = HashMap::new();
         let mut best: Option<(i64, i64, Vec<u32>)> = None;
         for change in self.changes(inside, &own) {
             let mut gain = 0;
@@ -136,8 +136,12 @@ impl Bench<'_> {
         best.map(|(_, _, change)| change)
     }
 
-    /// The changes worth a look: cells of the star, pairs of neighbours one of which is in it, and its parts of one label.
-    fn changes(&self, inside: &[bool], Around { star, labels, .. }: &Around) -> Vec<Vec<u32>> {
+    /// The changes worth a look: cells of the star, pairs of neighbors one of which is in it, and its parts of one label.
+    fn changes(
+        &self,
+        inside: &[bool],
+        StarDefect { star, labels, .. }: &StarDefect,
+    ) -> Vec<Vec<u32>> {
         let may = |cell: u32| self.ghosts_may || !self.cells.is_ghost(cell);
         let mut changes: Vec<Vec<u32>> = star.cells.iter().map(|&cell| vec![cell]).collect();
         for &cell in &star.cells {
@@ -163,14 +167,14 @@ impl Bench<'_> {
         changes
     }
 
-    /// Whether one of the cells has a facet with a cell of the other label.
+    /// Returns true if one of the cells has a facet with a cell of the other label.
     fn touches_the_other_side(&self, inside: &[bool], change: &[u32]) -> bool {
         change.iter().any(|&cell| {
             (0..4).any(|i| inside[self.cells.across(cell, i).0 as usize] != inside[cell as usize])
         })
     }
 
-    /// What the facets around a change object to it: by how much less they agree with the labels after it.
+    /// Returns what the facets around a change object to it: by how much less they agree with the labels after it.
     fn objection(&self, inside: &[bool], change: &[u32]) -> i64 {
         let mut sum = 0;
         for &cell in change {
@@ -178,7 +182,7 @@ impl Bench<'_> {
                 let (other, _) = self.cells.across(cell, i);
                 if !change.contains(&other) {
                     let is_alike = inside[other as usize] == inside[cell as usize];
-                    let s = (self.strength)(cell, i);
+                    let s = (self.weight)(cell, i);
                     sum += if is_alike { s } else { -s };
                 }
             }

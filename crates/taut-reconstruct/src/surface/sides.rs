@@ -65,7 +65,6 @@ impl Sides {
         if self.scaled(back) < length { back.next_up() } else { back }
     }
 
-    /// How many numbers of cells there are.
     pub(super) fn cell_count(&self) -> usize {
         self.vertices.len()
     }
@@ -75,7 +74,6 @@ impl Sides {
         self.vertices[cell as usize]
     }
 
-    /// Whether a cell is a ghost.
     pub(super) fn is_ghost(&self, cell: u32) -> bool {
         self.cell(cell).contains(&GHOST)
     }
@@ -124,7 +122,6 @@ impl Sides {
         of.filter(|&side| self.either(side) == side && !self.triangle(side).contains(&GHOST))
     }
 
-    /// How many finite facets there are.
     pub(super) fn facet_count(&self) -> usize {
         (0..self.cell_count() as u32).map(|cell| self.facets_of(cell).count()).sum()
     }

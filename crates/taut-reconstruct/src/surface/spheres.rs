@@ -5,7 +5,7 @@
 //! however the cell was built. A cell without volume, as calculated, has the sphere around the circle of its best facet for its own.
 //! *Guarantee.* A function of the points alone; O(1) for each cell.
 
-use super::doubled::Doubled;
+use super::two_sum::TwoSum;
 
 pub(super) type Point = [f64; 3];
 
@@ -38,10 +38,10 @@ pub(super) fn circumsphere(p: [Point; 4]) -> Sphere {
 /// such cells everywhere, and spheres made of roundings join what is apart. (A tolerance below which a cell has the circle of its best
 /// facet does no better: of 200 000 points of triangles it leaves 60 vertices to repair in place of 2.)
 fn nearly_flat(p: [Point; 4]) -> Sphere {
-    let edge = |k: usize| [0, 1, 2].map(|i| Doubled::difference(p[k][i], p[0][i]));
+    let edge = |k: usize| [0, 1, 2].map(|i| TwoSum::difference(p[k][i], p[0][i]));
     let [u, v, w] = [1, 2, 3].map(edge);
-    let dot = |a: [Doubled; 3], b: [Doubled; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    let cross = |a: [Doubled; 3], b: [Doubled; 3]| {
+    let dot = |a: [TwoSum; 3], b: [TwoSum; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let cross = |a: [TwoSum; 3], b: [TwoSum; 3]| {
         [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
     };
     let (uu, vv, ww) = (dot(u, u), dot(v, v), dot(w, w));

@@ -112,7 +112,7 @@ impl Star {
 }
 
 impl Star {
-    /// How many parts too many there are at the site, with these labels of the cells. Small stars, as most are, fit into the bits
+    /// Returns how many parts too many there are at the site, with these labels of the cells. Small stars, as most are, fit into the bits
     /// of a number.
     pub(super) fn defect(&self, labels: &[bool]) -> u32 {
         let count = self.cells.len();
@@ -124,7 +124,7 @@ impl Star {
         Groups { inside: self.parts(bits), outside: self.parts(all & !bits) }.defect()
     }
 
-    /// How many connected parts some cells are in, one bit each.
+    /// Returns how many connected parts some cells are in, one bit each.
     fn parts(&self, mut left: u128) -> u32 {
         let mut parts = 0;
         while left != 0 {
@@ -143,7 +143,7 @@ impl Star {
     }
 }
 
-/// How many connected parts there are around a vertex.
+/// The number of connected parts around a vertex.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Groups {
     pub(super) inside: u32,

@@ -1,4 +1,4 @@
-//! What shows that triangles are Delaunay facets: an empty ball for each.
+//! The data that show that triangles are Delaunay facets: an empty ball for each.
 //!
 //! *Idea.* The smallest ball around the triangle is empty of all sites if the vertices opposite in its two cells are not inside. Where
 //! one is, the ball of either cell will do: the smaller one, as a checker has to look into it.

@@ -3,7 +3,7 @@
 //! *Problem.* Potentials π for which the least 1-tree under |ij| + πᵢ + πⱼ, less 2Σπ, is as heavy as can be. No tour is shorter.
 //! *Idea.* A 1-tree is a spanning tree of all sites but one and the two least edges of that one; tours are the 1-trees in which all
 //! degrees are 2. Potentials rise where the degree is above 2 and fall where it is 1, by Polyak's step towards the length
-//! of the tour that is known; after some steps in coordinates of [`super::moats`]. Of paths: a spanning tree and two ends.
+//! of the tour that is known; after some steps in coordinates of [`super::cluster_direction`]. Of paths: a spanning tree and two ends.
 //! *Guarantee.* The best of all steps is kept. If the 1-tree becomes a tour, that tour is the shortest of the candidates.
 //! *Trap.* The bound is one of tours of candidates. What holds for all tours is found from the potentials afterwards. Without a good
 //! special site the 1-tree of a dense sample of a curve lacks its longest edge: the special site is the leaf of the least
@@ -14,7 +14,7 @@
 use taut_points::Monitor;
 
 use super::candidates::Candidates;
-use super::moats::Moats;
+use super::cluster_direction::ClusterDirection;
 use super::tree::LeastTree;
 use crate::Error;
 
@@ -24,14 +24,13 @@ const MOMENTUM: f64 = 0.3;
 const STEPS_WITHOUT_PROGRESS_MAX: u32 = 4;
 /// Steps get shorter by this factor.
 const STEP_FACTOR: f64 = 0.7;
-/// This many steps are made without moats: on samples of one curve they are all it takes.
-const STEPS_WITHOUT_MOATS: u64 = 5;
+/// This many steps are made without coordinates of clusters: on samples of one curve they are all it takes.
+const STEPS_WITHOUT_CLUSTERS: u64 = 5;
 /// Steps have this length after a restart, against the first.
 const RESTART_STEP_RATIO: f64 = 0.3;
 /// The bound is as good as the tour.
 const CLOSED_GAP: f64 = 1e-7;
 
-/// An ascent in progress.
 pub(super) struct Ascent<'a> {
     candidates: &'a Candidates,
     tree: LeastTree<'a>,
@@ -47,7 +46,7 @@ pub(super) struct Ascent<'a> {
     /// That of the last step alone.
     latest: Vec<f64>,
     /// Built when they are needed.
-    moats: Option<Moats>,
+    cluster_direction: Option<ClusterDirection>,
     degrees: Vec<i32>,
     factor: f64,
     waited: u32,
@@ -72,7 +71,7 @@ impl<'a> Ascent<'a> {
             open: vec![0; n],
             direction: vec![0.0; n],
             latest: vec![0.0; n],
-            moats: None,
+            cluster_direction: None,
             degrees: vec![0; n],
             factor: 1.0,
             waited: 0,
@@ -130,9 +129,9 @@ impl<'a> Ascent<'a> {
         Ok(false)
     }
 
-    /// The direction of steepest ascent, in coordinates of sites at first and then of moats; its square, 0 at a tour.
+    /// The direction of steepest ascent, in coordinates of sites at first and then of clusters; its square, 0 at a tour.
     fn slope(&mut self) -> f64 {
-        if self.steps <= STEPS_WITHOUT_MOATS {
+        if self.steps <= STEPS_WITHOUT_CLUSTERS {
             let mut square = 0.0;
             for (along, &degree) in self.latest.iter_mut().zip(&self.degrees) {
                 *along = f64::from(degree);
@@ -140,14 +139,14 @@ impl<'a> Ascent<'a> {
             }
             return square;
         }
-        let Self { moats, candidates, degrees, direction, potentials, best, .. } = self;
-        let moats = moats.get_or_insert_with(|| {
+        let Self { cluster_direction, candidates, degrees, direction, potentials, best, .. } = self;
+        let cluster_direction = cluster_direction.get_or_insert_with(|| {
             // What there is of a direction is in other units.
             direction.fill(0.0);
             potentials.copy_from_slice(best);
-            Moats::of(candidates, degrees.len())
+            ClusterDirection::of(candidates, degrees.len())
         });
-        moats.direct(degrees, &mut self.latest)
+        cluster_direction.direct(degrees, &mut self.latest)
     }
 
     /// The least 1-tree: what it bounds, and its degrees less 2.

@@ -4,7 +4,7 @@
 //! *Idea.* Edges of the Delaunay triangulation, of which optimal tours of points of the plane mostly consist, and from each site to
 //! the nearest that can be reached by two of them.
 //! *Guarantee.* The edges connect all sites, also without any one of them.
-//! *Trap.* A hub has many neighbours: the second step only goes to the few nearest of each, or stars would cost their square.
+//! *Trap.* A hub has many neighbors: the second step only goes to the few nearest of each, or stars would cost their square.
 
 use rayon::prelude::*;
 use taut_delaunay::{Complex, DelaunayOptions, Plane};
@@ -13,14 +13,14 @@ use taut_points::{Monitor, Points};
 use super::metric::Metric;
 use crate::Error;
 
-/// Moves try this many neighbours of a site.
+/// Moves try this many neighbors of a site.
 const CANDIDATES_TRIED: usize = 8;
-/// Of these neighbours this many are the nearest, the others Delaunay edges.
+/// Of these neighbors this many are the nearest, the others Delaunay edges.
 const NEAREST_CANDIDATES: usize = 5;
 /// Sites a task has.
 const TASK: usize = 1 << 10;
 
-/// For each site its neighbours by distance.
+/// For each site its neighbors by distance.
 pub(super) struct Candidates {
     starts: Vec<u32>,
     neighbors: Vec<u32>,
@@ -101,14 +101,13 @@ impl Candidates {
         &self.neighbors[self.range(v)]
     }
 
-    /// The neighbours of a site with their distances.
+    /// The neighbors of a site with their distances.
     #[inline(always)]
     pub(super) fn edges(&self, v: u32) -> impl Iterator<Item = (u32, f64)> {
         let range = self.range(v);
         self.neighbors[range.clone()].iter().copied().zip(self.lengths[range].iter().copied())
     }
 
-    /// The length of an edge.
     pub(super) fn length(&self, v: u32, u: u32) -> f64 {
         self.edges(v).find(|&(w, _)| w == u).map_or(0.0, |(_, length)| length)
     }
@@ -119,7 +118,7 @@ impl Candidates {
         self.edges(v).take(CANDIDATES_TRIED)
     }
 
-    /// Whether moves try the edge from the first site to the second.
+    /// Returns true if moves try the edge from the first site to the second.
     pub(super) fn tries(&self, v: u32, u: u32) -> bool {
         self.neighbors(v).iter().take(CANDIDATES_TRIED).any(|&w| w == u)
     }
@@ -130,7 +129,7 @@ impl Candidates {
     }
 }
 
-/// The edges of the Delaunay triangulation, each both ways; of points on a line those between neighbours.
+/// The edges of the Delaunay triangulation, each both ways; of points on a line those between neighbors.
 pub(super) fn delaunay_edges(
     sites: &[[f64; 2]],
     monitor: &Monitor<'_>,

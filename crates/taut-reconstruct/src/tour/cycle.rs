@@ -52,13 +52,13 @@ impl Cycle {
         self.order[if place == 0 { self.order.len() - 1 } else { place - 1 }]
     }
 
-    /// The neighbour ahead, for one who reads forward, or backward.
+    /// The neighbor ahead, for one who reads forward, or backward.
     #[inline(always)]
     pub(super) fn ahead(&self, node: u32, forward: bool) -> u32 {
         if forward { self.next(node) } else { self.prev(node) }
     }
 
-    /// How many steps ahead of `from` a node is.
+    /// Returns how many steps ahead of `from` a node is.
     #[inline(always)]
     pub(super) fn steps(&self, from: u32, node: u32, forward: bool) -> u32 {
         let (a, b) = (self.place[from as usize], self.place[node as usize]);
@@ -91,7 +91,7 @@ impl Cycle {
         self.swap_edges(z[0], y[0], x[1], z[1]);
     }
 
-    /// Takes a node out and puts it between two neighbours of each other.
+    /// Takes a node out and puts it between two neighbors of each other.
     pub(super) fn insert_between(&mut self, node: u32, a: u32, b: u32) {
         let (a, b) = if self.next(a) == b { (a, b) } else { (b, a) };
         let (before, after) = (self.prev(node), self.next(node));

@@ -13,7 +13,7 @@ use super::metric::Metric;
 use super::union::Union;
 use crate::Error;
 
-/// No neighbour yet.
+/// No neighbor yet.
 const NONE: u32 = u32::MAX;
 
 /// A path through all sites, as the order they have in it.

@@ -29,7 +29,7 @@ impl Metric {
         Self { at, steps: power(exponent) }
     }
 
-    /// How many sites there are; the number of the node at distance 0 from all.
+    /// Returns how many sites there are; the number of the node at distance 0 from all.
     #[inline(always)]
     pub(super) fn sites(&self) -> usize {
         self.at.len()

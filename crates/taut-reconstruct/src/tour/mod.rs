@@ -3,8 +3,8 @@
 //! *Problem.* A closed tour through all sites, or a path, as short as can be, without crossings, and potentials that prove how short
 //! any tour must be.
 //! *Idea.* Candidates from the Delaunay triangulation; fragments that grow together (greedy matching); moves of three edges; the
-//! ascent of Held and Karp, from potentials read off the tour, later with moats around clusters; and, where the bound leaves something
-//! open, kicks that are repaired by moves. Crossings that are left are removed with exact signs.
+//! ascent of Held and Karp, from potentials read off the tour, later with one coordinate for each cluster; and, where the bound leaves something
+//! open, perturbations that are repaired by moves. Crossings that are left are removed with exact signs.
 //! *Guarantee.* The tour is a simple polygon or path. The bound holds for all tours, not only those of candidates. All budgets count
 //! events. O(n) memory.
 //! *Trap.* Sites on a line have no closed tour that is simple: they get the path from end to end.
@@ -13,12 +13,12 @@
 
 mod ascent;
 mod candidates;
+mod cluster_direction;
 mod cycle;
 mod fragments;
-mod kicks;
 mod metric;
-mod moats;
 mod moves;
+mod perturbations;
 mod simple;
 mod start;
 #[cfg(test)]
@@ -34,20 +34,20 @@ use crate::Error;
 use ascent::{Ascent, special_site};
 use candidates::Candidates;
 use cycle::Cycle;
-use kicks::kick;
 use metric::Metric;
 use moves::{Queue, Search};
+use perturbations::perturb;
 use simple::untangle;
 
-/// The ascent has this many steps, a third of them before the kicks, and fewer where sites times steps would be more
+/// The ascent has this many steps, a third of them before the perturbations, and fewer where sites times steps would be more
 /// than [`STEPS_WORK`].
 const ASCENT_STEPS: usize = 90;
 const STEPS_MIN: usize = 30;
 const STEPS_WORK: usize = 3_000_000;
-/// This many kicks are made per site that the bound leaves open.
+/// This many perturbations are made per site that the bound leaves open.
 const KICKS_PER_SITE: usize = 2;
 /// Few sites afford more of both, in rounds, until the tour is within [`GAP_WANTED`] of its bound: this many, and fewer
-/// where sites times rounds would be more than [`ROUNDS_WORK`]. A round takes [`ASCENT_STEPS`], and as many kicks per
+/// where sites times rounds would be more than [`ROUNDS_WORK`]. A round takes [`ASCENT_STEPS`], and as many perturbations per
 /// site of the tour.
 const ROUNDS_MAX: usize = 12;
 const ROUNDS_WORK: usize = 1500;
@@ -59,24 +59,20 @@ const GAP_RATIO_MAX: f64 = 0.95;
 /// A tour with its bound.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Tour {
-    /// The sites in order.
     pub(crate) order: Vec<u32>,
-    /// Whether it returns to the first; false for fewer than three sites and for sites on a line, whatever was asked.
+    /// True if it returns to the first; false for fewer than three sites and for sites on a line, whatever was asked.
     pub(crate) closed: bool,
-    /// Its length.
     pub(crate) length: f64,
-    /// What proves the bound: a number for each site, in the order of the tour.
+    /// The potentials that prove the bound: a number for each site, in the order of the tour.
     pub(crate) potentials: Vec<f64>,
     /// No tour, or path if this is one, is shorter.
     pub(crate) lower: f64,
-    /// What it took.
     pub(crate) events: Events,
 }
 
 /// Events worth counting.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Events {
-    /// Steps of the ascent.
     pub(crate) steps: u64,
     /// Changes that removed crossings.
     pub(crate) untangled: u64,
@@ -105,7 +101,7 @@ pub(crate) fn tour(sites: &[[f64; 2]], open: bool, monitor: &Monitor<'_>) -> Res
     if !closed {
         let near = ascent.open_sites();
         let (kicked, climbed) = rayon::join(
-            || kick(search, &mut cycle, &near, KICKS_PER_SITE * near.len(), 0, monitor),
+            || perturb(search, &mut cycle, &near, KICKS_PER_SITE * near.len(), 0, monitor),
             || ascent.climb(length, steps - steps / 3, monitor),
         );
         kicked?;
@@ -168,7 +164,7 @@ fn again(
             break;
         }
         before = gap;
-        kick(search, cycle, &ascent.open_sites(), ROUND_KICKS * n, round as u64, monitor)?;
+        perturb(search, cycle, &ascent.open_sites(), ROUND_KICKS * n, round as u64, monitor)?;
         ascent.restart();
         if ascent.climb(search.metric.length(cycle.order()), ASCENT_STEPS, monitor)? {
             break;

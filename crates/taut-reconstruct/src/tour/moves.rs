@@ -2,7 +2,7 @@
 //!
 //! *Problem.* A tour that no sequential exchange of two or three edges shortens, where new edges are candidates but for the last.
 //! *Idea.* From each node in a queue, t₁, an edge t₁t₂ is given up for a shorter t₂t₃, an edge t₃t₄ for t₄t₅, and t₆ is joined to
-//! t₁: partial sums of the gain stay positive, and neighbours come by distance, so that a search ends early. The best move is
+//! t₁: partial sums of the gain stay positive, and neighbors come by distance, so that a search ends early. The best move is
 //! made, and its nodes are queued again: don't-look bits. Taking up a run and putting it down elsewhere (Or) is among the moves.
 //! *Guarantee.* Each move shortens by more than rounding, so the search ends.
 //! *Trap.* If t₄ is ahead of t₃, the two edges leave a cycle and a path: t₅ must be in the cycle.
@@ -72,7 +72,7 @@ impl Move {
         }
     }
 
-    /// How long the runs are that it reverses, at most about.
+    /// Returns how long the runs are that it reverses, at most about.
     fn reach(&self, cycle: &Cycle) -> usize {
         let n = cycle.len();
         let span = |a: u32, b: u32| {
@@ -98,7 +98,7 @@ impl Move {
     }
 }
 
-/// What moves are sought with.
+/// The data for the search of moves.
 #[derive(Clone, Copy)]
 pub(super) struct Search<'a> {
     pub(super) metric: &'a Metric,

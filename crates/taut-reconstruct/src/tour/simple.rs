@@ -43,13 +43,13 @@ pub(super) fn untangle(
 
 type Edge = [u32; 2];
 
-/// Whether a point other than its ends is on an edge.
+/// Tests whether a point other than its ends is on an edge.
 fn is_inside(p: [f64; 2], [a, b]: [[f64; 2]; 2]) -> bool {
     let (low, high) = if lexicographic(a, b).is_lt() { (a, b) } else { (b, a) };
     lexicographic(low, p).is_lt() && lexicographic(p, high).is_lt() && orient(a, b, p).is_zero()
 }
 
-/// Whether two edges have a point in common that is not an end of both.
+/// Tests whether two edges have a point in common that is not an end of both.
 fn meet(sites: &[[f64; 2]], [a, b]: Edge, [c, d]: Edge) -> bool {
     let [p, q, r, s] = [a, b, c, d].map(|v| sites[v as usize]);
     for k in 0..2 {
@@ -112,7 +112,7 @@ fn part(sites: &[[f64; 2]], cycle: &mut Cycle, first: Edge, second: Edge) -> boo
     false
 }
 
-/// Whether the tour passes a site without a turn.
+/// Tests whether the tour passes a site without a turn.
 fn goes_straight(sites: &[[f64; 2]], cycle: &Cycle, site: u32) -> bool {
     let at = |v: u32| sites.get(v as usize).copied();
     match (at(cycle.prev(site)), at(site), at(cycle.next(site))) {

@@ -4,7 +4,7 @@
 //! information along the curve a few sites a step.
 //! *Idea.* One end s of the longest edge st of the tour is the special site. Potentials are −|st|/2 at t and |st|/2 at s, and fall
 //! off in size along the tour on either side, by [`POTENTIAL_SLOPE`] of the way. Then s is no farther from t than from any but its
-//! other neighbour, and no edge across the gap is lighter than the longest of the rest.
+//! other neighbor, and no edge across the gap is lighter than the longest of the rest.
 //! *Guarantee.* None: they are tried, and kept if they prove more than none.
 //! *Trap.* With slope 1 a chord would be lighter than the two edges it spans wherever the curve bends.
 

@@ -180,7 +180,7 @@ fn rings_apart_have_close_bounds() {
     }
 }
 
-/// Clusters of random points, whose tours and bounds take more than the usual steps and kicks.
+/// Clusters of random points, whose tours and bounds take more than the usual steps and perturbations.
 #[test]
 fn clusters_have_close_bounds() {
     for clusters in [3, 6, 12] {

@@ -16,7 +16,6 @@ const NONE: u32 = u32::MAX;
 #[derive(Clone, Copy)]
 struct Edge {
     weight: f64,
-    /// The sites.
     ends: [u32; 2],
     /// Their components.
     of: [u32; 2],

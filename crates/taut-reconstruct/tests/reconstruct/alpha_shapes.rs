@@ -71,7 +71,7 @@ fn class(pencil: &Pencil, alpha: f64) -> FacetClass {
     }
 }
 
-/// Radii where something changes, rounded, and their neighbours.
+/// Radii where something changes, rounded, and their neighbors.
 fn radii(pencils: &[Pencil]) -> Vec<f64> {
     let mut all = vec![0.0, f64::INFINITY];
     for square in pencils.iter().flat_map(|p| [Some(p.square.clone())].into_iter().chain(p.cells()))

@@ -21,7 +21,7 @@ fn text(test: &str, name: &str) -> Option<String> {
     Some(text)
 }
 
-/// How many edges of closed loops are found by corners, how many there are, and how many are found beside them.
+/// Returns how many edges of closed loops are found by corners, how many there are, and how many are found beside them.
 fn score(loops: &[Vec<Point>]) -> [usize; 3] {
     let key = |a: Point, b: Point| {
         let [a, b] = [a, b].map(|p| p.map(|x| (x + 0.0).to_bits()));

@@ -1,4 +1,4 @@
-//! Dense samples of random smooth curves give exactly the edges between neighbours, as each method promises.
+//! Dense samples of random smooth curves give exactly the edges between neighbors, as each method promises.
 
 use taut_points::{
     Points,

@@ -188,7 +188,7 @@ fn checked(rows: &[f64], method: CurveMethod) -> (Solution<Curve>, CurveVerdict)
     (found, verdict)
 }
 
-/// What came of the trials of a method.
+/// The results of the trials of a method.
 #[derive(Default)]
 struct Count {
     trials: u32,

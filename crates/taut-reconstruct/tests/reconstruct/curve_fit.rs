@@ -184,7 +184,7 @@ fn curves_turn_with_the_points_vertex_by_vertex() {
     }
 }
 
-/// Whether `found` is `wanted` moved, from any start and either way round.
+/// Tests whether `found` is `wanted` moved, from any start and either way round.
 fn is_the_same_cycle(
     found: &[[f64; 2]],
     wanted: &[[f64; 2]],

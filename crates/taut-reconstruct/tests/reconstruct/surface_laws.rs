@@ -1,8 +1,8 @@
-//! What a surface does not depend on, and what is refused.
+//! Tests what a surface does not depend on, and what is refused.
 
 use std::sync::atomic::AtomicBool;
 
-use judge::{Found, assert_exact, closed, found};
+use judge::{JudgedSurface, assert_exact, closed, found};
 use points::{Point, chances, circle, cube, sphere, tube};
 use taut_certify::Apex;
 use taut_points::{InputError, Monitor, Points};
@@ -23,7 +23,7 @@ fn sample() -> Vec<Point> {
 }
 
 /// The triangles and the points that show that they are Delaunay triangles, as coordinates.
-fn as_places(points: &[Point], found: &Found) -> Vec<[Option<[u64; 3]>; 4]> {
+fn as_places(points: &[Point], found: &JudgedSurface) -> Vec<[Option<[u64; 3]>; 4]> {
     let place = |row: u32| Some(points[row as usize].map(f64::to_bits));
     let all = found.triangles.iter().zip(&found.solution.certificate.apexes);
     let shown = |apex: &Apex| match apex {
@@ -68,7 +68,7 @@ fn the_order_of_the_input_does_not_matter() {
             let again = found(&shuffled, &options);
             assert_eq!(as_places(&points, &first), as_places(&shuffled, &again));
             assert_eq!(first.solution.trace, again.solution.trace);
-            let unused = |found: &Found| found.solution.answer.unused.interior.len();
+            let unused = |found: &JudgedSurface| found.solution.answer.unused.interior.len();
             assert_eq!(unused(&first), unused(&again));
         }
     }

@@ -27,7 +27,7 @@ fn a_tetrahedron_a_cube_and_an_octahedron() {
     assert_eq!(found.triangles.len(), 8);
 }
 
-/// Cells whose spheres are centred beyond one of their facets say that they are of the outside.
+/// Cells whose spheres are centerd beyond one of their facets say that they are of the outside.
 #[test]
 fn tetrahedra_of_any_shape_and_few_points_at_will() {
     let mut chance = chances(11);
@@ -39,9 +39,9 @@ fn tetrahedra_of_any_shape_and_few_points_at_will() {
     }
 }
 
-/// The star of the centre holds all cells, and changes of it are not worth their time.
+/// The star of the center holds all cells, and changes of it are not worth their time.
 #[test]
-fn the_centre_of_a_sphere_is_inside() {
+fn the_center_of_a_sphere_is_inside() {
     let mut points = sphere(2_000, [0.0; 3], 1.0, 21);
     points.push([0.0; 3]);
     let view = Points::new(points.as_flattened(), 3).expect("whole rows");
@@ -201,7 +201,7 @@ fn a_band_with_two_sides_keeps_them() {
     }
 }
 
-/// Neither the order of the rows nor the unit decides where the two labellings meet.
+/// Neither the order of the rows nor the unit decides where the two labelings meet.
 #[test]
 fn a_band_with_one_side_is_a_function_of_its_points() {
     let points = band(1_000, 0.5, 3);

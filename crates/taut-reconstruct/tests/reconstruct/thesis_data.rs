@@ -25,7 +25,7 @@ fn vertices(test: &str, name: &str) -> Option<Vec<f64>> {
     Some(lines.take(count).flat_map(words).collect())
 }
 
-/// What is told of a surface: components, loops, pinches, points left out, candidates.
+/// Returns the counts of a surface: components, loops, pinches, points left out, candidates.
 fn measured(points: &[f64], extent: Extent) -> [usize; 5] {
     let points = Points::new(points, 3).expect("whole rows");
     let options = ThesisOptions { extent, ..Default::default() };

@@ -25,7 +25,7 @@ fn sites(space: &Space) -> Vec<Point> {
     (0..space.site_count() as u32).map(|site| space.site(site)).collect()
 }
 
-/// What no input may change: facets of the triangulation, no edge with more than two triangles, one direction each, no triangle
+/// Checks what no input may change: facets of the triangulation, no edge with more than two triangles, one direction each, no triangle
 /// through another.
 fn shape(space: &Space, surface: &ThesisSurface) -> Topology {
     let (points, triangles) = (sites(space), surface.on_sites());
@@ -61,7 +61,7 @@ fn summary(points: &[Point], options: &ThesisOptions) -> (usize, Option<u64>, us
 
 #[test]
 fn smooth_surfaces_come_out_right() {
-    for priority in [Priority::CircumcentreDistance, Priority::Circumradius, Priority::EmptyBall] {
+    for priority in [Priority::CircumcenterDistance, Priority::Circumradius, Priority::EmptyBall] {
         let options = ThesisOptions { priority, ..Default::default() };
         for n in [20, 100, 3000] {
             assert_eq!(summary(&sphere(n), &options), (1, Some(0), 0, 0, 0), "{n} {priority:?}");
@@ -174,7 +174,7 @@ fn effort(points: &[Point]) -> [f64; 2] {
     let (space, surface) = plain(points);
     let stages = space.counters().stages;
     let exact = stages.calls() - stages.filter;
-    [surface.counters.looks, exact + space.counters().conflict_tests]
+    [surface.counters.examined_edges, exact + space.counters().conflict_tests]
         .map(|count| count as f64 / points.len() as f64)
 }
 

@@ -3,7 +3,7 @@
 use super::{get, set};
 use crate::Probe;
 
-/// What a [`Distributor`](super::Distributor) gives: the elements of each bucket, in the order of the input.
+/// The result of a [`Distributor`](super::Distributor): the elements of each bucket, in the order of the input.
 #[derive(Clone, Debug)]
 pub struct Buckets<T> {
     /// Pieces of `piece` elements.
@@ -73,13 +73,13 @@ impl<T: Copy> Buckets<T> {
         self.ends.truncate(buckets);
     }
 
-    /// How many buckets there are.
+    /// Returns how many buckets there are.
     #[allow(clippy::len_without_is_empty, reason = "there is always one bucket at least")]
     pub fn len(&self) -> usize {
         self.ends.len()
     }
 
-    /// How many elements a bucket has.
+    /// Returns how many elements a bucket has.
     ///
     /// # Panics
     /// If there is no such bucket.

@@ -24,7 +24,7 @@ pub(super) struct Edge {
     pub(super) next: usize,
     /// Behind the last one.
     pub(super) end: usize,
-    /// Whether no more will come.
+    /// True if no more will come.
     pub(super) done: bool,
 }
 
@@ -38,7 +38,7 @@ impl Edge {
     }
 }
 
-/// What changes of an edge, as it lies in memory.
+/// The change of an edge, as it lies in memory.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Waiting {
     next: usize,

@@ -122,7 +122,7 @@ struct Bucket<T> {
     /// Smaller elements belong to it or to buckets before. Equal ones too, if the bucket before has the same bound: then it
     /// is the bucket of that value. The last bucket takes all.
     bound: T,
-    /// How many elements were counted, or where the next one goes.
+    /// The number of elements that were counted, or where the next one goes.
     next: usize,
 }
 

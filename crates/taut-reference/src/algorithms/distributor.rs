@@ -21,7 +21,7 @@ use crate::{Error, NoProbe, Probe};
 /// k for n = 2⁴² elements, whose buffers have some 10⁹ words.
 const BUCKETS_MAX: usize = 1 << 14;
 
-/// How elements flow down a [`Distributor`].
+/// The way in which elements flow down a [`Distributor`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum DistributorForm {
     /// By the definition: k^(3/2) elements go through the top distributor at a time into middle buffers of twice that
@@ -38,7 +38,7 @@ pub struct Distributor<T> {
     form: DistributorForm,
     /// Where the left of a node ends, in the order of the layout; nobody asks nodes beyond the last bound.
     bounds: Vec<T>,
-    /// Whether elements that equal the bound of a node belong to the left.
+    /// States whether elements that equal the bound of a node belong to the left.
     up_to: Vec<bool>,
     index: VebIndex,
     tree: BufferTree,
@@ -151,7 +151,7 @@ impl<T: Copy + Ord> Distributor<T> {
     }
 }
 
-/// How many bounds of a tree of 2^height leaves lie before that of a node.
+/// Returns how many bounds of a tree of 2^height leaves lie before that of a node.
 fn in_order(node: usize, height: usize) -> usize {
     let depth = node.ilog2() as usize;
     ((2 * (node - (1 << depth)) + 1) << (height - 1 - depth)) - 1

@@ -1,8 +1,8 @@
 //! List ranking: how far each element of a linked list is from its end, by sorting instead of walking.
 //!
-//! *Problem.* Walking costs a miss per element, as neighbours in a list are no neighbours in memory.
+//! *Problem.* Walking costs a miss per element, as neighbors in a list are no neighbors in memory.
 //! *Idea.* Each element throws a coin; one with heads whose successor has tails is taken out, its weight added to that of
-//! its predecessors. No two neighbours are taken out, so two sorts do it: by successor to meet the elements taken out,
+//! its predecessors. No two neighbors are taken out, so two sorts do it: by successor to meet the elements taken out,
 //! and back by number. Rank the rest, at most three quarters of the elements expected, and put the others back in.
 //! *Guarantee.* O(sort(n)) misses expected, with [`funnelsort()`](super::funnelsort()); several lists at once, also such
 //! that run into one another.

@@ -15,7 +15,7 @@ use std::ops::Range;
 use super::{check_length, get, set, swap};
 use crate::{Error, NoProbe, Probe};
 
-/// What [`lu()`] did to the rows.
+/// The result of [`lu()`].
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Lu {
     /// In step j row j changed places with row `pivots[j]`, which is not above it.

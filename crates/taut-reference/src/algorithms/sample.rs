@@ -6,7 +6,7 @@
 //! from any set is a sum of independent trials with the same mean as with replacement, so the bound holds; and drawing is
 //! a scan, not a miss per element.
 //! *Trap.* Equal elements: a value that is chosen twice or more gets a part of its own, whose elements are all equal and
-//! need no sorting; without it an array of equal elements would be cut into itself for ever.
+//! need no sorting; without it an array of equal elements would be cut into itself endlessly.
 //! *Reference.* Blelloch et al., *A comparison of sorting algorithms for the Connection Machine CM-2*, SPAA 1991; the
 //! thesis, 5.6.1, which counts the bounds one too high.
 

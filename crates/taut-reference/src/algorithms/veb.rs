@@ -149,7 +149,7 @@ impl<K: Copy + Ord> VebTree<K> {
         Ok(Self { index, nodes: nodes.into_iter().flatten().collect(), keys: sorted.len() })
     }
 
-    /// How many keys are smaller than `key`.
+    /// Returns how many keys are smaller than `key`.
     pub fn lower_bound(&self, key: K) -> usize {
         self.lower_bound_instrumented(key, &mut NoProbe)
     }

@@ -4,7 +4,7 @@ use super::density::{LEAF_MIN, LEAF_SLOTS};
 use super::map::PackedMap;
 use crate::{Key, Word};
 
-/// How full the windows of one level are.
+/// The density of the windows of one level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Density {
     /// Leaves of a whole window.
@@ -19,13 +19,13 @@ pub struct Density {
     pub bound_max: f64,
 }
 
-/// What is wrong with a packed map: always a mistake of this crate, as no use can bring it about.
+/// An inconsistency of a packed map: always a mistake of this crate, as no use can bring it about.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("leaf {leaf} {reason}")]
 pub struct Violation {
     /// The leaf where it shows.
     pub leaf: usize,
-    /// What it is.
+    /// The reason.
     pub reason: &'static str,
 }
 

@@ -1,4 +1,4 @@
-//! How full a window of leaves may be.
+//! Defines how full a window of leaves may be.
 //!
 //! A window of level j is 2ʲ leaves that start at a multiple of 2ʲ, cut off at the last leaf; level H = ⌈log₂ leaves⌉ is
 //! all of them. A window may be the fuller, and the emptier, the smaller it is: from 3/4 and 3/8 for all down to 1 and

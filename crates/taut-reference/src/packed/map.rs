@@ -3,7 +3,7 @@
 //! *Problem.* Keep entries in order under insertion and deletion, and still in memory as a sorted array has them, so that
 //! ranges are read at the speed of memory.
 //! *Idea.* An array with gaps, in leaves of 64 slots whose entries are packed to the left. A leaf that is full, or too
-//! empty, is spread together with its neighbours: over the smallest window around it that is within the bounds of its
+//! empty, is spread together with its neighbors: over the smallest window around it that is within the bounds of its
 //! level (see `density`). Leaves are found by their least keys (see `separators`).
 //! *Guarantee.* Order always; all leaves but the last hold 8 to 64 of 64 entries, the whole array is 3/8 to 3/4 full, up to
 //! one leaf; O(log² n) moves an insertion or deletion on average and O(1 + log² n / B) blocks wherever windows are spread
@@ -82,7 +82,7 @@ impl<K: Key, V: Copy + Default> PackedMap<K, V> {
         self.len
     }
 
-    /// Whether there is no entry.
+    /// Returns true if there is no entry.
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }
@@ -98,7 +98,7 @@ impl<K: Key, V: Copy + Default> PackedMap<K, V> {
         self.counts.len() * LEAF_SLOTS
     }
 
-    /// Tells a probe of the arrays; once, ahead of the first probed call.
+    /// Tells a probe of the arrays; once, ahead of the first instrumented call.
     pub fn place<P: Probe>(&self, probe: &mut P) {
         probe.place(self.keys.words());
         probe.place(&self.values);
@@ -174,7 +174,7 @@ impl<K: Key, V: Copy + Default> PackedMap<K, V> {
         Some(&mut self.values[slot])
     }
 
-    /// Whether a key is there. O(log n).
+    /// Returns true if a key is there. O(log n).
     #[inline]
     pub fn contains_key(&self, key: K) -> bool {
         self.slot(key, &mut NoProbe).is_some()
@@ -303,7 +303,6 @@ impl<K: Key, V: Copy + Default> PackedMap<K, V> {
         self.spread(window, &counts, probe);
     }
 
-    /// Entries of some leaves.
     pub(super) fn entries(&self, leaves: &Range<usize>) -> usize {
         self.counts[leaves.clone()].iter().map(|&count| count as usize).sum()
     }

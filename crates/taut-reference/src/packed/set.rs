@@ -37,7 +37,7 @@ impl<K: Key> PackedSet<K> {
         self.map.len()
     }
 
-    /// Whether there is no key.
+    /// Returns true if there is no key.
     pub fn is_empty(&self) -> bool {
         self.map.is_empty()
     }
@@ -52,12 +52,12 @@ impl<K: Key> PackedSet<K> {
         self.map.slots()
     }
 
-    /// Tells a probe of the arrays; once, ahead of the first probed call.
+    /// Tells a probe of the arrays; once, ahead of the first instrumented call.
     pub fn place<P: Probe>(&self, probe: &mut P) {
         self.map.place(probe);
     }
 
-    /// Whether a key is there. O(log n).
+    /// Returns true if a key is there. O(log n).
     #[inline]
     pub fn contains(&self, key: K) -> bool {
         self.map.contains_key(key)

@@ -1,4 +1,4 @@
-//! How many entries each leaf of a window gets when the window is spread.
+//! Computes how many entries each leaf of a window gets when the window is spread.
 //!
 //! Evenly, as the thesis has it; or, where insertions hammer one place, with the room where they will come. Of the two
 //! halves of a window the one without the place is then filled as far as its bound allows, and the other one is split
@@ -37,7 +37,7 @@ pub(super) fn around(counts: &mut [u32], len: usize, before: usize, windows: Win
         (leaves * LEAF_MIN, most)
     };
     let ((left_min, left_max), (right_min, right_max)) = (bounds(left.len()), bounds(right.len()));
-    // What the left half can have at all.
+    // The most that the left half can have.
     let (low, high) = (left_min.max(len.saturating_sub(right_max)), left_max.min(len - right_min));
     if low > high {
         even(counts, len);

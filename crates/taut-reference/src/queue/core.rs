@@ -9,7 +9,7 @@ const LINEAR_SEARCH_MAX: usize = 16;
 const SPLITTER_SAMPLE: (usize, usize) = (3, 15);
 /// A bucket is large from this many entries on.
 const LARGE_BUCKET_MIN: u64 = 1 << 10;
-/// Small neighbours are joined from this many buckets beside 2·log₂ n on.
+/// Small neighbors are joined from this many buckets beside 2·log₂ n on.
 const SPARE_BUCKETS: usize = 8;
 
 /// Entries between two pivots.
@@ -262,7 +262,7 @@ impl<V: Copy, S: Spill<V>> Core<V, S> {
         Ok(divided)
     }
 
-    /// Whether small neighbours have to be joined.
+    /// Returns true if small neighbors have to be joined.
     fn too_many(&self) -> bool {
         self.buckets.len() > SPARE_BUCKETS + 2 * self.len().max(1).ilog2() as usize
     }
@@ -282,7 +282,7 @@ impl<V: Copy, S: Spill<V>> Core<V, S> {
         below.uniform = None;
     }
 
-    /// Joins neighbours that together are not more than what is above them; then 2·log₂ n + 2 buckets are left at most.
+    /// Joins neighbors that together are not more than what is above them; then 2·log₂ n + 2 buckets are left at most.
     fn join_small(&mut self) {
         let block = self.spill.block();
         let len = |bucket: &Bucket<V>| bucket.len(block);

@@ -21,7 +21,6 @@ pub(super) trait Spill<V> {
     /// Entries that may be in memory.
     fn limit(&self) -> usize;
 
-    /// Entries of a block.
     fn block(&self) -> usize;
 
     /// Keeps a block; its number.
@@ -74,7 +73,6 @@ pub(super) struct Blocks<F = File> {
     file: F,
     folder: PathBuf,
     limit: usize,
-    /// Entries of a block.
     block: usize,
     /// Bytes of a block.
     bytes: u64,

@@ -76,7 +76,7 @@ fn compare<S: spill::Spill<u32>>(
                 return found;
             }
         }
-        panic!("it fails for ever");
+        panic!("it fails endlessly");
     };
     for i in 0..operations {
         // More pushes in the first half, more pops in the second.

@@ -36,9 +36,9 @@ pub struct BlockedVanEmdeBoas<K: Key> {
 struct Level {
     /// The first page of the pair of levels that share large pages.
     first: usize,
-    /// Whether pages of this level follow the page above them in its group.
+    /// True if pages of this level follow the page above them in its group.
     below: bool,
-    /// Whether the level has a group for each of its pages.
+    /// True if the level has a group for each of its pages.
     heads: bool,
 }
 

@@ -18,12 +18,11 @@ impl CompleteTree {
         Self { len, height, last: len - above.min(len) }
     }
 
-    /// Nodes.
     pub(super) fn len(&self) -> usize {
         self.len
     }
 
-    /// How many nodes come before `node` in the order of keys.
+    /// Returns how many nodes come before `node` in the order of keys.
     ///
     /// # Panics
     /// If the tree has no such node: they are numbered from 1.
@@ -35,7 +34,7 @@ impl CompleteTree {
         full - full.div_ceil(2).saturating_sub(self.last)
     }
 
-    /// How many keys are before the gap at which a walk ends that left the tree at `node`, a missing child.
+    /// Returns how many keys are before the gap at which a walk ends that left the tree at `node`, a missing child.
     #[inline(always)]
     pub(super) fn rank_of_gap(&self, node: usize) -> usize {
         let below = 1 << self.height;

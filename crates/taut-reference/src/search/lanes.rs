@@ -1,4 +1,4 @@
-//! How many words of a line of memory are smaller than a given one: the step of every search by lines.
+//! Counts the words of a line of memory that are smaller than a given one: the step of every search by lines.
 //!
 //! Idea: a line of 64 bytes is one vector of AVX-512, or two of AVX2; one comparison gives a bit for each word, and the
 //! count of bits is the place. The portable form adds up comparisons. All count the same.
@@ -67,7 +67,6 @@ unsafe fn below_avx2<W: Word>(line: *const W, word: W) -> usize {
     }
 }
 
-/// A way to count.
 pub(crate) trait Count<W> {
     /// The words of the line that starts at `first` of `words` that are smaller than `word`.
     ///

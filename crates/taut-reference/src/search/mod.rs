@@ -51,13 +51,13 @@ pub trait SortedIndex<K: Key>: Sized {
     /// [`Error::Option`] if a key is smaller than the one before it, in the order of [`Key`].
     fn new(sorted: &[K]) -> Result<Self, Error>;
 
-    /// How many keys there are.
+    /// Returns how many keys there are.
     fn len(&self) -> usize;
 
-    /// Tells a probe of the arrays that searches read; once, ahead of the first probed search.
+    /// Tells a probe of the arrays that searches read; once, ahead of the first instrumented search.
     fn place<P: Probe>(&self, probe: &mut P);
 
-    /// How many keys have a smaller word, and whether the next key has this word. The search that all others are made
+    /// Returns how many keys have a smaller word, and whether the next key has this word. The search that all others are made
     /// of: O(log n).
     fn rank_of_word<P: Probe>(&self, word: K::Word, probe: &mut P) -> (usize, bool);
 
@@ -75,12 +75,12 @@ pub trait SortedIndex<K: Key>: Sized {
         }
     }
 
-    /// Whether there are no keys.
+    /// Returns true if there are no keys.
     fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// How many keys are smaller: the first place where `key` is, or could be put in. O(log n).
+    /// Returns how many keys are smaller: the first place where `key` is, or could be put in. O(log n).
     #[inline]
     fn lower_bound(&self, key: K) -> usize {
         self.lower_bound_instrumented(key, &mut NoProbe)
@@ -92,7 +92,7 @@ pub trait SortedIndex<K: Key>: Sized {
         self.rank_of_word(key.word(), probe).0
     }
 
-    /// How many keys are smaller or equal: the last place where `key` could be put in. O(log n).
+    /// Returns how many keys are smaller or equal: the last place where `key` could be put in. O(log n).
     #[inline]
     fn upper_bound(&self, key: K) -> usize {
         self.upper_bound_instrumented(key, &mut NoProbe)
@@ -112,7 +112,7 @@ pub trait SortedIndex<K: Key>: Sized {
         self.lower_bound(key)..self.upper_bound(key)
     }
 
-    /// Whether `key` is there. O(log n).
+    /// Returns true if `key` is there. O(log n).
     #[inline]
     fn contains(&self, key: K) -> bool {
         self.contains_instrumented(key, &mut NoProbe)

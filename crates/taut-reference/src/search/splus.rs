@@ -107,7 +107,7 @@ impl<K: Key> SPlusTree<K> {
     }
 }
 
-/// What a walk reads.
+/// The arrays that a search reads.
 ///
 /// The kernels rely on this: `words` starts a line, each level holds whole lines, and child `node * (LANES + 1) + count`
 /// of a node exists for any count of smaller keys, as keys from the last child on are the largest word.
@@ -116,7 +116,7 @@ pub(crate) struct Tree<'a, W> {
     words: &'a [W],
     /// The first word of each level, the root's first.
     starts: &'a [usize],
-    /// What the node and the count of the last level are joined by: words of a line where these are ranks, one more
+    /// The stride between the nodes of the last level: words of a line where these are ranks, one more
     /// where they are children.
     last: usize,
 }

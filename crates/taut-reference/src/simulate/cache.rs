@@ -7,7 +7,7 @@ use super::shape::{CacheShape, Replacement};
 use super::table::Table;
 use crate::Access;
 
-/// What happened in a cache since it was empty. An access of bytes in several blocks counts once for each.
+/// The accesses and misses of a cache since it was empty. An access of bytes in several blocks counts once for each.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Counts {
     /// Accesses of a block.
@@ -35,7 +35,7 @@ struct Slot {
     dirty: bool,
 }
 
-/// What an access of a block led to.
+/// The outcome of an access of a block.
 pub(super) struct Outcome {
     pub(super) missed: bool,
     /// The block that was written back.

@@ -15,7 +15,7 @@ use crate::Access;
 pub(super) fn optimal(accesses: &[(u64, Access)], held: usize) -> Counts {
     let next = next_accesses(accesses);
     let mut counts = Counts { accesses: accesses.len() as u64, ..Counts::default() };
-    // Whether a block that is there was written to.
+    // True if a block that is there was written to.
     let mut there: HashMap<u64, bool> = HashMap::new();
     let mut farthest: BinaryHeap<(usize, u64)> = BinaryHeap::new();
     for (now, &(block, access)) in accesses.iter().enumerate() {

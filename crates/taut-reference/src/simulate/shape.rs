@@ -1,4 +1,4 @@
-//! What a simulated cache looks like.
+//! The shape of a simulated cache.
 
 use crate::Error;
 

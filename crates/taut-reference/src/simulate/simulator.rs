@@ -41,7 +41,7 @@ impl Simulator {
         Ok(Self { chained: true, ..Self::new(shapes)? })
     }
 
-    /// What happened in the cache of that number so far.
+    /// Returns the counts of the cache of that number so far.
     ///
     /// # Panics
     /// If there is no such cache.

@@ -32,7 +32,7 @@ pub struct StackDistances {
     tree: Vec<u32>,
     /// Blocks accessed so far.
     blocks: usize,
-    /// How many accesses had the stack distance that is the index.
+    /// The number of accesses that had the stack distance that is the index.
     histogram: Vec<u64>,
 }
 

@@ -15,7 +15,7 @@ use crate::{Access, Error, Probe};
 pub struct RecordedAccess {
     /// The first byte.
     pub at: u64,
-    /// How many, at least one; longer accesses are cut.
+    /// The number of bytes, at least one; longer accesses are cut.
     pub bytes: u32,
     /// Read or written.
     pub access: Access,
@@ -81,7 +81,7 @@ impl Trace {
         self.space.unannounced()
     }
 
-    /// What happens in an empty cache of that shape.
+    /// Returns what happens in an empty cache of that shape.
     ///
     /// # Errors
     /// [`Error::Option`] if the shape is no cache.
@@ -93,7 +93,7 @@ impl Trace {
         Ok(simulator.counts(0))
     }
 
-    /// What happens in an empty memory of `memory` bytes in blocks of `block` bytes that knows the future: the block
+    /// Returns what happens in an empty memory of `memory` bytes in blocks of `block` bytes that knows the future: the block
     /// whose next access is farthest away makes room (Belady), which no other choice beats in misses.
     ///
     /// Among blocks that are never accessed again the one of the highest number goes. O(n log n) time and O(n) memory

@@ -1,6 +1,6 @@
 //! A probe that does not record costs nothing: the machine code says so.
 //!
-//! All of `src/algorithms/` is compiled by itself with all optimisations, for `NoProbe`; once as it is, and once with
+//! All of `src/algorithms/` is compiled by itself with all optimizations, for `NoProbe`; once as it is, and once with
 //! every line that tells a probe of something left blank. Nine functions in ten must have the same instructions, in the
 //! same order; where the compiler, seeing another source, puts blocks or spills otherwise, the number of instructions
 //! must be the same within 2 %, and within 0.5 % in all. A probe that records must add 2 % at least, in all. And a
@@ -11,7 +11,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-/// What is compiled: each algorithm for one type, which takes its generic parts along.
+/// The program to compile: each algorithm for one type, which takes its generic parts along.
 const ROOT: &str = r#"
 #![crate_type = "lib"]
 #![allow(warnings)]
@@ -86,7 +86,7 @@ fn tells(line: &str) -> bool {
     calls.iter().any(|call| line.starts_with(&format!("probe.{call}("))) && line.ends_with(';')
 }
 
-/// The instructions of each function without their operands: registers are dealt out anew for each change of the source.
+/// The instructions of each function without their operands: registers are dealt out again for each change of the source.
 fn functions(assembly: &str) -> BTreeMap<&str, Vec<&str>> {
     let mut functions = BTreeMap::<&str, Vec<&str>>::new();
     let mut name = "";

@@ -17,7 +17,7 @@ fn traces() -> impl Strategy<Value = Blocks> {
     (1u64..14).prop_flat_map(|blocks| prop::collection::vec((0..blocks, any::<bool>()), 0..70))
 }
 
-fn tell(probe: &mut impl Probe, blocks: &Blocks) {
+fn replay(probe: &mut impl Probe, blocks: &Blocks) {
     probe.place_at(BASE, 64 * BLOCK);
     for &(block, write) in blocks {
         let access = if write { Access::Write } else { Access::Read };
@@ -107,7 +107,7 @@ fn run(cases: u32, test: impl Fn(Blocks, usize, usize) -> Result<(), TestCaseErr
 
 fn counts(shape: CacheShape, blocks: &Blocks) -> Counts {
     let mut simulator = Simulator::new(&[shape]).expect("a cache");
-    tell(&mut simulator, blocks);
+    replay(&mut simulator, blocks);
     assert_eq!(simulator.unannounced(), 0);
     simulator.counts(0)
 }
@@ -145,7 +145,7 @@ fn sets_equal_brute_force_on_ten_thousand_traces() {
 fn optimal_equals_brute_force_on_ten_thousand_traces() {
     run(10_000, |blocks, _, held| {
         let mut trace = Trace::new(BLOCK).expect("a power of two");
-        tell(&mut trace, &blocks);
+        replay(&mut trace, &blocks);
         let found = trace.optimal(held * BLOCK, BLOCK).expect("a cache");
         prop_assert_eq!(found, farthest_first(&blocks, held));
         Ok(())
@@ -166,7 +166,7 @@ fn no_choice_beats_the_farthest_first() {
 fn stack_distances_equal_lru_of_every_size_on_ten_thousand_traces() {
     run(10_000, |blocks, _, _| {
         let mut distances = StackDistances::new(BLOCK).expect("a power of two");
-        tell(&mut distances, &blocks);
+        replay(&mut distances, &blocks);
         let curve = distances.curve();
         prop_assert_eq!(curve[0], blocks.len() as u64);
         prop_assert_eq!(curve.last().copied(), Some(distances.cold()));
@@ -193,8 +193,8 @@ fn stack_distances_survive_long_traces() {
         let mut distances = StackDistances::new(BLOCK).expect("a power of two");
         let shapes = [1, 2, 64, 512, 4096].map(|held| CacheShape::lru(held * BLOCK, BLOCK));
         let mut simulator = Simulator::new(&shapes).expect("caches");
-        for probe in [&mut distances as &mut dyn Tell, &mut simulator] {
-            probe.tell(&blocks, spread as usize * BLOCK);
+        for probe in [&mut distances as &mut dyn DynProbe, &mut simulator] {
+            probe.replay(&blocks, spread as usize * BLOCK);
         }
         for (i, shape) in shapes.iter().enumerate() {
             assert_eq!(distances.misses(shape.memory), simulator.counts(i).misses);
@@ -203,12 +203,12 @@ fn stack_distances_survive_long_traces() {
 }
 
 /// Probes have constants, so they make no trait objects; this does.
-trait Tell {
-    fn tell(&mut self, blocks: &Blocks, bytes: usize);
+trait DynProbe {
+    fn replay(&mut self, blocks: &Blocks, bytes: usize);
 }
 
-impl<P: Probe> Tell for P {
-    fn tell(&mut self, blocks: &Blocks, bytes: usize) {
+impl<P: Probe> DynProbe for P {
+    fn replay(&mut self, blocks: &Blocks, bytes: usize) {
         self.place_at(BASE, bytes);
         for &(block, _) in blocks {
             self.record(BASE + block as usize * BLOCK, 1, Access::Read);
@@ -220,7 +220,7 @@ impl<P: Probe> Tell for P {
 fn larger_memories_miss_less_and_the_best_is_within_twice_of_half() {
     run(2000, |blocks, _, held| {
         let mut trace = Trace::new(BLOCK).expect("a power of two");
-        tell(&mut trace, &blocks);
+        replay(&mut trace, &blocks);
         let lru =
             |held: usize| trace.simulate(CacheShape::lru(held * BLOCK, BLOCK)).map(|c| c.misses);
         let best = |held: usize| trace.optimal(held * BLOCK, BLOCK).map(|c| c.misses);
@@ -237,7 +237,7 @@ fn a_chain_hands_down_misses_and_write_backs() {
     run(2000, |blocks, _, held| {
         let shapes = [CacheShape::lru(held * BLOCK, BLOCK), CacheShape::lru(4 * BLOCK, 2 * BLOCK)];
         let mut chain = Simulator::chained(&shapes).expect("caches");
-        tell(&mut chain, &blocks);
+        replay(&mut chain, &blocks);
         let first = by_hand(&blocks, 1, held, true);
         prop_assert_eq!(chain.counts(0), first);
         let second = chain.counts(1);
@@ -271,7 +271,7 @@ fn an_access_of_many_blocks_is_one_of_each() {
 #[test]
 fn counts_do_not_depend_on_addresses() {
     let shapes = [CacheShape::L1, CacheShape::L2, CacheShape::DTLB, CacheShape::lru(4096, 64)];
-    let tell = |places: [usize; 3]| {
+    let replay = |places: [usize; 3]| {
         let mut simulator = Simulator::new(&shapes).expect("caches");
         for place in places {
             simulator.place_at(place, 100_000);
@@ -281,13 +281,16 @@ fn counts_do_not_depend_on_addresses() {
         }
         [0, 1, 2, 3].map(|cache| simulator.counts(cache))
     };
-    assert_eq!(tell([1 << 20, 1 << 22, 1 << 24]), tell([(1 << 24) + 8, (1 << 22) + 24, 1 << 20]));
+    assert_eq!(
+        replay([1 << 20, 1 << 22, 1 << 24]),
+        replay([(1 << 24) + 8, (1 << 22) + 24, 1 << 20])
+    );
 }
 
 #[test]
 fn curves_are_rows() {
     let mut trace = Trace::new(64).expect("a power of two");
-    tell(&mut trace, &(0..64).chain(0..64).map(|b| (b, false)).collect());
+    replay(&mut trace, &(0..64).chain(0..64).map(|b| (b, false)).collect());
     let rows = trace.misses_by_memory(64, &[64, 512, 1024]).expect("a power of two");
     assert_eq!(rows.iter().map(|r| r.misses).collect::<Vec<_>>(), [32, 32, 16]);
     assert_eq!(rows[2].to_string(), "1024,64,16");
@@ -319,13 +322,13 @@ fn what_is_no_cache_is_refused_by_name() {
     assert!(StackDistances::new(3).is_err());
     assert!(Trace::new(0).is_err());
     let mut nothing = Simulator::new(&[]).expect("no cache is not wrong");
-    tell(&mut nothing, &vec![(1, true)]);
+    replay(&mut nothing, &vec![(1, true)]);
 }
 
 /// Accesses per second, the best of some runs: `cargo test --release -p taut-oblivious --test simulate -- --ignored
 /// --nocapture` shows them.
 #[test]
-#[ignore = "a measurement: run it alone and optimised"]
+#[ignore = "a measurement: run it alone and optimized"]
 fn accesses_per_second() {
     use std::time::Instant;
     use taut_reference::algorithms::{MatrixSizes, mergesort_instrumented, multiply_instrumented};

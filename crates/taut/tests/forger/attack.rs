@@ -19,7 +19,7 @@ const UNDECIDED_ONE_IN: u64 = 1000;
 /// At most this many failures are shown in full.
 const SHOWN_FAILURES_MAX: usize = 12;
 
-/// What came of an attack.
+/// The result of an attack.
 #[derive(Default)]
 pub struct Tally {
     pub forgeries: u64,

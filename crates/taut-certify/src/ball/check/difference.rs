@@ -1,4 +1,4 @@
-//! One row minus the centre, scaled, to twice the precision of `f64`, and the square of its length.
+//! One row minus the center, scaled, to twice the precision of `f64`, and the square of its length.
 
 use taut_points::Scalar;
 
@@ -11,7 +11,7 @@ const LANES: usize = 4;
 /// Numbers of this size and above have squares and products with exact errors; see the head of the arithmetic.
 const EXACT_SIZE_MIN: f64 = f64::from_bits((1023 - 480) << 52);
 
-/// Whether products with this number have exact errors.
+/// Returns true if products with this number have exact errors.
 pub(super) fn is_tame_number(value: f64) -> bool {
     value == 0.0 || value.abs() >= EXACT_SIZE_MIN
 }
@@ -24,7 +24,7 @@ pub(super) fn underflow(count: usize) -> f64 {
 /// (p − c)·2ᵏ = high + low, coordinate by coordinate; kept and filled again for one row after the other.
 pub(super) struct Difference {
     pub(super) high: Vec<f64>,
-    /// Off by at most U times its own size: with a tail of the centre it is the rounded sum of two errors.
+    /// Off by at most U times its own size: with a tail of the center it is the rounded sum of two errors.
     pub(super) low: Vec<f64>,
 }
 
@@ -33,7 +33,7 @@ impl Difference {
         Difference { high: vec![0.0; dim], low: vec![0.0; dim] }
     }
 
-    /// Takes the difference of `row` and the centre of `ball`.
+    /// Takes the difference of `row` and the center of `ball`.
     pub(super) fn fill<T: Scalar>(&mut self, row: &[T], ball: &Ball, scale: Scale) {
         let parts = self.high.iter_mut().zip(&mut self.low);
         let coordinates = parts.zip(row.iter().zip(&ball.center));
@@ -51,7 +51,7 @@ impl Difference {
         }
     }
 
-    /// Whether nothing can have underflowed: nothing was scaled, and no number is below [`EXACT_SIZE_MIN`] but 0.
+    /// Returns true if nothing can have underflowed: nothing was scaled, and no number is below [`EXACT_SIZE_MIN`] but 0.
     pub(super) fn is_tame(&self, scale: Scale) -> bool {
         let all_tame = |values: &[f64]| values.iter().all(|&v| is_tame_number(v));
         !scale.is_needed() && all_tame(&self.high) && all_tame(&self.low)

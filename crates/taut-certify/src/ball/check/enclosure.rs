@@ -1,9 +1,9 @@
-//! Whether every row lies in the ball, decided exactly; and whether the rows are those the certificate speaks of.
+//! Tests exactly whether every row lies in the ball, and whether the rows are those the certificate speaks of.
 //!
 //! *Problem.* |p − c| ≤ ρ with ρ = R − r (R for points), for each of n rows, in one pass.
 //! *Idea.* Three stages, each asked only about what the one before left open.
 //! 1. Plain: S = Σ fl(pⱼ − cⱼ)² in `f64`, with eight partial sums. Each difference is off by a factor 1 ± u, each
-//!    square passes at most m = d/8 + 16 roundings, and the tail t of the centre moves the point by at most |t|. So
+//!    square passes at most m = d/8 + 16 roundings, and the tail t of the center moves the point by at most |t|. So
 //!    |p − c| lies within |t| of √S·(1 ± κ) for κ ≥ mu/2 + 4u; κ = (m + 16)u also covers the rounding of the two
 //!    thresholds with which S is compared, and what underflows: less than 2⁻¹⁰⁰⁰, beside ρ² ≥ 2⁻⁵⁰⁸, as ρ ≠ 0 is
 //!    no less than 2⁻⁵⁴R.
@@ -125,7 +125,7 @@ impl<'a> Enclosure<'a> {
     fn is_outside<T: Scalar>(&self, position: &[T], r: f64, difference: &mut Difference) -> bool {
         let Ball { center, center_tail, radius } = self.ball;
         if *radius == r {
-            // Only the centre itself is left. A tail other than 0 is no part of any f64.
+            // Only the center itself is left. A tail other than 0 is no part of any f64.
             return center_tail.iter().any(|&t| t != 0.0)
                 || position.iter().zip(center).any(|(&x, &c)| x.into() != c);
         }
@@ -159,7 +159,7 @@ impl<'a> Enclosure<'a> {
         sum.sign() == Ordering::Greater
     }
 
-    /// How far row `number` reaches from the centre, for people to read.
+    /// Returns how far row `number` reaches from the center, for people to read.
     fn violation<T: Scalar>(
         &self,
         row: u64,
@@ -176,7 +176,7 @@ impl<'a> Enclosure<'a> {
             let distance = length * self.scale.down + r;
             return Violation::Outside { row, distance, radius, excess: excess * self.scale.down };
         }
-        // Far from the scale of this ball no small excess is at stake, nor the tail of the centre.
+        // Far from the scale of this ball no small excess is at stake, nor the tail of the center.
         let distance = distance(position, &self.ball.center) + r;
         Violation::Outside { row, distance, radius, excess: distance - radius }
     }

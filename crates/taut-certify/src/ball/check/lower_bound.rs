@@ -1,4 +1,4 @@
-//! How much larger than necessary the radius can be, from the multipliers and the rows they stand on.
+//! Measures how much larger than necessary the radius can be, from the multipliers and the rows they stand on.
 //!
 //! *Formulas.* Those of the head of the checker: W, T = Σλᵢtᵢ with tᵢ = |pᵢ − c|² − (R − rᵢ)², M = Σλᵢ(pᵢ − c), so that
 //! p̄ − c = M/W, and g = Σλᵢ(R − rᵢ)/W. Then σ = |M/W|² − T/W, and x = σ/(g + √(g² − σ)) is at least R − L.
@@ -10,8 +10,8 @@
 //! rounded and the answer is optimal, all of this is exactly 0.
 //! *Trap.* Any multipliers prove a lower bound, so those below 2⁻²⁰⁰, whose products could underflow, count as 0.
 //!
-//! *The centre.* That c is the combination p̄ is no part of the proof, but part of what the certificate states; without
-//! this, damage to a coordinate of the centre could hide, as moving it raises R to second order only. |M/W|, with its
+//! *The center.* That c is the combination p̄ is no part of the proof, but part of what the certificate states; without
+//! this, damage to a coordinate of the center could hide, as moving it raises R to second order only. |M/W|, with its
 //! bound, must not exceed what writing c down costs, coordinate by coordinate:
 //! - without a tail, 4u(|cⱼ| + R): half an ulp of cⱼ is at most u|cⱼ|, the rest is for the sum Σλᵢpᵢ;
 //! - with a tail, 4uR + 8u²|cⱼ|: half an ulp of the tail is at most u²|cⱼ|, the rest is for the sum Σλᵢ(pᵢ − c₀) about
@@ -31,7 +31,7 @@ use crate::{CheckError, Items, Violation};
 /// Multipliers below this count as 0.
 const LEAST_MULTIPLIER: f64 = f64::from_bits((1023 - 200) << 52);
 
-/// What the multipliers prove.
+/// The bound that the multipliers prove.
 pub(super) struct Bound {
     /// L, rounded down.
     pub(super) lower: f64,
@@ -71,7 +71,7 @@ struct Sums<'a> {
     excess_error: f64,
     /// M: sums, their low parts and the sizes of these, by coordinate.
     moment: [Vec<f64>; 3],
-    /// Whether anything may have underflowed.
+    /// True if anything may have underflowed.
     underflows: bool,
     /// Σλᵢ(R − rᵢ).
     slack: Compensated,
@@ -262,7 +262,7 @@ impl<'a> Sums<'a> {
 #[derive(Default)]
 struct MomentSquare {
     sum: Compensated,
-    /// What `sum` may be off by, beside its own bound.
+    /// The error of `sum`, beside its own bound.
     error: f64,
     /// |M|², rounded up.
     max: f64,

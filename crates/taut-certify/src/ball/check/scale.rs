@@ -23,7 +23,7 @@ impl Scale {
         Scale { up: power(exponent), down: power(-exponent) }
     }
 
-    /// Whether the factor is not 1.
+    /// Returns true if the factor is not 1.
     pub(super) fn is_needed(self) -> bool {
         self.up != 1.0
     }

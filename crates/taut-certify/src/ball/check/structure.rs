@@ -1,4 +1,4 @@
-//! What can be refused before any point is read: lengths, ranges, the support and the sum of the multipliers.
+//! Refusals before any point is read: lengths, ranges, the support and the sum of the multipliers.
 
 use taut_points::PointSource;
 
@@ -48,18 +48,18 @@ fn answer(ball: &Ball, dim: usize) -> Result<(), Violation> {
     number("the radius", ball.radius)?;
     for (column, &value) in ball.center.iter().enumerate() {
         if !value.is_finite() {
-            let what = format!("coordinate {column} of the centre");
+            let what = format!("coordinate {column} of the center");
             return Err(Violation::Number { what, value, expected: "a finite number" });
         }
     }
     if ball.center_tail.is_empty() {
         return Ok(());
     }
-    length("the tail of the centre", ball.center_tail.len(), dim)?;
+    length("the tail of the center", ball.center_tail.len(), dim)?;
     for (column, (&center, &value)) in ball.center.iter().zip(&ball.center_tail).enumerate() {
-        // One centre has one form: the nearest f64, and what is left.
+        // One center has one form: the nearest f64, and what is left.
         if two_sum(center, value) != (center, value) {
-            let what = format!("coordinate {column} of the tail of the centre");
+            let what = format!("coordinate {column} of the tail of the center");
             let expected = "a number so small that adding it to the coordinate changes nothing";
             return Err(Violation::Number { what, value, expected });
         }

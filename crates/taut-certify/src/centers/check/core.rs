@@ -1,7 +1,7 @@
 //! The items of the core-set, and which two of them no ball of a radius less than ρ holds.
 //!
-//! *Idea.* An item lies in the ball of centre c and radius less than ρ just when |p − c| < ρᵢ, with ρᵢ = ρ for points,
-//! ρ − r for balls and ρ/w for points of weight w: whatever items are, each asks for a centre in an open ball of its own,
+//! *Idea.* An item lies in the ball of center c and radius less than ρ just when |p − c| < ρᵢ, with ρᵢ = ρ for points,
+//! ρ − r for balls and ρ/w for points of weight w: whatever items are, each asks for a center in an open ball of its own,
 //! and a ball that holds some of them exists just when these have a common point. Two have none when
 //! |p − q| ≥ ρᵢ + ρⱼ, which is r ≥ ρ in the words of the papers for r = D/2, (D + rᵢ + rⱼ)/2, wᵢwⱼD/(wᵢ + wⱼ).
 //! *Rounding.* ρᵢ is rounded up, so that what has no common point had none before. Two items are told apart exactly.
@@ -71,12 +71,12 @@ impl Core {
         self.reaches[item]
     }
 
-    /// Whether a ball of a radius less than ρ holds the item.
+    /// Returns true if a ball of a radius less than ρ holds the item.
     pub(super) fn is_free(&self, item: usize) -> bool {
         self.reaches[item] > 0.0
     }
 
-    /// Whether no ball of a radius less than ρ holds both.
+    /// Tests whether no ball of a radius less than ρ holds both.
     pub(super) fn are_apart(
         &self,
         i: usize,
@@ -111,7 +111,7 @@ impl Core {
         Ok(nearer != Ordering::Less)
     }
 
-    /// Whether no ball of a radius less than ρ with its centre at this place holds the item.
+    /// Tests whether no ball of a radius less than ρ with its center at this place holds the item.
     pub(super) fn is_out_of_reach(
         &self,
         item: usize,

@@ -1,4 +1,4 @@
-//! Whether an item reaches no farther from a place than so: in plain arithmetic where that can tell, exactly where not.
+//! Decides whether an item reaches no farther from a place than so: in plain arithmetic where that can tell, exactly where not.
 //!
 //! *Problem.* w·|p − c| compared with ρ = Σ ρₖ, all of them `f64`.
 //! *Idea.* With u = 2⁻⁵³, S = Σ (w·(pⱼ − cⱼ)·2ᵏ)² in `f64` and eight partial sums is w²|p − c|²4ᵏ up to a factor between
@@ -43,7 +43,7 @@ pub(super) fn kappa(dim: usize) -> f64 {
     ((dim / LANES + 16) + 24) as f64 * U
 }
 
-/// What differences are multiplied by, one after the other: 2ᵏ and the weight, or for a weight far from 1 their product,
+/// Returns what differences are multiplied by, one after the other: 2ᵏ and the weight, or for a weight far from 1 their product,
 /// which is exact. `None` where that leaves the range, so that S cannot be trusted.
 #[inline(always)]
 pub(super) fn factors(weight: f64, scale: Scale) -> Option<[f64; 2]> {
@@ -145,7 +145,7 @@ where
     }
 }
 
-/// Whether two places are one, coordinate by coordinate.
+/// Returns true if two places are one, coordinate by coordinate.
 #[inline(always)]
 pub(super) fn is_same_place<A, B>(p: &[A], c: &[B]) -> bool
 where
@@ -246,7 +246,7 @@ pub(super) mod tests {
     use super::*;
 
     thread_local! {
-        /// How often this thread took the second stage.
+        /// The number of times that this thread took the second stage.
         pub(in super::super) static EXACTLY: Cell<u64> = const { Cell::new(0) };
     }
 

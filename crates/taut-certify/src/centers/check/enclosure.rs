@@ -1,11 +1,11 @@
-//! Whether every row that counts lies in one of the balls, decided exactly; and whether the rows are those the certificate
+//! Tests exactly whether every row that counts lies in one of the balls, and whether the rows are those the certificate
 //! speaks of.
 //!
-//! *Problem.* For each of n rows, some centre c with w·|p − c| + r ≤ R; in one pass.
-//! *Idea.* The centre that held the row before is asked first, then those that are not too far along some axis
-//! ([`Halves`]). What plain arithmetic leaves open is decided in whole numbers, by [`compare`].
-//! *Assignment.* Where it is given, the centre named for a row must be the nearest but for what a sum in `f64` may be off
-//! by, |p − c| ≤ |p − c'|·(1 + (d + 32)u) + 4ur for every other c': which of centres that are equally near by rounding is
+//! *Problem.* For each of n rows, some center c with w·|p − c| + r ≤ R; in one pass.
+//! *Idea.* The center that held the row before is asked first, then those that are not too far along some axis
+//! ([`CenterTree`]). What plain arithmetic leaves open is decided in whole numbers, by [`compare`].
+//! *Assignment.* Where it is given, the center named for a row must be the nearest but for what a sum in `f64` may be off
+//! by, |p − c| ≤ |p − c'|·(1 + (d + 32)u) + 4ur for every other c': which of centers that are equally near by rounding is
 //! the first, depends on the order of a sum. Rows left out are assigned like others.
 //! *Guarantee.* No row is misjudged by R, so the first row found outside does not depend on threads.
 
@@ -14,8 +14,8 @@ use std::cmp::Ordering;
 use taut_points::{Cancelled, Monitor, PointSource, Points, Rows, Scalar};
 
 use super::super::{Centers, CentersCertificate, CentersViolation};
+use super::center_tree::CenterTree;
 use super::distance::{Scale, compare, factors, is_same_place, kappa, square, thresholds};
-use super::halves::Halves;
 use super::item::{Item, Kind};
 use super::meter::Meter;
 use crate::CheckError;
@@ -28,18 +28,18 @@ pub(super) struct Enclosure<'a> {
     kind: Kind,
     scale: Scale,
     kappa: f64,
-    halves: Halves,
+    center_tree: CenterTree,
 }
 
 impl<'a> Enclosure<'a> {
     pub(super) fn of(answer: &'a Centers, kind: Kind) -> Self {
         let dim = answer.centers[0].len();
-        let halves = Halves::of(&answer.centers);
+        let center_tree = CenterTree::of(&answer.centers);
         let scale = Scale::of(answer.radius);
-        Enclosure { answer, kind, scale, kappa: kappa(dim), halves }
+        Enclosure { answer, kind, scale, kappa: kappa(dim), center_tree }
     }
 
-    /// Reads all rows once; returns those of the core-set and those that are centres.
+    /// Reads all rows once; returns those of the core-set and those that are centers.
     pub(super) fn check(
         &self,
         source: &dyn PointSource,
@@ -85,7 +85,7 @@ impl<'a> Enclosure<'a> {
         Ok(problem)
     }
 
-    /// `held_by` is the centre that held the row before, and becomes the one that holds this.
+    /// `held_by` is the center that held the row before, and becomes the one that holds this.
     #[inline(always)]
     fn row<T: Scalar>(
         &self,
@@ -106,7 +106,7 @@ impl<'a> Enclosure<'a> {
         }
     }
 
-    /// Whether a ball holds the item; `held_by` is the one asked first, and becomes the one that does.
+    /// Tests whether a ball holds the item; `held_by` is the one asked first, and becomes the one that does.
     #[inline(always)]
     fn is_held<T: Scalar>(
         &self,
@@ -121,7 +121,7 @@ impl<'a> Enclosure<'a> {
         }
         let reach = rho / item.weight;
         if reach == 0.0 {
-            // Not even the least number: nothing but the very place of the centre.
+            // Not even the least number: nothing but the very place of the center.
             let is_same = |center: usize| is_same_place(item.position, &centers[center]);
             return self.find(item.position, 0.0, is_same, held_by, meter);
         }
@@ -146,7 +146,7 @@ impl<'a> Enclosure<'a> {
         Ok(false)
     }
 
-    /// Whether some centre, of all that are so near and perhaps of others, passes a test; the one that did last is asked
+    /// Returns true if some center, of all that are so near and perhaps of others, passes a test; the one that did last is asked
     /// first.
     #[inline(always)]
     fn find<T: Scalar>(
@@ -160,7 +160,7 @@ impl<'a> Enclosure<'a> {
         let mut asked = 1;
         let found = match test(*held_by) {
             true => Some(*held_by),
-            false => self.halves.find(place, reach, |center| {
+            false => self.center_tree.find(place, reach, |center| {
                 asked += 1;
                 test(center)
             }),
@@ -172,7 +172,7 @@ impl<'a> Enclosure<'a> {
         Ok(found.is_some())
     }
 
-    /// The centre to which an item is assigned, if it is the nearest.
+    /// The center to which an item is assigned, if it is the nearest.
     fn assigned<T: Scalar>(
         &self,
         row: u64,
@@ -192,7 +192,7 @@ impl<'a> Enclosure<'a> {
             asked += 1;
             distance(other) * slack + 4.0 * U * item.radius < own
         };
-        let nearer = self.halves.find(item.position, own * (1.0 + 1e-9), is_nearer);
+        let nearer = self.center_tree.find(item.position, own * (1.0 + 1e-9), is_nearer);
         meter.spend(asked * item.position.len())?;
         Ok(match nearer {
             Some(nearer) => Err(CentersViolation::Assignment { row, center, nearer }),
@@ -200,7 +200,7 @@ impl<'a> Enclosure<'a> {
         })
     }
 
-    /// How far the item reaches from the centre next to it, for people to read.
+    /// Returns how far the item reaches from the center next to it, for people to read.
     fn outside<T: Scalar>(&self, row: u64, item: &Item<'_, T>) -> CentersViolation {
         let reach = |center: &Vec<f64>| item.weight * distance(item.position, center) + item.radius;
         let mut nearest = (0, f64::INFINITY);
@@ -238,7 +238,7 @@ mod tests {
     use super::*;
     use crate::{Items, LowerBound, Placement};
 
-    /// Whether rows are held, and how many comparisons took whole numbers.
+    /// Tests whether rows are held, and how many comparisons took whole numbers.
     fn held(
         rows: &[f64],
         dim: usize,
@@ -264,7 +264,7 @@ mod tests {
             k: answer.centers.len() as u64,
             outliers: 0,
             core_set: vec![],
-            proof: LowerBound::Apart,
+            proof: LowerBound::Separated,
             gap: 0.0,
             points_hash: hash_points(&points, &monitor).unwrap(),
         };
@@ -273,7 +273,7 @@ mod tests {
     }
 
     #[test]
-    fn rows_that_have_to_be_centres_are_compared_plainly() {
+    fn rows_that_have_to_be_centers_are_compared_plainly() {
         let centers: Vec<Vec<f64>> =
             (0..300).map(|i| vec![f64::from(i * i % 307), f64::from(i) * 0.1 - 3.0]).collect();
         let rows: Vec<f64> = centers.iter().rev().cycle().take(3000).flatten().copied().collect();

@@ -1,8 +1,8 @@
-//! Balls with their centres anywhere: the centre that is deepest within all balls in which it must lie, and the proof that
+//! Balls with their centers anywhere: the center that is deepest within all balls in which it must lie, and the proof that
 //! there is none.
 //!
-//! *Problem.* Items i of a group ask for a centre c with |pᵢ − c| < ρᵢ. Is there one?
-//! *Idea.* Let gᵢ(c) = |pᵢ − c|² − ρᵢ² and v = min over c of max over i of gᵢ(c): a centre exists just when v < 0. For λ ≥ 0
+//! *Problem.* Items i of a group ask for a center c with |pᵢ − c| < ρᵢ. Is there one?
+//! *Idea.* Let gᵢ(c) = |pᵢ − c|² − ρᵢ² and v = min over c of max over i of gᵢ(c): a center exists just when v < 0. For λ ≥ 0
 //! with Σλᵢ = W and p̄ = Σλᵢpᵢ/W, Σλᵢgᵢ(c) = Σλᵢgᵢ(p̄) + W|c − p̄|² for every c, so that Σλᵢgᵢ(p̄) ≥ 0 proves v ≥ 0. For
 //! equal ρᵢ this is the smallest enclosing ball and the proof that it is too large.
 //! *Method.* v and λ grow item by item. At the optimum of a group, gᵢ(c) = v on a support S of affinely independent
@@ -22,7 +22,7 @@ use super::meter::Meter;
 use super::oracle::Oracle;
 use crate::arithmetic::U;
 
-/// Items in one ball with its centre anywhere.
+/// Items in one ball with its center anywhere.
 ///
 /// Places are measured from the first member, yᵢ = (pᵢ − p₀)·scale, rounded once; they are formed again wherever they are
 /// needed, as there may be many groups.
@@ -32,7 +32,7 @@ pub(super) struct Group {
     fit: Fit,
 }
 
-/// The centre that is deepest within the balls of a group, its depth, and multipliers; about p₀ and scaled.
+/// The center that is deepest within the balls of a group, its depth, and multipliers; about p₀ and scaled.
 #[derive(Debug, Default)]
 pub(super) struct Fit {
     center: Vec<f64>,
@@ -63,11 +63,11 @@ pub(super) struct Free<'a> {
     hull: Hull,
 }
 
-/// What becomes of a group with one item more.
+/// The result for a group with one item more.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Tried {
     Refuted,
-    /// The item lies where the deepest centre is as deep as before.
+    /// The item lies where the deepest center is as deep as before.
     Unchanged,
     /// The scratch space holds the group.
     Changed,
@@ -137,14 +137,14 @@ impl Oracle for Free<'_> {
         Ok(Some(before))
     }
 
-    fn shrink(&self, group: &mut Group, before: Option<Fit>) {
+    fn undo(&self, group: &mut Group, before: Option<Fit>) {
         group.members.pop();
         if let Some(fit) = before {
             group.fit = fit;
         }
     }
 
-    fn kept(before: &Option<Fit>) -> usize {
+    fn undo_bytes(before: &Option<Fit>) -> usize {
         let bytes = |fit: &Fit| size_of_val(&fit.center[..]) + size_of_val(&fit.support[..]);
         before.as_ref().map_or(0, bytes)
     }
@@ -270,7 +270,7 @@ struct Hull {
     /// n and |n|².
     rest: Vec<f64>,
     rest_square: f64,
-    /// Whether nothing of n can be told from rounding.
+    /// True if nothing of n can be told from rounding.
     is_flat: bool,
     coefficients: Vec<f64>,
 }
@@ -348,7 +348,7 @@ impl Hull {
     }
 }
 
-/// Whether the multipliers prove that no centre exists.
+/// Returns true if the multipliers prove that no center exists.
 ///
 /// With W = Σλᵢ, any c and M = Σλᵢ(pᵢ − c), Σλᵢgᵢ(p̄) = Σλᵢgᵢ(c) − |M|²/W. Of the differences tᵢ = yᵢ − c, where yᵢ is
 /// pᵢ − p₀ rounded, each is off by a vector no longer than u(|tᵢ| + |yᵢ|). So |tᵢ|² is off by at most
@@ -392,7 +392,7 @@ mod tests {
     use super::super::item::Kind;
     use super::*;
 
-    /// Whether a ball of radius less than `bound` is proved not to hold these rows.
+    /// Returns true if a ball of radius less than `bound` is proved not to hold these rows.
     fn refuted(rows: &[f64], columns: usize, kind: Kind, bound: f64) -> bool {
         let core = Core::of(rows, columns, kind, bound);
         let mut meter = Meter::of(&Monitor::silent());

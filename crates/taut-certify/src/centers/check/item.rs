@@ -1,11 +1,11 @@
-//! What a row is: a point, a ball, or a point with a weight.
+//! The kinds of rows: a point, a ball, or a point with a weight.
 
 use taut_points::Scalar;
 
 use super::super::{CentersCertificate, CentersViolation};
 use crate::{Items, Violation};
 
-/// How rows are to be read.
+/// The way in which rows are to be read.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Kind {
     Points,
@@ -22,7 +22,7 @@ pub(super) struct Item<'a, T> {
 }
 
 impl Kind {
-    /// What the certificate says rows are, if rows of so many columns can be that.
+    /// Returns what the certificate says rows are, if rows of so many columns can be that.
     pub(super) fn of(certificate: &CentersCertificate, columns: usize) -> Result<Self, Violation> {
         match (certificate.items, certificate.weights) {
             (Items::Ellipsoids, _) => Err(CentersViolation::Ellipsoids.into()),

@@ -15,7 +15,6 @@ pub(super) trait Oracle {
     /// Data to undo the last `grow`.
     type Undo;
 
-    /// The number of items.
     fn len(&self) -> usize;
 
     /// A group of one item; `None` where it is refuted.
@@ -30,8 +29,8 @@ pub(super) trait Oracle {
     ) -> Result<Option<Self::Undo>, Cancelled>;
 
     /// Takes the item out that the group got last.
-    fn shrink(&self, group: &mut Self::Group, undo: Self::Undo);
+    fn undo(&self, group: &mut Self::Group, undo: Self::Undo);
 
     /// The bytes that are kept to undo.
-    fn kept(undo: &Self::Undo) -> usize;
+    fn undo_bytes(undo: &Self::Undo) -> usize;
 }

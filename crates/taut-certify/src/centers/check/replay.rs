@@ -4,7 +4,7 @@
 //! case whose group no ball holds is refuted there and then; of every other the log says how it goes on.
 //! *Guarantee.* All cases are gone through, or the log is refused. No recursion: the depth is what the log makes it.
 //! *Cost.* For each branch, a test for each group, and the item added to each group that takes it. An item that the deepest
-//! centre of its group has room for leaves nothing to be kept, another the centre and the multipliers before it: a number
+//! center of its group has room for leaves nothing to be kept, another the center and the multipliers before it: a number
 //! for each coordinate and two for each multiplier, of which there are at most d + 1. [`UNDO_BYTES_MAX`] bytes are granted.
 
 use super::super::CentersViolation;
@@ -24,7 +24,7 @@ struct Branch<U> {
     item: usize,
     /// The case to be looked at next: a group by its number, then a new one, then those left out.
     next: usize,
-    /// How to undo the case that is being gone through.
+    /// The way to undo the case that is being gone through.
     undo: Undo<U>,
 }
 
@@ -59,14 +59,14 @@ impl Log<'_> {
         let mut left = outliers;
         let mut entries = log.iter().copied().enumerate();
         let mut open = vec![taken(&mut entries, &mut given, oracle.len(), log)?];
-        let mut kept = 0;
+        let mut undo_bytes = 0;
         while let Some(branch) = open.last_mut() {
             meter.spend(16)?;
             match std::mem::replace(&mut branch.undo, Undo::Nothing) {
                 Undo::Nothing => {}
                 Undo::Grown(number, undo) => {
-                    kept -= R::kept(&undo) as u64;
-                    oracle.shrink(&mut groups[number], undo);
+                    undo_bytes -= R::undo_bytes(&undo) as u64;
+                    oracle.undo(&mut groups[number], undo);
                 }
                 Undo::Opened => drop(groups.pop()),
                 Undo::LeftOut => left += 1,
@@ -75,7 +75,7 @@ impl Log<'_> {
             branch.next += 1;
             let goes_on = if case < groups.len() {
                 oracle.grow(&mut groups[case], item, meter)?.map(|undo| {
-                    kept += R::kept(&undo) as u64;
+                    undo_bytes += R::undo_bytes(&undo) as u64;
                     Undo::Grown(case, undo)
                 })
             } else if case == groups.len() && groups.len() < k {
@@ -94,7 +94,7 @@ impl Log<'_> {
             };
             if let Some(undo) = goes_on {
                 branch.undo = undo;
-                if kept > most {
+                if undo_bytes > most {
                     return Err(CentersViolation::Kept { branches: open.len(), most }.into());
                 }
                 let entry = taken(&mut entries, &mut given, oracle.len(), log)?;

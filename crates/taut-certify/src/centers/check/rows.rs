@@ -1,6 +1,6 @@
-//! Balls with their centres at rows of the input: which items each row is near enough to.
+//! Balls with their centers at rows of the input: which items each row is near enough to.
 //!
-//! *Idea.* A row is as good a centre as the set of items less than ρ from it. One more pass over the rows finds these
+//! *Idea.* A row is as good a center as the set of items less than ρ from it. One more pass over the rows finds these
 //! sets; rows with the same set are one place. A group of items is held by a ball just when some place is near to all of
 //! them, which is the intersection of sets of places, one for each item.
 //! *Guarantee.* Whether an item is less than ρ from a row is decided exactly.
@@ -23,7 +23,7 @@ use crate::hashed_pass::{WantedRows, hashed_pass};
 /// The sets of all places take at most this many bytes.
 const SET_BYTES_MAX: u64 = 1 << 30;
 
-/// How often there is a bit for each place and item: by place, by item, and in the groups and what is kept to undo them, as
+/// The number of times that there is a bit for each place and item: by place, by item, and in the groups and what is kept to undo them, as
 /// each item begins a group or narrows one.
 const SETS_PER_PLACE: u64 = 3;
 
@@ -81,7 +81,7 @@ impl Places {
         Ok(Places { near })
     }
 
-    /// Whether no place is near to both.
+    /// Tests whether no place is near to both.
     pub(super) fn are_apart(
         &self,
         i: usize,
@@ -118,11 +118,11 @@ impl Oracle for &Places {
         Ok(is_held.then(|| std::mem::replace(group, both)))
     }
 
-    fn shrink(&self, group: &mut Bits, before: Bits) {
+    fn undo(&self, group: &mut Bits, before: Bits) {
         *group = before;
     }
 
-    fn kept(before: &Bits) -> usize {
+    fn undo_bytes(before: &Bits) -> usize {
         size_of_val(&before[..])
     }
 }

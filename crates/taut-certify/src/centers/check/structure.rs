@@ -1,4 +1,4 @@
-//! What can be refused before any row is read: lengths, ranges, lists, and the gap between the bounds.
+//! Refusals before any row is read: lengths, ranges, lists, and the gap between the bounds.
 
 use taut_points::PointSource;
 
@@ -7,11 +7,11 @@ use super::item::Kind;
 use crate::Violation;
 use crate::arithmetic::U;
 
-/// How much the gap claimed may fall short of the gap found, relatively and in units of 1: a solver forms the quotient in
+/// The amount by which the gap claimed may fall short of the gap found, relatively and in units of 1: a solver forms the quotient in
 /// arithmetic of its own.
 const GAP_SLACK: (f64, f64) = (1e-9, 4e-16);
 
-/// What rows are, and the gap found.
+/// Returns what rows are, and the gap found.
 pub(super) fn check(
     answer: &Centers,
     certificate: &CentersCertificate,
@@ -50,7 +50,7 @@ fn centers(
             return Err(CentersViolation::Dimension { center, found, expected: dim }.into());
         }
         if let Some(column) = place.iter().position(|value| !value.is_finite()) {
-            let what = format!("coordinate {column} of centre {center}");
+            let what = format!("coordinate {column} of center {center}");
             let value = place[column];
             return Err(Violation::Number { what, value, expected: "a finite number" });
         }
@@ -63,7 +63,7 @@ fn rows(answer: &Centers, certificate: &CentersCertificate, n: u64) -> Result<()
         Placement::Free => 0,
         Placement::Rows => answer.centers.len(),
     };
-    length("the list of rows of the centres", answer.rows.len(), expected)?;
+    length("the list of rows of the centers", answer.rows.len(), expected)?;
     match answer.rows.iter().position(|&row| row >= n) {
         Some(center) => {
             let (row, problem) = (answer.rows[center], "but there are not so many");
@@ -115,7 +115,7 @@ fn gap(answer: &Centers, certificate: &CentersCertificate) -> Result<f64, Violat
     }
     let found = match radius == lower {
         true => 0.0,
-        // The difference of neighbours is exact, and of others is off by half an ulp.
+        // The difference of neighbors is exact, and of others is off by half an ulp.
         false => (radius - lower) / lower * (1.0 + 8.0 * U),
     };
     let (relative, absolute) = GAP_SLACK;

@@ -26,7 +26,7 @@ const WEIGHT_SUM_MAX: u64 = 1 << 53;
 struct Pending {
     low: [f64; 2],
     high: [f64; 2],
-    /// Whether the lower corner is inside.
+    /// True if the lower corner is inside.
     is_inside: bool,
     /// The list of the parent is `lists[depth]`.
     depth: usize,
@@ -128,7 +128,7 @@ fn halves(
     ])
 }
 
-/// Whether an edge meets a closed cell, exactly: neither its box nor the line through it is apart from the cell.
+/// Tests whether an edge meets a closed cell, exactly: neither its box nor the line through it is apart from the cell.
 fn meets([a, b]: [[f64; 2]; 2], cell: &Pending) -> bool {
     let (low, high) = (cell.low, cell.high);
     if (0..2).any(|k| a[k].max(b[k]) < low[k] || a[k].min(b[k]) > high[k]) {

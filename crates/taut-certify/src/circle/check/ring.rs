@@ -45,7 +45,7 @@ impl Ring {
         }))
     }
 
-    /// Whether an odd number of edges cross the horizontal line through p to the left of it. A p on an edge counts as lying to
+    /// Tests whether an odd number of edges cross the horizontal line through p to the left of it. A p on an edge counts as lying to
     /// the right of it; its distance to that edge is 0.
     pub(super) fn is_inside(&self, p: [f64; 2]) -> bool {
         (0..self.len()).filter(|&edge| crosses_left_of(self.edge(edge), p)).count() % 2 == 1

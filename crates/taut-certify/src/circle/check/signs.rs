@@ -24,7 +24,7 @@ pub(super) fn orientation(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Ordering {
     left.minus(&a[1].minus(&c[1]).times(&b[0].minus(&c[0]))).sign()
 }
 
-/// Whether the edge crosses the horizontal line through the moved p, to the left of it.
+/// Tests whether the edge crosses the horizontal line through the moved p, to the left of it.
 pub(super) fn crosses_left_of([a, b]: [[f64; 2]; 2], p: [f64; 2]) -> bool {
     if (a[1] <= p[1]) == (b[1] <= p[1]) {
         return false;
@@ -34,7 +34,7 @@ pub(super) fn crosses_left_of([a, b]: [[f64; 2]; 2], p: [f64; 2]) -> bool {
     orientation(low, high, p) != Ordering::Greater
 }
 
-/// Whether the edge crosses the vertical line through the moved p, below it.
+/// Tests whether the edge crosses the vertical line through the moved p, below it.
 pub(super) fn crosses_below([a, b]: [[f64; 2]; 2], p: [f64; 2]) -> bool {
     if (a[0] <= p[0]) == (b[0] <= p[0]) {
         return false;

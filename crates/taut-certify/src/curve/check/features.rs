@@ -1,7 +1,7 @@
 //! φ: how near the curve comes to itself and to others, beside the way it takes, and how sharply it turns.
 //!
 //! *Tangents.* At a vertex v, that of the circle through v and two points of the curve, the first vertices at least s before and after v.
-//! Where vertices are rows, s = 0 and they are the neighbours. Else s is a few times the band: below that, the curve is known no
+//! Where vertices are rows, s = 0 and they are the neighbors. Else s is a few times the band: below that, the curve is known no
 //! better than the noise let it be.
 //! *Radius.* R(v) is the least radius of a circle that is tangent to the curve at v, on either side, and passes through another
 //! point q of any curve: |q − v|²/2(|n·(q − v)| − τ), over the two points and all edges but those between them. τ, a part of the
@@ -111,7 +111,7 @@ fn found(
     Ok(Features { along, size, corner })
 }
 
-/// Calls `pass` for all pairs of neighbours and their gap, twice around in either direction.
+/// Calls `pass` for all pairs of neighbors and their gap, twice around in either direction.
 fn around(along: &[f64], mut pass: impl FnMut(usize, usize, f64)) {
     let count = along.len() - 1;
     for k in (0..2 * count).map(|k| k % count) {

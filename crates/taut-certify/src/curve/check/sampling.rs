@@ -11,13 +11,13 @@ const NEIGHBOR_GAPS: usize = 16;
 /// Rows across whose offsets bands are sought: short windows follow the curve, long ones find thin gaps. The last is all rows.
 const WINDOWS: [usize; 5] = [64, 128, 512, 2048, usize::MAX];
 
-/// Neighbours are compared along windows of this many rows.
+/// Neighbors are compared along windows of this many rows.
 const WINDOW_ROWS: usize = 128;
 
 /// ln of how seldom chance may leave any of the windows of a curve with this few rows between two bands.
 const GAP_RARITY: f64 = 4.0;
 
-/// The least that squared differences of neighbours may be on average, over twice the variance. Of 128 numbers that chance orders it is
+/// The least that squared differences of neighbors may be on average, over twice the variance. Of 128 numbers that chance orders it is
 /// 1 ± 0.09, normal or uniform: less than this once in 10⁸ windows.
 const WINDING_LEAST: f64 = 0.5;
 
@@ -160,7 +160,7 @@ pub(super) fn split(curve: usize, samples: &[Sample]) -> Option<CurveDoubt> {
     None
 }
 
-/// Rows that lie off the curve together with their neighbours.
+/// Rows that lie off the curve together with their neighbors.
 pub(super) fn winding(curve: usize, samples: &[Sample]) -> Option<CurveDoubt> {
     let mut places: Vec<(f64, f64, usize)> =
         samples.iter().map(|sample| (sample.along, sample.offset, sample.vertex)).collect();

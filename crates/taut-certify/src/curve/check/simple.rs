@@ -6,7 +6,7 @@ use super::edges::Edges;
 use super::signs::{is_on, meet};
 use super::tree::Area;
 
-/// Two edges that meet though they are no neighbours, or neighbours that have more in common than their vertex.
+/// Two edges that meet though they are no neighbors, or neighbors that have more in common than their vertex.
 pub(super) fn crossing(
     edges: &Edges,
     monitor: &Monitor<'_>,

@@ -23,7 +23,7 @@ impl Tangent {
     }
 
     /// Whether circles of a radius surely miss an edge: where the power |w|² − 2r(|n·w| − τ) of both ends is above g²/4 for an edge of
-    /// length g, that of the point next to the centre is above 0.
+    /// length g, that of the point next to the center is above 0.
     pub(super) fn misses(&self, [a, b]: [[f64; 2]; 2], radius: f64) -> bool {
         let (e, quarter) = (minus(b, a), 0.25 * (1.0 + 1e-9));
         let power =

@@ -1,4 +1,4 @@
-//! A binary tree of boxes over edges in the order of the curve: neighbours along the curve are neighbours in the plane.
+//! A binary tree of boxes over edges in the order of the curve: neighbors along the curve are neighbors in the plane.
 
 /// A leaf has at most this many edges.
 const LEAF_SIZE: usize = 4;

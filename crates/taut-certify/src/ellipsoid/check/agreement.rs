@@ -1,4 +1,4 @@
-//! Whether the numbers of an answer that say the same thing agree: matrix and factor, factor and log-volume.
+//! Decides whether the numbers of an answer that say the same thing agree: matrix and factor, factor and log-volume.
 //!
 //! *Matrix.* Each entry of Q must be that of FᵀF up to 4(r + 4)u times the root of the product of the two diagonal
 //! entries, which is more than multiplying out in `f64` costs; and Q must be symmetric to the bit. What the
@@ -6,7 +6,7 @@
 //! to about 1 first: squares of entries 1e154 apart have no place in one matrix.
 //! *Log-volume.* log κᵣ − log|det F|, for flat sets log κᵣ − log|det FBᵀ|. A triangular F has the product of its
 //! diagonal as determinant. For any other, with PF = LU in `f64` and X, Y the inverses of L, U as found in `f64`, the
-//! matrix T = XPFY is nearly I, and det F = ± det T/(det X·det Y): T is formed and factorised in doubled precision.
+//! matrix T = XPFY is nearly I, and det F = ± det T/(det X·det Y): T is formed and factorized in doubled precision.
 //! The log-volume must be that up to 32u times the sum of the sizes of all logarithms it is made of, plus r.
 //! *Trap.* Rows and columns of F may differ by a hundred orders of magnitude: pivots are compared with their rows.
 
@@ -15,7 +15,7 @@ use super::frame::{Frame, power_of_two_below};
 use crate::Violation;
 use crate::arithmetic::{DoubleDouble, Field, Ring, U};
 
-/// What Q and FᵀF differ by, over s², when column j of F is multiplied by `powers[j]`.
+/// The difference of Q and FᵀF, over s², when column j of F is multiplied by `powers[j]`.
 pub(crate) struct Difference {
     entries: Vec<f64>,
     powers: Vec<f64>,

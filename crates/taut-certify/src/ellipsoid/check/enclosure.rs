@@ -1,4 +1,4 @@
-//! Whether every item lies in the ellipsoid, and whether the rows are those the certificate speaks of: one pass.
+//! Decides whether every item lies in the ellipsoid, and whether the rows are those the certificate speaks of: one pass.
 //!
 //! *Problem.* |F(x − c)| ≤ 1 for every row but those left out, and how far it is exceeded at worst.
 //! *Idea.* Two stages, the second asked only about what the first left open.
@@ -29,13 +29,12 @@ const EXCESS_MAX: f64 = 1e-12;
 /// 2³⁰⁰: a length from which on squares are not formed, as they could overflow.
 pub(crate) const FAR_OUT: f64 = f64::from_bits((1023 + 300) << 52);
 
-/// What the pass finds.
 pub(super) struct Enclosed {
     /// By how much |F(x − c)| exceeds 1 at worst, rounded up.
     pub(super) excess: f64,
-    /// How far items reach from c, by coordinate, times the scale of the frame; rounded up.
+    /// The distance that items reach from c, by coordinate, times the scale of the frame; rounded up.
     pub(super) extents: Vec<f64>,
-    /// How far the farthest row lies off the hull, rounded up; 0 when there is none.
+    /// The distance of the farthest row from the hull, rounded up; 0 when there is none.
     pub(super) off_hull: f64,
     /// From where to where the set reaches, by coordinate; −∞ to ∞ backwards when there is no hull.
     pub(super) lows: Vec<f64>,
@@ -121,7 +120,7 @@ impl<'a> Enclosure<'a> {
         left_out.iter().for_each(|&row| panel.forget(row));
         let threshold = panel.measure(self.frame);
         found.widen(panel.extents());
-        // Rows of the panel that need a look of their own; the centre, which stands for those left out, is inside.
+        // Rows of the panel that need a look of their own; the center, which stands for those left out, is inside.
         for row in panel.beyond(threshold) {
             found.take(first + row as u64, self.excess(&values[row * dim..][..dim]))?;
         }
@@ -208,7 +207,7 @@ pub(crate) fn kind_of(rows: &Rows<'_>) -> ScalarKind {
     }
 }
 
-/// Whether all coordinates are finite, in a form that compilers turn into vector instructions.
+/// Returns true if all coordinates are finite, in a form that compilers turn into vector instructions.
 fn is_finite(rows: &Rows<'_>) -> bool {
     match rows {
         Rows::F32(points) => points.values().iter().fold(true, |all, v| all & v.is_finite()),

@@ -24,11 +24,11 @@ pub(crate) struct Frame<'a> {
     spans: Vec<Range<usize>>,
     /// s.
     pub(crate) scale: f64,
-    /// What is known of points off the hull of a flat set; all 0 where there is none.
+    /// The known facts about points off the hull of a flat set; all 0 where there is none.
     tilt: Tilt,
 }
 
-/// How far the rows of F lean out of a hull, and inputs lie off it. The claim is about projections to the hull: F(x − c) differs
+/// The distances by which the rows of F lean out of a hull, and inputs lie off it. The claim is about projections to the hull: F(x − c) differs
 /// from the image of the projection of x by at most the product of the two.
 #[derive(Default)]
 struct Tilt {
@@ -37,7 +37,7 @@ struct Tilt {
     factor: f64,
     /// The distance stated for the hull, times s.
     distance: f64,
-    /// What the checker grants beside that distance, as a part of offsets and of widths.
+    /// The tolerance of the checker beside that distance, as a part of offsets and of widths.
     of_offset: f64,
     of_width: f64,
 }
@@ -57,7 +57,7 @@ impl Tilt {
         }
     }
 
-    /// What images miss for an input whose offset and width have these lengths at most.
+    /// Returns what images miss for an input whose offset and width have these lengths at most.
     fn error(&self, offset: f64, width: f64) -> f64 {
         match self.factor == 0.0 {
             true => 0.0,
@@ -173,7 +173,7 @@ impl<'a> Frame<'a> {
         (offset.iter().map(|v| v * half * rest).collect(), k + shift)
     }
 
-    /// Whether |F(x − c)| is known to be above [`FAR_OUT`], for a point that lies too far out for anything finer.
+    /// Returns true if |F(x − c)| is known to be above [`FAR_OUT`], for a point that lies too far out for anything finer.
     pub(crate) fn is_far_out(&self, point: &[f64]) -> bool {
         let (offset, k) = self.small_offset(point);
         let mut square = 0.0;
@@ -192,7 +192,7 @@ impl<'a> Frame<'a> {
             && square > f64::MIN_POSITIVE
     }
 
-    /// What [`Frame::image`] may be off by, in length: for a point whose offset has the sizes `sizes`, when offsets are
+    /// Returns what [`Frame::image`] may be off by, in length: for a point whose offset has the sizes `sizes`, when offsets are
     /// off by a few roundings and by `errors` beyond that. Rounded up.
     pub(crate) fn image_error<N: Field>(&self, sizes: &[f64], errors: Option<&[f64]>) -> f64 {
         let rounding = (self.dim + 8) as f64 * N::ROUNDOFF;
@@ -214,7 +214,7 @@ impl<'a> Frame<'a> {
         (square.sqrt() + off_hull) * (1.0 + (self.dim + self.rank + 16) as f64 * U)
     }
 
-    /// What [`Frame::image_error`] lacks for points of an input that reaches so far from its center along the axes, times s.
+    /// Returns what [`Frame::image_error`] lacks for points of an input that reaches so far from its center along the axes, times s.
     pub(crate) fn width_error(&self, widths: f64) -> f64 {
         self.tilt.error(widths, widths)
     }

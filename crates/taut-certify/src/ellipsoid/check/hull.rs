@@ -32,7 +32,7 @@ impl<'a> HullTest<'a> {
         HullTest { hull, rounding: span_rounding(frame.dim, frame.rank) }
     }
 
-    /// Whether the basis is orthonormal and spans the rows of the factor.
+    /// Tests whether the basis is orthonormal and spans the rows of the factor.
     pub(crate) fn check(&self, frame: &Frame<'_>) -> Result<(), Violation> {
         let basis = &self.hull.basis;
         let tolerance = 16.0 * (frame.dim + 4) as f64 * U;
@@ -96,21 +96,21 @@ impl<'a> HullTest<'a> {
         Err(Violation::OffHull { row, distance, claimed })
     }
 
-    /// Whether a point is farther off the hull than stated, whatever rounding does.
+    /// Returns true if a point is farther off the hull than stated, whatever rounding does.
     pub(super) fn is_off(&self, point: &[f64], frame: &Frame<'_>) -> bool {
         let offset = frame.offset::<f64>(point);
         let (distance, reach) = (length(&self.off(&offset)), length(&offset));
         distance > self.hull.distance * frame.scale + self.rounding * reach && distance.is_finite()
     }
 
-    /// Whether a point lies within the stated distance of the hull, as plain arithmetic finds it, whatever its size.
+    /// Returns true if a point lies within the stated distance of the hull, as plain arithmetic finds it, whatever its size.
     pub(crate) fn is_within(&self, point: &[f64], frame: &Frame<'_>) -> bool {
         let (offset, k) = frame.small_offset(point);
         let allowed = self.hull.distance * 2f64.powi(-(k / 2)) * 2f64.powi(-(k - k / 2));
         length(&self.off(&offset)) <= allowed
     }
 
-    /// The root of the trace of (I − BᵀB)S(I − BᵀB), times s: how far the item reaches off its own centre at most.
+    /// The root of the trace of (I − BᵀB)S(I − BᵀB), times s: how far the item reaches off its own center at most.
     fn thickness(&self, item: &Item<'_>, frame: &Frame<'_>) -> f64 {
         let dim = frame.dim;
         let entry = |j: usize, k: usize| item.shape::<f64>(j.max(k), j.min(k), [frame.scale; 2]);
@@ -123,7 +123,7 @@ impl<'a> HullTest<'a> {
         if trace.is_nan() { f64::INFINITY } else { trace.max(0.0).sqrt() }
     }
 
-    /// Whether the set is flat enough to be called so.
+    /// Tests whether the set is flat enough to be called so.
     pub(super) fn is_flat(
         &self,
         items: Items,
@@ -155,7 +155,7 @@ impl<'a> HullTest<'a> {
         self.is_thin(wider * (1e-10 * length(extents) + self.rounding_of(largest)))
     }
 
-    /// What rounding explains for points whose coordinates are at most these: of each column what is seen of it off the
+    /// Returns what rounding explains for points whose coordinates are at most these: of each column what is seen of it off the
     /// hull.
     fn rounding_of(&self, largest: &[f64]) -> f64 {
         let dim = largest.len();

@@ -2,19 +2,19 @@
 //!
 //! *Trap.* Rounding the entries of a singular S makes some of its eigenvalues negative, and no v has vvᵀ ⪯ S then. With D
 //! the diagonal of S, such a row stands for {m + v : vvᵀ ⪯ S + 2τD}, where τ is the least of the powers 2⁻⁵⁶, 2⁻⁵⁵, … with
-//! S + τD positive semidefinite, as factorising in doubled precision finds it. Enclosure and lower bound both take this one
+//! S + τD positive semidefinite, as factorizing in doubled precision finds it. Enclosure and lower bound both take this one
 //! shape: two shapes would prove two answers that exclude each other.
 
 use taut_points::ScalarKind;
 
 use super::frame::{Frame, power_of_two_below};
-use crate::arithmetic::{DoubleDouble, Field, U, factorise};
+use crate::arithmetic::{DoubleDouble, Field, U, factorize};
 use crate::{Items, Violation};
 
 /// One row.
 pub(crate) enum Item<'a> {
     Point(&'a [f64]),
-    /// Centre and radius: S = r²I.
+    /// Center and radius: S = r²I.
     Ball(&'a [f64], f64),
     Ellipsoid(Shape<'a>),
 }
@@ -48,7 +48,7 @@ impl<'a> Item<'a> {
         }
     }
 
-    /// Whether S = 0.
+    /// Returns true if S = 0.
     pub(crate) fn is_point(&self) -> bool {
         match self {
             Item::Point(_) => true,
@@ -73,7 +73,7 @@ impl<'a> Item<'a> {
         }
     }
 
-    /// √((1 + 2τ)Sⱼⱼ)·s: how far the item reaches from its own centre along axis j. Rounded up.
+    /// √((1 + 2τ)Sⱼⱼ)·s: how far the item reaches from its own center along axis j. Rounded up.
     pub(crate) fn width(&self, j: usize, scale: f64) -> f64 {
         let width = match self {
             Item::Point(_) => 0.0,
@@ -85,7 +85,7 @@ impl<'a> Item<'a> {
         width * scale * (1.0 + 8.0 * U)
     }
 
-    /// How far the item reaches from the centre of the frame, by coordinate, times s; rounded up.
+    /// Returns how far the item reaches from the center of the frame, by coordinate, times s; rounded up.
     pub(crate) fn extents(&self, frame: &Frame<'_>) -> Vec<f64> {
         let offset = frame.offset::<f64>(self.center());
         let reach =
@@ -113,7 +113,7 @@ impl<'a> Item<'a> {
 /// 2τ for the lower triangle of S, row by row.
 ///
 /// Rows and columns are brought to sizes of about 1 by powers of two, S′ = PSP and D′ = PDP. The pivots of S′ + (τ − e)D′
-/// being positive proves that S + τD is positive semidefinite, as factorising is off by less than e·D′.
+/// being positive proves that S + τD is positive semidefinite, as factorizing is off by less than e·D′.
 fn thickening(shape: &[f64], dim: usize) -> f64 {
     let diagonal = |j: usize| shape[j * (j + 3) / 2];
     let wide: Vec<usize> = (0..dim).filter(|&j| diagonal(j) > 0.0).collect();
@@ -147,9 +147,9 @@ fn thickening(shape: &[f64], dim: usize) -> f64 {
     2.0 * tau
 }
 
-/// Whether the pivots of S + (τ − e)D are positive, for a lower triangle with diagonal entries in [1, 4].
+/// Returns true if the pivots of S + (τ − e)D are positive, for a lower triangle with diagonal entries in [1, 4].
 fn is_semidefinite_by<N: Field>(lower: &[f64], n: usize, tau: f64) -> bool {
-    // Twice the bound of `factorise` for a trace of 4n(1 + τ), and what forming the diagonal costs.
+    // Twice the bound of `factorize` for a trace of 4n(1 + τ), and what forming the diagonal costs.
     let e = 64.0 * ((n + 4) * (n + 4)) as f64 * N::ROUNDOFF;
     let mut matrix: Vec<N> = lower.iter().map(|&v| N::of(v)).collect();
     for j in 0..n {
@@ -157,11 +157,11 @@ fn is_semidefinite_by<N: Field>(lower: &[f64], n: usize, tau: f64) -> bool {
         let added = N::of(tau).minus(&N::of(e)).times(&matrix[at]);
         matrix[at] = matrix[at].plus(&added);
     }
-    factorise(&mut matrix, n)
+    factorize(&mut matrix, n)
 }
 
-/// Whether S is positive semidefinite but for rounding: with D the diagonal of S, whether D^−½SD^−½ + τI is, where
-/// τ = 32(d + 8)²u is more than any rounding of `f64` entries and of the factorisation comes to. Entries of `f32` are off by
+/// Tests whether S is positive semidefinite but for rounding: with D the diagonal of S, whether D^−½SD^−½ + τI is, where
+/// τ = 32(d + 8)²u is more than any rounding of `f64` entries and of the factorization comes to. Entries of `f32` are off by
 /// 2⁻²⁴ of themselves, and so are those of the diagonal: 2d·2⁻²⁴ in norm, and twice that is granted.
 fn is_semidefinite(shape: &[f64], dim: usize, kind: ScalarKind) -> bool {
     let width = |j: usize| shape[j * (j + 3) / 2].sqrt();
@@ -187,7 +187,7 @@ fn is_semidefinite(shape: &[f64], dim: usize, kind: ScalarKind) -> bool {
             correlations.push(if j == k { 1.0 + tau } else { correlation });
         }
     }
-    factorise(&mut correlations, dim)
+    factorize(&mut correlations, dim)
 }
 
 #[cfg(test)]
@@ -229,7 +229,7 @@ mod tests {
             let found = thickening(&shape, 2);
             assert!(found >= 2.0 * least && found <= 4.0 * least, "{shape:?}: {found}");
         }
-        // Singular to the last bit, which no factorisation in rounded numbers shows.
+        // Singular to the last bit, which no factorization in rounded numbers shows.
         assert_eq!(thickening(&[4.0, 2.0, 1.0], 2), U / 4.0);
         for bad in [[-1.0, 0.0, 1.0], [0.0, 1e-9, 1.0], [0.0, 0.0, -1e-9]] {
             assert_eq!(thickening(&bad, 2), f64::INFINITY, "{bad:?}");

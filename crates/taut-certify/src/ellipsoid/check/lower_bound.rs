@@ -11,8 +11,8 @@
 //! *Why in this form.* For a good answer W is nearly I, whatever the scale, the offset and the axes of the points are:
 //! no cancellation is left but that in F(pᵢ − c), which is done in doubled precision. That c is the mean of the pᵢ need not
 //! be asked: |ȳ| > 0 makes W smaller, as tr W ≤ r(1 − |ȳ|²) when all |yᵢ| ≤ 1.
-//! *Rounding.* What W is off by, and what its factorisation W = L·D·Lᵀ is, is less than s in norm. So W − sI is
-//! factorised in place of W, which makes the determinant smaller. Then −½ log det W ≤ −½ Σ log Dᵢ.
+//! *Rounding.* What W is off by, and what its factorization W = L·D·Lᵀ is, is less than s in norm. So W − sI is
+//! factorized in place of W, which makes the determinant smaller. Then −½ log det W ≤ −½ Σ log Dᵢ.
 //! *Reference.* Todd, Minimum-Volume Ellipsoids, SIAM 2016, chapter 2.
 
 use taut_points::{Monitor, ReadError};
@@ -21,7 +21,7 @@ use super::super::EllipsoidCertificate;
 use super::frame::{Frame, power_of_two_below};
 use super::item::Item;
 use crate::CheckError;
-use crate::arithmetic::{DoubleDouble, Field, Ring, U, factorise};
+use crate::arithmetic::{DoubleDouble, Field, Ring, U, factorize};
 use crate::hashed_pass::KeptRows;
 
 /// −½ log det W, rounded up; infinite where W is singular. Every row is already known to be valid and inside, so that it
@@ -49,7 +49,7 @@ pub(super) fn gap(
     Ok(sums.gap())
 }
 
-/// A point of the item, less the centre, times s; and what that may be off by.
+/// A point of the item, less the center, times s; and what that may be off by.
 ///
 /// With v = Na and q = aᵀv, for the N = S + 2τD that the row stands for, it is the point m + v/√q that lies farthest in the
 /// direction a; or m where q is not known to be positive. As N is positive semidefinite, vvᵀ/q ⪯ N whatever a is.
@@ -211,7 +211,7 @@ impl Sums {
             let at = a * (a + 3) / 2;
             matrix[at] = matrix[at].minus(&shift);
         }
-        if !factorise(&mut matrix, self.rank) {
+        if !factorize(&mut matrix, self.rank) {
             return f64::INFINITY;
         }
         let (mut sum, mut size) = (0.0, 0.0);
@@ -224,7 +224,7 @@ impl Sums {
         sum + (self.rank + 16) as f64 * U * size
     }
 
-    /// s: what W and its factorisation are off by, in norm.
+    /// s: what W and its factorization are off by, in norm.
     ///
     /// Each entry of the two sums passes at most k + 8 roundings, and the norm of the matrix of the sums of sizes is at
     /// most Σuᵢ|yᵢ|²; the mean weighs no more than the squares do. tr W ≤ r·Σuᵢ|yᵢ|²/Σu.
@@ -232,7 +232,7 @@ impl Sums {
         let rank = self.rank as f64;
         let of_sums = (2 * self.count + 32) as f64 * DoubleDouble::ROUNDOFF * self.size;
         let of_factors = (4 * self.rank + 16) as f64 * DoubleDouble::ROUNDOFF * self.size;
-        // What products of numbers far below 1 may lose, in each of the entries.
+        // The loss of products of numbers far below 1, in each of the entries.
         let underflow = (self.count + 4) as f64 * (rank + 4.0) * f64::MIN_POSITIVE;
         let weight = self.weight.rounded();
         rank * (of_sums + of_factors + 2.0 * self.error + underflow) / weight

@@ -50,7 +50,7 @@ impl Panel {
         self.rows
     }
 
-    /// Takes the centre in place of a point.
+    /// Takes the center in place of a point.
     pub(super) fn forget(&mut self, row: usize) {
         for offset in &mut self.offsets[row / LANES * self.dim..][..self.dim] {
             offset[row % LANES] = 0.0;
@@ -94,7 +94,7 @@ impl Panel {
     }
 }
 
-/// The offsets of up to eight points; those that are missing stand at the centre.
+/// The offsets of up to eight points; those that are missing stand at the center.
 #[inline(always)]
 fn fill(frame: &Frame<'_>, points: &[f64], count: usize, group: &mut [Lanes]) {
     let dim = group.len();

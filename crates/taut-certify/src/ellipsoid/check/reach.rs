@@ -1,4 +1,4 @@
-//! How far an ellipsoid {m + v : vvᵀ ⪯ S} reaches in the frame of another: the largest |F(x − c)| over its points x.
+//! Measures how far an ellipsoid {m + v : vvᵀ ⪯ S} reaches in the frame of another: the largest |F(x − c)| over its points x.
 //!
 //! *Formula.* With g = F(m − c) and A = FSFᵀ, the images y = g + w of its points have wwᵀ ⪯ A. For every μ with
 //! μI − A positive definite,
@@ -10,8 +10,8 @@
 //! (μ − |w|² − gᵀw)²/(μ − |w|²) ≥ 0.
 //! *Idea.* μ is found by Newton steps on |A^½(μI − A)⁻¹g| = 1, the condition of the minimum; which μ is found does not
 //! matter for the proof. φ(μ) is then bounded. All this in plain `f64`, and, where that is not enough, in doubled precision.
-//! *Rounding.* A is off by at most η in norm, and the factorisation of μI − A by at most σ: so (μ − η − σ)I − A is
-//! factorised instead, which makes φ larger.
+//! *Rounding.* A is off by at most η in norm, and the factorization of μI − A by at most σ: so (μ − η − σ)I − A is
+//! factorized instead, which makes φ larger.
 //! *Trap.* Where g has little part along the longest axes of A, the minimum lies so near μ = λmax(A) that μ must be known to
 //! more digits than an `f64` has, and where it has none, μI − A is singular there: μ is then raised by more and more,
 //! from what rounding explains, until φ grows.
@@ -21,7 +21,7 @@
 use super::enclosure::excess_of_square;
 use super::frame::{Frame, power_of_two_below};
 use super::item::Item;
-use crate::arithmetic::{DoubleDouble, Field, U, factorise};
+use crate::arithmetic::{DoubleDouble, Field, U, factorize};
 
 /// The largest |F(x − c)| − 1 over the item, or a little more.
 pub(crate) fn excess(frame: &Frame<'_>, item: &Item<'_>) -> f64 {
@@ -136,7 +136,7 @@ impl<N: Field> Shape<N> {
             let at = j * (j + 3) / 2;
             factor[at] = lowered.minus(&self.lower[at]);
         }
-        if !factorise(&mut factor, n) {
+        if !factorize(&mut factor, n) {
             return f64::INFINITY;
         }
         let mut solved = Vec::with_capacity(n);
@@ -190,7 +190,7 @@ fn multiplier<N: Field>(lower: &[N], g: &[N]) -> N {
         let mut factor: Vec<N> = lower.iter().map(|v| zero.minus(v)).collect();
         (0..n).for_each(|j| factor[j * (j + 3) / 2] = factor[j * (j + 3) / 2].plus(&mu));
         let mut next = None;
-        if factorise(&mut factor, n) {
+        if factorize(&mut factor, n) {
             let z = solve(&factor, g);
             let az = times(&z);
             let square = dot(&z, &az).rounded();

@@ -1,4 +1,4 @@
-//! What can be refused before any point is read: lengths, ranges, the lists of rows and the sum of the multipliers.
+//! Refusals before any point is read: lengths, ranges, the lists of rows and the sum of the multipliers.
 
 use taut_points::PointSource;
 
@@ -29,7 +29,7 @@ fn answer(ellipsoid: &Ellipsoid, dim: usize) -> Result<(), Violation> {
     if center.len() != dim {
         return Err(Violation::Dimension { found: center.len(), expected: dim });
     }
-    finite(center, |column| format!("coordinate {column} of the centre"))?;
+    finite(center, |column| format!("coordinate {column} of the center"))?;
     tail(ellipsoid)?;
     match hull {
         None => length("the factor", factor.len(), dim)?,
@@ -48,17 +48,17 @@ fn answer(ellipsoid: &Ellipsoid, dim: usize) -> Result<(), Violation> {
     finite(&[ellipsoid.log_volume], |_| "the log-volume".into())
 }
 
-/// Whether the tail of the centre, if there is one, is what rounding the centre leaves over.
+/// Tests whether the tail of the center, if there is one, is what rounding the center leaves over.
 pub(crate) fn tail(ellipsoid: &Ellipsoid) -> Result<(), Violation> {
     let Ellipsoid { center, center_tail, .. } = ellipsoid;
     if center_tail.is_empty() {
         return Ok(());
     }
-    length("the tail of the centre", center_tail.len(), center.len())?;
+    length("the tail of the center", center_tail.len(), center.len())?;
     for (column, (&center, &value)) in center.iter().zip(center_tail).enumerate() {
-        // One centre has one form: the nearest f64, and what is left.
+        // One center has one form: the nearest f64, and what is left.
         if two_sum(center, value) != (center, value) {
-            let what = format!("coordinate {column} of the tail of the centre");
+            let what = format!("coordinate {column} of the tail of the center");
             let expected = "a number so small that adding it to the coordinate changes nothing";
             return Err(Violation::Number { what, value, expected });
         }

@@ -5,7 +5,7 @@
 //! *Four.* Through the corners of a convex quadrangle go the conics C₁ + tC₂ = 0, C₁ and C₂ the products of opposite
 //! sides; those of t in an open interval are ellipses. Their squared area is in proportion to D₃²/D₂³, D₂ and D₃ being
 //! the discriminant and the determinant, polynomials in t; so the least area is where g = 2D₃′D₂ − 3D₃D₂′ is 0. It is
-//! enclosed between two neighbouring `f64` by exact signs. What lies in the ellipses of both lies in that of every t
+//! enclosed between two neighboring `f64` by exact signs. What lies in the ellipses of both lies in that of every t
 //! between; for what does not, the conic through the point has the t = −C₁/C₂, and the sign of g there decides.
 //! *Five.* One conic goes through them.
 
@@ -58,7 +58,6 @@ impl Basis {
         }
     }
 
-    /// The basis of four points.
     fn of_four(points: &[Point]) -> Option<Basis> {
         let three = (0..4).find_map(|i| {
             let (point, others) = without(points, i);

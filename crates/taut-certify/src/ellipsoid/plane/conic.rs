@@ -120,7 +120,7 @@ fn determinant(rows: &[[Integer; 5]], columns: &[usize]) -> Integer {
 /// An ellipse through the origin of its grid: its equation is negative inside.
 pub(super) struct Ellipse {
     pub(super) equation: Equation,
-    quick: Option<Quick>,
+    quick: Option<FloatEquation>,
 }
 
 impl Ellipse {
@@ -133,7 +133,7 @@ impl Ellipse {
         }
         let minus = Integer::scaled(-1.0, 0);
         let equation = if a.sign().is_lt() { equation.times(&minus) } else { equation };
-        let quick = Quick::of(&equation, grid);
+        let quick = FloatEquation::of(&equation, grid);
         Some(Ellipse { equation, quick })
     }
 
@@ -149,12 +149,12 @@ impl Ellipse {
 }
 
 /// The equation in `f64`, in coordinates of extent about 1, each coefficient right to 2u.
-struct Quick {
+struct FloatEquation {
     coefficients: [f64; 5],
     scale: f64,
 }
 
-impl Quick {
+impl FloatEquation {
     /// `None` where numbers would leave the range of `f64`.
     fn of(equation: &Equation, grid: &Grid) -> Option<Self> {
         let exponent = parts(grid.extent).1 + 63 - parts(grid.extent).0.leading_zeros() as i32;
@@ -181,7 +181,7 @@ impl Quick {
             }
             *coefficient = if mantissa == 0.0 { 0.0 } else { mantissa * 2f64.powi(-less) };
         }
-        Some(Quick { coefficients, scale: 2f64.powi(-exponent) })
+        Some(FloatEquation { coefficients, scale: 2f64.powi(-exponent) })
     }
 
     fn side(&self, origin: [f64; 2], point: [f64; 2]) -> Option<Ordering> {

@@ -1,6 +1,6 @@
 //! The dictionary of a header: three keys in any order, as Python would read them.
 
-/// What is left to read.
+/// The text that is left to read.
 struct Text<'a>(&'a str);
 
 /// Type, order and shape in the text of a header; none if it says less, or more.

@@ -26,7 +26,7 @@ const SHORT_NAMES: [(&str, &str); 22] = [
     ("complex", "c16"),
 ];
 
-/// Whether two names are of one type, byte order included.
+/// Returns true if two names are of one type, byte order included.
 pub(in crate::files) fn is_same_type(a: &str, b: &str) -> bool {
     a == b || canonical(a).is_some_and(|name| canonical(b) == Some(name))
 }

@@ -21,7 +21,7 @@ use taut_points::{Monitor, ReadError};
 use super::super::{InscribedCertificate, InscribedEllipsoid};
 use super::side::{Side, exponent};
 use crate::CheckError;
-use crate::arithmetic::{Compensated, DoubleDouble, Field, Ring, U, factorise};
+use crate::arithmetic::{Compensated, DoubleDouble, Field, Ring, U, factorize};
 use crate::ellipsoid::check::lower_bound::logarithm;
 use crate::hashed_pass::KeptRows;
 
@@ -54,7 +54,7 @@ fn weighted_sides(
     let mut largest = i32::MIN;
     for (&id, &lambda) in certificate.support.iter().zip(&certificate.multipliers) {
         monitor.check().map_err(ReadError::from)?;
-        let Some((k, side)) = Side::of(answer, support.row(id)).normalised() else { continue };
+        let Some((k, side)) = Side::of(answer, support.row(id)).normalized() else { continue };
         let (mantissa, e) = parts(lambda);
         largest = largest.max(e + k);
         sides.push((mantissa, e + k, side));
@@ -93,7 +93,7 @@ pub(super) fn gap(
         size += lambda * (side.length.rounded() + side.slack.rounded().abs());
         error += lambda * (4.0 * side.normal_error + side.slack_error);
     }
-    // What products of entries far below the length of their side may have lost.
+    // The loss of products of entries far below the length of their side.
     error += (sides.len() * (dim + 2) * (dim + 2)) as f64 * f64::MIN_POSITIVE;
     let trace = (0..dim).fold(zero, |sum, a| sum.plus(&matrix[a * (a + 3) / 2]));
     if !TRACE_RANGE.contains(&trace.rounded()) {
@@ -130,7 +130,7 @@ pub(super) fn gap(
         let at = a * (a + 3) / 2;
         matrix[at] = matrix[at].minus(&DoubleDouble::of(off));
     }
-    if !factorise(&mut matrix, dim) {
+    if !factorize(&mut matrix, dim) {
         return Ok(f64::INFINITY);
     }
     let (mut logs, mut sizes) = (0.0, 0.0);

@@ -16,7 +16,7 @@ pub(super) struct Side {
     pub(super) length: DoubleDouble,
     /// s.
     pub(super) slack: DoubleDouble,
-    /// What ã in length and s are off by.
+    /// The errors of ã in length and of s.
     pub(super) normal_error: f64,
     pub(super) slack_error: f64,
 }
@@ -71,7 +71,7 @@ impl Side {
     /// The same half-space divided by the power 2ᵏ that brings |ã| to [1, 2), and k; `None` where |ã| is not known.
     ///
     /// Errors are at least the least normal number, so a length that is known is far above what underflows.
-    pub(super) fn normalised(&self) -> Option<(i32, Side)> {
+    pub(super) fn normalized(&self) -> Option<(i32, Side)> {
         let length = self.length.rounded();
         let is_known = length > LEAST_KNOWN * self.normal_error && length.is_finite();
         if !is_known {
@@ -95,7 +95,7 @@ impl Side {
 /// Offsets of half-spaces are brought below 2 to this.
 const OFFSET_EXPONENT_MAX: i32 = 1000;
 
-/// How many times its error a length must be to count as known.
+/// The ratio of a length to its error above which the length counts as known.
 const LEAST_KNOWN: f64 = 1e6;
 
 /// |ã|, whatever its size.

@@ -1,4 +1,4 @@
-//! What can be refused before any half-space is read: lengths, ranges and the list of rows.
+//! Refusals before any half-space is read: lengths, ranges and the list of rows.
 
 use taut_points::PointSource;
 

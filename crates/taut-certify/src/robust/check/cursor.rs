@@ -2,7 +2,7 @@
 
 use crate::Violation;
 
-/// Whether a row is in an ascending list, asked for ascending rows.
+/// States whether a row is in an ascending list, asked for ascending rows.
 pub(super) struct Cursor<'a> {
     rows: &'a [u64],
 }

@@ -1,4 +1,4 @@
-//! What can be refused before any point is read: lengths, ranges, and the lists of rows.
+//! Refusals before any point is read: lengths, ranges, and the lists of rows.
 
 use taut_points::PointSource;
 
@@ -29,7 +29,7 @@ pub(super) fn check(
             number("the distance from the hull", hull.distance, hull.distance >= 0.0)?;
         }
     }
-    center.iter().try_for_each(|&value| number("the centre", value, true))?;
+    center.iter().try_for_each(|&value| number("the center", value, true))?;
     structure::tail(&answer.ellipsoid())?;
     number("the log-volume", answer.log_volume, true)?;
     number("the log-determinant", answer.log_det, true)?;
@@ -92,7 +92,7 @@ fn flagged(answer: &RobustEllipsoid, certificate: &RobustCertificate) -> Result<
     Err(Violation::Listed { list: "flagged", problem, row, distance: 1.0 })
 }
 
-/// Whether as many rows are kept as is said, and the ellipsoid around them leaves out the same.
+/// Tests whether as many rows are kept as is said, and the ellipsoid around them leaves out the same.
 fn kept(certificate: &RobustCertificate, n: u64) -> Result<(), Violation> {
     let kept = n - certificate.left_out.len() as u64;
     let claimed = certificate.kept as f64;

@@ -1,4 +1,4 @@
-//! Whether the scatter is (F′F)⁻¹ over the border, within the hull: symmetric, F S F′ = I/border, and nothing off it.
+//! Decides whether the scatter is (F′F)⁻¹ over the border, within the hull: symmetric, F S F′ = I/border, and nothing off it.
 
 use super::super::RobustEllipsoid;
 use crate::Violation;

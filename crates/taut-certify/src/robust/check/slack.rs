@@ -1,7 +1,7 @@
-//! What numbers of a robust answer may be off by.
+//! The tolerances of the numbers of a robust answer.
 //!
-//! A solver works in `f64` from a centre that is itself one: x − c is then right to one rounding, whatever c is, and
-//! shapes lose a part κ·2⁻⁵³ of their digits, κ being how thin the points are. Places are off by the rounding of the centre
+//! A solver works in `f64` from a center that is itself one: x − c is then right to one rounding, whatever c is, and
+//! shapes lose a part κ·2⁻⁵³ of their digits, κ being how thin the points are. Places are off by the rounding of the center
 //! besides, which far from the origin is much more. Both are found from the points kept.
 
 use crate::arithmetic::U;
@@ -16,12 +16,12 @@ const TOLERANCE_MAX: f64 = 0.1;
 pub(super) struct Slack {
     /// Of scatters, determinants and what is made of them.
     pub(super) of_shapes: f64,
-    /// Of the centre, and of distances from centres.
+    /// Of the center, and of distances from centers.
     pub(super) of_places: f64,
 }
 
 impl Slack {
-    /// For points that lie within these extents of the centre along the axes.
+    /// For points that lie within these extents of the center along the axes.
     pub(super) fn of(frame: &Frame<'_>, extents: &[f64]) -> Self {
         let most = |size: &dyn Fn(usize) -> f64| -> f64 {
             let along = |a: usize| -> f64 {

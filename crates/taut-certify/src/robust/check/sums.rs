@@ -2,7 +2,7 @@
 
 use super::slack::Slack;
 use crate::Violation;
-use crate::arithmetic::{DoubleDouble, Field, Ring, factorise};
+use crate::arithmetic::{DoubleDouble, Field, Ring, factorize};
 
 /// A variance below this part of the mean square is none: the square of what a solver in `f64` tells from rounding. Of
 /// copies of one point all variances are rounding, so that they are not compared with each other.
@@ -17,7 +17,7 @@ pub(super) struct Sums {
     second: Vec<DoubleDouble>,
 }
 
-/// Mean and factorised covariance of y over the rows kept.
+/// Mean and factorized covariance of y over the rows kept.
 pub(super) struct Metric {
     mean: Vec<f64>,
     /// C = LDL′: L below the diagonal, D on it.
@@ -64,7 +64,7 @@ impl Sums {
         (mean, covariance)
     }
 
-    /// Whether the mean is 0 and the covariance I/border.
+    /// Tests whether the mean is 0 and the covariance I/border.
     pub(super) fn is_standard(
         &self,
         border: f64,
@@ -77,7 +77,7 @@ impl Sums {
         for (a, value) in mean.iter().enumerate() {
             let is_zero = value.rounded().abs() <= slack.of_places;
             if !is_zero {
-                let what = format!("coordinate {a} of the centre, in the frame of the ellipsoid,");
+                let what = format!("coordinate {a} of the center, in the frame of the ellipsoid,");
                 return wrong(what, 0.0, value.rounded());
             }
         }
@@ -98,7 +98,7 @@ impl Sums {
 }
 
 impl Sums {
-    /// Whether there is no scatter: points are too few, or span less than they should but for rounding.
+    /// Returns true if there is no scatter: points are too few, or span less than they should but for rounding.
     pub(super) fn is_flat(&self, rank: usize) -> bool {
         if self.count <= rank as u64 {
             return true;
@@ -110,7 +110,7 @@ impl Sums {
         for a in 0..rank {
             covariance[diagonal(a)] = covariance[diagonal(a)].minus(&shift);
         }
-        !factorise(&mut covariance, rank)
+        !factorize(&mut covariance, rank)
     }
 }
 
@@ -118,7 +118,7 @@ impl Metric {
     /// None where the covariance is singular.
     pub(super) fn of(sums: &Sums, rank: usize) -> Option<Self> {
         let (mean, mut covariance) = sums.estimate();
-        factorise(&mut covariance, rank).then(|| Metric {
+        factorize(&mut covariance, rank).then(|| Metric {
             mean: mean.iter().map(Field::rounded).collect(),
             lower: covariance.iter().map(Field::rounded).collect(),
         })

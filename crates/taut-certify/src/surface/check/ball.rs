@@ -9,8 +9,8 @@
 //! *Bound.* O and N are formed in double-double, where each is off by less than 2⁻⁹³ of its largest monomial there can be (no more than
 //! 24 of them, 14 operations of 8u² on the way of each), and then rounded. f is off by what that makes of the farthest point of the
 //! box, and by a few roundings of each share.
-//! *Trap.* A sphere through four points almost on a circle is hardly determined: its centre, as rounded, may lie anywhere. The bound of
-//! f is not touched by that, as no centre is formed.
+//! *Trap.* A sphere through four points almost on a circle is hardly determined: its center, as rounded, may lie anywhere. The bound of
+//! f is not touched by that, as no center is formed.
 
 use super::tree::Area;
 use crate::arithmetic::{DoubleDouble, U};
@@ -29,7 +29,7 @@ pub(super) struct Ball {
     weight: f64,
     /// Where the shares are least: N/2O, infinite or NaN for a half-space.
     apex: [f64; 3],
-    /// What the share of x is off by, over |x|² and over |x|.
+    /// The error of the share of x, over |x|² and over |x|.
     square_error: f64,
     line_errors: [f64; 3],
 }
@@ -41,7 +41,6 @@ impl Ball {
         Ball::new(&tetrahedron[0], &Tetrahedra::lifted(&edges), m.powi(4), m.powi(3))
     }
 
-    /// The smallest ball of a triangle.
     pub(super) fn smallest(triangle: &[[f64; 3]; 3]) -> Self {
         let (edges, m) = edges(triangle);
         Ball::new(&triangle[0], &Gabriel::lifted(&edges), m.powi(5), m.powi(4))
@@ -64,7 +63,7 @@ impl Ball {
     ) -> Self {
         let (normal, weight) = (lifted.normal.map(|x| x.high), lifted.orientation.high);
         let largest = normal.iter().fold(0.0f64, |largest, x| largest.max(x.abs()));
-        // What components of N, and O, are off by.
+        // The errors of the components of N, and of O.
         let normal_error = 2.0 * U * largest + DOUBLED_ROUNDING * normal_size + UNDERFLOW;
         let weight_error = 2.0 * U * weight.abs() + DOUBLED_ROUNDING * weight_size + UNDERFLOW;
         Ball {
@@ -77,7 +76,7 @@ impl Ball {
         }
     }
 
-    /// Whether all of a box is surely strictly outside. All sizes are below 1.
+    /// Returns true if all of a box is surely strictly outside. All sizes are below 1.
     #[inline(always)]
     pub(super) fn misses(&self, area: &Area) -> bool {
         let (mut least, mut error) = (0.0, UNDERFLOW);

@@ -66,14 +66,14 @@ struct Search<'a> {
 
 /// The sites on a sphere that are neither vertices nor the apex of its triangle.
 #[derive(Default)]
-struct Ties {
+struct CosphericalSites {
     count: usize,
     /// The place of one of them.
     last: Option<[f64; 3]>,
 }
 
 impl Search<'_> {
-    /// Whether the triangle and all sites on its sphere are affinely independent; the violation if its ball is not empty, or none.
+    /// Tests whether the triangle and all sites on its sphere are affinely independent; the violation if its ball is not empty, or none.
     fn judge(&self, triangle: usize, rows: [u32; 3], apex: Apex) -> Result<bool, SurfaceViolation> {
         let no_ball = |problem| Err(SurfaceViolation::NoBall { triangle, problem });
         let (signs, corners) = (&self.places.signs, self.places.corners(rows));
@@ -106,7 +106,7 @@ impl Search<'_> {
                 let place = |q: &[f64; 3]| signs.in_sphere::<Gabriel, 3, 3>(&corners, q);
                 let ball = LazyCell::new(|| Ball::smallest(&corners));
                 let ties = self.ties_of(&Sphere::smallest(&corners), &ball, own, place);
-                let is_independent = |ties: Ties| match (ties.count, ties.last) {
+                let is_independent = |ties: CosphericalSites| match (ties.count, ties.last) {
                     (1, Some(q)) => side(signs, &corners, &q).is_ne(),
                     (count, _) => count == 0,
                 };
@@ -149,7 +149,7 @@ impl Search<'_> {
         ball: &LazyCell<Ball, F>,
         own: impl Fn(u32) -> bool,
         place: impl Fn(&[f64; 3]) -> Ordering,
-    ) -> Result<Ties, u32> {
+    ) -> Result<CosphericalSites, u32> {
         let near = |area: &Area| ball.misses(area);
         match sphere.is_known() {
             true => self.ties(|area| sphere.misses(area), near, own, place),
@@ -166,10 +166,10 @@ impl Search<'_> {
         near: impl Fn(&Area) -> bool,
         own: impl Fn(u32) -> bool,
         place: impl Fn(&[f64; 3]) -> Ordering,
-    ) -> Result<Ties, u32> {
+    ) -> Result<CosphericalSites, u32> {
         // Bounds hold where nothing over- or underflows by much.
         let is_bounded = self.places.signs.is_filtered;
-        let mut ties = Ties::default();
+        let mut ties = CosphericalSites::default();
         let wanted = |item: u32| {
             let row = self.sites[item as usize];
             let q = self.places.all[row as usize];
@@ -178,7 +178,7 @@ impl Search<'_> {
             }
             let place = place(&q);
             if place.is_eq() {
-                ties = Ties { count: ties.count + 1, last: Some(q) };
+                ties = CosphericalSites { count: ties.count + 1, last: Some(q) };
             }
             place.is_gt()
         };

@@ -1,4 +1,4 @@
-//! Whether two triangles of space share more than their common vertices, exactly.
+//! Decides whether two triangles of space share more than their common vertices, exactly.
 //!
 //! *Idea.* Triangles without a common vertex meet if an edge of one meets the other. Those with one common vertex are convex sets that
 //! share it: if they share another point, they share the segment to it, which can be prolonged until it leaves one of them, through
@@ -36,7 +36,7 @@ impl Face {
     }
 }
 
-/// Whether two triangles, not flat and not of the same vertices, share a point that is not on a common vertex or edge.
+/// Tests whether two triangles, not flat and not of the same vertices, share a point that is not on a common vertex or edge.
 pub(super) fn meet(signs: &Signs, one: &Face, other: &Face) -> bool {
     if are_separated(signs, one, other) {
         return false;
@@ -65,7 +65,7 @@ pub(super) fn meet(signs: &Signs, one: &Face, other: &Face) -> bool {
     turn(signs, &u, &v, &a, axes) == turn(signs, &u, &v, &b, axes)
 }
 
-/// Whether two triangles have a point in common.
+/// Tests whether two triangles have a point in common.
 fn meet_apart(signs: &Signs, one: &[Point; 3], other: &[Point; 3]) -> bool {
     if is_beside(signs, one, other) || is_beside(signs, other, one) {
         return false;
@@ -75,13 +75,13 @@ fn meet_apart(signs: &Signs, one: &[Point; 3], other: &[Point; 3]) -> bool {
         || sides(*other).into_iter().any(|edge| meets(signs, edge, one))
 }
 
-/// Whether all corners of the other triangle are on one side of the plane of this one.
+/// Tests whether all corners of the other triangle are on one side of the plane of this one.
 fn is_beside(signs: &Signs, one: &[Point; 3], other: &[Point; 3]) -> bool {
     let first = side(signs, one, &other[0]);
     first.is_ne() && other[1..].iter().all(|p| side(signs, one, p) == first)
 }
 
-/// Whether a segment has a point in common with a triangle that is not flat.
+/// Tests whether a segment has a point in common with a triangle that is not flat.
 fn meets(signs: &Signs, [p, q]: [Point; 2], triangle: &[Point; 3]) -> bool {
     let [a, b, c] = *triangle;
     let (at_p, at_q) = (side(signs, triangle, &p), side(signs, triangle, &q));
@@ -103,7 +103,7 @@ fn meets_in_plane(signs: &Signs, [p, q]: [Point; 2], triangle: &[Point; 3]) -> b
         || edges.any(|edge| segments_meet(signs, [p, q], edge, axes))
 }
 
-/// Whether a point of the plane of a triangle is on it; of a flat one, whether it is in the box around it.
+/// Tests whether a point of the plane of a triangle is on it; of a flat one, whether it is in the box around it.
 pub(super) fn contains(signs: &Signs, triangle: &[Point; 3], p: &Point) -> bool {
     match axes(signs, triangle) {
         Some(axes) => contains_in_plane(signs, triangle, p, axes),
@@ -116,7 +116,7 @@ fn contains_in_plane(signs: &Signs, [a, b, c]: &[Point; 3], p: &Point, axes: [us
     !(turns.contains(&Ordering::Less) && turns.contains(&Ordering::Greater))
 }
 
-/// Whether two segments of a plane meet, as seen along the third axis.
+/// Tests whether two segments of a plane meet, as seen along the third axis.
 fn segments_meet(signs: &Signs, [a, b]: [Point; 2], [c, d]: [Point; 2], axes: [usize; 2]) -> bool {
     let of = |s: &Point, t: &Point, p: &Point| turn(signs, s, t, p, axes);
     let [abc, abd, cda, cdb] = [of(&a, &b, &c), of(&a, &b, &d), of(&c, &d, &a), of(&c, &d, &b)];

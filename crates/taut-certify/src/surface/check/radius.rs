@@ -8,7 +8,6 @@ use super::places::Places;
 use crate::arithmetic::{Integer, Ring, U, parts};
 use crate::triangulation::{UNDERFLOW, cross};
 
-/// Checks all triangles.
 pub(super) fn check(
     surface: &Surface,
     places: &Places,
@@ -38,7 +37,7 @@ fn measures<T: Ring>([a, b, c]: &[[T; 3]; 3]) -> [T; 2] {
     [square(&u).times(&square(&v)).times(&square(&w)), square(&cross(&u, &v))]
 }
 
-/// Whether the radius is at most `radius`, where rounding leaves that certain. Sizes of coordinates are below 1.
+/// Tests whether the radius is at most `radius`, where rounding leaves that certain. Sizes of coordinates are below 1.
 fn fits(corners: &[[f64; 3]; 3], radius: f64) -> Option<bool> {
     let [product, area] = measures(corners);
     let most = 4.0 * radius * radius;

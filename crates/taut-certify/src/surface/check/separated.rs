@@ -1,10 +1,10 @@
-//! Whether two triangles are separated by an edge of one of them, seen along an axis: a test in plain arithmetic that never errs where
+//! Decides whether two triangles are separated by an edge of one of them, seen along an axis: a test in plain arithmetic that never errs where
 //! it says yes.
 //!
 //! *Idea.* Let all common vertices be ends of an edge of one triangle, its third vertex on one side of the line of that edge as seen
 //! along the axis, and the other vertices of the other triangle strictly on the other side. What the triangles share is then seen
 //! on the line, where the other triangle has nothing but the hull of the common vertices.
-//! *Why.* Neighbours in one plane, which leave the sign of a determinant in space to whole numbers, are separated by their edges in
+//! *Why.* Neighbors in one plane, which leave the sign of a determinant in space to whole numbers, are separated by their edges in
 //! that plane: two coordinates tell them apart, with bits to spare.
 
 use super::meet::Face;
@@ -14,11 +14,11 @@ use crate::triangulation::{Signs, UNDERFLOW};
 /// Pairs of coordinates that are seen along the third axis.
 const VIEWS: [[usize; 2]; 3] = [[0, 1], [0, 2], [1, 2]];
 
-/// What a turn is off by, over the sum of its two products: two differences, a product and a difference, and once more for the bound
+/// The error of a turn, over the sum of its two products: two differences, a product and a difference, and once more for the bound
 /// itself. All sizes are below 1.
 const ROUNDING: f64 = 5.0 * U;
 
-/// Whether two triangles surely share no more than the hull of their common vertices.
+/// Returns true if two triangles surely share no more than the hull of their common vertices.
 pub(super) fn are_separated(signs: &Signs, one: &Face, other: &Face) -> bool {
     signs.is_filtered
         && VIEWS
@@ -26,7 +26,7 @@ pub(super) fn are_separated(signs: &Signs, one: &Face, other: &Face) -> bool {
             .any(|axes| is_cut_off(one, other, axes) || is_cut_off(other, one, axes))
 }
 
-/// Whether an edge of `one` separates the two.
+/// Tests whether an edge of `one` separates the two.
 fn is_cut_off(one: &Face, other: &Face, axes: [usize; 2]) -> bool {
     (0..3).any(|k| {
         let [s, t] = [(k + 1) % 3, (k + 2) % 3].map(|end| &one.corners[end]);

@@ -91,7 +91,7 @@ fn around(shape: &Shape, faces: &Faces<'_>, p: &[f64; 3], but: Option<u32>) -> O
     Some(odd.map(|same| same[0]).collect())
 }
 
-/// What the ray from a point has to do with a triangle.
+/// The relation of the ray from a point to a triangle.
 enum Crossing {
     None,
     One,

@@ -4,7 +4,7 @@
 //! its nearest point is.
 //! *Bound.* Let O and N, as rounded, be off by at most ω and by ν in each component, and d = |r − c| ≥ ρ, so that |r| ≤ 2d. Then
 //! f(r)/O ≥ d² − ρ² − ω|r|²/O − √3ν|r|/O ≥ d²(1 − κ) − ρ² for κ = (4ω + 2√3ν/ρ)/O. That is positive if d > ρ(1 + κ) and κ ≤ 1/2. The
-//! centre a + c as rounded is off by less than 4U(|a| + ρ), with the largest coordinate for |a|; the distance of a box from it, by less
+//! center a + c as rounded is off by less than 4U(|a| + ρ), with the largest coordinate for |a|; the distance of a box from it, by less
 //! than four roundings of itself.
 //! *Why.* Where a sphere is well determined, this is a third of the work of the bound in [`ball`](super::ball), and takes no
 //! double-double to begin with. That is left for the few points close to a sphere.
@@ -18,7 +18,7 @@ const RADIUS_MIN: f64 = f64::from_bits((1023 - 400) << 52);
 
 pub(super) struct Sphere {
     center: [f64; 3],
-    /// The square of a distance from the centre beyond which all is outside; infinite where the sphere is not known well enough.
+    /// The square of a distance from the center beyond which all is outside; infinite where the sphere is not known well enough.
     far: f64,
 }
 
@@ -54,12 +54,12 @@ impl Sphere {
         Sphere { center: [0, 1, 2].map(|k| a[k] + c[k]), far }
     }
 
-    /// Whether the sphere is known well enough to leave anything out.
+    /// Returns true if the sphere is known well enough to leave anything out.
     pub(super) fn is_known(&self) -> bool {
         self.far < f64::INFINITY
     }
 
-    /// Whether all of a box is surely strictly outside. All sizes are below 1.
+    /// Returns true if all of a box is surely strictly outside. All sizes are below 1.
     #[inline(always)]
     pub(super) fn misses(&self, area: &Area) -> bool {
         let mut square = 0.0;

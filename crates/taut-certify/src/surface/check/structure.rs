@@ -1,4 +1,4 @@
-//! What can be refused from the lists alone.
+//! Refusals from the lists alone.
 
 use taut_points::PointSource;
 

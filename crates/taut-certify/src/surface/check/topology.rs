@@ -1,4 +1,4 @@
-//! What the triangles are as a surface, from their rows alone.
+//! The topology of the triangles, from their rows alone.
 //!
 //! *Idea.* Sides of triangles sorted by their ends are edges. Triangles that share an edge are joined to components, corners that
 //! share one at a vertex to fans, boundary edges that share a vertex to loops; joined with a turn, triangles tell whether a component
@@ -24,13 +24,13 @@ impl Side {
         self.corners[0] / 3
     }
 
-    /// Whether the triangle runs along it from the lower row to the higher one.
+    /// Returns true if the triangle runs along it from the lower row to the higher one.
     fn rises(&self) -> bool {
         (self.corners[0] + 1) % 3 == self.corners[1] % 3
     }
 }
 
-/// What was found.
+/// The properties found.
 pub(super) struct Shape {
     pub(super) topology: SurfaceTopology,
     /// For each triangle its component.
@@ -44,7 +44,6 @@ pub(super) struct Shape {
 }
 
 impl Shape {
-    /// Of triangles on so many rows.
     pub(super) fn of(triangles: &[[u32; 3]], rows: usize) -> Self {
         let sides = sides(triangles, rows);
         let edges = || sides.chunk_by(|a, b| a.ends == b.ends);
@@ -219,7 +218,7 @@ fn loops(bare: impl Iterator<Item = Side>, component: &[u32], topology: &mut Sur
     }
 }
 
-/// What follows from the counts.
+/// Draws the conclusions from the counts.
 fn conclude(topology: &mut SurfaceTopology, parts: &[Part], triangles: usize) {
     let euler = |vertices: u64, edges: u64, triangles: u64| {
         vertices as i64 - edges as i64 + triangles as i64
@@ -235,7 +234,7 @@ fn conclude(topology: &mut SurfaceTopology, parts: &[Part], triangles: usize) {
     topology.genus = handles.sum();
 }
 
-/// Whether a topology is the one found.
+/// Tests whether a topology is the one found.
 pub(super) fn compare(
     claimed: &SurfaceTopology,
     found: &SurfaceTopology,

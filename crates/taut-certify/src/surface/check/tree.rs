@@ -1,6 +1,6 @@
 //! A binary tree of boxes over points or triangles of space.
 //!
-//! *Idea.* The items are halved at the median of the longest side of the box around their centres, again and again; so all leaves are
+//! *Idea.* The items are halved at the median of the longest side of the box around their centers, again and again; so all leaves are
 //! full but the last, and the nodes need no links: node 1 is the root, the children of node i are 2i and 2i + 1.
 //! *Trap.* As the number of leaves is a power of two, up to half of them have no items. Their boxes are empty, and comparisons with the
 //! infinite ends of those say nothing: such nodes are passed over before the caller is asked. When they were not, a third of the

@@ -1,10 +1,10 @@
 //! Facets: how the simplices pair up across them, which way they face, and whether each pair is locally Delaunay.
 //!
 //! *Idea.* Each inner facet is visited once, from the simplex with the smaller number. Which facets those are, and which
-//! of its vertices a neighbour has beyond one, nobody can foretell; so a batch of simplices is taken in three rounds,
+//! of its vertices a neighbor has beyond one, nobody can foretell; so a batch of simplices is taken in three rounds,
 //! none of which has a branch that is guessed wrong often:
 //! 1. for each simplex N, O and a list of its facets that name a later simplex ([`Batch::prepare`]);
-//! 2. for each of these the neighbour and the in-sphere test in plain arithmetic ([`Batch::cross`], [`Batch::test`]);
+//! 2. for each of these the neighbor and the in-sphere test in plain arithmetic ([`Batch::cross`], [`Batch::test`]);
 //! 3. for what 2 left open, ties where plain arithmetic is exact ([`Complex::settle`]), then all near ties of the batch
 //!    together ([`NearTies`]), and what is still open one by one: also all that is wrong.
 //!
@@ -35,11 +35,11 @@ pub(super) trait Facets<const F: usize> {
     /// The vertices of facet `i`, in positive order.
     fn facet(&self, i: usize) -> [u32; F];
 
-    /// The vertex of `other` beyond `face`, and 0 if `back`, the neighbours of `other`, has `number` opposite just that
+    /// The vertex of `other` beyond `face`, and 0 if `back`, the neighbors of `other`, has `number` opposite just that
     /// vertex; if not, some number and one that is not 0, as perhaps where `number` stands there twice.
     fn beyond(face: &[u32; F], other: &Self, back: &Self, number: u32) -> (u32, u32);
 
-    /// Whether two facets are one, seen from its two sides: whether an odd permutation takes one to the other.
+    /// Tests whether two facets are one, seen from its two sides: whether an odd permutation takes one to the other.
     fn are_opposite(f: &[u32; F], g: &[u32; F]) -> bool;
 
     /// The same facet, from the same side, from a vertex on that only the facet tells.
@@ -58,7 +58,7 @@ impl Facets<2> for [u32; 3] {
     fn beyond(&[a, b]: &[u32; 2], other: &Self, back: &Self, number: u32) -> (u32, u32) {
         let off =
             |i: usize, j: usize, k: usize| (back[i] ^ number) | (other[j] ^ b) | (other[k] ^ a);
-        // What is left of three numbers when two of them are taken away.
+        // The rest of three numbers when two of them are taken away.
         let rest = other[0] ^ other[1] ^ other[2] ^ a ^ b;
         (rest, off(0, 1, 2).min(off(1, 2, 0)).min(off(2, 0, 1)))
     }
@@ -109,20 +109,20 @@ impl Facets<3> for [u32; 4] {
     }
 }
 
-/// What the facets of all simplices have to say.
+/// The claims of the facets of all simplices.
 #[derive(Default)]
 pub(super) struct Paired<const F: usize> {
-    /// The facets without a neighbour, in the order of the simplices.
+    /// The facets without a neighbor, in the order of the simplices.
     pub(super) open: Vec<[u32; F]>,
     pub(super) fingerprint: Fingerprint,
     pub(super) ties: u64,
     pub(super) refined: u64,
-    /// Facets that name a neighbour after, and before, their own simplex.
+    /// Facets that name a neighbor after, and before, their own simplex.
     ahead: u64,
     behind: u64,
 }
 
-/// The simplices of one kind, with their neighbours.
+/// The simplices of one kind, with their neighbors.
 pub(super) struct Complex<'a, const D: usize, const V: usize> {
     pub(super) sites: &'a Sites<'a, D>,
     pub(super) signs: Signs,
@@ -132,7 +132,7 @@ pub(super) struct Complex<'a, const D: usize, const V: usize> {
 
 impl<const D: usize, const V: usize> Complex<'_, D, V> {
     /// Every id is a row, every simplex is positively oriented, every facet has another side or is open, and no apex of a
-    /// neighbour is in conflict.
+    /// neighbor is in conflict.
     pub(super) fn check<G: Geometry<D, V>, const F: usize>(
         &self,
     ) -> Result<Paired<F>, MeshViolation>
@@ -207,7 +207,7 @@ impl<const D: usize, const V: usize> Complex<'_, D, V> {
         Ok(paired)
     }
 
-    /// What is to be said of the orientation of a simplex, exactly.
+    /// Returns what is to be said of the orientation of a simplex, exactly.
     #[inline(never)]
     fn is_positive<G: Geometry<D, V>>(&self, simplex: usize) -> Result<(), MeshViolation> {
         match self.signs.orientation::<G, D, V>(&self.sites.gather(&self.simplices[simplex])) {
@@ -216,7 +216,7 @@ impl<const D: usize, const V: usize> Complex<'_, D, V> {
         }
     }
 
-    /// What is to be said of a facet that [`Batch::test`] left open, unless it is a near tie.
+    /// Returns what is to be said of a facet that [`Batch::test`] left open, unless it is a near tie.
     fn settle<G: Geometry<D, V>, const F: usize>(
         &self,
         first: usize,
@@ -235,7 +235,7 @@ impl<const D: usize, const V: usize> Complex<'_, D, V> {
         }
         let (mut facet, is_tested) = (*facet, facet.apex != NO_SITE);
         if !is_tested {
-            // Wrong, unless the neighbour names this simplex twice: once too often, which the counts show.
+            // Wrong, unless the neighbor names this simplex twice: once too often, which the counts show.
             facet.apex =
                 self.across(number, facet.ahead.place as usize % 4, facet.ahead.neighbor)?;
             self.sites.have_all(&[facet.apex], 1, facet.ahead.neighbor as usize)?;

@@ -7,7 +7,7 @@
 //! > D = N·r − |r|²·O
 //!
 //! is positive when q lies inside the circumsphere, negative outside. N and O belong to the simplex and serve for all its
-//! neighbours. The cofactor of lᵢ is the orientation of the simplex with q in place of aᵢ, that of |r|² is −O.
+//! neighbors. The cofactor of lᵢ is the orientation of the simplex with q in place of aᵢ, that of |r|² is −O.
 //! *Triangles in space.* In a plane that does not stand upright on the first two coordinates, minors of those two serve
 //! for the orientation, as projecting the plane to them is affine; only the squares l and |r|² need all three.
 
@@ -36,7 +36,7 @@ pub(crate) struct Bounds {
 }
 
 impl Bounds {
-    /// What a determinant over [`DoubleDouble`](crate::arithmetic::DoubleDouble) is off by at most, if no monomial is
+    /// Returns what a determinant over [`DoubleDouble`](crate::arithmetic::DoubleDouble) is off by at most, if no monomial is
     /// larger than `size`.
     pub(crate) fn of_double_double(&self, size: f64) -> f64 {
         self.rounding_twice * (1.0 + 64.0 * U) * size + UNDERFLOW
@@ -143,7 +143,6 @@ impl<const D: usize> Geometry<D, 3> for Triangles {
     }
 }
 
-/// Tetrahedra.
 pub(crate) struct Tetrahedra;
 
 /// The plane of a triangle in space, in plain arithmetic, for many points.
@@ -161,7 +160,7 @@ impl Plane {
         Plane { origin: *a, normal: cross(&b, &c), max }
     }
 
-    /// Whether the tetrahedron of the triangle and `q` is surely negative: the triangle faces away from `q`. All sizes are below 1.
+    /// Tests whether the tetrahedron of the triangle and `q` is surely negative: the triangle faces away from `q`. All sizes are below 1.
     #[inline(always)]
     pub(crate) fn is_beneath(&self, q: &[f64; 3]) -> bool {
         let r: [f64; 3] = std::array::from_fn(|k| q[k] - self.origin[k]);

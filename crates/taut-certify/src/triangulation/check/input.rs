@@ -11,7 +11,6 @@ use super::signs::Signs;
 use crate::arithmetic::parts;
 use crate::{CheckError, Violation};
 
-/// All rows.
 pub(crate) struct Input<'a, const D: usize> {
     rows: Rows<'a>,
     pub(crate) hash: PointsHash,
@@ -20,7 +19,6 @@ pub(crate) struct Input<'a, const D: usize> {
     signs: Signs,
 }
 
-/// What one block of rows has to say.
 struct Block {
     hash: BlockHash,
     /// No bit of a coordinate lies below 2^least, none above 2^most.
@@ -104,7 +102,6 @@ impl<'a, const D: usize> Input<'a, D> {
         Ok(Input { rows, hash, scale, signs })
     }
 
-    /// Number of rows.
     pub(crate) fn len(&self) -> usize {
         self.rows.len()
     }

@@ -1,4 +1,4 @@
-//! Whether a list has just the facets of the hull.
+//! Decides whether a list has just the facets of the hull.
 //!
 //! *Idea.* A list in the order of the simplices, as `taut` writes it, is compared as it comes. Any other is sorted. The
 //! checker has to know nothing of the order: it only is the faster for it.

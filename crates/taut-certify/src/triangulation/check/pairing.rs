@@ -1,4 +1,4 @@
-//! Neighbours found by sorting the facets, for simplices that come without.
+//! Neighbors found by sorting the facets, for simplices that come without.
 //!
 //! *Idea.* Facets go to buckets by their smallest vertex, with one counting sort, and each bucket, a handful, is sorted
 //! by the other vertices. The smallest vertex of a simplex is the smallest of all its facets but the one opposite, whose

@@ -9,7 +9,7 @@ use crate::{CheckError, Violation};
 
 /// Proves that `simplices`, rows of `vertices` ids each, are the Delaunay triangulation of the points of `source`.
 ///
-/// Nothing but the simplices is needed, so that a mesh of any origin can be judged: the neighbours and the hull are
+/// Nothing but the simplices is needed, so that a mesh of any origin can be judged: the neighbors and the hull are
 /// found, simplices may face either way, and of equal points any one may be the vertex. Where points lie on one sphere,
 /// only the triangulation of [`Triangulation`](crate::Triangulation) is accepted, not another Delaunay triangulation.
 /// Triangles (`vertices` = 3) of points in space must cover points on a plane, edges points on a line, a single vertex

@@ -129,7 +129,7 @@ mod tests {
     use super::super::input::Input;
     use super::*;
 
-    fn around_a_centre(edges: &[[u32; 2]]) -> Result<(), MeshViolation> {
+    fn around_a_center(edges: &[[u32; 2]]) -> Result<(), MeshViolation> {
         let values = [0., 0., 9., 0., 3., 8., -7., 5., -7., -5., 3., -8.];
         let points = Points::new(&values, 2).unwrap();
         let mut scratch = Scratch::new();
@@ -140,12 +140,12 @@ mod tests {
 
     #[test]
     fn a_pentagon_is_convex_and_a_pentagram_winds_twice() {
-        assert_eq!(around_a_centre(&[[1, 2], [2, 3], [3, 4], [4, 5], [5, 1]]), Ok(()));
-        let star = around_a_centre(&[[1, 3], [3, 5], [5, 2], [2, 4], [4, 1]]);
+        assert_eq!(around_a_center(&[[1, 2], [2, 3], [3, 4], [4, 5], [5, 1]]), Ok(()));
+        let star = around_a_center(&[[1, 3], [3, 5], [5, 2], [2, 4], [4, 1]]);
         assert!(matches!(star, Err(MeshViolation::HullWinding { .. })), "{star:?}");
-        let dent = around_a_centre(&[[1, 2], [2, 0], [0, 4], [4, 5], [5, 1]]);
+        let dent = around_a_center(&[[1, 2], [2, 0], [0, 4], [4, 5], [5, 1]]);
         assert!(matches!(dent, Err(MeshViolation::HullDent { .. })), "{dent:?}");
-        let open = around_a_centre(&[[1, 2], [2, 3], [3, 4], [4, 5]]);
+        let open = around_a_center(&[[1, 2], [2, 3], [3, 4], [4, 5]]);
         assert!(matches!(open, Err(MeshViolation::HullOpen { .. })), "{open:?}");
     }
 }

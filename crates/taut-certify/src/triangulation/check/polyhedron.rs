@@ -146,7 +146,7 @@ impl Surface<'_> {
         self.signs.is_filtered && plane.is_beneath(point)
     }
 
-    /// Whether d, beyond the edge opposite corner `edge`, rises above the triangle or is folded onto it.
+    /// Tests whether d, beyond the edge opposite corner `edge`, rises above the triangle or is folded onto it.
     fn is_dent(&self, corners: &[[f64; 3]; 3], edge: usize, d: &[f64; 3]) -> bool {
         let [a, b, c] = [1, 2, 0].map(|k| corners[(edge + k) % 3]);
         match self.signs.orientation::<Tetrahedra, 3, 4>(&[a, b, c, *d]) {
@@ -156,7 +156,7 @@ impl Surface<'_> {
         }
     }
 
-    /// Whether c and d, in one plane with the edge ab, lie on either side of it.
+    /// Tests whether c and d, in one plane with the edge ab, lie on either side of it.
     fn unfolds(&self, [a, b, c, d]: &[[f64; 3]; 4]) -> bool {
         // One projection in which abc is not flat shows the plane as it is.
         [[0, 1], [0, 2], [1, 2]].into_iter().any(|axes| {

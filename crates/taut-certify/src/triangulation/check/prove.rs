@@ -12,7 +12,6 @@ use super::signs::Signs;
 use super::sites::Sites;
 use super::{line, listed, pairing, polygon, polyhedron};
 
-/// What is to be proved.
 pub(super) struct Claim<'a> {
     pub(super) hull_dimension: Option<u8>,
     pub(super) simplices: &'a [u32],
@@ -32,7 +31,7 @@ impl Claim<'_> {
         self.lists.map(|(hull, _)| hull)
     }
 
-    /// Whether all is given that [`Complex::check`] needs.
+    /// Returns true if all is given that [`Complex::check`] needs.
     fn is_whole<const D: usize>(&self) -> bool {
         let is_full = self.hull_dimension.is_some_and(|dimension| usize::from(dimension) == D);
         is_full && self.lists.is_some() && !self.neighbors.is_empty()

@@ -54,7 +54,7 @@ pub(crate) const UNDERFLOW: f64 = f64::from_bits((1023 - 1000) << 52);
 /// A determinant has at most this many differences.
 const DIFFERENCES_MAX: usize = 4;
 
-/// What is known of all coordinates.
+/// The known facts about all coordinates.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Signs {
     /// All sizes are below 1.
@@ -263,7 +263,7 @@ impl Signs {
         exact(&differences).sign()
     }
 
-    /// Whether q is inside the sphere of a positively oriented simplex under the perturbation. q is no vertex.
+    /// Tests whether q is inside the sphere of a positively oriented simplex under the perturbation. q is no vertex.
     #[inline(never)]
     pub(crate) fn conflict<G: Geometry<D, V>, const D: usize, const V: usize>(
         &self,
@@ -290,7 +290,7 @@ impl Signs {
         }
     }
 
-    /// Whether q, on the sphere of a positively oriented simplex, is inside under the perturbation.
+    /// Tests whether q, on the sphere of a positively oriented simplex, is inside under the perturbation.
     fn wins_tie<G: Geometry<D, V>, const D: usize, const V: usize>(
         &self,
         simplex: &[[f64; D]; V],
@@ -346,7 +346,7 @@ pub(crate) fn sign_of(value: f64) -> Ordering {
     value.partial_cmp(&0.0).unwrap_or(Ordering::Equal)
 }
 
-/// Whether b is raised more.
+/// Tests whether b is raised more.
 #[inline(always)]
 fn is_less<const D: usize>(a: &[f64; D], b: &[f64; D]) -> bool {
     let mut is_less = false;

@@ -19,7 +19,7 @@ pub(super) struct Sites<'a, const D: usize> {
     input: &'a Input<'a, D>,
     /// The order in which determinants take the coordinates, if it is another.
     axes: Option<[usize; D]>,
-    /// Whether a row was named. Of single bits, each would have to be set by one locked operation, for which the
+    /// States whether a row was named. Of single bits, each would have to be set by one locked operation, for which the
     /// loads that follow wait.
     named: Vec<AtomicBool>,
 }
@@ -31,7 +31,7 @@ impl<'a, const D: usize> Sites<'a, D> {
         Sites { input, axes: None, named }
     }
 
-    /// Whether these ids are rows: `width` of each simplex from number `first` on.
+    /// Tests whether these ids are rows: `width` of each simplex from number `first` on.
     #[inline(always)]
     pub(super) fn have_all(
         &self,
@@ -101,12 +101,10 @@ impl<'a, const D: usize> Sites<'a, D> {
         self.named[id as usize].store(true, Ordering::Relaxed);
     }
 
-    /// Whether a row was named.
     pub(super) fn is_named(&self, id: u32) -> bool {
         self.named.get(id as usize).is_some_and(|named| named.load(Ordering::Relaxed))
     }
 
-    /// How many rows were named.
     pub(super) fn count(&self) -> usize {
         self.named.iter().map(|named| usize::from(named.load(Ordering::Relaxed))).sum()
     }

@@ -1,4 +1,4 @@
-//! Centres by trying all partitions, and certificates of every kind for them.
+//! Centers by trying all partitions, and certificates of every kind for them.
 
 use taut_certify::{
     Centers, CentersCertificate, CentersVerdict, CheckError, Items, LowerBound, Placement,
@@ -16,7 +16,7 @@ pub(crate) struct Task {
     pub(crate) placement: Placement,
 }
 
-/// A best choice of centres.
+/// A best choice of centers.
 #[derive(Clone, Debug)]
 pub(crate) struct Best {
     pub(crate) radius: f64,
@@ -43,7 +43,7 @@ impl Task {
         &self.values[i * self.columns..(i + 1) * self.columns]
     }
 
-    /// How far an item reaches from a centre.
+    /// Returns how far an item reaches from a center.
     pub(crate) fn reach(&self, i: usize, center: &[f64]) -> f64 {
         let (row, dim) = (self.row(i), self.dim());
         let squares: f64 = row[..dim].iter().zip(center).map(|(x, c)| (x - c).powi(2)).sum();
@@ -58,7 +58,7 @@ impl Task {
         members(group).map(|i| self.reach(i, center)).fold(0.0, f64::max)
     }
 
-    /// The best centre of a group, and its radius.
+    /// The best center of a group, and its radius.
     pub(crate) fn center(&self, group: u32) -> (Vec<f64>, f64) {
         let dim = self.dim();
         match self.placement {
@@ -82,7 +82,7 @@ impl Task {
         while subset != 0 {
             if subset.count_ones() as usize <= self.dim() + 1 {
                 let rows: Vec<&[f64]> = members(subset).map(|i| self.row(i)).collect();
-                if let Some(lambda) = super::circumcentre(&rows) {
+                if let Some(lambda) = super::circumcenter(&rows) {
                     let coordinate =
                         |j: usize| rows.iter().zip(&lambda).map(|(row, l)| row[j] * l).sum();
                     let center: Vec<f64> = (0..self.dim()).map(coordinate).collect();
@@ -98,7 +98,7 @@ impl Task {
         best.expect("some subset determines the ball")
     }
 
-    /// Of anything on a line or in the plane: a convex function of the centre, by thirds, to about 1e-9.
+    /// Of anything on a line or in the plane: a convex function of the center, by thirds, to about 1e-9.
     fn by_halving(&self, group: u32) -> (Vec<f64>, f64) {
         let range = |j: usize| {
             let all = members(group).map(|i| self.row(i)[j]);
@@ -243,7 +243,7 @@ pub(crate) struct Case {
 }
 
 impl Case {
-    /// Centres of these groups, at the radius that they need times `slack`, and this proof of this bound.
+    /// Centers of these groups, at the radius that they need times `slack`, and this proof of this bound.
     pub(crate) fn of(
         name: &str,
         task: &Task,

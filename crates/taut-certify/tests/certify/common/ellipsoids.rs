@@ -31,7 +31,7 @@ impl Case {
         }
     }
 
-    /// What was proved; panics when the case is rejected.
+    /// Returns what was proved; panics when the case is rejected.
     pub(crate) fn verdict(&self) -> EllipsoidVerdict {
         self.check().unwrap_or_else(|error| panic!("{}: {error}", self.name))
     }

@@ -48,7 +48,7 @@ fn root(value: &BigRational) -> BigRational {
     root
 }
 
-/// What is true of a ball and multipliers, by exact fractions.
+/// The true facts about a ball and multipliers, by exact fractions.
 pub(crate) struct Truth {
     /// |p − c|² and r, by row.
     pub(crate) rows: Vec<(BigRational, BigRational)>,
@@ -106,13 +106,13 @@ pub(crate) fn truth(
     Truth { rows, gap }
 }
 
-/// Whether the row with these numbers of [`Truth::rows`] lies in a ball of this radius.
+/// Returns true if the row with these numbers of [`Truth::rows`] lies in a ball of this radius.
 pub(crate) fn is_inside((square, r): &(BigRational, BigRational), radius: f64) -> bool {
     let rho = exact(radius) - r;
     !rho.is_negative() && *square <= &rho * &rho
 }
 
-/// The certificate of these multipliers: centre from them, with a tail or not, least enclosing `f64` as radius, and
+/// The certificate of these multipliers: center from them, with a tail or not, least enclosing `f64` as radius, and
 /// the gap that is true.
 pub(crate) fn certify(
     name: &'static str,
@@ -172,7 +172,7 @@ pub(crate) fn brute_force(values: &[f64], dim: usize) -> Option<(Vec<u64>, Vec<f
         if support.len() > dim + 1 {
             continue;
         }
-        let Some(lambda) = circumcentre(&support.iter().map(|&i| rows[i]).collect::<Vec<_>>())
+        let Some(lambda) = circumcenter(&support.iter().map(|&i| rows[i]).collect::<Vec<_>>())
         else {
             continue;
         };
@@ -190,8 +190,8 @@ pub(crate) fn brute_force(values: &[f64], dim: usize) -> Option<(Vec<u64>, Vec<f
     best.map(|(_, support, lambda)| (support, lambda))
 }
 
-/// Barycentric coordinates, all positive, of the centre of the smallest sphere through affinely independent points.
-pub(crate) fn circumcentre(points: &[&[f64]]) -> Option<Vec<f64>> {
+/// Barycentric coordinates, all positive, of the center of the smallest sphere through affinely independent points.
+pub(crate) fn circumcenter(points: &[&[f64]]) -> Option<Vec<f64>> {
     let k = points.len() - 1;
     let edge = |i: usize| -> Vec<f64> {
         points[i + 1].iter().zip(points[0]).map(|(a, b)| a - b).collect()
@@ -228,7 +228,7 @@ pub(crate) fn circumcentre(points: &[&[f64]]) -> Option<Vec<f64>> {
 }
 
 /// Multipliers proportional to these weights.
-pub(crate) fn normalised(weights: &[f64]) -> Vec<f64> {
+pub(crate) fn normalized(weights: &[f64]) -> Vec<f64> {
     let sum: f64 = weights.iter().sum();
     weights.iter().map(|w| w / sum).collect()
 }

@@ -99,7 +99,7 @@ fn other_bytes_are_seen() {
     assert!(matches!(judge(&found, None, &output[24..]), Err(FileViolation::Length { .. })));
 }
 
-/// Signs of two neighbours, and the pairs of bits that a weak hash mixes alike.
+/// Signs of two neighbors, and the pairs of bits that a weak hash mixes alike.
 #[test]
 fn doubles_that_change_signs_are_other_records() {
     let record = |x: f64, y: u64| [x.to_bits(), y].map(u64::to_le_bytes).concat();

@@ -104,7 +104,7 @@ impl Sites {
         determinant(&edges(&simplex.iter().map(|&i| &self.points[i]).collect::<Vec<_>>()))
     }
 
-    /// Whether the lift of `q` is above the plane through those of a positively oriented simplex.
+    /// Returns true if the lift of `q` is above the plane through those of a positively oriented simplex.
     fn is_outside(&self, simplex: &[usize], q: usize) -> bool {
         let all: Vec<&Point> = simplex.iter().chain([&q]).map(|&i| &self.lifted[i]).collect();
         let d = determinant(&edges(&all));
@@ -273,7 +273,7 @@ pub(crate) fn hull_of(simplices: &[u32], width: usize) -> Vec<u32> {
     boundary(&rows(simplices, width)).into_iter().flatten().collect()
 }
 
-/// Neighbours by a map of all facets.
+/// Neighbors by a map of all facets.
 pub(crate) fn neighbors_of(simplices: &[u32], width: usize) -> Vec<u32> {
     let rows = rows(simplices, width);
     let mut sides: BTreeMap<Vec<u32>, Vec<usize>> = BTreeMap::new();

@@ -122,7 +122,7 @@ impl Case {
         }
     }
 
-    /// What is wrong with it, which must be a matter of surfaces.
+    /// Returns what is wrong with it, which must be a matter of surfaces.
     pub(crate) fn violation(&self) -> SurfaceViolation {
         match self.check() {
             Err(Violation::Surface(violation)) => violation,

@@ -29,7 +29,7 @@ fn normal([a, b, c]: &[Vector; 3]) -> Vector {
     cross(&minus(b, a), &minus(c, a))
 }
 
-/// Whether a triangle has the ball named, and the ball holds no site strictly inside.
+/// Tests whether a triangle has the ball named, and the ball holds no site strictly inside.
 pub(crate) fn is_empty(places: &[Point], sites: &[u32], triangle: [u32; 3], apex: Apex) -> bool {
     let corners = triangle.map(|row| exact(&places[row as usize]));
     let (n, [a, b, c]) = (normal(&corners), &corners);
@@ -38,7 +38,7 @@ pub(crate) fn is_empty(places: &[Point], sites: &[u32], triangle: [u32; 3], apex
     }
     let others = || sites.iter().map(|&row| exact(&places[row as usize]));
     let circle = |q: &Vector| {
-        // The centre by the weights of its corners.
+        // The center by the weights of its corners.
         let weight = |p: &Vector, q: &Vector, r: &Vector| {
             let square = |p: &Vector, q: &Vector| dot(&minus(p, q), &minus(p, q));
             square(q, r) * (square(p, q) + square(p, r) - square(q, r))
@@ -59,7 +59,7 @@ pub(crate) fn is_empty(places: &[Point], sites: &[u32], triangle: [u32; 3], apex
             if !sites.contains(&row) {
                 return false;
             }
-            // The centre x solves 2(p − a)·x = |p|² − |a|² for the three others, by Cramer's rule.
+            // The center x solves 2(p − a)·x = |p|² − |a|² for the three others, by Cramer's rule.
             let d = exact(&places[row as usize]);
             let lines = [b, c, &d].map(|p| minus(p, a));
             let right = [b, c, &d].map(|p| (dot(p, p) - dot(a, a)) / Q::from_integer(2.into()));
@@ -82,7 +82,7 @@ fn is_nearer(q: &Vector, a: &Vector, center: &Vector) -> bool {
     square(q) < square(a)
 }
 
-/// Whether no triangle is flat, and no two share more than their common vertices and edges.
+/// Tests whether no triangle is flat, and no two share more than their common vertices and edges.
 pub(crate) fn is_embedded(places: &[Point], triangles: &[[u32; 3]]) -> bool {
     let corners = |t: &[u32; 3]| t.map(|row| exact(&places[row as usize]));
     let flat = |t: &[u32; 3]| normal(&corners(t)).iter().all(Zero::is_zero);
@@ -126,7 +126,7 @@ fn shared(one: &[Vector; 3], other: &[Vector; 3]) -> Vec<Vector> {
     polygon
 }
 
-/// Whether p is the common vertex, or on the common edge.
+/// Tests whether p is the common vertex, or on the common edge.
 fn is_on(p: &Vector, common: &[Vector]) -> bool {
     match common {
         [a] => p == a,

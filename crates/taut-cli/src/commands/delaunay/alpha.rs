@@ -1,4 +1,4 @@
-//! What of a triangulation an eraser of a given radius leaves.
+//! The part of a triangulation that an eraser of a given radius leaves.
 
 use std::path::PathBuf;
 
@@ -33,7 +33,6 @@ fn length(text: &str) -> Result<f64, String> {
 }
 
 impl Alpha {
-    /// The files it writes.
     pub(super) fn files(&self) -> impl Iterator<Item = &PathBuf> {
         self.alpha_out.iter().chain(&self.alpha_boundary)
     }

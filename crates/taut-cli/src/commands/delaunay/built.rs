@@ -60,7 +60,7 @@ impl Built {
         }
     }
 
-    /// How the signs were decided. It depends on the threads, so it is for the terminal alone.
+    /// Returns how the signs were decided. It depends on the threads, so it is for the terminal alone.
     pub(super) fn signs(&self) -> Field {
         let counters = self.counters();
         let (all, stages) = (counters.orientations + counters.conflict_tests, counters.stages);

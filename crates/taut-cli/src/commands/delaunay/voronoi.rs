@@ -19,7 +19,6 @@ const MARGIN: f64 = 0.1;
 /// Cells that one task writes.
 const TASK: usize = 1 << 10;
 
-/// The cells as a document.
 pub(super) fn cells(built: &Built, source: &dyn PointSource) -> anyhow::Result<Vec<u8>> {
     let (low, high) = frame(source)?;
     match built {

@@ -16,7 +16,7 @@ use crate::output::writing::Outputs;
 use crate::pipeline::{self, Find, Input, Output};
 use crate::watch::Watch;
 
-/// Put points of the plane or of space in an order in which neighbours are near each other.
+/// Put points of the plane or of space in an order in which neighbors are near each other.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 The order depends on the set of points alone; equal points are side by side, the first row first.

@@ -21,10 +21,10 @@ Exit: 0 done · 1 the check failed · 2 bad input or usage
 Example: taut memory sample -n 1000000000 -k 1000 --seed 7 -o rows.txt --certificate rows.json
          taut verify rows.json rows.txt")]
 pub(super) struct Args {
-    /// How many there are to choose from
+    /// The number of items to choose from
     #[arg(short, long = "of", value_name = "N")]
     n: u64,
-    /// How many to draw, at most N
+    /// The number of draws, at most N
     #[arg(short, long = "draw", value_name = "K")]
     k: u64,
     /// Chooses the numbers

@@ -37,7 +37,7 @@ pub(super) struct Args {
     /// The bytes of a record that are the key, as START:END [default: the first eight; of --kind bytes all]
     #[arg(long, value_name = "RANGE", value_parser = key::parse)]
     key: Option<Range<usize>>,
-    /// What the key is: numbers have the least significant byte first
+    /// The type of the key: numbers have the least significant byte first
     #[arg(long, value_enum, default_value = "u64")]
     kind: Kind,
     /// Most memory to use for records
@@ -56,7 +56,7 @@ pub(super) struct Args {
     effort: Effort,
 }
 
-/// How a key is read.
+/// The way in which a key is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum Kind {
     /// unsigned integers of 64 bits

@@ -64,7 +64,7 @@ pub(super) struct Args {
     effort: Effort,
 }
 
-/// What is to be done: the answer, where its elements lie as rows, and the header of the output.
+/// The task: the answer, where its elements lie as rows, and the header of the output.
 struct Job {
     answer: TransposedFile,
     matrix: FileMatrix,
@@ -182,7 +182,6 @@ impl Args {
         Ok(Outcome::Done)
     }
 
-    /// Compares some elements.
     fn sample(&self, job: &Job, elements: u64, watch: &Watch) -> anyhow::Result<Outcome> {
         if elements == 0 {
             return Ok(Outcome::Done);
@@ -219,7 +218,7 @@ impl Args {
     }
 }
 
-/// Whether a file is a NumPy array by its name.
+/// Returns true if a file is a NumPy array by its name.
 fn is_npy(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("npy"))
 }

@@ -2,18 +2,18 @@
 
 use taut::Items;
 
-/// What is done with a sample.
+/// The use of a sample.
 #[derive(Clone, Copy)]
 pub(super) enum Tool {
     /// The smallest ball.
     Ball(Items),
     /// The ellipsoid of least volume.
     Ellipsoid,
-    /// Centre, scatter and outliers.
+    /// Center, scatter and outliers.
     Robust,
     /// The ellipsoid of largest volume in a polytope.
     Inscribed,
-    /// So many centres.
+    /// So many centers.
     Centers(usize),
     /// The Delaunay triangulation.
     Delaunay,
@@ -31,7 +31,7 @@ pub(super) struct Station {
     pub(super) bytes: &'static [u8],
     pub(super) tool: Tool,
     pub(super) command: &'static str,
-    /// Whether a wrong answer is shown to the checker as well: a shape a little too small, an edge turned.
+    /// True if a wrong answer is shown to the checker as well: a shape a little too small, an edge turned.
     pub(super) doctored: bool,
 }
 
@@ -62,7 +62,7 @@ pub(super) const STATIONS: &[Station] = &[
         heading: "Many dimensions",
         text: "Normal points in 64 dimensions, single precision, in a NumPy file. They all lie close to a \
                sphere, so many of them touch the ball; still a few passes over the points suffice. The pictures \
-               are projections and the distances from the centre.",
+               are projections and the distances from the center.",
         file: "normal-64.npy",
         bytes: include_bytes!("../../../samples/normal-64.npy"),
         tool: Tool::Ball(Items::Points),
@@ -71,7 +71,7 @@ pub(super) const STATIONS: &[Station] = &[
     },
     Station {
         heading: "Balls around balls",
-        text: "Rows need not be points: with --balls each row is a centre and a radius, and the answer is the \
+        text: "Rows need not be points: with --balls each row is a center and a radius, and the answer is the \
                smallest disc that holds all discs.",
         file: "discs.csv",
         bytes: include_bytes!("../../../samples/discs.csv"),
@@ -82,7 +82,7 @@ pub(super) const STATIONS: &[Station] = &[
     Station {
         heading: "A hard case: the cube",
         text: "Vertices of a cube in fifty dimensions, packed with gzip. Every point has the same distance from \
-               the answer's centre, so no point is more important than another: the case in which careless \
+               the answer's center, so no point is more important than another: the case in which careless \
                methods cycle. The radius is √50 / 2 = 3.5355…",
         file: "cube-50.tsv.gz",
         bytes: include_bytes!("../../../samples/cube-50.tsv.gz"),
@@ -92,7 +92,7 @@ pub(super) const STATIONS: &[Station] = &[
     },
     Station {
         heading: "Around them, closer: an ellipsoid",
-        text: "Four lengths of 150 irises, in centimetres (UCI Machine Learning Repository, CC BY 4.0). No ellipsoid of \
+        text: "Four lengths of 150 irises, in centimeters (UCI Machine Learning Repository, CC BY 4.0). No ellipsoid of \
                four dimensions around them has less volume; what is shown are its shadows on each pair of \
                lengths. It follows how lengths grow together, which a ball cannot, and does not depend on \
                their units.\n\n\
@@ -127,8 +127,8 @@ pub(super) const STATIONS: &[Station] = &[
         doctored: true,
     },
     Station {
-        heading: "Near to all: k centres",
-        text: "The larger cities of Europe (places of GeoNames, CC BY 4.0), here on a map in kilometres. Where \
+        heading: "Near to all: k centers",
+        text: "The larger cities of Europe (places of GeoNames, CC BY 4.0), here on a map in kilometers. Where \
                would eight helicopters stand, so that the farthest city is as near to one of them as can be? No eight \
                places do better than these by more than a millionth: the cities of the core-set alone prove it.\n\n\
                The checker replays the log of the search, branch by branch. Shown a radius that is a millionth smaller, it names a city that lies outside.",
@@ -153,7 +153,7 @@ pub(super) const STATIONS: &[Station] = &[
         heading: "Through the points: a triangulation",
         text: "The larger cities of Europe again, by longitude and latitude, joined by triangles whose circumcircles hold \
                no other city. The Voronoi diagram beside it shows which places are nearest to which city.\n\n\
-               The checker goes over all pairs of neighbouring triangles, in exact arithmetic. Shown the same \
+               The checker goes over all pairs of neighboring triangles, in exact arithmetic. Shown the same \
                triangulation with one edge turned, it names the place that is wrong.",
         file: "cities.csv",
         bytes: include_bytes!("../../../samples/cities.csv"),
@@ -185,8 +185,8 @@ pub(super) const STATIONS: &[Station] = &[
     },
     Station {
         heading: "Over the points: a surface",
-        text: "The knot a last time, and at last as what it is: a tube. All space is labelled as inside or outside by how the spheres \
-               of neighbouring tetrahedra meet, and the surface is the border between the two. One handle, no hole, every point used.\n\n\
+        text: "The knot a last time, and at last as what it is: a tube. All space is labeled as inside or outside by how the spheres \
+               of neighboring tetrahedra meet, and the surface is the border between the two. One handle, no hole, every point used.\n\n\
                The checker counts parts, handles and holes, makes sure by exact signs that no two triangles meet where they should \
                not and that the ball of each triangle is empty, and finds out which side is outside. Shown the same surface with \
                one triangle turned over, it names what is wrong.",

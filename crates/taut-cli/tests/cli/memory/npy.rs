@@ -2,7 +2,7 @@
 
 use super::words;
 
-use crate::desk::Desk;
+use crate::test_folder::TestFolder;
 /// An array as NumPy writes it.
 fn npy(dtype: &str, fortran: bool, shape: &str, values: &[u8]) -> Vec<u8> {
     let order = if fortran { "True" } else { "False" };
@@ -20,7 +20,7 @@ fn turned(values: &[u8], rows: usize, columns: usize, width: usize) -> Vec<u8> {
 
 #[test]
 fn arrays_of_any_type_and_order_are_turned() {
-    let desk = Desk::new();
+    let folder = TestFolder::new();
     for (dtype, width) in
         [("<f8", 8), (">f4", 4), ("|u1", 1), ("<c16", 16), ("|S3", 3), ("<U2", 8), ("<M8[ns]", 8)]
     {
@@ -28,34 +28,37 @@ fn arrays_of_any_type_and_order_are_turned() {
             words((70 * 30 * width) as u64).into_iter().map(|word| word as u8).collect();
         let other = turned(&values, 70, 30, width);
         for (fortran, bytes) in [(false, &values), (true, &other)] {
-            desk.put("a.npy", npy(dtype, fortran, "(70, 30)", bytes));
-            desk.taut("memory transpose a.npy --memory 4K -o b.npy --certificate b.json")
+            folder.put("a.npy", npy(dtype, fortran, "(70, 30)", bytes));
+            folder
+                .taut("memory transpose a.npy --memory 4K -o b.npy --certificate b.json")
                 .ends(0)
-                .says(&["30 × 70 elements", dtype, "all elements"]);
-            assert!(desk.bytes("b.npy") == npy(dtype, false, "(30, 70)", &other), "{dtype}");
-            desk.taut("verify b.json a.npy b.npy").ends(0).says(&[
+                .stdout_has(&["30 × 70 elements", dtype, "all elements"]);
+            assert!(folder.bytes("b.npy") == npy(dtype, false, "(30, 70)", &other), "{dtype}");
+            folder.taut("verify b.json a.npy b.npy").ends(0).stdout_has(&[
                 "Verified: 30 × 70, the transpose",
                 "each compared with the one of the input",
             ]);
-            desk.taut("verify b.json b.npy").ends(0).says(&["by a hash"]);
-            desk.taut("memory transpose a.npy --samples 20 -o c.npy")
+            folder.taut("verify b.json b.npy").ends(0).stdout_has(&["by a hash"]);
+            folder
+                .taut("memory transpose a.npy --samples 20 -o c.npy")
                 .ends(0)
-                .says(&["20 elements"]);
-            assert!(desk.bytes("b.npy") == desk.bytes("c.npy"));
+                .stdout_has(&["20 elements"]);
+            assert!(folder.bytes("b.npy") == folder.bytes("c.npy"));
         }
     }
-    let mut wrong = desk.bytes("b.npy");
+    let mut wrong = folder.bytes("b.npy");
     wrong[128 + 8 * 71] ^= 1;
-    desk.put("b.npy", wrong);
-    desk.taut("verify b.json a.npy b.npy")
+    folder.put("b.npy", wrong);
+    folder
+        .taut("verify b.json a.npy b.npy")
         .ends(1)
-        .says(&["Rejected: b.npy has another element in row 1, column 1 than a.npy"]);
-    desk.taut("verify b.json b.npy a.npy").ends(1);
+        .stdout_has(&["Rejected: b.npy has another element in row 1, column 1 than a.npy"]);
+    folder.taut("verify b.json b.npy a.npy").ends(1);
 }
 
 #[test]
 fn headers_that_numpy_reads_and_headers_that_lie() {
-    let desk = Desk::new();
+    let folder = TestFolder::new();
     let values: Vec<u8> = words(5 * 6 * 8).into_iter().map(|word| word as u8).collect();
     for header in [
         r#"{"descr": "<f8", "fortran_order": False, "shape": (5, 6)}"#,
@@ -63,51 +66,51 @@ fn headers_that_numpy_reads_and_headers_that_lie() {
     ] {
         let text = format!("{header:117}\n");
         let length = (text.len() as u16).to_le_bytes();
-        desk.put(
+        folder.put(
             "a.npy",
             [b"\x93NUMPY\x01\x00".as_slice(), &length, text.as_bytes(), values.as_slice()].concat(),
         );
-        desk.taut("memory transpose a.npy -o b.npy --certificate b.json").ends(0);
-        desk.taut("verify b.json a.npy b.npy").ends(0);
+        folder.taut("memory transpose a.npy -o b.npy --certificate b.json").ends(0);
+        folder.taut("verify b.json a.npy b.npy").ends(0);
     }
     // Without the type the header is judged all the same.
-    let lines = desk.text("b.json");
+    let lines = folder.text("b.json");
     let without: Vec<&str> = lines.lines().filter(|line| !line.contains("dtype")).collect();
-    desk.put(
+    folder.put(
         "b.json",
         without.join("\n").replace("\"output_offset\": 128,", "\"output_offset\": 128"),
     );
-    desk.taut("verify b.json a.npy b.npy").ends(0).says(&["byte 128 of the input"]);
-    let turned = desk.bytes("b.npy")[128..].to_vec();
+    folder.taut("verify b.json a.npy b.npy").ends(0).stdout_has(&["byte 128 of the input"]);
+    let turned = folder.bytes("b.npy")[128..].to_vec();
     for lie in [npy("<f8", true, "(6, 5)", &turned), npy("<f8", false, "(30, 1)", &turned)] {
-        desk.put("b.npy", lie);
-        desk.taut("verify b.json b.npy").ends(1).says(&["Rejected: the header of b.npy"]);
+        folder.put("b.npy", lie);
+        folder.taut("verify b.json b.npy").ends(1).stdout_has(&["Rejected: the header of b.npy"]);
     }
 }
 
 #[test]
 fn rows_columns_and_nothing() {
-    let desk = Desk::new();
+    let folder = TestFolder::new();
     let eight = [1, 2, 3, 4, 5, 6, 7, 8];
     for (shape, other) in [("(1, 8)", "(8, 1)"), ("(8, 1)", "(1, 8)")] {
         for fortran in [false, true] {
-            desk.put("a.npy", npy("|i1", fortran, shape, &eight));
-            desk.taut("memory transpose a.npy -o b.npy --certificate b.json").ends(0);
-            assert!(desk.bytes("b.npy") == npy("|i1", false, other, &eight));
-            desk.taut("verify b.json a.npy b.npy").ends(0);
+            folder.put("a.npy", npy("|i1", fortran, shape, &eight));
+            folder.taut("memory transpose a.npy -o b.npy --certificate b.json").ends(0);
+            assert!(folder.bytes("b.npy") == npy("|i1", false, other, &eight));
+            folder.taut("verify b.json a.npy b.npy").ends(0);
         }
     }
     for (shape, other) in [("(0, 8)", "(8, 0)"), ("(5, 0)", "(0, 5)"), ("(0, 0)", "(0, 0)")] {
-        desk.put("a.npy", npy("<f8", true, shape, &[]));
-        desk.taut("memory transpose a.npy -o b.npy --certificate b.json").ends(0);
-        assert!(desk.bytes("b.npy") == npy("<f8", false, other, &[]));
-        desk.taut("verify b.json a.npy b.npy").ends(0);
+        folder.put("a.npy", npy("<f8", true, shape, &[]));
+        folder.taut("memory transpose a.npy -o b.npy --certificate b.json").ends(0);
+        assert!(folder.bytes("b.npy") == npy("<f8", false, other, &[]));
+        folder.taut("verify b.json a.npy b.npy").ends(0);
     }
 }
 
 #[test]
 fn what_is_no_matrix_is_refused_by_name() {
-    let desk = Desk::new();
+    let folder = TestFolder::new();
     let plain = npy("<f8", false, "(1, 2)", &[0; 16]);
     for (bytes, options, said) in [
         (npy("<f8", false, "(3,)", &[0; 24]), "-o b.npy", &["a.npy", "1 axes"][..]),
@@ -120,21 +123,27 @@ fn what_is_no_matrix_is_refused_by_name() {
         (plain.clone(), "--offset 1 -o b.npy", &["--offset"]),
         (plain.clone(), "-o a.npy", &["a.npy", "is the input"]),
     ] {
-        desk.put("a.npy", bytes);
-        desk.taut(&format!("memory transpose a.npy {options}")).ends(2).complains(said);
-        assert_eq!(desk.files(), ["a.npy"]);
+        folder.put("a.npy", bytes);
+        folder.taut(&format!("memory transpose a.npy {options}")).ends(2).stderr_has(said);
+        assert_eq!(folder.files(), ["a.npy"]);
     }
-    desk.taut("memory transpose a.npy --samples 1 --certificate b.json -o b.npy").ends(2);
+    folder.taut("memory transpose a.npy --samples 1 --certificate b.json -o b.npy").ends(2);
     for missing in ["missing.npy -o b.npy", "missing.bin --rows 1 --columns 2 -o b.bin"] {
         let named = ["missing", ": no such file or folder"];
-        desk.taut(&format!("memory transpose {missing}")).ends(2).complains(&named);
+        folder.taut(&format!("memory transpose {missing}")).ends(2).stderr_has(&named);
     }
-    desk.put("a.bin", [0; 16]);
-    desk.taut("memory transpose a.bin -o b.bin").ends(2).complains(&["a.bin", "--rows N"]);
-    desk.taut("memory transpose a.bin --rows 1 --columns 2 -o b.npy")
+    folder.put("a.bin", [0; 16]);
+    folder.taut("memory transpose a.bin -o b.bin").ends(2).stderr_has(&["a.bin", "--rows N"]);
+    folder
+        .taut("memory transpose a.bin --rows 1 --columns 2 -o b.npy")
         .ends(2)
-        .complains(&["b.npy", "without a header"]);
-    desk.taut("memory transpose a.bin --rows 1 --columns 2 -o b.bin --certificate b.json").ends(0);
-    desk.taut("verify b.json a.bin c.bin").ends(2).complains(&["c.bin: no such file or folder"]);
-    desk.taut("verify b.json a.bin b.bin").ends(0).says(&["Verified: 2 × 1, the transpose"]);
+        .stderr_has(&["b.npy", "without a header"]);
+    folder
+        .taut("memory transpose a.bin --rows 1 --columns 2 -o b.bin --certificate b.json")
+        .ends(0);
+    folder.taut("verify b.json a.bin c.bin").ends(2).stderr_has(&["c.bin: no such file or folder"]);
+    folder
+        .taut("verify b.json a.bin b.bin")
+        .ends(0)
+        .stdout_has(&["Verified: 2 × 1, the transpose"]);
 }

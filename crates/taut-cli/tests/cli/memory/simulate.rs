@@ -1,6 +1,6 @@
 //! Simulated memories.
 
-use crate::desk::Desk;
+use crate::test_folder::TestFolder;
 
 /// Rows of a CSV file below its header, by column.
 fn rows(text: &str) -> Vec<Vec<String>> {
@@ -10,11 +10,12 @@ fn rows(text: &str) -> Vec<Vec<String>> {
 
 #[test]
 fn misses_stand_beside_the_formula() {
-    let desk = Desk::new();
-    desk.taut("memory simulate transpose -n 256 --memory 32K,256K --block 64,256 -o misses.csv")
+    let folder = TestFolder::new();
+    folder
+        .taut("memory simulate transpose -n 256 --memory 32K,256K --block 64,256 -o misses.csv")
         .ends(0)
-        .says(&["algorithm", "formula", "transpose", "16,384", "1.000"]);
-    let text = desk.text("misses.csv");
+        .stdout_has(&["algorithm", "formula", "transpose", "16,384", "1.000"]);
+    let text = folder.text("misses.csv");
     assert!(text.starts_with("algorithm,n,memory,block,policy,misses,write_backs,formula\n"));
     let rows = rows(&text);
     assert_eq!(rows.len(), 4);
@@ -27,8 +28,8 @@ fn misses_stand_beside_the_formula() {
 
 #[test]
 fn columns_do_not_run_together() {
-    let desk = Desk::new();
-    let wide = desk.taut("memory simulate transpose -n 8 --block 1G --memory 900T").ends(0).out;
+    let folder = TestFolder::new();
+    let wide = folder.taut("memory simulate transpose -n 8 --block 1G --memory 900T").ends(0).out;
     let cells = |text: &str| -> Vec<String> {
         let last = text.lines().last().unwrap_or_default();
         last.split_whitespace().map(str::to_owned).collect()
@@ -36,19 +37,19 @@ fn columns_do_not_run_together() {
     assert_eq!(cells(&wide)[..4], ["transpose", "8", "989560464998400", "1073741824"], "{wide}");
     // 2·8·8 words in blocks of 2²⁷.
     assert_eq!(cells(&wide)[5], "9.53674316e-7", "{wide}");
-    let one = desk.taut("memory simulate transpose -n 1 --memory 4K").ends(0).out;
+    let one = folder.taut("memory simulate transpose -n 1 --memory 4K").ends(0).out;
     let misses: f64 = cells(&one)[4].parse().unwrap();
     assert_eq!(cells(&one)[5..], ["0.25".to_owned(), format!("{:.3}", misses / 0.25)], "{one}");
-    let none = desk.taut("memory simulate search -n 1 --memory 4K").ends(0).out;
+    let none = folder.taut("memory simulate search -n 1 --memory 4K").ends(0).out;
     assert_eq!(cells(&none).len(), 7, "{none}");
 }
 
 #[test]
 fn policies_differ_and_the_best_is_the_best() {
-    let desk = Desk::new();
+    let folder = TestFolder::new();
     let misses = |policy: &str| -> u64 {
         let line = format!("memory simulate multiply -n 24 --memory 4K --policy {policy} -o -");
-        let text = desk.taut(&line).ends(0).out;
+        let text = folder.taut(&line).ends(0).out;
         rows(&text)[0][5].parse().unwrap()
     };
     let (lru, fifo, best) = (misses("lru"), misses("fifo"), misses("optimal"));
@@ -58,8 +59,8 @@ fn policies_differ_and_the_best_is_the_best() {
 
 #[test]
 fn every_algorithm_runs() {
-    let desk = Desk::new();
-    let help = desk.taut("memory simulate --help").ends(0).out;
+    let folder = TestFolder::new();
+    let help = folder.taut("memory simulate --help").ends(0).out;
     let mut ran = 0;
     for line in help.lines().filter_map(|line| line.trim().strip_prefix("- ")) {
         let Some((name, _)) = line.split_once(':') else { continue };
@@ -68,8 +69,8 @@ fn every_algorithm_runs() {
         {
             let small =
                 format!("memory simulate {name} -n 1,2,16 --memory 1K -o {name}.csv --quiet");
-            desk.taut(&small).ends(0);
-            assert_eq!(desk.text(&format!("{name}.csv")).lines().count(), 4);
+            folder.taut(&small).ends(0);
+            assert_eq!(folder.text(&format!("{name}.csv")).lines().count(), 4);
             ran += 1;
         }
     }
@@ -78,26 +79,27 @@ fn every_algorithm_runs() {
 
 #[test]
 fn figures_of_the_thesis_are_counted_and_drawn() {
-    let desk = Desk::new();
-    desk.taut("memory simulate --figure 40 -o 40.csv --draw 40.svg")
+    let folder = TestFolder::new();
+    folder
+        .taut("memory simulate --figure 40 -o 40.csv --draw 40.svg")
         .ends(0)
-        .says(&["transpose-loops"]);
-    assert!(desk.text("40.svg").contains("Transposition, n × 100"));
-    assert_eq!(rows(&desk.text("40.csv")).len(), 22);
+        .stdout_has(&["transpose-loops"]);
+    assert!(folder.text("40.svg").contains("Transposition, n × 100"));
+    assert_eq!(rows(&folder.text("40.csv")).len(), 22);
     for number in [35, 39, 44, 45, 51] {
-        desk.taut(&format!("memory simulate --figure {number}")).ends(2).complains(&[
+        folder.taut(&format!("memory simulate --figure {number}")).ends(2).stderr_has(&[
             "--figure",
             &number.to_string(),
             "36 to 38",
         ]);
     }
-    desk.taut("memory simulate reverse -n 100,1000 --draw reverse.html").ends(0);
-    assert!(desk.text("reverse.html").contains("Misses of reverse"));
+    folder.taut("memory simulate reverse -n 100,1000 --draw reverse.html").ends(0);
+    assert!(folder.text("reverse.html").contains("Misses of reverse"));
 }
 
 #[test]
 fn what_is_no_memory_is_refused_by_name() {
-    let desk = Desk::new();
+    let folder = TestFolder::new();
     for (options, said) in [
         ("transpose --block 48", &["block", "48"][..]),
         ("transpose --memory 32 --block 64", &["memory"]),
@@ -110,10 +112,10 @@ fn what_is_no_memory_is_refused_by_name() {
         ("strassen -n 48", &["`n`", "power of two"]),
         ("transpose --draw picture.txt", &["picture.txt"]),
     ] {
-        desk.taut(&format!("memory simulate {options}")).ends(2).complains(said);
+        folder.taut(&format!("memory simulate {options}")).ends(2).stderr_has(said);
     }
     for usage in ["transposition", "--draw picture.svg", "transpose --figure 36"] {
-        desk.taut(&format!("memory simulate {usage}")).ends(2);
+        folder.taut(&format!("memory simulate {usage}")).ends(2);
     }
-    assert!(desk.files().is_empty());
+    assert!(folder.files().is_empty());
 }

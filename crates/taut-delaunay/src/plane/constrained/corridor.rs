@@ -221,7 +221,7 @@ impl Corridor {
     }
 }
 
-/// Whether both sides of an edge are in the corridor.
+/// Returns true if both sides of an edge are in the corridor.
 fn hangs(inside: &[bool], edge: &Border) -> bool {
     edge.outer != NONE && inside[decode(edge.outer).0 as usize]
 }

@@ -52,12 +52,12 @@ impl Constrained {
         Constrained { triangles, marks, pieces, splits }
     }
 
-    /// The triangles with their neighbours, ghosts included.
+    /// The triangles with their neighbors, ghosts included.
     pub fn triangles(&self) -> &[Simplex<3>] {
         &self.triangles
     }
 
-    /// Whether the edge opposite vertex `edge` of a triangle belongs to a segment.
+    /// Returns true if the edge opposite vertex `edge` of a triangle belongs to a segment.
     ///
     /// # Panics
     /// If there is no such triangle or edge.
@@ -66,7 +66,7 @@ impl Constrained {
         self.marks[triangle as usize] & 1 << edge != 0
     }
 
-    /// Whether a way from outside to this triangle crosses the rings an odd number of times.
+    /// Returns true if a way from outside to this triangle crosses the rings an odd number of times.
     ///
     /// # Panics
     /// If there is no such triangle.

@@ -86,7 +86,7 @@ fn sites_on(points: &[Point], segment: &Segment) -> Vec<u32> {
     on
 }
 
-/// Whether two segments have a point in common that is inside both and no site on either.
+/// Returns true if two segments have a point in common that is inside both and no site on either.
 fn cross(points: &[Point], s: &Segment, t: &Segment) -> bool {
     let [a, b, c, d] = [s.from, s.to, t.from, t.to].map(|v| points[v as usize]);
     let apart = |p, q, u, v| (orient(p, q, u) * orient(p, q, v)).is_negative();

@@ -211,7 +211,7 @@ unsafe fn columns8<const J: usize>(sites: &[Site], s: &[&Simplex<4>; 8]) -> [F64
     ]
 }
 
-/// Whether all vertices of these simplices have a row, asked once for all.
+/// Tests whether all vertices of these simplices have a row, asked once for all.
 #[inline]
 #[target_feature(enable = "avx2")]
 fn within<const N: usize>(sites: &[Site], group: &[&Simplex<4>; N]) -> bool {
@@ -438,7 +438,7 @@ fn put<const I: usize>(simplex: &Simplex<4>, facet: &mut Facet) {
             _mm_loadu_si128(simplex.neighbors.as_ptr().cast()),
         )
     };
-    // The rows of `FACETS`; in the last place the neighbour of the same number.
+    // The rows of `FACETS`; in the last place the neighbor of the same number.
     let (vertices, code) = match I {
         0 => (
             _mm_shuffle_epi32(vertices, 0b00_11_10_01),

@@ -61,7 +61,7 @@ fn cospherical_integers() {
 }
 
 #[test]
-fn octahedron_with_its_centre_and_two_more() {
+fn octahedron_with_its_center_and_two_more() {
     let mut points = vec![[0.0; 3], [0.0, 0.0, 0.5], [0.5, 0.0, 0.0]];
     for i in 0..3 {
         for sign in [1.0, -1.0] {

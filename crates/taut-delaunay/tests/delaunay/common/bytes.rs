@@ -7,7 +7,7 @@ use taut_points::Points;
 /// Most points: small sets are the degenerate ones, and fast.
 const POINTS_MAX: usize = 96;
 
-/// What a byte means as a coordinate: mostly small integers, so that points coincide and lie on common lines, circles,
+/// Returns what a byte means as a coordinate: mostly small integers, so that points coincide and lie on common lines, circles,
 /// planes and spheres; and the ends of what a double holds.
 fn coordinate(byte: u8, style: u8) -> f64 {
     let small = f64::from(byte % 8);

@@ -1,11 +1,11 @@
-//! A few items, and for each of them the rows at which a centre has it within less than a radius.
+//! A few items, and for each of them the rows at which a center has it within less than a radius.
 
 use taut_points::{Monitor, ReadError};
 
 use super::sites::Sites;
 use crate::Error;
 
-/// What of a set of rows is not empty: which word, and the word.
+/// The words of a set of rows that are not empty, with their numbers.
 pub(super) type Words = Vec<(u32, u64)>;
 
 /// Number of rows in a set.
@@ -77,12 +77,11 @@ impl<'s> CoreSet<'s> {
         self.fits.push(fits);
     }
 
-    /// The rows at which a centre has this item.
+    /// The rows at which a center has this item.
     pub(super) fn words(&self, item: usize) -> &Words {
         &self.words[item]
     }
 
-    /// How many these are.
     pub(super) fn size(&self, item: usize) -> u32 {
         self.sizes[item]
     }
@@ -92,7 +91,7 @@ impl<'s> CoreSet<'s> {
         words.iter().any(|&(at, word)| word & near[at as usize] != 0)
     }
 
-    /// How many of these rows have this item, too.
+    /// Returns how many of these rows have this item, too.
     pub(super) fn count(&self, words: &[(u32, u64)], item: usize) -> u32 {
         let near = &self.near[item];
         words.iter().map(|&(at, word)| (word & near[at as usize]).count_ones()).sum()
@@ -105,14 +104,14 @@ impl<'s> CoreSet<'s> {
         both.filter(|(_, word)| *word != 0).collect()
     }
 
-    /// Whether some row has both items.
+    /// Returns true if some row has both items.
     pub(super) fn fit(&self, a: usize, b: usize) -> bool {
         self.fits[a].get(b / 64).is_some_and(|word| word >> (b % 64) & 1 == 1)
     }
 
     /// Items of which no two fit in one ball: those of `among`, the most particular first, that fit with none before,
     /// from several of them in turn; the largest such set found, or the first larger than `enough`.
-    pub(super) fn apart(&self, among: &[usize], starts: usize, enough: usize) -> Vec<usize> {
+    pub(super) fn separated(&self, among: &[usize], starts: usize, enough: usize) -> Vec<usize> {
         let degree = |&a: &usize| among.iter().filter(|&&b| self.fit(a, b)).count();
         let mut order: Vec<(usize, usize)> = among.iter().map(|a| (degree(a), *a)).collect();
         order.sort_unstable();

@@ -11,9 +11,9 @@ use taut_points::Monitor;
 
 use super::core_set::CoreSet;
 use super::sites::Sites;
-use super::state::{Look, State};
+use super::state::{NodeState, State};
 use crate::Error;
-use crate::centers::plain_tree::{CORE_SET_MAX, PlainTree};
+use crate::centers::proof_tree::{CORE_SET_MAX, ProofTree};
 
 /// Items that no node branches on are dropped in at most this many rounds.
 const DROPPING_ROUNDS_MAX: usize = 4;
@@ -41,17 +41,17 @@ pub(super) fn prove(
         Ok::<_, Error>(State::new(core, k, outliers))
     };
     let state = root(members)?;
-    if let Look::Dead(mut items) = state.clone().look() {
+    if let NodeState::Dead(mut items) = state.clone().examine() {
         // One item alone that has no ball is not dead with others apart from it.
         let count =
             k.checked_add(outliers).filter(|&count| items.len() > count && count < CORE_SET_MAX);
         if let Some(count) = count {
             items.truncate(count + 1);
             let members = items.into_iter().map(|item| members[item]).collect();
-            return Ok(Ok(Proof { members, by: LowerBound::Apart, nodes: 1 }));
+            return Ok(Ok(Proof { members, by: LowerBound::Separated, nodes: 1 }));
         }
     }
-    let mut log = match PlainTree::new(state, max_nodes, monitor).log()? {
+    let mut log = match ProofTree::new(state, max_nodes, monitor).log()? {
         Ok(log) => log.items,
         Err(why) => return Ok(Err(why)),
     };
@@ -64,7 +64,7 @@ pub(super) fn prove(
             break;
         }
         members = used.iter().map(|&item| members[item as usize]).collect();
-        match PlainTree::new(root(&members)?, 2 * log.len() as u64, monitor).log()? {
+        match ProofTree::new(root(&members)?, 2 * log.len() as u64, monitor).log()? {
             Ok(shorter) => log = shorter.items,
             Err(_) => {
                 // The log stands as it is, over the items it uses.

@@ -1,30 +1,29 @@
-//! Whether k balls of less than a radius hold all items: a tree over X, which grows where X is held and something else is not.
+//! Decides whether k balls of less than a radius hold all items: a tree over X, which grows where X is held and something else is not.
 //!
-//! *Idea.* Depth first; a node is [`State`]. Where X is held, each cluster takes one of its rows as centre, and all
+//! *Idea.* Depth first; a node is [`State`]. Where X is held, each cluster takes one of its rows as center, and all
 //! items are measured: either the radius is enough, or the farthest item joins X and the node is looked at again. What
-//! was refuted stays refuted. When X has grown and the tree as well, it starts anew, as the new items may refute it sooner.
+//! was refuted stays refuted. When X has grown and the tree as well, it starts again, as the new items may refute it sooner.
 
 use taut_points::{Monitor, ReadError};
 
 use super::start::{Incumbent, radius};
-use super::state::{Look, State};
+use super::state::{NodeState, State};
 use crate::Error;
 use crate::centers::depth_first::Path;
 
-/// How a search ended.
+/// The way in which a search ended.
 #[derive(Debug, PartialEq)]
 pub(super) enum End {
     /// No k balls of less than the radius hold X.
     Refuted,
     /// The incumbent has less than the radius.
-    Covered,
+    StreamingReport,
     /// X has grown, and the nodes for this try are used up.
     Grown,
     /// All nodes are used up.
     Spent,
 }
 
-/// A search at work.
 pub(super) struct Search<'a, 's> {
     /// The root.
     pub(super) state: &'a mut State<'s>,
@@ -36,7 +35,7 @@ pub(super) struct Search<'a, 's> {
 }
 
 impl Search<'_, '_> {
-    /// Searches from the root; starts anew rather than go on after `patience` nodes when X has grown.
+    /// Searches from the root; starts again rather than go on after `patience` nodes when X has grown.
     pub(super) fn run(&mut self, patience: u64) -> Result<End, Error> {
         let (members, restart) = (self.state.core.len(), self.nodes.saturating_add(patience));
         let mut path = Path::new();
@@ -50,12 +49,12 @@ impl Search<'_, '_> {
             }
             *self.nodes += 1;
             let item = loop {
-                match self.state.look() {
-                    Look::Dead(_) => break None,
-                    Look::Branch(item) => break Some(item),
-                    Look::Covered => {
+                match self.state.examine() {
+                    NodeState::Dead(_) => break None,
+                    NodeState::Branch(item) => break Some(item),
+                    NodeState::StreamingReport => {
                         let Some(farthest) = self.measure() else {
-                            return Ok(End::Covered);
+                            return Ok(End::StreamingReport);
                         };
                         self.state.add(farthest);
                     }
@@ -70,7 +69,7 @@ impl Search<'_, '_> {
         }
     }
 
-    /// Measures all items from a centre for each cluster. The farthest that is not left out, unless the radius is enough.
+    /// Measures all items from a center for each cluster. The farthest that is not left out, unless the radius is enough.
     fn measure(&mut self) -> Option<usize> {
         let (state, core) = (&*self.state, &*self.state.core);
         let mut counts = vec![true; core.sites.len()];
@@ -86,9 +85,9 @@ impl Search<'_, '_> {
             let far = (0..reaches.len()).filter(|&site| counts[site]);
             // The first of the farthest.
             let farthest = far.reduce(|a, b| if reaches[b] > reaches[a] { b } else { a });
-            let spare = farthest
+            let outliers_left = farthest
                 .filter(|&far| centers.len() < state.k && reaches[far] > core.sites.own_reach(far));
-            if let Some(center) = spare {
+            if let Some(center) = outliers_left {
                 centers.push(center);
                 core.sites.lower(&mut reaches, center);
                 continue;

@@ -31,7 +31,6 @@ pub(super) struct Sites {
     weights: Vec<f64>,
     /// By site; empty for points.
     radii: Vec<f64>,
-    /// The row of each site.
     rows: Vec<u64>,
     hash: PointsHash,
 }
@@ -68,22 +67,20 @@ impl Sites {
         self.hash
     }
 
-    /// The row that stands at a site.
     pub(super) fn row(&self, site: usize) -> u64 {
         self.rows[site]
     }
 
-    /// Its coordinates.
     pub(super) fn position(&self, site: usize) -> &[f64] {
         &self.positions[site * self.dim..(site + 1) * self.dim]
     }
 
-    /// Whether all items count alike.
+    /// Returns true if all items count alike.
     pub(super) fn are_plain(&self) -> bool {
         self.weights.is_empty() && self.radii.is_empty()
     }
 
-    /// What an item counts at a distance: w·distance + r.
+    /// Returns the reach of an item at a distance: w·distance + r.
     fn reach(&self, site: usize, distance: f64) -> f64 {
         let weight = self.weights.get(site).copied().unwrap_or(1.0);
         weight * distance + self.radii.get(site).copied().unwrap_or(0.0)
@@ -96,12 +93,12 @@ impl Sites {
         distance[0]
     }
 
-    /// Whether a distance has all its digits.
+    /// Returns true if a distance has all its digits.
     pub(super) fn is_even(&self, site: usize, center: usize) -> bool {
         site == center || EXACT_DISTANCES.contains(&self.distance(site, center))
     }
 
-    /// The reach that one of two items has at least, wherever the centre: (D + r₁ + r₂)/2 or a radius for balls,
+    /// The reach that one of two items has at least, wherever the center: (D + r₁ + r₂)/2 or a radius for balls,
     /// w₁w₂D/(w₁ + w₂) for weights.
     pub(super) fn reach_of_pair(&self, a: usize, b: usize) -> f64 {
         let distance = self.distance(a, b);
@@ -115,7 +112,7 @@ impl Sites {
         }
     }
 
-    /// The distances of the sites from `first` on to a centre.
+    /// The distances of the sites from `first` on to a center.
     fn distances(&self, first: usize, center: &Center, out: &mut [f64]) {
         let values = &self.positions[first * self.dim..(first + out.len()) * self.dim];
         squared_distances(values, self.dim, center, out);
@@ -132,7 +129,7 @@ impl Sites {
         self.len() * self.dim < 8 * CHUNK
     }
 
-    /// A row as centre.
+    /// A row as center.
     fn center(&self, site: usize) -> Center {
         Center { high: self.position(site).to_vec(), low: vec![] }
     }
@@ -156,7 +153,7 @@ impl Sites {
         }
     }
 
-    /// The set of rows at which a centre has item `site` within a reach less than `radius`, 64 rows a word.
+    /// The set of rows at which a center has item `site` within a reach less than `radius`, 64 rows a word.
     pub(super) fn near(&self, site: usize, radius: f64) -> Vec<u64> {
         let words = self.by_chunks(site, |_, distances| {
             let word = |distances: &[f64]| {
@@ -179,7 +176,7 @@ impl Sites {
         least.into_iter().fold(f64::INFINITY, f64::min)
     }
 
-    /// Lowers the reaches of all items to those from one more centre.
+    /// Lowers the reaches of all items to those from one more center.
     pub(super) fn lower(&self, reaches: &mut [f64], center: usize) {
         let center = self.center(center);
         let chunk = |(number, reaches): (usize, &mut [f64])| {
@@ -200,14 +197,14 @@ impl Sites {
         }
     }
 
-    /// The reach of every item from the nearest of these centres.
+    /// The reach of every item from the nearest of these centers.
     pub(super) fn reaches(&self, centers: &[usize]) -> Vec<f64> {
         let mut reaches = vec![f64::INFINITY; self.len()];
         centers.iter().for_each(|&center| self.lower(&mut reaches, center));
         reaches
     }
 
-    /// The reach of every item from the nearest of these centres, and which that is, the first of several.
+    /// The reach of every item from the nearest of these centers, and which that is, the first of several.
     pub(super) fn nearest(&self, centers: &[usize]) -> (Vec<f64>, Vec<u32>) {
         let mut least = vec![f64::INFINITY; self.len()];
         let mut nearest = vec![0; self.len()];
@@ -255,7 +252,7 @@ impl Sites {
         best.map(|(_, site)| site)
     }
 
-    /// The reach of item `site` from a centre as somebody else may evaluate it, or a little more; itself where nothing
+    /// The reach of item `site` from a center as somebody else may evaluate it, or a little more; itself where nothing
     /// is rounded.
     pub(super) fn reach_up(&self, site: usize, center: usize) -> f64 {
         let distance = self.distance(site, center);

@@ -1,6 +1,6 @@
 //! Where the search starts: farthest-first traversals.
 //!
-//! *Idea.* Each next centre is the item that reaches farthest from all before. k of them are at most twice
+//! *Idea.* Each next center is the item that reaches farthest from all before. k of them are at most twice
 //! as bad as the best (with weights or outliers that is not promised); k + z + 1 of them prove a bound: two of them share a ball, whichever z are
 //! left out. Where items may be left out, traversals that take the (z + 1)-th farthest do not end among the outliers.
 //! *Reference.* Gonzalez, Theoretical Computer Science 38, 1985; with weights, Dyer and Frieze, Operations Research
@@ -13,10 +13,10 @@ use crate::Error;
 
 /// This many traversals start from different items; each next one from the last item of the one before.
 const TRAVERSALS: usize = 4;
-/// Beyond this many centres, a traversal costs more than another one gains.
+/// Beyond this many centers, a traversal costs more than another one gains.
 const TRAVERSED_CENTERS_MAX: usize = 64;
 
-/// Centres at rows.
+/// Centers at rows.
 #[derive(Clone, Debug)]
 pub(super) struct Incumbent {
     /// Sites.
@@ -28,7 +28,7 @@ pub(super) struct Incumbent {
 /// Where the search starts.
 pub(super) struct Start {
     pub(super) incumbent: Incumbent,
-    /// No k centres have a radius less than this; 0 where nothing is known.
+    /// No k centers have a radius less than this; 0 where nothing is known.
     pub(super) lower: f64,
     /// The items that prove it, or the first of X.
     pub(super) members: Vec<usize>,

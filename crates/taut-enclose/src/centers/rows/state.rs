@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use super::core_set::{CoreSet, Words, size};
 use crate::centers::depth_first::{self, Place};
-use crate::centers::plain_tree::{Log, Proving};
+use crate::centers::proof_tree::{ProofLog, Proving};
 
 /// At the root, sets of items apart are sought from this many starts, divided by |X|: from every item while X is small.
 const ROOT_TESTS: usize = 1 << 16;
@@ -20,7 +20,6 @@ const ROOT_TESTS: usize = 1 << 16;
 pub(super) struct Cluster {
     /// The rows that have them all.
     pub(super) words: Words,
-    /// How many.
     size: u32,
     /// For each item of X, how many of these have it, too; may be shorter than X.
     column: Vec<u32>,
@@ -41,17 +40,16 @@ pub(super) struct State<'s> {
     lead: Vec<usize>,
 }
 
-/// What a look at a node shows.
-pub(super) enum Look {
+pub(super) enum NodeState {
     /// Every item is held for good, or left out.
-    Covered,
+    StreamingReport,
     /// Branch on this item.
     Branch(usize),
     /// No way on: branching on these in turn shows it.
     Dead(Vec<usize>),
 }
 
-/// What has to be known to take a step back.
+/// The data to take a step back.
 pub(super) struct Undo {
     item: usize,
     place: Place,
@@ -70,13 +68,13 @@ impl<'s> State<'s> {
         Arc::make_mut(&mut self.core).add(site);
     }
 
-    /// Whether an item was given to a cluster or left out.
+    /// Tests whether an item was given to a cluster or left out.
     fn is_given(&self, item: usize) -> bool {
         self.given.get(item).copied().unwrap_or(false)
     }
 
     /// Looks at the node; brings columns up to date with X.
-    pub(super) fn look(&mut self) -> Look {
+    pub(super) fn examine(&mut self) -> NodeState {
         let core = &*Arc::clone(&self.core);
         for cluster in &mut self.clusters {
             for item in cluster.column.len()..core.len() {
@@ -84,33 +82,35 @@ impl<'s> State<'s> {
             }
         }
         let empty = self.k - self.clusters.len();
-        let spare = self.outliers - self.left_out.len();
+        let outliers_left = self.outliers - self.left_out.len();
         // Items that fit in no cluster that has items.
-        let mut stray = vec![];
+        let mut unplaced = vec![];
         let mut best: Option<(usize, bool, f64, usize)> = None;
         for item in (0..core.len()).filter(|&item| !self.is_given(item)) {
-            let (mut places, mut room) = (0, f64::from(core.size(item)) / core.sites.len() as f64);
+            let (mut places, mut freedom) =
+                (0, f64::from(core.size(item)) / core.sites.len() as f64);
             let mut held = false;
             for cluster in &self.clusters {
                 let count = cluster.column[item];
                 held |= count == cluster.size;
                 if count > 0 {
                     places += 1;
-                    room += f64::from(count) / f64::from(cluster.size);
+                    freedom += f64::from(count) / f64::from(cluster.size);
                 }
             }
             if held {
                 continue;
             }
             if places == 0 {
-                stray.push(item);
+                unplaced.push(item);
             }
             // A ball of a radius may have no row that holds it.
-            places += usize::from(empty > 0 && core.size(item) > 0) + usize::from(spare > 0);
+            places +=
+                usize::from(empty > 0 && core.size(item) > 0) + usize::from(outliers_left > 0);
             if places == 0 {
-                return Look::Dead(vec![item]);
+                return NodeState::Dead(vec![item]);
             }
-            let key = (places, !self.lead.contains(&item), room, item);
+            let key = (places, !self.lead.contains(&item), freedom, item);
             let less = |best: &(usize, bool, f64, usize)| {
                 let order = (key.0, key.1).cmp(&(best.0, best.1));
                 order.then(key.2.total_cmp(&best.2)).then(key.3.cmp(&best.3)).is_lt()
@@ -119,41 +119,47 @@ impl<'s> State<'s> {
                 best = Some(key);
             }
         }
-        let Some((_, _, _, item)) = best else { return Look::Covered };
+        let Some((_, _, _, item)) = best else { return NodeState::StreamingReport };
         if self.clusters.is_empty() && self.left_out.is_empty() {
             let enough = self.k + self.outliers;
-            let apart = core.apart(&stray, ROOT_TESTS / stray.len().max(1) + 1, enough);
-            if apart.len() > enough {
-                return Look::Dead(apart);
+            let separated =
+                core.separated(&unplaced, ROOT_TESTS / unplaced.len().max(1) + 1, enough);
+            if separated.len() > enough {
+                return NodeState::Dead(separated);
             }
-            self.lead = apart;
-            return Look::Branch(self.lead.first().copied().unwrap_or(item));
+            self.lead = separated;
+            return NodeState::Branch(self.lead.first().copied().unwrap_or(item));
         }
-        match self.refute(stray, empty, spare) {
-            Some(items) => Look::Dead(items),
-            None => Look::Branch(item),
+        match self.refute(unplaced, empty, outliers_left) {
+            Some(items) => NodeState::Dead(items),
+            None => NodeState::Branch(item),
         }
     }
 
     /// Items that fit in no cluster that has items, and that so many empty clusters and outliers do not hold either.
-    fn refute(&self, stray: Vec<usize>, empty: usize, spare: usize) -> Option<Vec<usize>> {
+    fn refute(
+        &self,
+        unplaced: Vec<usize>,
+        empty: usize,
+        outliers_left: usize,
+    ) -> Option<Vec<usize>> {
         let core = &*self.core;
         if empty == 0 {
-            return (stray.len() > spare).then_some(stray);
+            return (unplaced.len() > outliers_left).then_some(unplaced);
         }
-        if empty == 1 && spare == 0 && stray.len() > 1 {
-            let mut words = core.words(stray[0]).clone();
-            let last = stray.iter().skip(1).position(|&item| {
+        if empty == 1 && outliers_left == 0 && unplaced.len() > 1 {
+            let mut words = core.words(unplaced[0]).clone();
+            let last = unplaced.iter().skip(1).position(|&item| {
                 words = core.common(&words, item);
                 words.is_empty()
             });
-            return last.map(|last| stray[..last + 2].to_vec());
+            return last.map(|last| unplaced[..last + 2].to_vec());
         }
-        if stray.len() <= empty + spare {
+        if unplaced.len() <= empty + outliers_left {
             return None;
         }
-        let apart = core.apart(&stray, 1, empty + spare);
-        (apart.len() > empty + spare).then_some(apart)
+        let separated = core.separated(&unplaced, 1, empty + outliers_left);
+        (separated.len() > empty + outliers_left).then_some(separated)
     }
 
     /// Where an item may go, in the order in which a proof takes them.
@@ -244,14 +250,14 @@ impl depth_first::State for State<'_> {
 
 impl Proving for State<'_> {
     fn chain(&mut self) -> Vec<u32> {
-        match self.look() {
-            Look::Covered => vec![],
-            Look::Branch(item) => vec![item as u32],
-            Look::Dead(items) => items.into_iter().map(|item| item as u32).collect(),
+        match self.examine() {
+            NodeState::StreamingReport => vec![],
+            NodeState::Branch(item) => vec![item as u32],
+            NodeState::Dead(items) => items.into_iter().map(|item| item as u32).collect(),
         }
     }
 
-    fn open_places(&mut self, item: u32, _: &mut Log) -> Vec<Place> {
+    fn open_places(&mut self, item: u32, _: &mut ProofLog) -> Vec<Place> {
         self.places(item as usize)
     }
 }

@@ -1,4 +1,4 @@
-//! Centres among the rows, against brute force and another exact method, with proofs replayed.
+//! Centers among the rows, against brute force and another exact method, with proofs replayed.
 
 mod judge;
 mod other;
@@ -137,7 +137,7 @@ fn scaled_shifted_permuted_and_repeated_rows_have_the_same_answer() {
 }
 
 #[test]
-fn the_radius_falls_with_more_centres_and_more_outliers() {
+fn the_radius_falls_with_more_centers_and_more_outliers() {
     let values = rows(80, 2, 7);
     let mut before = f64::INFINITY;
     for k in 1..8 {
@@ -149,7 +149,7 @@ fn the_radius_falls_with_more_centres_and_more_outliers() {
 }
 
 #[test]
-fn few_rows_and_equal_rows_are_centres_themselves() {
+fn few_rows_and_equal_rows_are_centers_themselves() {
     let one = solved(&points(&[3.0, 4.0], 2, 1, 0));
     assert_eq!((one.answer.radius, one.answer.lower_bound), (0.0, 0.0));
     assert_eq!((one.answer.rows, one.certificate.gap), (vec![0], 0.0));
@@ -163,7 +163,7 @@ fn few_rows_and_equal_rows_are_centres_themselves() {
     let found = solved(&points(&pair, 2, 1, 20)).answer;
     assert_eq!((found.radius, found.outliers.len()), (0.0, 20));
     assert_eq!(solved(&points(&pair, 2, 1, 39)).answer.radius, 0.0);
-    // Balls are never less than they are, even as centres.
+    // Balls are never less than they are, even as centers.
     let balls = Problem { items: Items::Balls, ..points(&[0.0, 1.0, 5.0, 2.0], 2, 2, 0) };
     assert_eq!(solved(&balls).answer.radius, 2.0);
 }
@@ -185,8 +185,8 @@ fn sizes_at_the_ends_of_the_range_are_solved_or_refused() {
         let scaled: Vec<f64> = values.iter().map(|v| v * scale).collect();
         assert_same(solved(&points(&scaled, 2, 3, 0)).answer.radius, first * scale);
     }
-    let apart = [f64::MAX, -f64::MAX];
-    let problem = points(&apart, 1, 1, 0);
+    let ends = [f64::MAX, -f64::MAX];
+    let problem = points(&ends, 1, 1, 0);
     let refused = ask(&problem, &exact(&problem));
     assert!(matches!(refused, Err(Error::Overflow)));
 }
@@ -236,7 +236,7 @@ fn a_search_cut_short_still_gives_bounds_that_hold() {
         before = found.certificate.gap;
         if max_nodes < 30 {
             assert_eq!(found.trace.stop, Stop::NodeBudget);
-            assert!(matches!(found.certificate.proof, LowerBound::Apart));
+            assert!(matches!(found.certificate.proof, LowerBound::Separated));
         }
     }
 }
@@ -259,7 +259,7 @@ fn the_traversal_alone_proves_a_factor_of_two() {
 }
 
 #[test]
-fn each_row_is_told_its_centre_on_request() {
+fn each_row_is_told_its_center_on_request() {
     let values = rows(50, 2, 11);
     let problem = points(&values, 2, 4, 0);
     let options = CentersOptions { assignment: true, ..exact(&problem) };

@@ -22,7 +22,7 @@ use crate::kernel::vector::{add_scaled, dot};
 const DEPENDENT_RATIO: f64 = 1e-11;
 /// More than this counts as a rise of the radius, in parts of it.
 const RADIUS_RISE_MIN: f64 = 4e-16;
-/// Items may join in vain, one after the other, up to this many times beyond d.
+/// Items may join without progress, one after the other, up to this many times beyond d.
 const JOINS_WITHOUT_RISE_MAX: usize = 10;
 /// R is found in at most this many steps, of which each doubles the digits.
 const NEWTON_STEPS_MAX: usize = 60;
@@ -124,7 +124,7 @@ impl ActiveSet {
         about.chain([self.height]).collect()
     }
 
-    /// What a place is along the basis, what is left of it, of length 1, and how long that was; 0 where it depends on the support.
+    /// Returns what a place is along the basis, what is left of it, of length 1, and how long that was; 0 where it depends on the support.
     fn split(&self, place: &[f64]) -> (Vec<f64>, Vec<f64>, f64) {
         let mut rest = place.to_vec();
         let mut column = vec![0.0; self.basis.len()];
@@ -279,7 +279,7 @@ impl ActiveSet {
         self.shares.fill(1.0);
     }
 
-    /// The radius that the shares prove, of the support alone; sets the centre.
+    /// The radius that the shares prove, of the support alone; sets the center.
     fn proved<P: Position>(&mut self, items: &ItemSet<P>) -> f64 {
         self.center.clear();
         self.center.resize(self.dim, 0.0);

@@ -1,7 +1,7 @@
 //! Balls through a few items, and the room in which they are worked out.
 //!
 //! *Through m + 1 items:* with eᵢ = pᵢ − p₀ and t = R², or R − r₀ for balls, 2eᵢ′(c − p₀) is linear in t, which a QR
-//! factorisation of the eᵢ turns into c = p₀ + Q(y₀ + t·y₁); what is left is one equation in t, of degree two.
+//! factorization of the eᵢ turns into c = p₀ + Q(y₀ + t·y₁); what is left is one equation in t, of degree two.
 
 use super::Ball;
 use super::active_set::ActiveSet;
@@ -67,7 +67,7 @@ impl<P: Position> Workspace<P> {
         if radius < limit { radius } else { f64::INFINITY }
     }
 
-    /// The balls whose border goes through all of `through`, with their centre in its affine hull: at most two.
+    /// The balls whose border goes through all of `through`, with their center in its affine hull: at most two.
     pub(super) fn spheres_through(&mut self, items: &ItemSet<P>) {
         self.spheres = [None, None];
         match self.through[..] {
@@ -176,7 +176,7 @@ impl<P: Position> Workspace<P> {
         center
     }
 
-    /// β of the centre of a sphere: Rβ = Q′(c − p₀).
+    /// β of the center of a sphere: Rβ = Q′(c − p₀).
     pub(super) fn find_shares(&mut self, items: &ItemSet<P>, which: usize) {
         let count = self.through.len();
         self.shares.clear();
@@ -215,7 +215,7 @@ fn pair<P: Position>(items: &ItemSet<P>, a: usize, b: usize) -> Option<(P, f64)>
         return None;
     }
     let radius = items.pair_radius(a, b);
-    // How far the centre is from a, in parts of the distance.
+    // The distance of the center from a, in parts of the distance.
     let part = match items.shape() {
         Shape::Points => 0.5,
         Shape::Weighted => items.weight(b) / (items.weight(a) + items.weight(b)),

@@ -87,7 +87,7 @@ fn balls_prove_themselves() {
     sets::<Vec<f64>>(6);
 }
 
-/// Three points on a circle of radius 5 around (1, 2), and its centre.
+/// Three points on a circle of radius 5 around (1, 2), and its center.
 #[test]
 fn a_circle() {
     let mut items = ItemSet::<[f64; 2]>::new(Shape::Points, 2);

@@ -82,7 +82,7 @@ impl Base {
     }
 }
 
-/// How far items lie from a hull at most, rounded up.
+/// Returns how far items lie from a hull at most, rounded up.
 fn distance(shapes: &Shapes, center: &Center, basis: &[Vec<f64>]) -> f64 {
     let dim = shapes.dim();
     let off = |x: &mut [f64]| {
@@ -99,7 +99,7 @@ fn distance(shapes: &Shapes, center: &Center, basis: &[Vec<f64>]) -> f64 {
         let mut x: Vec<f64> = parts.map(|(j, (m, c))| (m - c) - tail(j)).collect();
         reach = x.iter().fold(reach, |most, v| most.max(v.abs()));
         off(&mut x);
-        // (I − B′B)S(I − B′B), of which the trace is the square of how far the item reaches off its own centre.
+        // (I − B′B)S(I − B′B), of which the trace is the square of how far the item reaches off its own center.
         let mut rows: Vec<Vec<f64>> =
             (0..dim).map(|j| (0..dim).map(|k| shapes.entry(i, j, k).high).collect()).collect();
         rows.iter_mut().for_each(|row| off(row));

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::touches::Touch;
+use super::support_points::SupportPoint;
 use crate::kernel::vector::{add_scaled, dot};
 use crate::shapes::eigen::eigen;
 use crate::shapes::frame::Framed;
@@ -11,36 +11,35 @@ use crate::shapes::reach::{alternatives, farthest};
 /// A point of an item is named beside its farthest if it lies outside by this part of what that does.
 const NEAR_POINT_RATIO: f64 = 0.1;
 
-/// What a pass found.
-pub(super) struct Found {
+pub(super) struct PassResult {
     /// The largest |y|² of any item, and that of each item or a bound on it.
     pub(super) largest: f64,
     pub(super) squares: Vec<f64>,
     /// Points outside, the farthest first.
-    pub(super) outside: Vec<(f64, Touch)>,
+    pub(super) outside: Vec<(f64, SupportPoint)>,
 }
 
-/// Asks every item for its farthest point from the centre in the metric of M.
+/// Asks every item for its farthest point from the center in the metric of M.
 pub(super) fn pass(
     framed: &Framed,
     widths: &[f64],
     matrix: &[f64],
     center: &[f64],
     seeds: &[Vec<&[f64]>],
-) -> Found {
+) -> PassResult {
     let rank = framed.rank;
     let stretch = stretch(matrix, rank);
     let border = rank as f64;
-    let each: Vec<(f64, Vec<(f64, Touch)>)> = (0..framed.len())
+    let each: Vec<(f64, Vec<(f64, SupportPoint)>)> = (0..framed.len())
         .into_par_iter()
         .with_min_len(32)
         .map(|i| item(framed, i, matrix, center, stretch * widths[i], border, &seeds[i]))
         .collect();
-    let mut found = Found { largest: border, squares: vec![], outside: vec![] };
-    for (square, touches) in each {
+    let mut found = PassResult { largest: border, squares: vec![], outside: vec![] };
+    for (square, support_points) in each {
         found.largest = if square.is_nan() { f64::INFINITY } else { found.largest.max(square) };
         found.squares.push(square);
-        found.outside.extend(touches);
+        found.outside.extend(support_points);
     }
     found.outside.sort_by(|a, b| b.0.total_cmp(&a.0));
     found
@@ -68,7 +67,7 @@ fn item(
     width: f64,
     border: f64,
     seeds: &[&[f64]],
-) -> (f64, Vec<(f64, Touch)>) {
+) -> (f64, Vec<(f64, SupportPoint)>) {
     let rank = framed.rank;
     let offset: Vec<f64> = framed.center(i).iter().zip(center).map(|(m, c)| m - c).collect();
     let image: Vec<f64> =
@@ -93,7 +92,7 @@ fn item(
     let (lambda, vectors) = eigen(&mut shape, rank);
     let h: Vec<f64> = vectors.chunks_exact(rank).map(|v| dot(v, &image)).collect();
     let best = farthest(&lambda, &h);
-    let mut touches = vec![];
+    let mut support_points = vec![];
     let beyond = border * (1.0 + 1e-14);
     if best.square > beyond {
         let worth = border + NEAR_POINT_RATIO * (best.square - border);
@@ -101,14 +100,14 @@ fn item(
             seeds.iter().map(|a| seed(framed.shape(i), matrix, &lambda, &vectors, a)).collect();
         alternatives(&lambda, &h, &best, &seeds, |square, beta| {
             if square >= worth {
-                touches.push((
+                support_points.push((
                     square,
-                    Touch { item: i, direction: direction(matrix, &vectors, beta) },
+                    SupportPoint { item: i, direction: direction(matrix, &vectors, beta) },
                 ));
             }
         });
     }
-    (best.square, touches)
+    (best.square, support_points)
 }
 
 /// A point that touched in the direction a, by z along the axes of its item, up to length: Λ^−½V′MSa.

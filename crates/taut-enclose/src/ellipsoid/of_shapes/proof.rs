@@ -32,7 +32,7 @@ impl Base {
         let near: Vec<usize> = (0..shapes.len())
             .filter(|&i| best.squares[i] >= best.largest * (1.0 - BORDER_TOLERANCE))
             .collect();
-        // What a reach found from exact coordinates may be off by: eigenvalues, roots and sums.
+        // The error of a reach found from exact coordinates: eigenvalues, roots and sums.
         let rounding = 16.0 * (rank + 4) as f64 * f64::EPSILON;
         let mut scale = (1.0 - rounding) / best.largest.sqrt();
         let mut factor = self.factor(&best.matrix, scale);
@@ -57,7 +57,9 @@ impl Base {
         let mut support: Vec<(usize, Vec<f64>, f64)> = best
             .support
             .into_iter()
-            .map(|(touch, u)| (touch.item, self.direction(&touch.direction), u))
+            .map(|(support_point, u)| {
+                (support_point.item, self.direction(&support_point.direction), u)
+            })
             .collect();
         support.sort_by_key(|entry| entry.0);
         let images: Vec<f64> =
@@ -92,7 +94,7 @@ impl Base {
     }
 }
 
-/// The largest |y|² of an ellipsoid given by its matrix and centre.
+/// The largest |y|² of an ellipsoid given by its matrix and center.
 fn square(shape: &[f64], center: &[f64]) -> f64 {
     let rank = center.len();
     let (lambda, vectors) = eigen(&mut shape.to_vec(), rank);

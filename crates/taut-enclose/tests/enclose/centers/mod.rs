@@ -1,11 +1,11 @@
-//! What the tests of centres share: smallest balls by the ellipsoid method, a brute force over all colourings, and a
+//! Tests what the tests of centers share: smallest balls by the ellipsoid method, a brute force over all colorings, and a
 //! judge that measures every row and replays every proof with code of its own.
 #![allow(dead_code, unreachable_pub)] // each test binary uses a part
 
 use taut_certify::{Centers, Items, LowerBound, Solution};
 use taut_enclose::CentersOptions;
 
-/// How far a row reaches from a centre.
+/// Returns how far a row reaches from a center.
 pub fn reach(row: &[f64], center: &[f64], items: Items, weights: bool) -> f64 {
     let d = row.iter().zip(center).map(|(x, c)| (x - c) * (x - c)).sum::<f64>().sqrt();
     match items {
@@ -16,7 +16,7 @@ pub fn reach(row: &[f64], center: &[f64], items: Items, weights: bool) -> f64 {
 }
 
 /// The radius of the smallest ball of some rows, to about 1e-10: the largest reach is a convex function, which the ellipsoid method
-/// minimises, in rounds that start from ever smaller balls around the best centre so far. Slow, and unlike the solver in every step.
+/// minimizes, in rounds that start from ever smaller balls around the best center so far. Slow, and unlike the solver in every step.
 pub fn smallest(rows: &[&[f64]], dim: usize, items: Items, weights: bool) -> f64 {
     let d = dim as f64;
     let farthest = |center: &[f64]| -> (usize, f64) {
@@ -69,8 +69,8 @@ pub fn smallest(rows: &[&[f64]], dim: usize, items: Items, weights: bool) -> f64
     best.1
 }
 
-/// The least radius for k centres that leave out z rows, for at most 12 rows: the smallest balls of all parts, then the best
-/// colouring of all parts.
+/// The least radius for k centers that leave out z rows, for at most 12 rows: the smallest balls of all parts, then the best
+/// coloring of all parts.
 pub fn brute_force(
     values: &[f64],
     columns: usize,
@@ -137,10 +137,10 @@ pub fn judge(
     let dim = if items == Items::Balls || weights { columns - 1 } else { columns };
     let rows: Vec<&[f64]> = values.chunks_exact(columns).collect();
     if answer.centers.len() > k || answer.centers.is_empty() {
-        return Err(format!("{} centres", answer.centers.len()));
+        return Err(format!("{} centers", answer.centers.len()));
     }
     if answer.centers.iter().any(|c| c.len() != dim || c.iter().any(|x| !x.is_finite())) {
-        return Err("a centre is no point".into());
+        return Err("a center is no point".into());
     }
     if answer.outliers.len() as u64 > options.outliers
         || !answer.outliers.is_sorted_by(|a, b| a < b)
@@ -181,7 +181,7 @@ pub fn judge(
         given: vec![false; certificate.core_set.len()],
     };
     match &certificate.proof {
-        LowerBound::Apart => {
+        LowerBound::Separated => {
             let n = certificate.core_set.len();
             if n as u64 <= k as u64 + options.outliers {
                 return Err(format!("{n} items apart are too few"));

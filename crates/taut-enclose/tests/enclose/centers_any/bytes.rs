@@ -1,7 +1,7 @@
-//! Items and options made of any bytes: centres are found, and judged by the checker. Shared with the fuzz target.
+//! Items and options made of any bytes: centers are found, and judged by the checker. Shared with the fuzz target.
 
 use taut_certify::{Items, Placement};
-use taut_enclose::{CentersMethod, CentersOptions, CoverOptions, Error, centers};
+use taut_enclose::{CentersMethod, CentersOptions, Error, StreamingOptions, centers};
 use taut_points::{InputError, Points};
 
 /// A case has at most this many rows: more are solved as well, but each case should take a moment.
@@ -29,7 +29,7 @@ pub(crate) fn solve_and_check(bytes: &[u8]) {
         3 if !weights => (Placement::Free, 0, CentersMethod::Thesis),
         4 => (Placement::Free, 0, CentersMethod::FarthestFirst),
         5 if (items, weights) == (Items::Points, false) => {
-            (Placement::Free, 0, CentersMethod::Stream(CoverOptions::DEFAULT))
+            (Placement::Free, 0, CentersMethod::Stream(StreamingOptions::DEFAULT))
         }
         _ => (Placement::Free, 0, CentersMethod::Tree),
     };

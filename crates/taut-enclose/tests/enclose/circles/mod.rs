@@ -1,8 +1,8 @@
-//! What the tests of points left out compare with: all circles through two and three points, and the smallest circle by
+//! Tests what the tests of points left out compare with: all circles through two and three points, and the smallest circle by
 //! adding one point after the other.
 #![allow(unreachable_pub)] // included by a test binary
 
-/// A centre and a radius.
+/// A center and a radius.
 #[derive(Clone, Copy, Debug)]
 pub struct Circle {
     pub center: [f64; 2],
@@ -84,7 +84,7 @@ pub fn brute_force(points: &[[f64; 2]], k: usize, z: usize) -> f64 {
     circles[low - 1].0
 }
 
-/// Whether `k` of the sets and `held` have so many members together.
+/// Returns true if `k` of the sets and `held` have so many members together.
 fn reached(sets: &[u64], held: u64, k: usize, wanted: u32) -> bool {
     held.count_ones() >= wanted
         || k > 0 && (0..sets.len()).any(|i| reached(&sets[i + 1..], held | sets[i], k - 1, wanted))

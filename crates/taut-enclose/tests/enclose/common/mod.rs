@@ -1,4 +1,4 @@
-//! What the tests of the ball share: a judge of its own, a brute force, and point families.
+//! Tests what the tests of the ball share: a judge of its own, a brute force, and point families.
 //!
 //! The judge is written apart from the solver and from `taut-certify`, so that an error would have to be made three
 //! times to go unseen; [`judge`] also asks the checker and wants the two to agree.
@@ -66,7 +66,7 @@ impl From<f64> for Twofold {
     }
 }
 
-/// What the judge found.
+/// The findings of the judge.
 #[derive(Clone, Copy, Debug)]
 pub struct Proof {
     /// radius / lower − 1, at least 0.
@@ -96,7 +96,7 @@ pub fn judge(values: &[f64], columns: usize, found: &Solution<Ball>) -> Result<P
     if answer.center.len() != dim
         || !(answer.center_tail.is_empty() || answer.center_tail.len() == dim)
     {
-        return Err("the centre has another dimension".into());
+        return Err("the center has another dimension".into());
     }
     if answer.radius < 0.0 || certificate.gap < 0.0 {
         return Err("a negative radius or gap".into());
@@ -270,13 +270,13 @@ pub fn brute_force(values: &[f64], dim: usize) -> f64 {
         let reach = |row: &[f64]| -> f64 {
             row.iter().zip(&center).map(|(x, c)| (x - c) * (x - c)).sum::<f64>().sqrt()
         };
-        // Any centre gives an enclosing ball, so the least farthest reach over all circumcentres is the answer.
+        // Any center gives an enclosing ball, so the least farthest reach over all circumcenters is the answer.
         least = least.min(rows.iter().map(|row| reach(row)).fold(0.0, f64::max));
     }
     least
 }
 
-/// The centre, in their affine hull, of the sphere through the points; none when they depend on each other.
+/// The center, in their affine hull, of the sphere through the points; none when they depend on each other.
 fn circumcenter(support: &[&[f64]], dim: usize) -> Option<Vec<f64>> {
     let edges: Vec<Vec<f64>> =
         support[1..].iter().map(|p| (0..dim).map(|j| p[j] - support[0][j]).collect()).collect();

@@ -1,4 +1,4 @@
-//! What the tests of centres share: the optimum by brute force, and distances by plain sums.
+//! Tests what the tests of centers share: the optimum by brute force, and distances by plain sums.
 #![allow(dead_code, unreachable_pub)] // each test binary uses a part
 
 use taut_certify::{Centers, LowerBound, Solution};
@@ -10,7 +10,7 @@ pub fn distance(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
 }
 
-/// The largest distance of a point to the nearest centre.
+/// The largest distance of a point to the nearest center.
 pub fn radius(values: &[f64], dim: usize, centers: &[Vec<f64>]) -> f64 {
     let nearest = |x: &[f64]| centers.iter().map(|c| distance(x, c)).fold(f64::INFINITY, f64::min);
     values.chunks_exact(dim).map(nearest).fold(0.0, f64::max)
@@ -28,7 +28,7 @@ pub fn least_distance(values: &[f64], dim: usize, rows: &[u64]) -> f64 {
     least
 }
 
-/// The optimal radius of k free centres, for each k up to `k_max`: the smallest ball of every subset, then the best way to
+/// The optimal radius of k free centers, for each k up to `k_max`: the smallest ball of every subset, then the best way to
 /// put subsets together.
 pub fn optima(values: &[f64], dim: usize, k_max: usize) -> Vec<f64> {
     let n = values.len() / dim;
@@ -57,7 +57,7 @@ pub fn optima(values: &[f64], dim: usize, k_max: usize) -> Vec<f64> {
     optima
 }
 
-/// The optimal radius of k free centres on a line, to rounding: intervals from left to right, by bisection.
+/// The optimal radius of k free centers on a line, to rounding: intervals from left to right, by bisection.
 pub fn optimum_on_a_line(values: &[f64], k: usize) -> f64 {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
@@ -82,7 +82,7 @@ pub fn optimum_on_a_line(values: &[f64], k: usize) -> f64 {
     high
 }
 
-/// Judges centres by plain sums: the radius holds, and the rows named are as far apart as the bound says.
+/// Judges centers by plain sums: the radius holds, and the rows named are as far apart as the bound says.
 pub fn judge(found: &Solution<Centers>, values: &[f64], dim: usize) {
     let Centers { centers, rows, radius: claimed, lower_bound, .. } = &found.answer;
     let certificate = &found.certificate;
@@ -93,7 +93,7 @@ pub fn judge(found: &Solution<Centers>, values: &[f64], dim: usize) {
     for (center, &row) in centers.iter().zip(rows) {
         assert_eq!(center, &values[row as usize * dim..][..dim]);
     }
-    assert_eq!(certificate.proof, LowerBound::Apart);
+    assert_eq!(certificate.proof, LowerBound::Separated);
     if *lower_bound > 0.0 {
         assert!(certificate.core_set.len() as u64 > certificate.k);
         assert!(least_distance(values, dim, &certificate.core_set) >= 2.0 * lower_bound);

@@ -1,4 +1,4 @@
-//! What the tests of the ellipsoid share: a judge, and point families.
+//! Tests what the tests of the ellipsoid share: a judge, and point families.
 #![allow(dead_code, unreachable_pub)] // each test binary uses a part
 
 use taut_certify::{AnySolution, Ellipsoid, EllipsoidVerdict, Solution};

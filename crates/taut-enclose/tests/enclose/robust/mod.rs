@@ -1,4 +1,4 @@
-//! What the tests of robust ellipsoids share: a judge, and point families.
+//! Tests what the tests of robust ellipsoids share: a judge, and point families.
 #![allow(dead_code, unreachable_pub)] // each test binary uses a part
 
 use taut_certify::{AnySolution, RobustEllipsoid, RobustMethod, RobustVerdict, Solution};

@@ -48,7 +48,7 @@ pub fn rows_of(items: &[Item]) -> (Vec<f64>, usize) {
     (rows.concat(), rows[0].len())
 }
 
-/// Normal centres, and shapes size²·GG′/d for normal matrices G; every seventh is flat in one direction.
+/// Normal centers, and shapes size²·GG′/d for normal matrices G; every seventh is flat in one direction.
 pub fn random_items(n: usize, dim: usize, seed: u64, size: f64) -> Vec<Item> {
     let centers: Vec<f64> = generate(Distribution::Normal, n, dim, seed).unwrap();
     let factors: Vec<f64> = generate(Distribution::Normal, n * dim, dim, seed + 1000).unwrap();

@@ -115,7 +115,7 @@ pub(crate) fn clearance(p: [f64; 2], ring: &[[f64; 2]]) -> f64 {
     ring.iter().zip(after).map(|(&a, &b)| distance(p, a, b)).fold(f64::INFINITY, f64::min)
 }
 
-/// Whether p, which is on no edge, is inside: by the parity of the edges above it.
+/// Tests whether p, which is on no edge, is inside: by the parity of the edges above it.
 pub(crate) fn is_inside(p: [f64; 2], ring: &[[f64; 2]]) -> bool {
     let after = ring[1..].iter().chain(&ring[..1]);
     let is_above = |(a, b): (&[f64; 2], &[f64; 2])| {

@@ -5,10 +5,10 @@
 //! *Reference.* G. Turk, The PLY polygon file format, 1994.
 
 use crate::cursor::{Cursor, Kind};
-use crate::mesh::{Building, printable};
-use crate::{Error, MeshPlace};
+use crate::mesh::{MeshBuilder, printable};
+use crate::{Error, FilePlace};
 
-/// How the values of elements are written.
+/// The way in which the values of elements are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Encoding {
     Ascii,
@@ -29,11 +29,9 @@ impl Encoding {
     }
 }
 
-/// What a header says.
 pub(super) struct Header {
     pub(super) encoding: Encoding,
     pub(super) elements: Vec<Element>,
-    /// Lines of the header.
     pub(super) lines: u64,
 }
 
@@ -41,7 +39,7 @@ pub(super) struct Header {
 pub(super) struct Property {
     pub(super) name: String,
     pub(super) kind: Kind,
-    /// How the length is stored, where it is a list.
+    /// The way in which the length is stored, where it is a list.
     pub(super) length: Option<Kind>,
 }
 
@@ -53,13 +51,13 @@ pub(super) struct Element {
 }
 
 /// Reads the header, up to the first byte of the first element.
-pub(super) fn read(mesh: &Building<'_>, cursor: &mut Cursor<'_>) -> Result<Header, Error> {
+pub(super) fn read(mesh: &MeshBuilder<'_>, cursor: &mut Cursor<'_>) -> Result<Header, Error> {
     let mut elements: Vec<Element> = Vec::new();
     let mut encoding = None;
     let mut number = 0;
     loop {
         number += 1;
-        let at = MeshPlace::Line(number);
+        let at = FilePlace::Line(number);
         let line = cursor.line()?.ok_or_else(|| mesh.damaged(at, "the header does not end"))?;
         let words: Vec<&str> = line.split_ascii_whitespace().collect();
         match words[..] {
@@ -108,13 +106,13 @@ pub(super) fn read(mesh: &Building<'_>, cursor: &mut Cursor<'_>) -> Result<Heade
         }
     }
     let Some(encoding) = encoding else {
-        return Err(mesh.damaged(MeshPlace::File, "the header names no format"));
+        return Err(mesh.damaged(FilePlace::File, "the header names no format"));
     };
     match elements.iter().find(|element| element.count > 0 && element.properties.is_empty()) {
         Some(element) => {
             let problem =
                 format!("elements `{}` have no properties", printable(element.name.as_bytes()));
-            Err(mesh.damaged(MeshPlace::File, problem))
+            Err(mesh.damaged(FilePlace::File, problem))
         }
         None => Ok(Header { encoding, elements, lines: number }),
     }
@@ -122,10 +120,10 @@ pub(super) fn read(mesh: &Building<'_>, cursor: &mut Cursor<'_>) -> Result<Heade
 
 /// Steps over a value in binary, or over a list of them.
 pub(super) fn skip(
-    mesh: &Building<'_>,
+    mesh: &MeshBuilder<'_>,
     cursor: &mut Cursor<'_>,
     property: &Property,
-    place: MeshPlace,
+    place: FilePlace,
 ) -> Result<(), Error> {
     let count = match property.length {
         None => 1,

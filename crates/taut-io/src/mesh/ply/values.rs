@@ -2,9 +2,9 @@
 
 use super::header::{self, Encoding, Header, Property};
 use crate::cursor::{Cursor, Kind};
-use crate::mesh::{Building, printable};
+use crate::mesh::{MeshBuilder, printable};
 use crate::words::{Lines, whole};
-use crate::{Error, MeshPlace};
+use crate::{Error, FilePlace};
 
 pub(super) enum Values<'a> {
     Binary(Cursor<'a>),
@@ -14,7 +14,7 @@ pub(super) enum Values<'a> {
 
 impl<'a> Values<'a> {
     /// The values that follow the header.
-    pub(super) fn new(mesh: &Building<'_>, mut cursor: Cursor<'a>, header: &Header) -> Self {
+    pub(super) fn new(mesh: &MeshBuilder<'_>, mut cursor: Cursor<'a>, header: &Header) -> Self {
         match header.encoding {
             Encoding::Ascii => Values::Text(mesh.lines(cursor.into_stream(), header.lines), 0),
             encoding => {
@@ -27,19 +27,19 @@ impl<'a> Values<'a> {
     /// Goes to the next element, and says where it is.
     pub(super) fn begin(
         &mut self,
-        mesh: &Building<'_>,
+        mesh: &MeshBuilder<'_>,
         name: &'static str,
         number: u64,
-    ) -> Result<MeshPlace, Error> {
+    ) -> Result<FilePlace, Error> {
         match self {
-            Values::Binary(_) => Ok(MeshPlace::Element(name, number)),
+            Values::Binary(_) => Ok(FilePlace::Element(name, number)),
             Values::Text(lines, at) => {
                 *at = 0;
                 match lines.advance(mesh)? {
                     true => Ok(lines.place()),
                     false => {
                         let problem = format!("it ends before {name} {number}");
-                        Err(mesh.damaged(MeshPlace::File, problem))
+                        Err(mesh.damaged(FilePlace::File, problem))
                     }
                 }
             }
@@ -49,9 +49,9 @@ impl<'a> Values<'a> {
     /// A coordinate or a color.
     pub(super) fn real(
         &mut self,
-        mesh: &Building<'_>,
+        mesh: &MeshBuilder<'_>,
         kind: Kind,
-        place: MeshPlace,
+        place: FilePlace,
     ) -> Result<f64, Error> {
         match self {
             Values::Binary(cursor) => cursor.real(kind, mesh, place),
@@ -62,12 +62,11 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// An id.
     pub(super) fn whole(
         &mut self,
-        mesh: &Building<'_>,
+        mesh: &MeshBuilder<'_>,
         kind: Kind,
-        place: MeshPlace,
+        place: FilePlace,
     ) -> Result<i64, Error> {
         match self {
             Values::Binary(cursor) => cursor.whole(kind, mesh, place),
@@ -81,9 +80,9 @@ impl<'a> Values<'a> {
     /// The length of a list.
     pub(super) fn count(
         &mut self,
-        mesh: &Building<'_>,
+        mesh: &MeshBuilder<'_>,
         kind: Kind,
-        place: MeshPlace,
+        place: FilePlace,
     ) -> Result<u64, Error> {
         let count = self.whole(mesh, kind, place)?;
         u64::try_from(count)
@@ -93,9 +92,9 @@ impl<'a> Values<'a> {
     /// Steps over a value, or over a list of them.
     pub(super) fn skip(
         &mut self,
-        mesh: &Building<'_>,
+        mesh: &MeshBuilder<'_>,
         property: &Property,
-        place: MeshPlace,
+        place: FilePlace,
     ) -> Result<(), Error> {
         if let Values::Binary(cursor) = self {
             return header::skip(mesh, cursor, property, place);
@@ -108,7 +107,7 @@ impl<'a> Values<'a> {
     }
 
     /// Refuses an element that is longer than declared.
-    pub(super) fn end(&self, mesh: &Building<'_>, place: MeshPlace) -> Result<(), Error> {
+    pub(super) fn end(&self, mesh: &MeshBuilder<'_>, place: FilePlace) -> Result<(), Error> {
         match self {
             Values::Text(lines, at) if !lines.bytes()[*at..].trim_ascii().is_empty() => {
                 Err(mesh.damaged(place, "it has more values than the header declares"))
@@ -118,9 +117,9 @@ impl<'a> Values<'a> {
     }
 
     /// Refuses a file that goes on.
-    pub(super) fn finish(self, mesh: &Building<'_>) -> Result<(), Error> {
+    pub(super) fn finish(self, mesh: &MeshBuilder<'_>) -> Result<(), Error> {
         let (more, place) = match self {
-            Values::Binary(mut cursor) => (!cursor.rest(1)?.is_empty(), MeshPlace::File),
+            Values::Binary(mut cursor) => (!cursor.rest(1)?.is_empty(), FilePlace::File),
             Values::Text(mut lines, _) => (lines.advance(mesh)?, lines.place()),
         };
         match more {
@@ -138,10 +137,10 @@ fn next_word<'a>(line: &'a [u8], at: &mut usize) -> Option<&'a [u8]> {
     Some(&line[start..*at])
 }
 
-fn too_few(mesh: &Building<'_>, place: MeshPlace) -> Error {
+fn too_few(mesh: &MeshBuilder<'_>, place: FilePlace) -> Error {
     mesh.damaged(place, "it has fewer values than the header declares")
 }
 
-fn no_number(mesh: &Building<'_>, place: MeshPlace, word: &[u8]) -> Error {
+fn no_number(mesh: &MeshBuilder<'_>, place: FilePlace, word: &[u8]) -> Error {
     mesh.damaged(place, format!("`{}` is no number of the declared type", printable(word)))
 }

@@ -52,7 +52,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Whether the next byte that is no blank is this one, which is then read.
+    /// Returns true if the next byte that is no blank is this one, which is then read.
     fn eat(&mut self, byte: u8) -> bool {
         self.skip_blanks();
         let is_next = self.peek() == Some(byte);

@@ -3,7 +3,7 @@
 //! *Reference.* Parquet format, `parquet.thrift`. Encryption is left out, and so is what has no field: unknown fields say
 //! their own kind.
 
-/// What a field holds.
+/// The type of a field.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Kind {
     Bool,
@@ -23,7 +23,7 @@ pub(super) type Shape = &'static [(i16, Kind)];
 use Kind::{Binary, Bool, Byte, Double, I16, I32, I64, List, Struct};
 
 impl Kind {
-    /// Whether a field says this kind with the number `written`, which for a boolean is its value.
+    /// Returns true if a field says this kind with the number `written`, which for a boolean is its value.
     pub(super) fn is_written(self, written: u8) -> bool {
         match self {
             Bool => written == 1 || written == 2,

@@ -13,7 +13,7 @@ const DEPTH_MAX: u32 = 64;
 
 /// Why a structure cannot be walked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Unsound {
+pub(super) enum StructureError {
     /// It goes on beyond the bytes given.
     Cut,
     /// It is none, or one on which the decoder might not end.
@@ -22,18 +22,17 @@ pub(super) enum Unsound {
 
 /// A structure that was walked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Walked {
+pub(super) struct VisitedStructure {
     /// The bytes that it takes.
     pub(super) length: usize,
     /// Its field [`COMPRESSED_PAGE_SIZE`], if it has one that is a number; like the decoder's, its last 32 bits.
     pub(super) page: Option<i32>,
 }
 
-/// Walks the structure at the begin of `bytes`.
-pub(super) fn walk(bytes: &[u8], shape: Shape) -> Result<Walked, Unsound> {
+pub(super) fn walk(bytes: &[u8], shape: Shape) -> Result<VisitedStructure, StructureError> {
     let mut walk = Walk { bytes, at: 0 };
     let page = walk.structure(shape, DEPTH_MAX)?;
-    Ok(Walked { length: walk.at, page })
+    Ok(VisitedStructure { length: walk.at, page })
 }
 
 struct Walk<'a> {
@@ -42,23 +41,23 @@ struct Walk<'a> {
 }
 
 impl Walk<'_> {
-    fn byte(&mut self) -> Result<u8, Unsound> {
-        let byte = *self.bytes.get(self.at).ok_or(Unsound::Cut)?;
+    fn byte(&mut self) -> Result<u8, StructureError> {
+        let byte = *self.bytes.get(self.at).ok_or(StructureError::Cut)?;
         self.at += 1;
         Ok(byte)
     }
 
-    fn skip(&mut self, bytes: u64) -> Result<(), Unsound> {
+    fn skip(&mut self, bytes: u64) -> Result<(), StructureError> {
         let left = (self.bytes.len() - self.at) as u64;
         if bytes > left {
-            return Err(Unsound::Cut);
+            return Err(StructureError::Cut);
         }
         self.at += bytes as usize;
         Ok(())
     }
 
     /// A number in sevens of bits, the lowest first.
-    fn varint(&mut self) -> Result<u64, Unsound> {
+    fn varint(&mut self) -> Result<u64, StructureError> {
         let mut number = 0;
         for shift in (0..70).step_by(7) {
             let byte = self.byte()?;
@@ -67,12 +66,12 @@ impl Walk<'_> {
                 return Ok(number);
             }
         }
-        Err(Unsound::Wrong)
+        Err(StructureError::Wrong)
     }
 
     /// Walks a structure; returns its field [`COMPRESSED_PAGE_SIZE`].
-    fn structure(&mut self, shape: Shape, depth: u32) -> Result<Option<i32>, Unsound> {
-        let depth = depth.checked_sub(1).ok_or(Unsound::Wrong)?;
+    fn structure(&mut self, shape: Shape, depth: u32) -> Result<Option<i32>, StructureError> {
+        let depth = depth.checked_sub(1).ok_or(StructureError::Wrong)?;
         let (mut number, mut page) = (0i16, None);
         loop {
             let head = self.byte()?;
@@ -82,11 +81,11 @@ impl Walk<'_> {
             }
             number = match head >> 4 {
                 0 => unzigzag(self.varint()?) as i16,
-                step => number.checked_add(step.into()).ok_or(Unsound::Wrong)?,
+                step => number.checked_add(step.into()).ok_or(StructureError::Wrong)?,
             };
             let known = shape.iter().find(|field| field.0 == number).map(|field| field.1);
             if known.is_some_and(|kind| !kind.is_written(written)) {
-                return Err(Unsound::Wrong);
+                return Err(StructureError::Wrong);
             }
             match written {
                 // A boolean is told by its kind.
@@ -98,7 +97,12 @@ impl Walk<'_> {
     }
 
     /// Walks a value that takes at least one byte.
-    fn value(&mut self, written: u8, known: Option<Kind>, depth: u32) -> Result<(), Unsound> {
+    fn value(
+        &mut self,
+        written: u8,
+        known: Option<Kind>,
+        depth: u32,
+    ) -> Result<(), StructureError> {
         match written {
             3 => self.skip(1),
             4..=6 => self.varint().map(drop),
@@ -128,7 +132,7 @@ impl Walk<'_> {
             },
             12 => self.structure(known.map_or(&[], Kind::shape), depth).map(drop),
             13 => self.skip(16),
-            _ => Err(Unsound::Wrong),
+            _ => Err(StructureError::Wrong),
         }
     }
 
@@ -138,11 +142,11 @@ impl Walk<'_> {
         written: &[u8],
         known: Option<Kind>,
         depth: u32,
-    ) -> Result<(), Unsound> {
-        let depth = depth.checked_sub(1).ok_or(Unsound::Wrong)?;
+    ) -> Result<(), StructureError> {
+        let depth = depth.checked_sub(1).ok_or(StructureError::Wrong)?;
         let other = |&written: &u8| known.is_some_and(|kind| !kind.is_written(written));
         if count > 0 && written.iter().any(|written| *written <= 2 || other(written)) {
-            return Err(Unsound::Wrong);
+            return Err(StructureError::Wrong);
         }
         for _ in 0..count {
             written.iter().try_for_each(|&written| self.value(written, known, depth))?;
@@ -161,7 +165,7 @@ mod tests {
     use super::super::format::{FILE_META_DATA, PAGE_HEADER};
     use super::*;
 
-    fn page(bytes: &[u8], shape: Shape) -> Result<Option<i32>, Unsound> {
+    fn page(bytes: &[u8], shape: Shape) -> Result<Option<i32>, StructureError> {
         walk(bytes, shape).map(|walked| walked.page)
     }
 
@@ -172,9 +176,9 @@ mod tests {
             0x35, 42, 0x11, 0x18, 2, b'a', b'b', 0x19, 0x2c, 0, 0x15, 1, 0, 0x1b, 1, 0x37, 9, 0, 0,
             0, 0, 0, 0, 0, 0, 0,
         ];
-        assert_eq!(walk(&bytes, &[]), Ok(Walked { length: bytes.len(), page: Some(21) }));
+        assert_eq!(walk(&bytes, &[]), Ok(VisitedStructure { length: bytes.len(), page: Some(21) }));
         for cut in 0..bytes.len() {
-            assert_eq!(walk(&bytes[..cut], &[]), Err(Unsound::Cut), "{cut}");
+            assert_eq!(walk(&bytes[..cut], &[]), Err(StructureError::Cut), "{cut}");
         }
     }
 
@@ -185,23 +189,26 @@ mod tests {
         let lists = [&[0x19, 0xf9][..], &many, &[0xf2], &many, &[0]].concat();
         let map = [&[0x1b][..], &many, &[0x12, 0]].concat();
         for bytes in [list, lists, map] {
-            assert_eq!(page(&bytes, &[]), Err(Unsound::Wrong));
+            assert_eq!(page(&bytes, &[]), Err(StructureError::Wrong));
         }
         // None of them, and of a kind that is none.
         assert_eq!(page(&[0x19, 0x01, 0], &[]), Ok(None));
-        assert_eq!(page(&[0x1e, 0], &[]), Err(Unsound::Wrong));
-        assert_eq!(page(&[0x1c; 100], &[]), Err(Unsound::Wrong));
+        assert_eq!(page(&[0x1e, 0], &[]), Err(StructureError::Wrong));
+        assert_eq!(page(&[0x1c; 100], &[]), Err(StructureError::Wrong));
     }
 
     #[test]
     fn a_known_field_is_of_its_kind() {
         // The number of values as a list that the decoder would read as a number, and go on within it.
         assert_eq!(page(&[0x5c, 0x15, 2, 0, 0], PAGE_HEADER), Ok(None));
-        assert_eq!(page(&[0x5c, 0x19, 0x18, 0, 0, 0], PAGE_HEADER), Err(Unsound::Wrong));
+        assert_eq!(page(&[0x5c, 0x19, 0x18, 0, 0, 0], PAGE_HEADER), Err(StructureError::Wrong));
         assert_eq!(page(&[0x5c, 0x19, 0x18, 0, 0, 0], &[]), Ok(None));
         // A schema of numbers, an empty one, and one whose element holds a text as a number.
-        assert_eq!(page(&[0x29, 0x15, 2, 0], FILE_META_DATA), Err(Unsound::Wrong));
+        assert_eq!(page(&[0x29, 0x15, 2, 0], FILE_META_DATA), Err(StructureError::Wrong));
         assert_eq!(page(&[0x29, 0x00, 0], FILE_META_DATA), Ok(None));
-        assert_eq!(page(&[0x29, 0x1c, 0x18, 1, b'a', 0, 0], FILE_META_DATA), Err(Unsound::Wrong));
+        assert_eq!(
+            page(&[0x29, 0x1c, 0x18, 1, b'a', 0, 0], FILE_META_DATA),
+            Err(StructureError::Wrong)
+        );
     }
 }

@@ -140,7 +140,7 @@ fn off_of_others() {
     assert_eq!(read("s.off", textured).unwrap().normals, Some(vec![[0.0, 0.0, 1.0]]));
     let nearly_black = "OFF\n1 0\n0 0 0 1 0 1\n";
     assert_eq!(read("s.off", nearly_black).unwrap().colors, Some(vec![[1, 0, 1]]));
-    // Colours that only some have are none.
+    // Colors that only some have are none.
     assert_eq!(read("s.off", "OFF\n2 0\n0 0 0\n0 0 0 1 0 1\n").unwrap().colors, None);
 }
 

@@ -62,7 +62,7 @@ fn check_widths(rows: usize, columns: usize, shift: usize) {
     check::<[u64; 5]>(rows, columns, shift);
 }
 
-/// What a Miri run can afford.
+/// Returns what a Miri run can afford.
 fn largest() -> usize {
     if cfg!(miri) { 8 } else { 200 }
 }

@@ -22,7 +22,7 @@ pub(in crate::matrix) fn turn<T: Pod>(
     if rows == 0 || columns == 0 {
         return;
     }
-    // What the addresses of the vector kernels rest on.
+    // The addresses of the vector kernels rest on this.
     assert!((rows - 1) * stride + columns <= from.len());
     assert!((columns - 1) * stride_to + rows <= to.len());
     match level {
@@ -43,7 +43,7 @@ pub(super) fn walk<T: Pod>(
     (from, stride): (&[T], usize),
     (to, stride_to): (&mut [T], usize),
 ) -> bool {
-    // What the addresses of the kernel rest on.
+    // The addresses of the kernel rest on this.
     assert!((rows - 1) * stride + columns <= from.len());
     assert!((columns - 1) * stride_to + rows <= to.len());
     match level {

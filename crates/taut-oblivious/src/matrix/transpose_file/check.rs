@@ -17,7 +17,7 @@ use crate::store::Store;
 /// Compares `samples` elements, drawn by `seed`, of the matrix in the file `from` with its transpose in the file `to`, which
 /// begins after `header` bytes.
 ///
-/// Reads two elements per sample; memory for two elements. `monitor` hears of one pass.
+/// Reads two elements per sample; memory for two elements. `monitor` is told of one pass.
 ///
 /// # Errors
 /// [`Error::Differs`] if an element differs, [`Error::Length`], [`Error::File`], [`Error::Cancelled`], and [`Error::Option`]

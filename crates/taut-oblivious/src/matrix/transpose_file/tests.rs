@@ -19,7 +19,7 @@ fn plain(from: &[u8], rows: usize, columns: usize, width: usize) -> Vec<u8> {
         .collect()
 }
 
-/// What goes wrong in a [`Faulty`] file, and when.
+/// The faults of a [`Faulty`] file, and their times.
 #[derive(Clone, Copy, Default)]
 struct Faults {
     /// Only part of what was asked for is read or written.
@@ -44,7 +44,7 @@ impl Faulty {
         Self { bytes: RefCell::new(bytes), faults, calls: Cell::new(0) }
     }
 
-    /// How much of `n` bytes this call handles.
+    /// Returns how much of `n` bytes this call handles.
     fn part(&self, n: usize) -> io::Result<usize> {
         self.calls.set(self.calls.get() + 1);
         if self.faults.interrupted && self.calls.get() % 2 == 1 {
@@ -169,8 +169,8 @@ mod on_disk {
         let (from, content) = source(folder.path());
         let to = folder.path().join("to.bin");
         let heard = std::sync::atomic::AtomicU64::new(0);
-        let hear = |n| _ = heard.fetch_add(n, Ordering::Relaxed);
-        let monitor = Monitor { on_points: Some(&hear), ..Monitor::silent() };
+        let record = |n| _ = heard.fetch_add(n, Ordering::Relaxed);
+        let monitor = Monitor { on_points: Some(&record), ..Monitor::silent() };
         transpose_file(&from, MATRIX, &to, b"seven b", &OPTIONS, &monitor).unwrap();
         assert_eq!(heard.into_inner(), 300 * 211);
         let mut turned = std::fs::read(&to).unwrap();
@@ -228,8 +228,9 @@ mod on_disk {
         let to = folder.path().join("to.bin");
         std::fs::write(&to, "earlier").unwrap();
         let (stop, tiles) = (AtomicBool::new(false), std::sync::atomic::AtomicU64::new(0));
-        let hear = |_| stop.store(tiles.fetch_add(1, Ordering::Relaxed) == 3, Ordering::Relaxed);
-        let monitor = Monitor { on_points: Some(&hear), cancel: Some(&stop), ..Monitor::silent() };
+        let record = |_| stop.store(tiles.fetch_add(1, Ordering::Relaxed) == 3, Ordering::Relaxed);
+        let monitor =
+            Monitor { on_points: Some(&record), cancel: Some(&stop), ..Monitor::silent() };
         let found = transpose_file(&from, MATRIX, &to, b"", &OPTIONS, &monitor);
         assert!(matches!(found, Err(Error::Cancelled(_))), "{found:?}");
         let longer = FileMatrix { rows: 301, ..MATRIX };

@@ -13,7 +13,7 @@ use crate::error::Error;
 use crate::pages::Pages;
 use crate::sort::{
     self,
-    records::{self, Parts, Rooms, bucket_bytes},
+    records::{self, BucketBuffers, Parts, bucket_bytes},
 };
 
 /// Replaces `words`, the ranks of the records whose numbers are in `parts`, by these numbers in order, in their lower bits.
@@ -53,7 +53,6 @@ pub(super) fn order(
     }
 }
 
-/// Bits that number all records.
 fn number_bits(records: &[u8], width: usize) -> u32 {
     usize::BITS - (records.len() / width).saturating_sub(1).leading_zeros()
 }
@@ -80,7 +79,7 @@ fn gather_width<const W: usize>(records: &[u8], words: &[u64], mask: u64, to: &m
     }
 }
 
-/// Whether [`sort`] can: the key is no longer than its rank, and the width is one that it knows.
+/// Returns true if [`sort`] can: the key is no longer than its rank, and the width is one that it knows.
 pub(super) fn sorts(layout: &RecordLayout) -> bool {
     matches!(layout.width, 8 | 16 | 24 | 32 | 64) && !layout.is_long()
 }
@@ -88,7 +87,7 @@ pub(super) fn sorts(layout: &RecordLayout) -> bool {
 /// Where sorted records wait until they are written: while one of two places is written, the other one is filled.
 pub(super) struct Stage {
     places: [Pages<u8>; 2],
-    /// What is written is a multiple of so many bytes, but for the end.
+    /// Writes are multiples of so many bytes, but for the end.
     unit: usize,
     /// Once a place holds so many bytes, it is written.
     enough: usize,
@@ -135,7 +134,7 @@ fn sort_width<const W: usize, E: Send>(
     stage: &mut Stage,
     mut write: impl FnMut(&[u8]) -> Result<(), E> + Send,
 ) -> Result<(), E> {
-    let (records, rooms) = (records.as_chunks_mut::<W>().0, Rooms::most(threads));
+    let (records, rooms) = (records.as_chunks_mut::<W>().0, BucketBuffers::most(threads));
     let rank = |record: &[u8; W]| layout.rank(record);
     let mut buckets = match records::parts(records, &rank, &rooms) {
         Parts::Whole(records) => return write(records.as_flattened()),

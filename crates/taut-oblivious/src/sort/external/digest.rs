@@ -5,7 +5,7 @@
 //! h := fold((h ⊕ x)·FACTOR). Lane 1, with constants of its own: h := fold((h + y)·FACTOR), y being x with its halves
 //! exchanged and the sum modulo 2⁶⁴. At the end h := fold((h ⊕ FINAL)·FACTOR) in both. Lane 1 is the upper half of the hash.
 //! *Guarantee.* None that is proved, as for any fixed function: as far as hashes are random numbers, two multisets that
-//! are given and differ agree with a probability of 2⁻¹²⁸. It is no defence against somebody who means to deceive.
+//! are given and differ agree with a probability of 2⁻¹²⁸. It is no defense against somebody who means to deceive.
 //! *Trap.* The low half of a product alone lets the top bit of a word change the top bit only, whatever the factor; shifts
 //! and a second such lane then have the same pairs of changes that undo each other. The high half brings every bit down
 //! before the next word enters, and in the lanes differences are of different kinds: of bits and of sums.

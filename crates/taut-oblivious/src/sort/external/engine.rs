@@ -160,11 +160,11 @@ impl<'a> Merging<'a> {
 struct Maker<'a> {
     plan: &'a Plan,
     records: Pages<u8>,
-    beside: Beside,
+    beside: ExtraMemory,
 }
 
-/// What sorting takes beside the records.
-enum Beside {
+/// The memory that sorting takes beside the records.
+enum ExtraMemory {
     /// Where they are dealt in their own place.
     Stage(Stage),
     /// A word for each, and two blocks: one is filled while the other is written.
@@ -176,21 +176,20 @@ impl<'a> Maker<'a> {
         let most = plan.records.min(plan.chunk as u64) as usize;
         let records = Pages::try_zeroed(most * plan.layout.width)?;
         let beside = if plan.in_place > 0 {
-            Beside::Stage(Stage::new(most * plan.layout.width, plan.unit, plan.write_block)?)
+            ExtraMemory::Stage(Stage::new(most * plan.layout.width, plan.unit, plan.write_block)?)
         } else {
             let block = || Pages::try_zeroed(plan.write_block);
-            Beside::Words { words: Pages::try_zeroed(most)?, blocks: [block()?, block()?] }
+            ExtraMemory::Words { words: Pages::try_zeroed(most)?, blocks: [block()?, block()?] }
         };
         Ok(Self { plan, records, beside })
     }
 
-    /// Records of run number `run`.
     fn records_of(&self, run: u64) -> usize {
         let chunk = self.plan.chunk as u64;
         chunk.min(self.plan.records - run * chunk) as usize
     }
 
-    /// What was last read, which is run number `run`.
+    /// Returns what was last read, which is run number `run`.
     fn read_of(&self, run: u64) -> &[u8] {
         &self.records.words()[..self.records_of(run) * self.plan.layout.width]
     }
@@ -232,8 +231,8 @@ impl<'a> Maker<'a> {
         let (width, write_block) = (layout.width, self.plan.write_block);
         let bytes = &mut self.records.words_mut()[..records * width];
         let (words, [full, next]) = match &mut self.beside {
-            Beside::Words { words, blocks } => (&mut words.words_mut()[..records], blocks),
-            Beside::Stage(stage) => {
+            ExtraMemory::Words { words, blocks } => (&mut words.words_mut()[..records], blocks),
+            ExtraMemory::Stage(stage) => {
                 let put = |part: &[u8]| {
                     for block in part.chunks(write_block) {
                         monitor.check()?;

@@ -79,7 +79,7 @@ pub(super) fn sort<F: Store + Borrow<File> + Send + Sync>(
     Ok(Pending::new(found, to.into_store(), output, kept))
 }
 
-/// What tells a file from others, as far as the system says.
+/// Returns what tells a file from others, as far as the system says.
 fn origin(about: &Metadata) -> Origin {
     let modified = about.modified().ok().and_then(|time| time.duration_since(UNIX_EPOCH).ok());
     let modified = modified.map_or(0, |since| since.as_nanos() as u64);

@@ -1,4 +1,4 @@
-//! What a file of runs says of itself, so that another process can go on.
+//! The record that a file of runs holds about itself, so that another process can go on.
 //!
 //! *Idea.* The file begins with slots: one says of which sort it is, one for each run that the run is complete, and the
 //! certificate so far. A slot is written when its run has reached the disk.
@@ -18,13 +18,13 @@ use crate::error::Error;
 use crate::store::{PAGE, Store};
 
 const SLOT_BYTES: usize = 128;
-/// What is looked for at the start of the file; the last byte is the version.
+/// The magic number at the start of the file; the last byte is the version.
 const MAGIC: u64 = u64::from_le_bytes(*b"tautrun\x03");
 
 /// The words that tell one sort from another.
 type Identity = [u64; 10];
 
-/// What the system says of a file that tells it from others: when it was modified, when anything about it changed, and its
+/// The data of the system that identify a file: when it was modified, when anything about it changed, and its
 /// number, in any unit. Not the number of its device, which may be another one when the machine has started again.
 pub(super) type Origin = [u64; 3];
 
@@ -102,7 +102,6 @@ impl Journal {
         Self::place(self.runs).next_multiple_of(PAGE as u64)
     }
 
-    /// Runs that are complete.
     pub(super) fn runs_done(&self) -> u64 {
         self.made_of.len() as u64
     }

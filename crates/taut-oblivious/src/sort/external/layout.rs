@@ -6,7 +6,7 @@ use std::ops::Range;
 use crate::error::Error;
 use crate::key::rank;
 
-/// How the bytes of a key are to be read.
+/// The way in which the bytes of a key are to be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum KeyKind {
     /// A 64-bit unsigned integer, least significant byte first.
@@ -32,12 +32,12 @@ pub struct RecordLayout {
     pub width: usize,
     /// The bytes of it that are the key: eight for numbers.
     pub key: Range<usize>,
-    /// What these bytes mean.
+    /// The meaning of these bytes.
     pub kind: KeyKind,
 }
 
 impl RecordLayout {
-    /// Whether it makes sense.
+    /// Tests whether it makes sense.
     pub(super) fn check(&self) -> Result<(), Error> {
         let wrong = |name, value: String, expected| Err(Error::Option { name, value, expected });
         if !(1..=1 << 24).contains(&self.width) {
@@ -70,7 +70,6 @@ impl RecordLayout {
         u64::from_be_bytes(word)
     }
 
-    /// The ranks of some records, one for each word.
     pub(super) fn ranks(&self, records: &[u8], words: &mut [u64]) {
         let (start, width) = (self.key.start, self.width);
         // The kind of the key is looked at once, not for each record.
@@ -85,7 +84,7 @@ impl RecordLayout {
         }
     }
 
-    /// Whether ranks may be equal where keys are not.
+    /// Returns true if ranks may be equal where keys are not.
     pub(super) fn is_long(&self) -> bool {
         self.key.len() > 8
     }

@@ -11,9 +11,9 @@ pub(super) struct Medium<S> {
     path: String,
     pub(super) bytes_read: u64,
     pub(super) bytes_written: u64,
-    /// Whether whole pages are to go past the cache.
+    /// True if whole pages are to go past the cache.
     past_cache: bool,
-    /// Whether the file is set to that just now.
+    /// True if the file is set to that just now.
     is_past: bool,
 }
 
@@ -46,7 +46,6 @@ impl<S: Store> Medium<S> {
         self.all(address, length, offset, ErrorKind::UnexpectedEof, some)
     }
 
-    /// Writes all of `bytes` to a place.
     pub(super) fn write(&mut self, bytes: &[u8], offset: u64) -> Result<(), Error> {
         self.bytes_written += bytes.len() as u64;
         let (address, length) = (bytes.as_ptr().addr(), bytes.len());

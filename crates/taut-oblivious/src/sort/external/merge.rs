@@ -29,12 +29,12 @@ use crate::store::Store;
 struct Input {
     /// Where it begins in the file.
     offset: u64,
-    /// What is left in the file.
+    /// The rest of the file.
     left: Run,
-    /// What is left in its block, in bytes of all blocks.
+    /// The rest of its block, in bytes of all blocks.
     at: usize,
     end: usize,
-    /// Whether the last record that was collected is in `Merge::last`.
+    /// True if the last record that was collected is in `Merge::last`.
     begun: bool,
 }
 
@@ -57,7 +57,6 @@ pub(super) struct Merge<'a> {
 }
 
 impl<'a> Merge<'a> {
-    /// Starts to merge runs.
     pub(super) fn start(plan: &'a Plan, runs: &[Run]) -> Result<Self, Error> {
         let width = plan.layout.width;
         let (block, window) = plan.merge_sizes(runs.len());
@@ -180,7 +179,7 @@ fn compare(layout: &RecordLayout, a: &[u8], b: &[u8]) -> Ordering {
     layout.rank(a).cmp(&layout.rank(b)).then_with(|| layout.compare_rest(a, b))
 }
 
-/// How many records at the front hold, in a row of records of which none holds behind one that does not.
+/// Returns how many records at the front hold, in a row of records of which none holds behind one that does not.
 fn partition(records: &[u8], width: usize, holds: impl Fn(&[u8]) -> bool) -> usize {
     let (mut low, mut high) = (0, records.len() / width);
     while low < high {
@@ -194,7 +193,7 @@ fn partition(records: &[u8], width: usize, holds: impl Fn(&[u8]) -> bool) -> usi
     low
 }
 
-/// Whether no record comes before the one before it; `ranks` are theirs.
+/// Returns true if no record comes before the one before it; `ranks` are theirs.
 fn is_in_order(layout: &RecordLayout, records: &[u8], ranks: &[u64]) -> bool {
     let pairs = ranks.iter().zip(&ranks[1..]);
     let rise = pairs.fold(true, |holds, (a, b)| holds & (a <= b));

@@ -1,4 +1,4 @@
-//! How the memory is used, and which runs are merged when.
+//! Defines how the memory is used, and which runs are merged when.
 
 use super::chunk::{self, stage_bytes};
 use super::layout::RecordLayout;
@@ -24,21 +24,20 @@ const WINDOW_MIN: usize = 32;
 /// Rather than with smaller blocks, runs are merged in several steps.
 const BLOCK_MIN: usize = 256 << 10;
 
-/// How the memory is used.
+/// The way in which the memory is used.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Plan {
     pub(super) layout: RecordLayout,
-    /// Records in the input.
     pub(super) records: u64,
     /// Most records of a run: what fits, or less where more gains nothing.
     pub(super) chunk: usize,
     /// Bytes that are written at once.
     pub(super) write_block: usize,
-    /// Whether runs and blocks are whole pages but for the last one, and large.
+    /// True if runs and blocks are whole pages but for the last one, and large.
     pub(super) past_cache: bool,
     /// On how many threads records are sorted in their own place; 0 if they are sorted by words.
     pub(super) in_place: usize,
-    /// What blocks are multiples of.
+    /// The unit of which blocks are multiples.
     pub(super) unit: usize,
     memory: usize,
 }
@@ -79,7 +78,7 @@ impl Plan {
         Ok(plan)
     }
 
-    /// Whether the records fit into memory.
+    /// Returns true if the records fit into memory.
     pub(super) fn fits(&self) -> bool {
         self.records <= self.chunk as u64
     }
@@ -159,18 +158,17 @@ pub(super) struct Run {
 }
 
 impl Run {
-    /// Where it ends.
     pub(super) fn end(&self, plan: &Plan) -> u64 {
         self.offset + self.records * plan.layout.width as u64
     }
 }
 
-/// Neighbouring runs, and the longer one that they are merged to.
+/// Neighboring runs, and the longer one that they are merged to.
 pub(super) type Step = (Vec<Run>, Run);
 
 /// The merges after which few enough runs are left to be merged at once, and those runs.
 ///
-/// From the front, as many neighbours as can be merged at once, until that is enough; if it is not, what came of it is
+/// From the front, as many neighbors as can be merged at once, until that is enough; if it is not, what came of it is
 /// gone through again. Longer runs are written behind the shorter ones, which stay.
 pub(super) fn steps(mut left: Vec<Run>, plan: &Plan) -> (Vec<Step>, Vec<Run>) {
     let (fan_in, mut steps) = (plan.fan_in(), vec![]);

@@ -99,7 +99,6 @@ impl Folder {
         verify(layout, certificate, input, output);
     }
 
-    /// Names of the files in it.
     fn names(&self) -> Vec<String> {
         let entries = fs::read_dir(self.0.path()).expect("a folder");
         let mut names: Vec<String> = entries
@@ -253,7 +252,7 @@ fn wrong_calls_are_answered_by_name() {
     assert!(error.expect_err("refused").to_string().contains("not a regular file"));
 }
 
-/// To open a pipe that nobody writes to would be to wait for ever.
+/// To open a pipe that nobody writes to would be to wait endlessly.
 #[cfg(target_os = "linux")]
 #[test]
 #[cfg_attr(miri, ignore = "files")]
@@ -296,7 +295,7 @@ fn stopped_anywhere_nothing_is_left() {
     }
 }
 
-/// How many open files of this process are, or were, in a folder.
+/// Returns how many open files of this process are, or were, in a folder.
 fn files_open(folder: &std::path::Path) -> usize {
     let Ok(open) = fs::read_dir("/proc/self/fd") else { return 0 };
     open.filter_map(|entry| fs::read_link(entry.ok()?.path()).ok())

@@ -9,7 +9,7 @@
 
 use rayon::prelude::*;
 
-use super::{Deal, Dealt, Look, Rooms, alone, cut, gather, most, put, shared};
+use super::{BucketBuffers, Deal, Dealt, RankRecords, alone, cut, gather, most, put, shared};
 use crate::probe::NoProbe;
 
 /// Records that are handed on.
@@ -27,12 +27,12 @@ pub(in crate::sort) struct Buckets<'a, T>(Dealt<'a, T>);
 pub(in crate::sort) fn parts<'a, T: Copy + Send + Sync>(
     records: &'a mut [T],
     rank: &(impl Fn(&T) -> u64 + Sync),
-    rooms: &Rooms<T>,
+    rooms: &BucketBuffers<T>,
 ) -> Parts<'a, T> {
     let threads = rayon::current_num_threads();
     let is_alone = threads == 1;
-    let (mut parts, large) =
-        rooms.within(|room| match super::deal(records, rank, Look::Sample, room, &mut NoProbe) {
+    let (mut parts, large) = rooms.within(|room| {
+        match super::deal(records, rank, RankRecords::Sample, room, &mut NoProbe) {
             Deal::Sorted(records) => (Parts::Whole(records), Vec::new()),
             Deal::Dealt(dealt) if threads <= 2 && dealt.largest() <= most::<T>() => {
                 (Parts::Buckets(Buckets(dealt)), Vec::new())
@@ -41,17 +41,18 @@ pub(in crate::sort) fn parts<'a, T: Copy + Send + Sync>(
                 let large = put(&mut dealt, rank, is_alone, room, &mut NoProbe);
                 (Parts::Whole(dealt.into_items()), large)
             }
-        });
+        }
+    });
     let Parts::Whole(records) = &mut parts else { return parts };
     if is_alone {
         rooms.within(|room| {
             for range in large {
-                alone(&mut records[range], rank, Look::All, room, &mut NoProbe);
+                alone(&mut records[range], rank, RankRecords::All, room, &mut NoProbe);
             }
         });
     } else {
         let large = cut(records, &large);
-        large.into_par_iter().for_each(|records| shared(records, rank, Look::All, rooms));
+        large.into_par_iter().for_each(|records| shared(records, rank, RankRecords::All, rooms));
     }
     parts
 }
@@ -64,7 +65,7 @@ impl<T: Copy> Buckets<'_, T> {
         to: &mut [T],
         enough: usize,
         rank: &impl Fn(&T) -> u64,
-        rooms: &Rooms<T>,
+        rooms: &BucketBuffers<T>,
     ) -> usize {
         let Self(dealt) = self;
         rooms.within(|room| {
@@ -83,7 +84,6 @@ impl<T: Copy> Buckets<'_, T> {
     }
 }
 
-/// Most bytes of a bucket.
 pub(in crate::sort) fn bucket_bytes() -> usize {
     super::LARGE_BYTES
 }

@@ -20,12 +20,12 @@ pub(in crate::sort) fn room_bytes(width: usize) -> usize {
 }
 
 /// Room that sorting one bucket needs; kept from bucket to bucket.
-pub(super) struct Room<T> {
+pub(super) struct BucketBuffer<T> {
     pub(super) words: Vec<u64>,
     pub(super) copy: Vec<T>,
 }
 
-impl<T> Room<T> {
+impl<T> BucketBuffer<T> {
     /// An empty place for copies of so many records.
     pub(super) fn copy(&mut self, count: usize) -> &mut Vec<T> {
         empty(&mut self.copy, count, LARGE_BYTES / size_of::<T>().max(1));
@@ -48,44 +48,43 @@ fn empty<T>(list: &mut Vec<T>, count: usize, most: usize) {
 }
 
 /// So many rooms, made when they are asked for.
-pub(in crate::sort) struct Rooms<T> {
+pub(in crate::sort) struct BucketBuffers<T> {
     state: Mutex<State<T>>,
     given_back: Condvar,
-    /// Whether there are fewer than anybody may ask for.
+    /// True if there are fewer than anybody may ask for.
     limited: bool,
 }
 
 struct State<T> {
-    idle: Vec<Room<T>>,
+    idle: Vec<BucketBuffer<T>>,
     /// Rooms that nobody has.
     left: usize,
 }
 
-impl<T> Rooms<T> {
+impl<T> BucketBuffers<T> {
     /// As many as there are threads.
     pub(in crate::sort) fn any() -> Self {
         Self { limited: false, ..Self::most(usize::MAX) }
     }
 
-    /// At most so many, at least one.
     pub(in crate::sort) fn most(rooms: usize) -> Self {
         let state = State { idle: Vec::new(), left: rooms };
         Self { state: Mutex::new(state), given_back: Condvar::new(), limited: true }
     }
 
-    /// Whether several threads may sort these records.
+    /// Returns true if several threads may sort these records.
     pub(super) fn shares(&self, records: &[T]) -> bool {
         !self.limited || size_of_val(records) > SHARED_BYTES
     }
 
     /// Does what needs a room, once there is one; `work` must not wait for other threads.
-    pub(super) fn within<R>(&self, work: impl FnOnce(&mut Room<T>) -> R) -> R {
+    pub(super) fn within<R>(&self, work: impl FnOnce(&mut BucketBuffer<T>) -> R) -> R {
         let mut state = self.lock();
         while state.left == 0 {
             state = self.given_back.wait(state).unwrap_or_else(PoisonError::into_inner);
         }
         state.left -= 1;
-        let room = state.idle.pop().unwrap_or(Room { words: Vec::new(), copy: Vec::new() });
+        let room = state.idle.pop().unwrap_or(BucketBuffer { words: Vec::new(), copy: Vec::new() });
         drop(state);
         work(&mut Taken { rooms: self, room }.room)
     }
@@ -98,14 +97,14 @@ impl<T> Rooms<T> {
 
 /// A room that is given back, also if the work panics.
 struct Taken<'a, T> {
-    rooms: &'a Rooms<T>,
-    room: Room<T>,
+    rooms: &'a BucketBuffers<T>,
+    room: BucketBuffer<T>,
 }
 
 impl<T> Drop for Taken<'_, T> {
     fn drop(&mut self) {
-        let Room { words, copy } = &mut self.room;
-        let room = Room { words: std::mem::take(words), copy: std::mem::take(copy) };
+        let BucketBuffer { words, copy } = &mut self.room;
+        let room = BucketBuffer { words: std::mem::take(words), copy: std::mem::take(copy) };
         let mut state = self.rooms.lock();
         state.idle.push(room);
         state.left += 1;

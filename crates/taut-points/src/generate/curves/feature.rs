@@ -1,12 +1,12 @@
 //! Local feature size by maximal empty tangent balls.
 //!
-//! *Problem.* For points of smooth curves: how far each is from the medial axis, the closure of the centres of all disks that are
+//! *Problem.* For points of smooth curves: how far each is from the medial axis, the closure of the centers of all disks that are
 //! empty of the curves and touch them twice.
 //! *Idea.* On each side of a point p with unit normal n the largest empty disk that touches in p has radius
-//! r = min |p − q|² / 2n·(q − p) over the points q before it, and its centre is on the medial axis. Disks of neighbouring points
+//! r = min |p − q|² / 2n·(q − p) over the points q before it, and its center is on the medial axis. Disks of neighboring points
 //! are much alike: the q of the last gives an r to begin with, and runs of points outside the disk of radius r are passed over
 //! whole. At the end of an arc, disks of all directions that lie beyond it are taken.
-//! *Guarantee.* Radii are exact for the sample; f is too large by at most the gap to the next centre.
+//! *Guarantee.* Radii are exact for the sample; f is too large by at most the gap to the next center.
 //! *Trap.* Normals must be exact: the radius of a disk that touches in p and next to it is as sensitive to the normal as to the
 //! curvature.
 
@@ -21,7 +21,7 @@ const CHUNK: usize = 512;
 /// Disks at an end have this many directions, over a half turn.
 const DISK_DIRECTIONS: usize = 512;
 
-/// Points, in runs of neighbours with a disk around each.
+/// Points, in runs of neighbors with a disk around each.
 struct Runs {
     points: Vec<[f64; 2]>,
     disks: Vec<([f64; 2], f64)>,
@@ -35,13 +35,13 @@ impl Runs {
                 low = [low[0].min(p[0]), low[1].min(p[1])];
                 high = [high[0].max(p[0]), high[1].max(p[1])];
             }
-            let centre = [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])];
-            (centre, run.iter().map(|&p| distance(p, centre)).fold(0.0, f64::max))
+            let center = [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])];
+            (center, run.iter().map(|&p| distance(p, center)).fold(0.0, f64::max))
         });
         Self { disks: disks.collect(), points }
     }
 
-    /// The points that a disk around `centre` of the radius that `radius` tells may hold; it may shrink on the way.
+    /// The points that a disk around `center` of the radius that `radius` tells may hold; it may shrink on the way.
     fn scan<S>(
         &self,
         state: &mut S,
@@ -49,9 +49,9 @@ impl Runs {
         mut see: impl FnMut(&mut S, u32),
     ) {
         for (run, &(middle, around)) in self.disks.iter().enumerate() {
-            let (centre, radius) = disk(state);
+            let (center, radius) = disk(state);
             let reach = radius + around;
-            let (x, y) = (middle[0] - centre[0], middle[1] - centre[1]);
+            let (x, y) = (middle[0] - center[0], middle[1] - center[1]);
             if x * x + y * y < reach * reach {
                 let first = run * RUN_POINTS;
                 for q in first..(first + RUN_POINTS).min(self.points.len()) {
@@ -61,7 +61,7 @@ impl Runs {
         }
     }
 
-    /// The centre of the largest disk that touches p, lies on the side of n and holds no point, unless it has no bound; `touched` is
+    /// The center of the largest disk that touches p, lies on the side of n and holds no point, unless it has no bound; `touched` is
     /// a first guess of the point that stops it, and becomes that point.
     fn largest_disk(&self, p: [f64; 2], n: [f64; 2], touched: &mut u32) -> Option<[f64; 2]> {
         let radius = |q: u32| {
@@ -144,7 +144,7 @@ pub(super) fn features_of(
             }
         }
     }
-    let centres: Vec<[f64; 2]> = disks
+    let centers: Vec<[f64; 2]> = disks
         .par_chunks(CHUNK)
         .flat_map_iter(|chunk| {
             let mut touched = 0;
@@ -154,7 +154,7 @@ pub(super) fn features_of(
                 .collect::<Vec<_>>()
         })
         .collect();
-    let axis = Runs::new(centres);
+    let axis = Runs::new(centers);
     let features = curves.iter().map(|points| {
         let chunks = points.par_chunks(CHUNK).flat_map_iter(|chunk| {
             let mut near = 0;

@@ -13,8 +13,8 @@ pub(super) struct Wave {
 /// A curve over a range of the parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Piece {
-    centre: [f64; 2],
-    /// What is added for each unit of t.
+    center: [f64; 2],
+    /// The vector that is added for each unit of t.
     drift: [f64; 2],
     waves: Vec<Wave>,
     range: [f64; 2],
@@ -24,13 +24,13 @@ pub(super) struct Piece {
 impl Piece {
     /// A closed curve of these frequencies.
     pub(super) fn closed(waves: Vec<Wave>) -> Self {
-        Self { centre: [0.0; 2], drift: [0.0; 2], waves, range: [0.0, TAU], closed: true }
+        Self { center: [0.0; 2], drift: [0.0; 2], waves, range: [0.0, TAU], closed: true }
     }
 
     /// An ellipse along the axes.
-    pub(super) fn ellipse(radii: [f64; 2], centre: [f64; 2]) -> Self {
+    pub(super) fn ellipse(radii: [f64; 2], center: [f64; 2]) -> Self {
         let wave = Wave { order: 1, x: [radii[0], 0.0], y: [0.0, radii[1]] };
-        Self { centre, ..Self::closed(vec![wave]) }
+        Self { center, ..Self::closed(vec![wave]) }
     }
 
     /// r(t) = radius + Σ c cos(mt + φ) in polar coordinates, for terms (m, c, φ).
@@ -57,9 +57,8 @@ impl Piece {
         Self { range: [from, to], closed: false, ..self }
     }
 
-    /// The point at t.
     pub(super) fn at(&self, t: f64) -> [f64; 2] {
-        let mut point = [self.centre[0] + self.drift[0] * t, self.centre[1] + self.drift[1] * t];
+        let mut point = [self.center[0] + self.drift[0] * t, self.center[1] + self.drift[1] * t];
         for wave in &self.waves {
             let (sin, cos) = (f64::from(wave.order) * t).sin_cos();
             point[0] += wave.x[0] * cos + wave.x[1] * sin;

@@ -46,7 +46,7 @@ impl TestCurve {
     }
 }
 
-/// Whether a polygon of few vertices on the curve does.
+/// Returns true if a polygon of few vertices on the curve does.
 fn crosses_itself(piece: &Piece) -> bool {
     const N: usize = 256;
     let points: Vec<[f64; 2]> = (0..N).map(|k| piece.at(TAU * k as f64 / N as f64)).collect();

@@ -10,14 +10,14 @@ use super::TruthCurves;
 /// Rows that one thread draws in a row.
 const CHUNK: usize = 4096;
 
-/// How samples differ from points of the curve.
+/// The way in which samples differ from points of the curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CurveNoise {
     /// δ: the largest shift along the normal, or its standard deviation. In units of the least local feature size; default 0.
     pub delta: f64,
-    /// Whether the shift is normal instead of uniform in [−δ, δ]; default false.
+    /// True if the shift is normal instead of uniform in [−δ, δ]; default false.
     pub gaussian: bool,
-    /// Whether samples are as dense everywhere along the curve; default false: density proportional to 1/f.
+    /// True if samples are as dense everywhere along the curve; default false: density proportional to 1/f.
     pub uniform_arc: bool,
     /// Share of the rows that have nothing to do with the curve: uniform in the box around it and its noise. Default 0.
     pub outliers: f64,
@@ -28,7 +28,7 @@ pub struct CurveNoise {
 pub struct CurveSample {
     /// The points, n × 2.
     pub points: Vec<f64>,
-    /// Whether each row is one of the outliers.
+    /// States whether each row is one of the outliers.
     pub outlier: Vec<bool>,
 }
 
@@ -37,7 +37,7 @@ pub struct CurveSample {
 pub struct EpsilonSample {
     /// The points, n × 2, in a random order.
     pub points: Vec<f64>,
-    /// The rows of neighbours along the curves, the lesser first, ascending.
+    /// The rows of neighbors along the curves, the lesser first, ascending.
     pub edges: Vec<[u32; 2]>,
 }
 
@@ -72,7 +72,7 @@ pub fn sample_curve(truth: &TruthCurves, n: usize, noise: &CurveNoise, seed: u64
     sample
 }
 
-/// What is the same for all rows.
+/// The data that are the same for all rows.
 #[derive(Clone, Debug)]
 pub(super) struct Law {
     /// Edges of the curves: curve, number of the first point, and weight of all up to this one.
@@ -180,14 +180,14 @@ struct Walk<'a> {
 }
 
 impl Walk<'_> {
-    /// Whether the sample at vertex `a` serves vertex x.
+    /// Returns true if the sample at vertex `a` serves vertex x.
     fn serves(&self, a: usize, x: usize) -> bool {
         let n = self.vertices.len();
         let (p, q) = (self.vertices[a % n], self.vertices[x % n]);
         (p[0] - q[0]).hypot(p[1] - q[1]) <= 0.98 * self.epsilon * self.features[x % n]
     }
 
-    /// Whether samples at a and b alone serve all between.
+    /// Returns true if samples at a and b alone serve all between.
     fn bridges(&self, a: usize, b: usize) -> bool {
         (a + 1..b).all(|x| self.serves(a, x) || self.serves(b, x))
     }

@@ -33,7 +33,7 @@ fn features_of_a_circle_and_an_ellipse_are_their_formulas() {
     for f in truth("circle").features[0].iter() {
         assert!((f - 1.0).abs() < 1e-9, "{f}");
     }
-    // The axis of an ellipse a > b is the segment between the centres of curvature at its vertices, ±(a − b²/a).
+    // The axis of an ellipse a > b is the segment between the centers of curvature at its vertices, ±(a − b²/a).
     let truth = truth("ellipse3");
     let (a, b) = (9.0, 3.0);
     let end = a - b * b / a;
@@ -45,7 +45,7 @@ fn features_of_a_circle_and_an_ellipse_are_their_formulas() {
 
 #[test]
 fn at_the_ends_of_an_arc_the_disks_beyond_it_count() {
-    // A half circle and less: nothing but its centre. Three quarters: the disks between the ends, centred on the diagonal.
+    // A half circle and less: nothing but its center. Three quarters: the disks between the ends, centerd on the diagonal.
     let truth = truth("arc");
     assert_eq!(truth.closed, [false]);
     let (first, last) = (truth.loops[0][0], truth.loops[0][9999]);

@@ -11,7 +11,7 @@ pub(super) fn limit(sites: &[[f64; 2]], edges: &mut Vec<[u32; 2]>) -> u64 {
     if degrees.iter().all(|&degree| degree <= 2) {
         return 0;
     }
-    // Neighbours of crowded sites only, by site.
+    // Neighbors of crowded sites only, by site.
     let mut spokes: Vec<[u32; 2]> = edges
         .iter()
         .flat_map(|&[a, b]| [[a, b], [b, a]])

@@ -4,7 +4,7 @@
 //! them is surer than the rest of it.
 //! *Idea.* A choice of two edges at each site has the weight exp(−`SHARPNESS` · cost); the cost of a site with edges a and b that turn
 //! by α is (w(a) + w(b))(2 − cos α) / 2, with w the length to the power ¾ after division by the spacing around. Sites tell their
-//! neighbours along each edge how much more probable their other edges make it that this one is there (sum-product, or belief
+//! neighbors along each edge how much more probable their other edges make it that this one is there (sum-product, or belief
 //! propagation), some rounds long. Spacings are smoothed, as a few near sites say little.
 //! *Guarantee.* None: with cycles in the graph the probabilities are approximate, and rounds end before they settle.
 //! *Trap.* Messages in logarithms cost ten times as much; as ratios they are kept within bounds, and damped by geometric means.
@@ -31,7 +31,7 @@ fn weight(length: f64) -> f64 {
     root * root.sqrt()
 }
 
-/// Typical distances of neighbours around each site.
+/// Typical distances of neighbors around each site.
 pub(super) fn spacings(graph: &Graph) -> Vec<f64> {
     let own = |site: u32| match graph.around(site) {
         [] => 1.0,
@@ -50,7 +50,7 @@ pub(super) fn spacings(graph: &Graph) -> Vec<f64> {
     logs.into_iter().map(f64::exp).collect()
 }
 
-/// For each place in the lists of neighbours, the probability that its edge is there.
+/// For each place in the lists of neighbors, the probability that its edge is there.
 pub(super) fn probabilities(
     sites: &[[f64; 2]],
     graph: &Graph,

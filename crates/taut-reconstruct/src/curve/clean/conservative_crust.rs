@@ -1,10 +1,10 @@
 //! The conservative crust: edges with good reason, for curves with ends.
 //!
-//! *Problem.* Edges between neighbours on smooth curves that may have ends, where a missing edge is better than a wrong one.
+//! *Problem.* Edges between neighbors on smooth curves that may have ends, where a missing edge is better than a wrong one.
 //! *Idea.* A Gabriel edge, one whose smallest circle holds no other sample, is kept if the circle ρ times as large around the
-//! same centre holds no Voronoi vertex: then the medial axis is far off beside the length of the edge.
+//! same center holds no Voronoi vertex: then the medial axis is far off beside the length of the edge.
 //! *Guarantee.* For each set of edges that it returns there is a curve of which the samples are dense, and of which these are
-//! the edges between neighbours; all edges of a curve are there if its samples have spacings below about the ρ-th part of the
+//! the edges between neighbors; all edges of a curve are there if its samples have spacings below about the ρ-th part of the
 //! distance from the medial axis.
 //! *Trap.* A sample with no edge is left aside, not joined to the next best.
 //! *Reference.* Dey, Mehlhorn and Ramos, Computational Geometry 15, 2000.

@@ -3,14 +3,14 @@
 //! *Problem.* At a sharp corner no sampling is dense enough for the crusts: the samples on both sides of it are nearer to each other
 //! than to it, and it is cut off.
 //! *Idea.* Where samples are dense beside what lies across, the curve is the shortest way to give each of them two edges, turns
-//! counted. How probable each Delaunay edge is then, over all such ways, comes from messages between neighbours ([`belief`]); sought
+//! counted. How probable each Delaunay edge is then, over all such ways, comes from messages between neighbors ([`belief`]); sought
 //! are the loops of least doubt, an edge of probability p counting 1 − p. Likely edges first, as far as degrees allow; then, as Lin
 //! and Kernighan do with tours, exchanges of two or three edges that lower the sum. Loops may be many, so each exchange is allowed
 //! that keeps the degrees. A missing edge costs nearly as much as a wrong one at each end, so that curves may end.
 //! *Guarantee.* No two edges cross, as all are Delaunay edges. None on being the curve that was sampled: measured on outlines of
 //! letters and on coastlines.
 //! *Trap.* By length alone a corner of less than 38° is cut off: its last three samples become a triangle of their own.
-//! *Trap.* Both neighbours of t₃ are tried as t₄: in a tour one of them would cut it in two, here loops may part.
+//! *Trap.* Both neighbors of t₃ are tried as t₄: in a tour one of them would cut it in two, here loops may part.
 //! *Trap.* Coastlines are often finer than their samples: of every hundred of their edges between one and two are no Delaunay edges,
 //! and no choice among these finds more.
 //! *Reference.* The aim is that of Dey and Wenger, Computational Geometry 19, 2001; shortest tours as curves: Giesen 1999; the
@@ -31,11 +31,11 @@ const MISSING_EDGE_COST: f64 = 0.9;
 /// fourteen times the mean, which is more times the spacing where points around happen to be near each other.
 const LENGTH_RATIO_MAX: f64 = 100.0;
 
-/// The Delaunay neighbours of all sites.
+/// The Delaunay neighbors of all sites.
 pub(super) struct Graph {
-    /// Where the neighbours of each site begin.
+    /// Where the neighbors of each site begin.
     starts: Vec<u32>,
-    /// Neighbours with the lengths of the edges, near ones first.
+    /// Neighbors with the lengths of the edges, near ones first.
     neighbors: Vec<(f64, u32)>,
 }
 
@@ -92,7 +92,7 @@ impl Graph {
         0..self.starts.len() as u32 - 1
     }
 
-    /// Where the neighbours of a site begin in the list of all.
+    /// Where the neighbors of a site begin in the list of all.
     pub(super) fn first(&self, site: u32) -> usize {
         self.starts[site as usize] as usize
     }
@@ -119,7 +119,7 @@ impl Graph {
 
 /// The search: edges as links of sites, a missing one as a link to [`NONE`].
 struct Search {
-    /// Neighbours by doubt.
+    /// Neighbors by doubt.
     graph: Graph,
     links: Vec<[u32; 2]>,
     /// What each site costs as it is.

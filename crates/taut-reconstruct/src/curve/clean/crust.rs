@@ -1,14 +1,14 @@
 //! The crust: edges that stay Delaunay when the Voronoi vertices are added.
 //!
-//! *Problem.* The edges between neighbours on smooth closed curves, of any number.
-//! *Idea.* Voronoi vertices of the samples are near the medial axis. An edge between samples that are not neighbours has only circles
+//! *Problem.* The edges between neighbors on smooth closed curves, of any number.
+//! *Idea.* Voronoi vertices of the samples are near the medial axis. An edge between samples that are not neighbors has only circles
 //! that cross the medial axis, and in the triangulation of samples and Voronoi vertices together it is gone. That triangulation is
-//! not built: the circles through both ends of an edge have their centres on a line, each point beside the edge shuts out those
+//! not built: the circles through both ends of an edge have their centers on a line, each point beside the edge shuts out those
 //! beyond one place on it, and what the points on the left and on the right leave is looked for with a tree over the Voronoi vertices.
 //! *Guarantee.* Exactly the edges of the curves for samples with ε < 0.252. One triangulation, and a look or two per edge of the
 //! one-step crust.
-//! *Trap.* Triples nearly on a line have their centre almost anywhere; those beyond 2²⁰ times the extent of the set are left
-//! out, as no circle through two samples is as large that matters. Centres of circles are rounded, so they only say where to look: which of
+//! *Trap.* Triples nearly on a line have their center almost anywhere; those beyond 2²⁰ times the extent of the set are left
+//! out, as no circle through two samples is as large that matters. Centers of circles are rounded, so they only say where to look: which of
 //! two points shuts out more, and whether anything is left, is decided exactly.
 //! *Reference.* Amenta, Bern and Eppstein, Graphical Models and Image Processing 60(2), 1998.
 
@@ -85,14 +85,14 @@ impl Circles {
         Self { p, q, nearest: [left, right] }
     }
 
-    /// The height over pq, in lengths of it and positive on the left, of the centre of the circle through p, q and r.
+    /// The height over pq, in lengths of it and positive on the left, of the center of the circle through p, q and r.
     fn height(&self, [x, y]: [f64; 2]) -> f64 {
         let ([px, py], [qx, qy]) = (self.p, self.q);
         let cross = (qx - px) * (y - py) - (qy - py) * (x - px);
         0.5 * ((x - px) * (x - qx) + (y - py) * (y - qy)) / cross
     }
 
-    /// The centre and the squared radius of one of them: the smallest, or one well within the rest.
+    /// The center and the squared radius of one of them: the smallest, or one well within the rest.
     fn middle(&self) -> ([f64; 2], f64) {
         let [high, low] = self.nearest.map(|r| r.map(|r| self.height(r)));
         let (low, high) = (low.unwrap_or(f64::NEG_INFINITY), high.unwrap_or(f64::INFINITY));

@@ -48,7 +48,7 @@ pub(super) fn visit_edges(plane: &Plane, mut visit: impl FnMut(Edge)) {
     }
 }
 
-/// The circumcentres of all triangles, the Voronoi vertices, to rounding. Left out are those that are not finite or farther than
+/// The circumcenters of all triangles, the Voronoi vertices, to rounding. Left out are those that are not finite or farther than
 /// `reach` from the triangle.
 pub(super) fn voronoi_vertices(plane: &Plane, sites: &[[f64; 2]], reach: f64) -> Vec<[f64; 2]> {
     let center = |triangle: u32| {

@@ -1,10 +1,10 @@
-//! HNN-Crust: nearest neighbours and half neighbours, kept where both ends agree.
+//! HNN-Crust: nearest neighbors and half neighbors, kept where both ends agree.
 //!
-//! *Problem.* The edges between neighbours on smooth curves, from fewer samples than NN-Crust needs.
-//! *Idea.* Beside the nearest neighbour n₁ a sample p takes n₂, the first by distance that is nearer to p than to n₁ and farther
+//! *Problem.* The edges between neighbors on smooth curves, from fewer samples than NN-Crust needs.
+//! *Idea.* Beside the nearest neighbor n₁ a sample p takes n₂, the first by distance that is nearer to p than to n₁ and farther
 //! from n₁ than p is: the angle n₁ p n₂ is the largest of the three, more than 60°. An edge stays if each end names the other.
 //! *Guarantee.* Exactly the edges of smooth closed curves for samples with ε < 0.47, or a reach-relative spacing below 0.9.
-//! *Trap.* Looking among a fixed number of neighbours only loses edges where the density jumps; here the search has no cap.
+//! *Trap.* Looking among a fixed number of neighbors only loses edges where the density jumps; here the search has no cap.
 //! *Reference.* Ohrhallinger, Mitchell and Wimmer, Computer Graphics Forum 35(5), 2016.
 
 use taut_points::Monitor;

@@ -34,7 +34,7 @@ pub(super) fn solve(
     ends: Ends,
     monitor: &Monitor<'_>,
 ) -> Result<Outcome, Error> {
-    let sites = normalised(&cloud.sites);
+    let sites = normalized(&cloud.sites);
     let edges = edges(&sites, method, monitor)?;
     monitor.check()?;
     let (mut edges, mut repairs) = repair(&sites, edges, ends, monitor)?;
@@ -86,7 +86,7 @@ fn edges(
 
 /// The sites, scaled by a power of two if squares of their coordinates could leave the range of a double. Scaling is exact but for
 /// coordinates 2⁸⁰⁰ times smaller than the largest.
-fn normalised(sites: &[[f64; 2]]) -> Cow<'_, [[f64; 2]]> {
+fn normalized(sites: &[[f64; 2]]) -> Cow<'_, [[f64; 2]]> {
     let largest = sites.as_flattened().iter().fold(0.0, |most: f64, x| most.max(x.abs()));
     let exponent = if largest > 0.0 { largest.log2().floor() as i32 } else { 0 };
     if exponent.abs() <= SAFE_EXPONENT {

@@ -1,12 +1,12 @@
-//! NN-Crust: nearest neighbours, and nearest ones on the other side.
+//! NN-Crust: nearest neighbors, and nearest ones on the other side.
 //!
-//! *Problem.* The edges between samples that are neighbours on smooth closed curves.
-//! *Idea.* A sample's nearest neighbour is its neighbour on the curve. Where that gives it one edge only, pq, the other one leads
+//! *Problem.* The edges between samples that are neighbors on smooth closed curves.
+//! *Idea.* A sample's nearest neighbor is its neighbor on the curve. Where that gives it one edge only, pq, the other one leads
 //! to the nearest r with an angle qpr of more than 90°.
 //! *Guarantee.* Exactly the edges of the curves, for samples with ε < 1/3 (every point of a curve has a sample within ε times its
 //! distance from the medial axis). O(n log n), and no triangulation.
 //! *Trap.* Degrees are those after *all* nearest edges, also the ones that others drew; ties go by coordinates, as on a grid all
-//! four neighbours are nearest.
+//! four neighbors are nearest.
 //! *Reference.* Dey and Kumar, SODA 1999.
 
 use taut_points::Monitor;
@@ -27,7 +27,7 @@ pub(super) fn edges(near: &Near<'_>, monitor: &Monitor<'_>) -> Result<Vec<[u32; 
             drawn[q as usize] = true;
         }
     }
-    // From p to its neighbour.
+    // From p to its neighbor.
     let ray = |p: u32| {
         let [p, q] = [p, first[p as usize]].map(|site| sites[site as usize]);
         (p, q, [q[0] - p[0], q[1] - p[1]])

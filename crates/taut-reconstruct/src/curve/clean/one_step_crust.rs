@@ -1,7 +1,7 @@
 //! The one-step crust: Delaunay edges with an empty circle that avoids the Voronoi vertices beside them.
 //!
 //! *Problem.* The crust without a second triangulation.
-//! *Idea.* Of an edge of length 2a the circumcentres beside it lie a·cot A and −a·cot B along the bisector, A and B the angles
+//! *Idea.* Of an edge of length 2a the circumcenters beside it lie a·cot A and −a·cot B along the bisector, A and B the angles
 //! across. A circle through both ends that holds neither of them exists if and only if A + B ≤ 90°; Delaunay edges have
 //! A + B ≤ 180°. Beyond an edge of the hull the angle counts as 0.
 //! *Guarantee.* Holds the edges of smooth closed curves and no others for samples with ε < 0.42. One triangulation.

@@ -168,7 +168,7 @@ fn first(sites: &[[f64; 2]], p: u32, accept: impl Fn(u32) -> bool) -> Option<u32
 }
 
 #[test]
-fn neighbours_are_those_of_brute_force() {
+fn neighbors_are_those_of_brute_force() {
     let mut draw = Draw(3);
     for round in 0..12 {
         let points: Vec<[f64; 2]> = (0..30 * round)

@@ -374,7 +374,7 @@ mod tests {
     }
 
     #[test]
-    fn neighbours_are_in_a_row_or_around() {
+    fn neighbors_are_in_a_row_or_around() {
         assert_eq!(beside(3, 0, false), [None, Some(1)]);
         assert_eq!(beside(3, 0, true), [Some(2), Some(1)]);
         assert_eq!(beside(3, 2, true), [Some(1), Some(0)]);

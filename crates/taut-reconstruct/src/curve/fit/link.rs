@@ -3,7 +3,7 @@
 //! *Idea.* A seed knows its tangent, so it knows what is ahead and what is behind. It asks for the nearest seed on each side that
 //! lies along its own tangent and whose tangent lies along the way there; where both ask for each other they are joined. Sides left
 //! over are joined by ascending distance where they face each other.
-//! *Guarantee.* No seed gets more than one neighbour on a side, so the result is chains and loops; it turns and scales with the seeds.
+//! *Guarantee.* No seed gets more than one neighbor on a side, so the result is chains and loops; it turns and scales with the seeds.
 
 use taut_oblivious::hilbert_order;
 

@@ -1,6 +1,6 @@
 //! The parabola whose largest residual is least.
 //!
-//! *Problem.* Points (u, v): find a, b, c that minimise w = max |v − a − bu − cu²|.
+//! *Problem.* Points (u, v): find a, b, c that minimize w = max |v − a − bu − cu²|.
 //! *Idea.* On four points the best parabola misses each by the same E, on alternating sides, and E is a divided difference of the
 //! third order (de la Vallée Poussin). Exchange one of the four for the point that is missed most, so that sides still alternate;
 //! |E| grows, until no point is missed by more.

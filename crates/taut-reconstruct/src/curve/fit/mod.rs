@@ -2,7 +2,7 @@
 //!
 //! *Problem.* Points lie around unknown curves, off them by noise of unknown width; some may be outliers.
 //! *Idea.* [`seeds`] finds at which scale the points look like a band, and puts places on its middle line; [`link`] joins them to
-//! chains; [`strand`] gives each point its place along a chain, so that every neighbourhood is a range of a sorted list; [`regress`]
+//! chains; [`strand`] gives each point its place along a chain, so that every neighborhood is a range of a sorted list; [`regress`]
 //! fits the curve in windows as long as it lets them be, first by least squares, then, as [`noise`] has shown of which kind the
 //! noise is, by the least largest residual where it has an edge. Where windows followed outliers, [`kinks`] puts the curve straight.
 //! *Guarantee.* The answer turns, scales and shifts with the points, to rounding. O(n log n) for windows of bounded overlap. Error

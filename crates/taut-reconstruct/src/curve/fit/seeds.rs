@@ -4,10 +4,10 @@
 //! seed on its middle line every now and then, everywhere.
 //! *Idea.* Points are taken in the order of their density, densest first. Around one that is not yet accounted for, windows
 //! grow until the points in it are [`FLATNESS_MIN`] times as long as their residuals from a parabola are wide, by more than chance:
-//! a blob inside the band is about twice as long as wide. The window is centred anew on its parabola, and the seed there accounts
+//! a blob inside the band is about twice as long as wide. The window is centerd anew on its parabola, and the seed there accounts
 //! for all points of the slab around it. What is left when density has fallen to a fraction are outliers.
 //! *Guarantee.* A function of the point set that turns and scales with it; every point of the slab of a seed is accounted for,
-//! so a curve without gaps gets seeds without gaps. O(n) work in windows beside the search for neighbours.
+//! so a curve without gaps gets seeds without gaps. O(n) work in windows beside the search for neighbors.
 //! *Trap.* Windows around a sample, not around the middle line, are askew by up to the noise. A window that may grow without
 //! end swallows the whole curve, which is flat beside its own size: it stops at the first that is flat enough, its residuals must
 //! look like noise, and what is much wider than the windows within it is dropped. Of a hundred thousand windows some of a few points
@@ -150,7 +150,7 @@ fn apart(seeds: Vec<Seed>) -> Vec<Seed> {
     seeds.into_iter().filter(|_| places.next().is_some_and(|place| !beside[place])).collect()
 }
 
-/// For each point the distance of its [`DENSITY_NEIGHBORS`]-th neighbour, and the sum of the squared distances of all.
+/// For each point the distance of its [`DENSITY_NEIGHBORS`]-th neighbor, and the sum of the squared distances of all.
 ///
 /// Two points are often the eighth of each other. Then the sum decides which is denser: numbers of points turn with nothing.
 fn spacings(index: &Index<'_>) -> Vec<(f64, f64)> {
@@ -311,10 +311,10 @@ impl<'a> Search<'a> {
         self.window.fit(at, self.ids.iter().map(|&i| points[i as usize]))
     }
 
-    /// The first window that is flat, centred on its parabola; or the flattest, where none is flat enough.
+    /// The first window that is flat, centerd on its parabola; or the flattest, where none is flat enough.
     fn flat(&mut self, start: Point, spacing: f64) -> Option<(Parabola, f64)> {
         let most = (self.points.len() / 3).max(DENSITY_NEIGHBORS);
-        // Not the spacing itself, at which the last neighbour is inside or outside as rounding will have it.
+        // Not the spacing itself, at which the last neighbor is inside or outside as rounding will have it.
         let mut reach = (SEED_WINDOW_GROWTH * spacing).max(REACH_MIN);
         let mut best: Option<(f64, Parabola, f64)> = None;
         let mut longest = f64::INFINITY;

@@ -1,7 +1,7 @@
 //! A curve as it is known so far, and the points in the order in which they lie along it.
 //!
 //! *Idea.* Between two nodes the curve is the cubic that leaves and arrives along their tangents. Each point goes to the nearest
-//! place on a fine polyline of it, and from then on all neighbourhoods are ranges of a sorted list.
+//! place on a fine polyline of it, and from then on all neighborhoods are ranges of a sorted list.
 //! *Guarantee.* O(n log n); a function of the nodes and the points that turns and scales with them.
 
 use rayon::prelude::*;

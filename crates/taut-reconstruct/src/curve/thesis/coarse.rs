@@ -1,4 +1,4 @@
-//! The coarse neighbourhood of a sample: a disk in which the samples are flat.
+//! The coarse neighborhood of a sample: a disk in which the samples are flat.
 //!
 //! *Problem.* The smallest radius r, not less than that of the initial disk, with r / width(strip of the samples within r) ≥ ρ.
 //! *Idea.* The width never falls as the disk grows. If the samples within r have width w, no radius below ρ·w will do: the
@@ -10,7 +10,7 @@
 use super::disks::Growing;
 use super::strip::{Strip, least_strip, reduce_to_hull};
 
-/// A coarse neighbourhood.
+/// A coarse neighborhood.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Coarse {
     /// Its radius.
@@ -19,7 +19,7 @@ pub(super) struct Coarse {
     pub(super) strip: Strip,
 }
 
-/// The coarse neighbourhood that grows from a radius `initial`, if its radius is at most `limit`.
+/// The coarse neighborhood that grows from a radius `initial`, if its radius is at most `limit`.
 pub(super) fn coarse(disk: &mut Growing<'_>, initial: f64, limit: f64, rho: f64) -> Option<Coarse> {
     let (mut radius, mut taken, mut hull) = (initial, 0, Vec::new());
     loop {

@@ -1,19 +1,19 @@
-//! The crude form of the method: coarse neighbourhoods by eigenvectors, and a tour through their centres.
+//! The crude form of the method: coarse neighborhoods by eigenvectors, and a tour through their centers.
 //!
-//! *Problem.* As before, a disk around each sample in which the samples are flat; its centre instead of a refined one.
+//! *Problem.* As before, a disk around each sample in which the samples are flat; its center instead of a refined one.
 //! *Idea.* Samples come in by distance and their moments are summed: with eigenvalues λ₁ ≥ λ₂ of the covariance matrix the disk is
 //! flat where √(λ₁/λ₂) ≥ 2ρ. Samples evenly along 2r and across a width w have λ₁ = r²/3 and λ₂ = w²/12, so that this asks for
-//! r/w ≥ ρ. The centre is where the line through the mean, along the first eigenvector, comes nearest to the sample.
+//! r/w ≥ ρ. The center is where the line through the mean, along the first eigenvector, comes nearest to the sample.
 //! *Guarantee.* None: the mean of a bent stretch lies to one side. O(k log k) for a disk of k samples.
 //! *Trap.* The text takes 1/√λ₁ for the width of the strip, which is none; and it says eigenvectors where it means eigenvalues.
 //! Moments are of places relative to the sample, so that they are as good far from the origin.
 
 use super::disks::Growing;
 
-/// The centre, relative to the sample, and twice the deviation across that noise of this size has.
+/// The center, relative to the sample, and twice the deviation across that noise of this size has.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Crude {
-    /// The centre, relative to the sample.
+    /// The center, relative to the sample.
     pub(super) center: [f64; 2],
     /// The height of a strip that evenly spread samples of the same λ₂ would fill: √(12·λ₂).
     pub(super) height: f64,
@@ -49,7 +49,7 @@ impl Moments {
     }
 }
 
-/// The centre of the first flat disk that grows from a radius `initial`, if its radius is at most `limit`.
+/// The center of the first flat disk that grows from a radius `initial`, if its radius is at most `limit`.
 pub(super) fn crude(disk: &mut Growing<'_>, initial: f64, limit: f64, rho: f64) -> Option<Crude> {
     let (mut radius, mut taken, mut moments) = (initial, 0, Moments::default());
     loop {

@@ -3,8 +3,8 @@
 //! *Problem.* Samples of disjoint smooth closed curves, each moved along the normal by at most δ; neither δ nor the curves are known.
 //! *Idea.* (1) D holds s and K = ⌈(ln n)^(1+ω)⌉ samples around it, and initial(s) has radius √radius(D). (2) coarse(s) grows from it until
 //! radius / width(strip(s)) ≥ ρ ([`coarse`]). (3) refined(s), a slab across it of width W = min(√radius(initial), radius(coarse)/3),
-//! is turned until the rectangle around its samples is lowest; s* is the centre of that ([`refined`]). (4) By decreasing W, each
-//! centre deletes those within W^(1/3) of it ([`pruning`]). (5) NN-Crust of the centres left.
+//! is turned until the rectangle around its samples is lowest; s* is the center of that ([`refined`]). (4) By decreasing W, each
+//! center deletes those within W^(1/3) of it ([`pruning`]). (5) NN-Crust of the centers left.
 //! *Guarantee.* For δ ≤ 1/(9ρ²) of the least local feature size and ρ ≥ 4: the curves are those sampled, and the answer tends to
 //! them, with a probability that tends to 1 as n grows. No answer crosses itself.
 //! *Trap.* Gaps of the text, and how they are closed: lengths are in units of the least local feature size, so that it is an option, or
@@ -76,7 +76,7 @@ impl Start {
         Ok(Self { scale, initial: initial.collect(), unit, samples })
     }
 
-    /// For each sample with a first disk, the centre and the height that something makes of it; the others are outliers.
+    /// For each sample with a first disk, the center and the height that something makes of it; the others are outliers.
     fn estimates(
         &self,
         monitor: &Monitor<'_>,
@@ -93,12 +93,12 @@ impl Start {
         Ok((found.into_iter().flatten().collect(), outliers))
     }
 
-    /// Centres in the units of the input.
+    /// Centers in the units of the input.
     fn up(&self, estimates: &[Estimate]) -> Vec<[f64; 2]> {
         estimates.iter().map(|found| found.center.map(|x| self.scale.up(x))).collect()
     }
 
-    /// The outcome of what was made of the centres.
+    /// The outcome of what was made of the centers.
     fn finish(
         &self,
         mut outcome: Outcome,
@@ -117,7 +117,7 @@ impl Start {
     }
 }
 
-/// The curve through pruned centres.
+/// The curve through pruned centers.
 pub(super) fn thesis(
     cloud: &Cloud,
     how: &CurveThesisOptions,
@@ -151,7 +151,7 @@ pub(super) fn thesis(
     Ok(outcome)
 }
 
-/// The tour through all crude centres.
+/// The tour through all crude centers.
 pub(super) fn thesis_crude(
     cloud: &Cloud,
     how: &CurveThesisOptions,
@@ -164,7 +164,7 @@ pub(super) fn thesis_crude(
         Some(Estimate { center: found.center, width: 0.0, height: found.height, way: 0.0 })
     })?;
     let mut outcome = tour::tour(&Cloud::of(&start.up(&estimates)), options, monitor)?;
-    // The bound is about tours of centres, which are no rows: nobody could check it.
+    // The bound is about tours of centers, which are no rows: nobody could check it.
     outcome.tour = None;
     Ok(start.finish(outcome, &estimates, outliers, options.method))
 }

@@ -1,19 +1,19 @@
-//! Pruning: centres that are far enough from each other.
+//! Pruning: centers that are far enough from each other.
 //!
-//! *Problem.* Of centres s* with widths W(s), scanned by decreasing width, each one that is still there is selected and deletes all
-//! centres within W(s)^(1/3) of it.
-//! *Idea.* The tree of boxes over the centres tells which those are; centres near in the plane are near in memory.
-//! *Guarantee.* Those selected are farther apart than the larger of their radii, and each centre is within the radius of a selected
+//! *Problem.* Of centers s* with widths W(s), scanned by decreasing width, each one that is still there is selected and deletes all
+//! centers within W(s)^(1/3) of it.
+//! *Idea.* The tree of boxes over the centers tells which those are; centers near in the plane are near in memory.
+//! *Guarantee.* Those selected are farther apart than the larger of their radii, and each center is within the radius of a selected
 //! one.
 //! *Trap.* Of two samples that are each the K-th nearest of the other the widths are equal, and by rounding either may be the
-//! larger; their rectangles may be the same ones, too. Widths, heights and ways from sample to centre are compared one after the other, in single
+//! larger; their rectangles may be the same ones, too. Widths, heights and ways from sample to center are compared one after the other, in single
 //! precision, as they turn with the input.
 
 use std::cmp::Ordering;
 
 use super::disks::Disks;
 
-/// The numbers of the centres selected, in that order; `size` is the width and height of each and its way from the sample, and
+/// The numbers of the centers selected, in that order; `size` is the width and height of each and its way from the sample, and
 /// `reach` its radius.
 pub(super) fn select(
     centers: &[[f64; 2]],

@@ -1,12 +1,12 @@
-//! The refined neighbourhood of a sample: a slab across the curve, turned until its samples are lowest, and their centre.
+//! The refined neighborhood of a sample: a slab across the curve, turned until its samples are lowest, and their center.
 //!
 //! *Problem.* The slab has the sample in its middle and a width W; two lines across it enclose its samples in a rectangle. Turn it
-//! by an angle in [−π/10, π/10] so that the rectangle is lowest; its centre is s*.
+//! by an angle in [−π/10, π/10] so that the rectangle is lowest; its center is s*.
 //! *Idea.* The height at an angle is one pass over the samples that can be in the slab at all; the angles are π/100 apart. Which of them
 //! is lowest is chance where heights differ by less than chance makes them differ: the height of m uniform samples falls short of
-//! that of their band by a share of 2/(m + 1). So s* is the mean of the centres of all rectangles at most that much higher.
+//! that of their band by a share of 2/(m + 1). So s* is the mean of the centers of all rectangles at most that much higher.
 //! *Guarantee.* The height found is that of a rectangle tried, and at most W·π/200 above the least one.
-//! *Trap.* The slab as printed is infinite and meets other parts of a closed curve: only samples of the coarse disk count. The centre
+//! *Trap.* The slab as printed is infinite and meets other parts of a closed curve: only samples of the coarse disk count. The center
 //! of the lowest rectangle alone follows the noise, the more so the finer the angles: a seventh more error on the test curves.
 
 use std::f64::consts::PI;
@@ -24,7 +24,7 @@ const ANGLES_PER_SIDE: i32 = 10;
 pub(super) struct Rectangle {
     /// Its height, along the slab.
     pub(super) height: f64,
-    /// Its centre, or the mean with those of others nearly as low, relative to the sample.
+    /// Its center, or the mean with those of others nearly as low, relative to the sample.
     pub(super) center: [f64; 2],
 }
 

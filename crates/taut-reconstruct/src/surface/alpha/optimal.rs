@@ -16,7 +16,7 @@ use taut_points::InputError;
 use crate::Error;
 use crate::surface::filter::cell_at_most;
 use crate::surface::sides::Sides;
-use crate::surface::vector::{dot, minus, sphere_centre};
+use crate::surface::vector::{dot, minus, sphere_center};
 
 /// The least α at which every site is on a cell of the alpha shape, and these cells hang together by facets in at most `solids` sets.
 /// Infinite if that is beyond all numbers.
@@ -99,8 +99,8 @@ impl<'a> Growing<'a> {
 /// The circumradius of a cell, rounded up: the least number with which [`cell_at_most`] holds.
 fn radius(sides: &Sides, cell: u32) -> f64 {
     let [a, b, c, d] = sides.corners(cell);
-    let centre = sphere_centre(minus(b, a), minus(c, a), minus(d, a));
-    let guess = dot(centre, centre).sqrt();
+    let center = sphere_center(minus(b, a), minus(c, a), minus(d, a));
+    let guess = dot(center, center).sqrt();
     let guess = if guess.is_nan() { f64::MAX } else { guess.min(f64::MAX) };
     let enough = |bits: u64| cell_at_most(sides, cell, f64::from_bits(bits));
     least(guess.to_bits(), enough)

@@ -41,13 +41,13 @@ pub struct AlphaShape {
     pub apexes: Vec<u32>,
     /// Facets without a cell, as sites in ascending order; facets in their order.
     pub singular: Vec<[u32; 3]>,
-    /// How many facets are interior.
+    /// The number of facets that are interior.
     pub interior: usize,
-    /// How many facets are exterior.
+    /// The number of facets that are exterior.
     pub exterior: usize,
-    /// How many cells there are.
+    /// The number of cells.
     pub cells: usize,
-    /// How many sets of cells that hang together by facets.
+    /// The number of sets of cells that hang together by facets.
     pub solids: usize,
 }
 
@@ -131,7 +131,7 @@ fn smallest_first([a, b, c]: [u32; 3]) -> [u32; 3] {
     }
 }
 
-/// How many sets the cells of a solid make that hang together by facets.
+/// Returns how many sets the cells of a solid make that hang together by facets.
 fn solids(sides: &Sides, inside: &[bool]) -> usize {
     let mut seen = vec![false; inside.len()];
     let mut count = 0;

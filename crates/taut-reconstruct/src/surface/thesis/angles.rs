@@ -21,7 +21,7 @@ impl Bound {
         Self { square: (theta > 0.0).then(|| 0.5 * (1.0 + (2.0 * theta).cos())) }
     }
 
-    /// Whether two normals make a smaller angle.
+    /// Tests whether two normals make a smaller angle.
     pub(super) fn exceeds(self, p: [f64; 3], q: [f64; 3]) -> bool {
         let product = dot(p, q);
         self.square.is_some_and(|square| {

@@ -1,4 +1,4 @@
-//! What a front leaves behind.
+//! The surface that a front leaves behind.
 
 use super::candidates::Candidates;
 use super::front::Front;
@@ -29,7 +29,7 @@ pub struct ThesisSurface {
     pub boundary_edges: usize,
     /// Connected sets of such edges.
     pub boundary_loops: usize,
-    /// How it came about.
+    /// The way in which it came about.
     pub counters: ThesisCounters,
 }
 
@@ -45,7 +45,7 @@ pub struct ThesisCounters {
     /// Edges taken from the queue.
     pub pops: u64,
     /// Times that the candidates around an edge were looked at.
-    pub looks: u64,
+    pub examined_edges: u64,
 }
 
 impl ThesisSurface {
@@ -56,12 +56,10 @@ impl ThesisSurface {
     }
 }
 
-/// All candidates.
 pub(super) fn of_candidates(sides: &Sides, candidates: &Candidates) -> ThesisSurface {
     finish(sides, candidates.sites.clone(), &candidates.sides, vec![], Pinches::Keep)
 }
 
-/// The surface that a front grew.
 pub(super) fn of_front(sides: &Sides, front: &Front<'_>, wanted: Pinches) -> ThesisSurface {
     let mut grown = front.grown.clone();
     let mut triangles: Vec<_> = grown.iter().map(|&side| sides.triangle(side)).collect();
@@ -76,7 +74,7 @@ pub(super) fn of_front(sides: &Sides, front: &Front<'_>, wanted: Pinches) -> The
     let mut surface = finish(sides, triangles, &grown, pinches, wanted);
     surface.counters.seeds = front.events.seeds;
     surface.counters.pops = front.events.pops;
-    surface.counters.looks = front.events.looks;
+    surface.counters.examined_edges = front.events.examined_edges;
     surface
 }
 
@@ -114,7 +112,7 @@ fn finish(
     }
 }
 
-/// How many edges have one triangle, and how many connected sets they make.
+/// Returns how many edges have one triangle, and how many connected sets they make.
 fn boundary(triangles: &[[u32; 3]], vertex_count: usize) -> (usize, usize) {
     let mut edges: Vec<[u32; 2]> = triangles
         .iter()

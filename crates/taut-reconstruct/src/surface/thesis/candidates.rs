@@ -10,14 +10,13 @@ use super::options::Priority;
 use crate::surface::alpha::passing;
 use crate::surface::filter::{Filter, is_gabriel};
 use crate::surface::sides::{Side, Sides};
-use crate::surface::vector::{Vector, circumcentre, dot, minus, sphere_centre};
+use crate::surface::vector::{Vector, circumcenter, dot, minus, sphere_center};
 
 /// Stands for no candidate.
 pub(super) const NONE: u32 = u32::MAX;
 
 /// Candidates T_c, in the order of their sites.
 pub(super) struct Candidates {
-    /// One side of each.
     pub(super) sides: Vec<Side>,
     /// The sites of each, in order.
     pub(super) sites: Vec<[u32; 3]>,
@@ -29,8 +28,8 @@ pub(super) struct Candidates {
     of_side: Vec<u32>,
     at_edge: Runs,
     at_site: Runs,
-    /// The circumcentre of each, as `f64` has it.
-    centres: Vec<Vector>,
+    /// The circumcenter of each, as `f64` has it.
+    centers: Vec<Vector>,
     /// The square of what the front prefers to be small, if that is a property of the candidate alone.
     sizes: Vec<f64>,
 }
@@ -47,16 +46,16 @@ impl Candidates {
         let (edges, ends) = edges(&sites);
         let at_edge = Runs::of(ends.len(), &edges);
         let at_site = Runs::of(sides.points.len(), &sites);
-        let centres = sites.par_iter().map(|&t| centre(sides, t)).collect();
+        let centers = sites.par_iter().map(|&t| center(sides, t)).collect();
         let size = |(&side, &t): (&Side, &[u32; 3])| match priority {
-            Priority::CircumcentreDistance => 0.0,
+            Priority::CircumcenterDistance => 0.0,
             Priority::Circumradius => square(sides, t),
             Priority::EmptyBall => empty_ball(sides, side, t),
         };
         let sizes = own.par_iter().zip(&sites).map(size).map(finite_or_infinite);
         let sizes =
-            if priority == Priority::CircumcentreDistance { vec![] } else { sizes.collect() };
-        Self { sides: own, sites, edges, ends, of_side, at_edge, at_site, centres, sizes }
+            if priority == Priority::CircumcenterDistance { vec![] } else { sizes.collect() };
+        Self { sides: own, sites, edges, ends, of_side, at_edge, at_site, centers, sizes }
     }
 
     pub(super) fn len(&self) -> usize {
@@ -75,22 +74,20 @@ impl Candidates {
         self.edges[candidate as usize][opposite]
     }
 
-    /// The candidates at an edge.
     pub(super) fn at_edge(&self, edge: u32) -> &[u32] {
         self.at_edge.run(edge)
     }
 
-    /// The candidates at a site.
     pub(super) fn at_site(&self, site: u32) -> &[u32] {
         self.at_site.run(site)
     }
 
-    /// What makes the one candidate attractive from the other: the less, the more. Infinite where `f64` cannot tell.
+    /// Returns what makes the one candidate attractive from the other: the less, the more. Infinite where `f64` cannot tell.
     pub(super) fn measure(&self, from: u32, to: u32) -> f64 {
         if let Some(&size) = self.sizes.get(to as usize) {
             return size;
         }
-        let way = minus(self.centres[to as usize], self.centres[from as usize]);
+        let way = minus(self.centers[to as usize], self.centers[from as usize]);
         finite_or_infinite(dot(way, way))
     }
 }
@@ -145,16 +142,15 @@ fn corners(sides: &Sides, triangle: [u32; 3]) -> (Vector, Vector, Vector) {
     (a, minus(b, a), minus(c, a))
 }
 
-fn centre(sides: &Sides, triangle: [u32; 3]) -> Vector {
+fn center(sides: &Sides, triangle: [u32; 3]) -> Vector {
     let (a, u, v) = corners(sides, triangle);
-    let c = circumcentre(u, v);
+    let c = circumcenter(u, v);
     [0, 1, 2].map(|i| a[i] + c[i])
 }
 
-/// The square of the circumradius.
 fn square(sides: &Sides, triangle: [u32; 3]) -> f64 {
     let (_, u, v) = corners(sides, triangle);
-    let c = circumcentre(u, v);
+    let c = circumcenter(u, v);
     dot(c, c)
 }
 
@@ -170,8 +166,8 @@ fn empty_ball(sides: &Sides, side: Side, triangle: [u32; 3]) -> f64 {
         let mut sites = sides.cell(side >> 2);
         sites.sort_unstable();
         let [a, b, c, d] = sites.map(|site| sides.points[site as usize]);
-        let centre = sphere_centre(minus(b, a), minus(c, a), minus(d, a));
-        finite_or_infinite(dot(centre, centre))
+        let center = sphere_center(minus(b, a), minus(c, a), minus(d, a));
+        finite_or_infinite(dot(center, center))
     };
     sphere(side).min(sphere(sides.mirror(side)))
 }

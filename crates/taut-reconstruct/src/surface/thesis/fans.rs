@@ -16,9 +16,9 @@ use crate::surface::sides::{Side, Sides};
 /// Stands for no side.
 const NONE: Side = Side::MAX;
 
-/// What happens to the fans of a corner when a triangle is added.
+/// The change of the fans of a corner when a triangle is added.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Turn {
+enum FanChange {
     Begins,
     Extends,
     Joins,
@@ -33,7 +33,7 @@ pub(super) struct Fans<'a> {
     at_edge: Vec<[Side; 2]>,
     /// The open fans of each site.
     open: Vec<u32>,
-    /// Whether a site has a closed fan.
+    /// States whether a site has a closed fan.
     closed: Vec<bool>,
 }
 
@@ -56,27 +56,25 @@ impl<'a> Fans<'a> {
         }
     }
 
-    /// Whether an edge has two triangles.
+    /// Returns true if an edge has two triangles.
     pub(super) fn is_full(&self, edge: u32) -> bool {
         self.at_edge[edge as usize][1] != NONE
     }
 
-    /// Whether a site has a closed fan.
     pub(super) fn is_closed(&self, site: u32) -> bool {
         self.closed[site as usize]
     }
 
-    /// Whether a site is on a triangle.
     pub(super) fn is_used(&self, site: u32) -> bool {
         self.closed[site as usize] || self.open[site as usize] > 0
     }
 
-    /// Whether a site has several fans; a closed one has no other beside it.
+    /// Returns true if a site has several fans; a closed one has no other beside it.
     pub(super) fn is_pinch(&self, site: u32) -> bool {
         self.open[site as usize] > 1
     }
 
-    /// Whether the surface stays one.
+    /// Returns true if the surface stays one.
     pub(super) fn may_add(&self, side: Side) -> bool {
         let corners = self.sides.triangle(side);
         let (_, edges) = self.edges(side);
@@ -88,12 +86,11 @@ impl<'a> Fans<'a> {
         let allowed = |i: usize| {
             let site = corners[i] as usize;
             !self.closed[site]
-                && (self.open[site] < 2 || self.turn(corners, edges, i) != Turn::Closes)
+                && (self.open[site] < 2 || self.turn(corners, edges, i) != FanChange::Closes)
         };
         (0..3).all(runs_on) && (0..3).all(allowed)
     }
 
-    /// Adds a side that may be added.
     pub(super) fn add(&mut self, side: Side) {
         let corners = self.sides.triangle(side);
         let (_, edges) = self.edges(side);
@@ -101,10 +98,10 @@ impl<'a> Fans<'a> {
         for (corner, turn) in corners.into_iter().zip(turns) {
             let open = &mut self.open[corner as usize];
             match turn {
-                Turn::Begins => *open += 1,
-                Turn::Extends => {}
-                Turn::Joins => *open -= 1,
-                Turn::Closes => {
+                FanChange::Begins => *open += 1,
+                FanChange::Extends => {}
+                FanChange::Joins => *open -= 1,
+                FanChange::Closes => {
                     *open -= 1;
                     self.closed[corner as usize] = true;
                 }
@@ -124,19 +121,19 @@ impl<'a> Fans<'a> {
         (candidate, [edge(a, b), edge(b, c), edge(c, a)])
     }
 
-    /// What a triangle does at its corner i.
-    fn turn(&self, corners: [u32; 3], edges: [u32; 3], i: usize) -> Turn {
+    /// Returns what a triangle does at its corner i.
+    fn turn(&self, corners: [u32; 3], edges: [u32; 3], i: usize) -> FanChange {
         let (one, other) = (edges[i], edges[(i + 2) % 3]);
         match (self.only(one), self.only(other)) {
-            (None, None) => Turn::Begins,
+            (None, None) => FanChange::Begins,
             (Some(side), Some(_)) => {
                 if self.end_of_fan(corners[i], one, side) == other {
-                    Turn::Closes
+                    FanChange::Closes
                 } else {
-                    Turn::Joins
+                    FanChange::Joins
                 }
             }
-            _ => Turn::Extends,
+            _ => FanChange::Extends,
         }
     }
 
@@ -157,7 +154,7 @@ impl<'a> Fans<'a> {
     }
 }
 
-/// Whether a triangle runs from u to v.
+/// Tests whether a triangle runs from u to v.
 fn runs([a, b, c]: [u32; 3], u: u32, v: u32) -> bool {
     [(a, b), (b, c), (c, a)].contains(&(u, v))
 }

@@ -2,7 +2,7 @@
 //!
 //! *Problem.* Choose from the candidates triangles that make a surface.
 //! *Idea.* As Prim's algorithm grows a minimum spanning tree: all edges of one triangle only wait in a queue, by the distance of the
-//! circumcentres of that triangle and the best candidate; those whose candidate is on slivers come after all others. The first edge
+//! circumcenters of that triangle and the best candidate; those whose candidate is on slivers come after all others. The first edge
 //! gets its candidate, unless that would spoil the surface. What can no longer be added, candidates at an edge with two triangles
 //! and at a vertex with a closed fan, is deleted.
 //! *Guarantee.* No edge has more than two triangles, and both run along it in opposite directions. No two triangles meet but in common
@@ -34,12 +34,12 @@ pub(super) struct Events {
     /// Edges taken from the queue.
     pub(super) pops: u64,
     /// Times that the candidates around an edge were looked at.
-    pub(super) looks: u64,
+    pub(super) examined_edges: u64,
     /// Triangles that a front began with.
     pub(super) seeds: u64,
 }
 
-/// What the queue is sorted by: whether slivers are on the candidate, the bits of its measure, the edge.
+/// The key of the queue: whether slivers are on the candidate, the bits of its measure, the edge.
 type Key = (bool, u64, u32);
 
 pub(super) struct Front<'a> {
@@ -129,7 +129,7 @@ impl<'a> Front<'a> {
                 }
                 self.events.pops += 1;
                 let edge = entry.2;
-                match self.look(edge) {
+                match self.examine(edge) {
                     Some(choice) if key(choice, edge) > entry => {
                         self.queue.push(Reverse(key(choice, edge)));
                     }
@@ -147,9 +147,9 @@ impl<'a> Front<'a> {
     }
 
     /// The best continuation of an edge with one triangle.
-    fn look(&mut self, edge: u32) -> Option<Choice> {
+    fn examine(&mut self, edge: u32) -> Option<Choice> {
         let side = self.fans.only(edge)?;
-        self.events.looks += 1;
+        self.events.examined_edges += 1;
         let [from, to] = self.candidates.ends[edge as usize];
         let [a, b, c] = self.sides.triangle(side);
         let rotations = [[a, b, c], [b, c, a], [c, a, b]];
@@ -166,7 +166,7 @@ impl<'a> Front<'a> {
     }
 
     fn enqueue(&mut self, edge: u32) {
-        match self.look(edge) {
+        match self.examine(edge) {
             Some(choice) => self.queue.push(Reverse(key(choice, edge))),
             None => self.stuck.push(edge),
         }

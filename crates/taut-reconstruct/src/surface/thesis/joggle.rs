@@ -45,8 +45,8 @@ fn with_bits(x: f32, bits: u8) -> f64 {
     if x == 0.0 {
         return f64::from(bits) * 2f64.powi(-40);
     }
-    let doubled = f64::from(x).to_bits();
-    f64::from_bits(doubled | u64::from(bits) << (52 - 23 - 8))
+    let two_sum = f64::from(x).to_bits();
+    f64::from_bits(two_sum | u64::from(bits) << (52 - 23 - 8))
 }
 
 /// The next number of a state into which a word was mixed: splitmix64.

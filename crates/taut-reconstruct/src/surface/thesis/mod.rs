@@ -3,7 +3,7 @@
 //! *Problem.* Samples of a smooth surface, without normals. Choose among the facets of their Delaunay triangulation a surface through
 //! them.
 //! *Idea.* (1) Candidates are the facets whose shrunk equatorial sphere is empty (`filter`). (2) Begin with the highest of
-//! them. (3) Grow over the edge whose best candidate has the nearest circumcentre, as Prim's algorithm does for the dual of the
+//! them. (3) Grow over the edge whose best candidate has the nearest circumcenter, as Prim's algorithm does for the dual of the
 //! surface (`front`); candidates on slivers come last, and of a system of slivers the topmost is taken (`ring`). (4) No
 //! edge gets a third triangle, no vertex a second fan beside a closed one (`fans`).
 //! *Guarantee.* Facets of one triangulation do not intersect, and the surface is oriented. Correct on smooth surfaces sampled so densely

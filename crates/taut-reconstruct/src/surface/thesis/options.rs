@@ -1,4 +1,4 @@
-//! How the thesis' method is asked to work.
+//! Defines how the thesis' method is asked to work.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
@@ -7,7 +7,7 @@ use taut_points::{InputError, check_threads, choice, shown_number};
 use crate::Error;
 use crate::surface::filter::{AlphaFilter, Emptiness, Filter};
 
-/// How to grow the surface; [`Default`] is the thesis' choice. Write `ThesisOptions { epsilon: 1e-3, ..Default::default() }`.
+/// Options to grow the surface; [`Default`] is the thesis' choice. Write `ThesisOptions { epsilon: 1e-3, ..Default::default() }`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ThesisOptions {
     /// By how much the equatorial sphere of a facet is shrunk before it has to be empty, relative to its radius. Range [0, 1), default
@@ -21,11 +21,11 @@ pub struct ThesisOptions {
     pub sliver_angle: f64,
     /// Two triangles do not make a smaller dihedral angle, in radians. Range [0, π/2], default π/4.
     pub forbidden_angle: f64,
-    /// What the front prefers. Default [`Priority::CircumcentreDistance`].
+    /// The candidates that the front prefers. Default [`Priority::CircumcenterDistance`].
     pub priority: Priority,
-    /// How far it goes. Default [`Extent::Front`].
+    /// The extent of the reconstruction. Default [`Extent::Front`].
     pub extent: Extent,
-    /// What becomes of sites where parts of the surface meet in a point. Default [`Pinches::Keep`].
+    /// The treatment of sites where parts of the surface meet in a point. Default [`Pinches::Keep`].
     pub pinches: Pinches,
     /// Moves the points a little before anything else is done with them, as the thesis did for Qhull: by a random number that this
     /// seeds. The answer is that of the moved points. Default none.
@@ -55,9 +55,9 @@ impl Default for ThesisOptions {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Priority {
-    /// Distance of its circumcentre from that of the triangle at the edge, as the thesis' program has it.
+    /// Distance of its circumcenter from that of the triangle at the edge, as the thesis' program has it.
     #[default]
-    CircumcentreDistance,
+    CircumcenterDistance,
     /// Circumradius, as in the thesis' Lemma 4.4.1.
     Circumradius,
     /// Radius of the smallest empty ball that touches it: Cohen-Steiner and Da, The Visual Computer 20, 2004.
@@ -65,8 +65,8 @@ pub enum Priority {
 }
 
 choice! { "priority", Priority {
-    CircumcentreDistance = "circumcentre-distance",
-        "a circumcentre near that of the triangle before";
+    CircumcenterDistance = "circumcentre-distance",
+        "a circumcenter near that of the triangle before";
     Circumradius = "circumradius", "a small circle";
     EmptyBall = "empty-ball", "a small empty ball";
 }}
@@ -83,7 +83,7 @@ pub enum Extent {
     Restarts,
 }
 
-/// What becomes of *pinches*: sites whose triangles are not one fan, because parts of the surface met there in a point and were not
+/// The treatment of *pinches*: sites whose triangles are not one fan, because parts of the surface met there in a point and were not
 /// joined by an edge until the end.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Pinches {

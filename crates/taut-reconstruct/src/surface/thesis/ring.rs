@@ -2,7 +2,7 @@
 //!
 //! *Problem.* Triangle t has an edge that no other triangle of the surface has. Which candidate continues it?
 //! *Idea.* Turn about the edge from t towards its normal, cell by cell. Candidates that make a dihedral angle of at least π/4 with t are
-//! kept, in the order in which they come. From the one whose circumcentre is nearest to that of t, go back towards t for as long as the
+//! kept, in the order in which they come. From the one whose circumcenter is nearest to that of t, go back towards t for as long as the
 //! next one is less than π/12 away: that is the topmost of a system of slivers.
 //! *Guarantee.* The order is exact, as it is that of the cells. Angles and distances are `f64`, ties go to the smaller site.
 //! *Trap.* Candidates of equal rank are many where points lie on circles; an order by an angle that was computed would be arbitrary
@@ -19,21 +19,21 @@ use crate::surface::vector::{Vector, minus};
 
 /// A candidate at an edge.
 #[derive(Clone, Copy, Debug)]
-struct Kept {
+struct RingCandidate {
     /// The side that continues the orientation of the triangle at the edge.
     side: Side,
     /// The third site.
     third: u32,
     /// The normal of its half-plane.
     normal: Vector,
-    /// What makes it attractive.
+    /// The measure that makes it attractive.
     measure: f64,
 }
 
 /// A continuation: what the queue sorts by, and the side to add.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Choice {
-    /// Whether slivers are on it, then the measure of the candidate next to the triangle.
+    /// States whether slivers are on it, then the measure of the candidate next to the triangle.
     pub(super) key: (bool, f64),
     pub(super) side: Side,
 }
@@ -42,7 +42,7 @@ pub(super) struct Choice {
 pub(super) struct Ring {
     forbidden: Bound,
     sliver: Bound,
-    kept: Vec<Kept>,
+    kept: Vec<RingCandidate>,
     by_measure: Vec<u32>,
 }
 
@@ -116,7 +116,7 @@ impl Ring {
                 let normal = half_plane(from, d, at(third));
                 if !self.forbidden.exceeds(own, normal) {
                     let measure = candidates.measure(own_number, candidate);
-                    self.kept.push(Kept { side: next, third, normal, measure });
+                    self.kept.push(RingCandidate { side: next, third, normal, measure });
                 }
             }
             (side, last) = (sides.mirror(next), third);

@@ -7,7 +7,7 @@ use taut_reconstruct::{CurveMethod, CurveOptions, CurveThesisOptions, Ends, Erro
 /// Most points: small sets are the degenerate ones, and fast.
 const POINTS_MAX: usize = 64;
 
-/// What a byte means as a coordinate: mostly small integers, so that points coincide and lie on common lines and circles; nearly a
+/// Returns what a byte means as a coordinate: mostly small integers, so that points coincide and lie on common lines and circles; nearly a
 /// circle; and the ends of what a double holds.
 fn point([a, b]: [u8; 2], style: u8, place: usize) -> [f64; 2] {
     let small = |byte: u8| f64::from(byte % 8);

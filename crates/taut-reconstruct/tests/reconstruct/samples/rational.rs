@@ -1,6 +1,6 @@
 //! Facets and their spheres in fractions, by other formulas than those of the predicates.
 //!
-//! The spheres through a, b and c have their centres on a line, C + s·n. A point p is not inside the one at s if
+//! The spheres through a, b and c have their centers on a line, C + s·n. A point p is not inside the one at s if
 //! 2s·n·(p − C) ≤ |p − C|² − R²: so the empty ones are an interval of s, and at its ends lie the spheres of the cells.
 
 use num_bigint::BigInt;
@@ -41,7 +41,7 @@ pub struct Pencil {
     normal: Vector,
     /// R².
     pub square: Fraction,
-    /// Whether there is an empty sphere at all.
+    /// True if there is an empty sphere at all.
     pub is_delaunay: bool,
     /// The ends of the interval, on the side away from the normal and on the side of the normal.
     ends: [Option<Fraction>; 2],
@@ -98,7 +98,7 @@ impl Pencil {
         [0, 1].map(|k| self.ends[k].as_ref().map(square))
     }
 
-    /// Whether the smallest sphere through the facet is empty.
+    /// Returns true if the smallest sphere through the facet is empty.
     pub fn is_gabriel(&self) -> bool {
         let [low, high] = &self.ends;
         self.is_delaunay
@@ -106,7 +106,7 @@ impl Pencil {
             && high.as_ref().is_none_or(|s| !s.is_negative())
     }
 
-    /// Whether p lies inside the smallest sphere, shrunk by 1 − ε.
+    /// Returns true if p lies inside the smallest sphere, shrunk by 1 − ε.
     pub fn shrunk_holds(&self, p: &Vector, epsilon: f64) -> bool {
         let way = minus(p, &self.center);
         let rest = Fraction::one() - fraction(epsilon);

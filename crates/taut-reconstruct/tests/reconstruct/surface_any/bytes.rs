@@ -10,7 +10,7 @@ use taut_reconstruct::{
 /// Most points: small sets are the degenerate ones, and fast.
 const POINTS_MAX: usize = 40;
 
-/// What a byte means as a coordinate: mostly small integers, so that points coincide and lie on common planes and spheres; nearly a
+/// Returns what a byte means as a coordinate: mostly small integers, so that points coincide and lie on common planes and spheres; nearly a
 /// sphere; and the ends of what a double holds.
 fn point(bytes: [u8; 3], style: u8, place: usize) -> [f64; 3] {
     let small = |byte: u8| f64::from(byte % 4);
@@ -53,7 +53,7 @@ pub(crate) fn solve_and_check(bytes: &[u8]) {
     let chosen = |bit: u8| wish & bit != 0;
     let thesis = ThesisOptions {
         alpha: if chosen(1) { AlphaFilter::Circumradius(1.5) } else { AlphaFilter::None },
-        priority: if chosen(2) { Priority::EmptyBall } else { Priority::CircumcentreDistance },
+        priority: if chosen(2) { Priority::EmptyBall } else { Priority::CircumcenterDistance },
         extent: if chosen(4) { Extent::Restarts } else { Extent::Front },
         pinches: if chosen(8) { Pinches::Peel } else { Pinches::Keep },
         ..ThesisOptions::default()

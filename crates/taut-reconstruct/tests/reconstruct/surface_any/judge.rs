@@ -1,4 +1,4 @@
-//! What must hold of any surface that is found through points.
+//! Tests what must hold of any surface that is found through points.
 
 use taut_certify::{Solution, Surface};
 use taut_mesh::{Topology, TriangleMesh, self_intersections, topology};
@@ -9,19 +9,19 @@ type Point = [f64; 3];
 
 /// A surface in the terms of these tests.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Found {
+pub(crate) struct JudgedSurface {
     pub(crate) solution: Solution<Surface>,
     pub(crate) triangles: Vec<[u32; 3]>,
     pub(crate) topology: Topology,
 }
 
-impl Found {
+impl JudgedSurface {
     /// Without boundary and without defect, and not empty.
     pub(crate) fn is_closed(&self) -> bool {
         !self.triangles.is_empty() && self.topology.is_manifold() && self.topology.is_closed()
     }
 
-    /// Whether each point but copies of others is a vertex.
+    /// Returns true if each point but copies of others is a vertex.
     pub(crate) fn is_through_all(&self) -> bool {
         let unused = &self.solution.answer.unused;
         let rows = [&unused.outliers, &unused.interior, &unused.unreferenced];
@@ -30,12 +30,12 @@ impl Found {
 }
 
 /// The closed surface through points.
-pub(crate) fn closed(points: &[Point]) -> Found {
+pub(crate) fn closed(points: &[Point]) -> JudgedSurface {
     found(points, &SurfaceOptions::default())
 }
 
 /// The surface through points, by these options, once it has passed what any must pass.
-pub(crate) fn found(points: &[Point], options: &SurfaceOptions<'_>) -> Found {
+pub(crate) fn found(points: &[Point], options: &SurfaceOptions<'_>) -> JudgedSurface {
     let view = Points::new(points.as_flattened(), 3).expect("whole rows");
     let solution = surface(&view, options).expect("points that span space");
     let answer = &solution.answer;
@@ -62,7 +62,7 @@ pub(crate) fn found(points: &[Point], options: &SurfaceOptions<'_>) -> Found {
         let of = |t: &[u32; 3]| volume(t.map(|row| apart(places[row as usize]).map(|x| x / size)));
         assert!(triangles.iter().map(of).sum::<f64>() > 0.0, "seen from outside");
     }
-    Found { triangles, topology, solution }
+    JudgedSurface { triangles, topology, solution }
 }
 
 /// Six times the volume between a place and a triangle seen from it.
@@ -74,7 +74,7 @@ fn volume([a, b, c]: [Point; 3]) -> f64 {
 
 /// A closed surface through all points, with so many components and handles.
 #[track_caller]
-pub(crate) fn assert_exact(found: &Found, components: usize, genus: u64) {
+pub(crate) fn assert_exact(found: &JudgedSurface, components: usize, genus: u64) {
     let t = &found.topology;
     assert_eq!((t.components.len(), t.genus), (components, Some(genus)));
     assert!(found.is_closed() && found.is_through_all());

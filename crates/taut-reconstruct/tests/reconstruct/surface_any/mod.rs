@@ -1,4 +1,4 @@
-//! What the tests of surfaces share: a judge of answers, and points whose surface is known.
+//! Tests what the tests of surfaces share: a judge of answers, and points whose surface is known.
 #![allow(unreachable_pub)] // modules of one test program
 
 pub mod judge;

@@ -74,7 +74,7 @@ fn distributors_miss_little() {
 }
 
 #[test]
-#[ignore = "seconds even when optimised"]
+#[ignore = "seconds even when optimized"]
 fn distributors_miss_little_at_full_size() {
     distributors_keep_the_bound(6..=7);
 }

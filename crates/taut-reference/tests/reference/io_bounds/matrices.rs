@@ -53,7 +53,7 @@ fn products_keep_the_bound() {
 }
 
 #[test]
-#[ignore = "seconds even when optimised"]
+#[ignore = "seconds even when optimized"]
 fn products_keep_the_bound_at_full_size() {
     let grid = [(1024, 8), (4096, 8), (4096, 32), (16384, 32)];
     for base in [1, 16] {
@@ -106,7 +106,7 @@ fn strassen_has_the_exponent_of_the_lower_bound() {
 }
 
 #[test]
-#[ignore = "seconds even when optimised"]
+#[ignore = "seconds even when optimized"]
 fn strassen_comes_closer_to_it_with_n() {
     let slopes = [128, 256].map(|n| strassen_exponent(n, 1, &[32, 64, 128, 256, 512]));
     assert!(slopes.is_sorted(), "{slopes:?}");

@@ -2,7 +2,7 @@
 //!
 //! `cargo test -p taut-reference --test reference io_bounds -- --nocapture --test-threads 1` prints a row for each: the algorithm,
 //! the formula, the largest ratio of misses to it, and what is allowed. What takes more than a second or two without
-//! optimisation is ignored there; all of it runs by
+//! optimization is ignored there; all of it runs by
 //! `cargo test --release -p taut-reference --test reference io_bounds -- --include-ignored --nocapture --test-threads 1`.
 //! Sizes are in words of 8 bytes.
 

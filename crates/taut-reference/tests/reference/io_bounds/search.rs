@@ -59,7 +59,7 @@ fn search_keeps_the_bound() {
 }
 
 #[test]
-#[ignore = "seconds even when optimised"]
+#[ignore = "seconds even when optimized"]
 fn search_keeps_the_bound_for_every_height() {
     bound_holds(26);
 }

@@ -44,7 +44,7 @@ const OPTIMAL_SORTS: [(&str, Sort); 4] = [
 ];
 /// Sizes at which all sorts are counted.
 const COUNTED_SIZES: [usize; 6] = [1 << 16, 1 << 18, 300_000, 1 << 20, 1 << 21, 1 << 22];
-/// What these are allowed.
+/// The factors that these are allowed.
 const ALLOWED_FACTORS: [f64; 4] = [6.0, 6.0, 8.0, 8.0];
 
 fn optimal_sorts_keep(allowed: [f64; 4], grid: &[Shape], sizes: &[usize]) {
@@ -70,13 +70,13 @@ fn optimal_sorts_are_optimal() {
 }
 
 #[test]
-#[ignore = "minutes even when optimised"]
+#[ignore = "minutes even when optimized"]
 fn optimal_sorts_are_optimal_at_full_size() {
     optimal_sorts_keep(ALLOWED_FACTORS, &TALL_SHAPES, &COUNTED_SIZES);
 }
 
 #[test]
-#[ignore = "minutes even when optimised"]
+#[ignore = "minutes even when optimized"]
 fn few_blocks_cost_more() {
     println!("16 blocks");
     optimal_sorts_keep([6.0, 6.5, 10.0, 8.5], &FEW_BLOCKS, &COUNTED_SIZES);
@@ -132,7 +132,7 @@ fn comparison_sorts_keep_their_bounds() {
 
 /// Another program measured 38, 30 and 22 scans of mergesort, and 11.8, 9.1 and 6.4 of a quicksort with other pivots.
 #[test]
-#[ignore = "seconds even when optimised"]
+#[ignore = "seconds even when optimized"]
 fn comparison_sorts_miss_as_measured_before() {
     let [merged, quick] = comparison_sorts(1 << 18);
     for (found, golden, tolerance) in

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 use taut::certify::Placement;
-use taut::enclose::CoverOptions;
+use taut::enclose::StreamingOptions;
 use taut::{CentersMethod, CentersOptions, Items, Monitor, centers};
 
 use super::{Case, Input, Solved, cases, clouds, document};
@@ -95,7 +95,7 @@ fn solve(input: &Input, items: Items, weights: bool) -> Vec<Solved> {
         (
             "two of a stream",
             2,
-            CentersOptions { method: CentersMethod::Stream(CoverOptions::DEFAULT), ..base },
+            CentersOptions { method: CentersMethod::Stream(StreamingOptions::DEFAULT), ..base },
         ),
     ];
     ways.into_iter()

@@ -29,7 +29,7 @@ pub struct Input {
     pub values: Vec<f64>,
     /// Numbers in a row.
     pub columns: usize,
-    /// Whether the rows are in single precision.
+    /// True if the rows are in single precision.
     pub is_single: bool,
 }
 
@@ -71,9 +71,9 @@ impl Input {
 pub struct Case {
     /// The rows.
     pub input: Input,
-    /// What solvers made of these rows, or somebody by hand: each with a word on how.
+    /// The documents that solvers made of these rows, or somebody by hand: each with a word on how.
     pub own: Vec<(String, Value)>,
-    /// What solvers made of other rows, with the hash of these.
+    /// The documents that solvers made of other rows, with the hash of these.
     pub foreign: Vec<(String, Value)>,
 }
 
@@ -82,7 +82,7 @@ pub fn document<A: Answer>(solution: &Solution<A>) -> Value {
     serde_json::from_str(&solution.to_json()).expect("a document is JSON")
 }
 
-/// What a solver makes of an input in one way: a word on the way, and the document if there is one.
+/// The result of a solver for an input in one way: a word on the way, and the document if there is one.
 pub type Solved = (String, Option<Value>);
 
 /// Solves each input and relatives of it; documents of relatives and of the neighbors in the list get the hash of the input.

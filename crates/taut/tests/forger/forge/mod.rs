@@ -28,7 +28,7 @@ pub struct Forger {
     words: Vec<String>,
 }
 
-/// What a document has at a place.
+/// The content of a document at a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Sort {
     Number,

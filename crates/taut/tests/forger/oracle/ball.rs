@@ -15,7 +15,7 @@ use super::shapes::{Shape, shapes};
 /// The unit roundoff of `f64` is 2 to this, 2⁻⁵³.
 const ROUNDOFF_EXPONENT: i64 = -53;
 
-/// What is true of one input.
+/// The true facts about one input.
 pub struct BallOracle {
     items: Items,
     dim: usize,
@@ -203,7 +203,7 @@ pub fn bodies(values: &[f64], columns: usize, items: Items) -> Option<Vec<Body>>
     values.chunks_exact(columns).map(body).collect()
 }
 
-/// Whether a tail is empty, or what rounding a center to doubles leaves over.
+/// Tests whether a tail is empty, or what rounding a center to doubles leaves over.
 pub fn is_tail(center: &[f64], tail: &[f64]) -> bool {
     tail.is_empty()
         || tail.len() == center.len()
@@ -216,7 +216,7 @@ pub fn center_of(center: &[f64], tail: &[f64]) -> Vec<Dyadic> {
     center.iter().zip(tail).map(|(&c, t)| &Dyadic::of(c) + &Dyadic::of(t)).collect()
 }
 
-/// Whether a gap proved is as small as the one claimed, up to the slack that the format grants.
+/// Returns true if a gap proved is as small as the one claimed, up to the slack that the format grants.
 pub fn is_gap_granted(proved: f64, claimed: f64) -> bool {
     proved <= (claimed * (1.0 + 1e-9) + 4e-16) * (1.0 + 1e-15)
 }

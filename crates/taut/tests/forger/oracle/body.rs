@@ -120,7 +120,7 @@ impl Framed {
         Framed { g, shape }
     }
 
-    /// Whether the largest |y|² is at most `limit`.
+    /// Tests whether the largest |y|² is at most `limit`.
     pub(super) fn is_within(&self, limit: &Interval) -> Option<bool> {
         let square = squared_length(&self.g);
         let Some(shape) = &self.shape else { return square.at_most(limit) };

@@ -14,7 +14,7 @@ use super::enclosing::{Body, bracket, digits};
 /// There may be at most this many rows: all subsets of them are looked at.
 const ROWS_MAX: usize = 10;
 
-/// What rows are, and where centers may be.
+/// The kind of the rows, and where centers may be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Problem {
     items: u8,
@@ -22,7 +22,7 @@ struct Problem {
     is_discrete: bool,
 }
 
-/// What is true of one input.
+/// The true facts about one input.
 pub struct CentersOracle {
     values: Vec<f64>,
     columns: usize,
@@ -108,8 +108,8 @@ fn form(
                 .all(|(&row, place)| row < n && exact(place) == bodies[row as usize].position)
     };
     let nodes = match (&certificate.proof, answer.lower_bound > 0.0) {
-        (LowerBound::Branches { items }, true) => verdict.nodes == items.len() as u64,
-        _ => verdict.nodes == 0,
+        (LowerBound::Branches { items }, true) => verdict.branches == items.len() as u64,
+        _ => verdict.branches == 0,
     };
     let form = [
         (is_number(answer.radius), "the radius is no number of at least 0"),
@@ -232,7 +232,7 @@ impl Optima {
         Optima { bodies, least }
     }
 
-    /// The least radius of at most k balls around all rows but so many.
+    /// The least radius of at most k balls around all rows except z.
     fn optimum(&self, k: u64, outliers: u64, end: usize) -> Dyadic {
         let n = self.bodies.len();
         let layer = &self.least[end][(k as usize).clamp(1, n) - 1];

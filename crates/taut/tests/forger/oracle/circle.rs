@@ -82,7 +82,7 @@ impl CircleOracle {
             .and(|| self.touching(found, &center))
     }
 
-    /// Whether each touching edge is as near as it is said to be, but for a slack of 1e-9 of the radius and the rounding of the center.
+    /// Tests whether each touching edge is as near as it is said to be, but for a slack of 1e-9 of the radius and the rounding of the center.
     fn touching(&self, found: &Solution<InscribedCircle>, center: &Point) -> Truth {
         let slack = exact(1.0 + 1.1e-9) * exact(found.answer.radius)
             + exact(1e-15) * (center[0].abs() + center[1].abs());

@@ -73,7 +73,7 @@ impl Claims {
     }
 }
 
-/// Whether a claim holds that is sure at one end of a bracket, and refuted at the other.
+/// Tests whether a claim holds that is sure at one end of a bracket, and refuted at the other.
 fn decided(near: Option<bool>, far: Option<bool>) -> Option<bool> {
     match (near, far) {
         (Some(true), _) => Some(true),

@@ -20,12 +20,12 @@ use taut::certify::Curve;
 use taut::certify::{CurveDoubt, CurveVerdict};
 use taut::points::{Monitor, Points, PointsHash, hash_points};
 
-use self::lists::{apart, foot};
+use self::lists::{apart, projection};
 use self::planar::{Point, is_within, segments_meet};
 use self::tour::Tours;
 use super::Truth;
 
-/// How much less than found a figure of the certificate may claim, as documented: φ is told up to a 64th.
+/// The amount by which a figure of the certificate may fall short of the one found, as documented: φ is told up to a 64th.
 const FIGURE_SLACK: f64 = 0.05;
 
 /// All that is true of a point set of the plane, whatever the curve.
@@ -35,7 +35,7 @@ pub(crate) struct CurveOracle {
     tours: Tours,
 }
 
-/// What stops a judgment: a lie, or something the oracle cannot tell.
+/// The reason to stop a judgment: a lie, or something the oracle cannot tell.
 enum Stop {
     Lie(String),
     Unknown(String),
@@ -58,7 +58,7 @@ impl CurveOracle {
         CurveOracle { rows, points_hash, tours }
     }
 
-    /// Whether every claim of an accepted answer and of its verdict is true.
+    /// Tests whether every claim of an accepted answer and of its verdict is true.
     pub(crate) fn judge(&self, solution: &Solution<Curve>, verdict: &CurveVerdict) -> Truth {
         match self.examine(solution, verdict) {
             Ok(()) => Truth::True,
@@ -88,7 +88,7 @@ impl CurveOracle {
         evidence::judge(solution, verdict, &edges, &self.rows)
     }
 
-    /// Whether the edges meet is as told.
+    /// Tests whether the edges meet is as told.
     fn crossings(
         &self,
         solution: &Solution<Curve>,
@@ -123,7 +123,7 @@ impl CurveOracle {
         let rows = (0u64..).zip(&self.rows);
         for (row, &p) in rows.filter(|(row, _)| outliers.binary_search(row).is_err()) {
             // The nearest edge as doubles tell it comes first, and nearly always settles it.
-            let distance = |edge: &&Edge| apart(p, edge.ends, foot(p, edge.ends));
+            let distance = |edge: &&Edge| apart(p, edge.ends, projection(p, edge.ends));
             let by_distance =
                 |one: &&Edge, other: &&Edge| distance(one).total_cmp(&distance(other));
             let nearest = edges.iter().min_by(by_distance);
@@ -161,7 +161,7 @@ fn edges(curve: &Curve) -> Vec<Edge> {
     edges
 }
 
-/// Whether two edges share a point that is not the one vertex they share as neighbors.
+/// Returns true if two edges share a point that is not the one vertex they share as neighbors.
 fn have_more_in_common(one: &Edge, other: &Edge) -> bool {
     let ([a, b], [c, d]) = (one.ends, other.ends);
     let are_neighbors =

@@ -54,7 +54,7 @@ impl Dyadic {
         }
     }
 
-    /// Whether the number is 0.
+    /// Returns true if the number is 0.
     pub fn is_zero(&self) -> bool {
         self.mantissa.is_zero()
     }

@@ -1,4 +1,4 @@
-//! Whether what is said of an enclosing ellipsoid is true.
+//! Decides whether what is said of an enclosing ellipsoid is true.
 //!
 //! *Claims.* Every item lies in the ellipsoid enlarged by 1 + `excess`; `lower` is at most the least log-volume, `upper` at
 //! least that of the enlarged ellipsoid, and `gap` at least the difference of the two before rounding; (x − c)ᵀQ(x − c) is
@@ -37,7 +37,7 @@ pub(crate) struct EllipsoidOracle {
     items: Items,
     dim: usize,
     bodies: Option<Vec<Body>>,
-    /// Whether the rows are in single precision.
+    /// True if the rows are in single precision.
     is_single: bool,
     /// The numbers that a certificate has for these bodies, ascending.
     rows: Vec<u64>,
@@ -215,7 +215,7 @@ impl EllipsoidOracle {
     }
 }
 
-/// What the multipliers of a certificate prove, whatever the checker makes of them.
+/// Returns what the multipliers of a certificate prove, whatever the checker makes of them.
 fn dual(
     bodies: &[Body],
     rows: &[u64],
@@ -363,7 +363,7 @@ fn matrix_claim(
     claims.holds(holds, || format!("row {row} may exceed the matrix by {:?}", bound.rounded()));
 }
 
-/// Whether a point of the body that may be the farthest by F exceeds Q.
+/// Returns true if a point of the body that may be the farthest by F exceeds Q.
 fn exceeds_matrix(exactly: &Exact, body: &Body, matrix: &Matrix, limit: &Interval) -> bool {
     let framed = Framed::of(&exactly.factor, &exactly.center, body);
     let directions = framed.upper().and_then(|upper| framed.touching(&upper)).unwrap_or_default();
@@ -408,7 +408,7 @@ fn about_optimum(
     }
 }
 
-/// Whether the checker takes the directions as they are: it brings the largest entry to 1, first of a direction and then of one
+/// Returns true if the checker takes the directions as they are: it brings the largest entry to 1, first of a direction and then of one
 /// whose entries are multiplied by powers of two near the widths, and rounds. Another point of the item is as good, but what
 /// the multipliers prove with it is not known here.
 fn are_directions_kept(bodies: &[Body], rows: &[u64], certificate: &EllipsoidCertificate) -> bool {
@@ -430,7 +430,7 @@ fn are_directions_kept(bodies: &[Body], rows: &[u64], certificate: &EllipsoidCer
     certificate.support.iter().zip(&certificate.directions).all(is_kept)
 }
 
-/// Whether a gap in log-volume is as small as the one claimed, up to the slack that the format grants.
+/// Returns true if a gap in log-volume is as small as the one claimed, up to the slack that the format grants.
 pub(super) fn is_gap_granted(proved: f64, claimed: f64, rank: usize) -> bool {
     proved <= (claimed * (1.0 + 1e-9) + 2e-15 * rank as f64) * (1.0 + 1e-15)
 }

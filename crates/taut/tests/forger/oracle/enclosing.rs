@@ -28,7 +28,7 @@ impl Body {
         [square.root(bits), square.root_up(bits)].map(|root| &root + &self.radius)
     }
 
-    /// Whether w|p − c| + r ≤ `bound`, decided exactly.
+    /// Returns true if w|p − c| + r ≤ `bound`, decided exactly.
     pub fn is_within(&self, center: &[Dyadic], bound: &Dyadic) -> bool {
         let room = bound - &self.radius;
         room >= Dyadic::zero()
@@ -57,7 +57,7 @@ pub struct Bracket {
 }
 
 impl Bracket {
-    /// Whether the bounds agree to 2⁻¹⁰⁰ of themselves. Doubles that are no nearer to the optimum than that are told apart
+    /// Returns true if the bounds agree to 2⁻¹⁰⁰ of themselves. Doubles that are no nearer to the optimum than that are told apart
     /// from it; a double that is nearer equals it, as an algebraic number of few digits is not that near to another one.
     pub fn is_narrow(&self) -> bool {
         &self.upper - &self.lower <= self.upper.scaled(-100)

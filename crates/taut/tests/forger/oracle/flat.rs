@@ -109,7 +109,7 @@ pub(super) fn judge(
     Some(())
 }
 
-/// Whether a point at this offset from the center is as near to the hull as stated; `Some(None)` where what the
+/// Tests whether a point at this offset from the center is as near to the hull as stated; `Some(None)` where what the
 /// checker rounds may decide.
 pub(super) fn is_near(hull: &Hull, offset: &[Interval]) -> Option<Option<bool>> {
     let basis = exact_rows(&hull.basis)?;

@@ -1,4 +1,4 @@
-//! Whether what is said of an inscribed ellipsoid is true.
+//! Decides whether what is said of an inscribed ellipsoid is true.
 //!
 //! *Claims.* |Gᵀa| ≤ b − aᵀc for every half-space; `lower` is at most the largest log-volume and `upper` at least that;
 //! `gap` is at least the largest log-volume less that of the answer; the log-volume stated is that of G.

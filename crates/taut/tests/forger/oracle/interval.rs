@@ -228,7 +228,7 @@ impl Interval {
         self.sign() == Some(Ordering::Greater)
     }
 
-    /// Whether x ≤ y; `None` where that depends on the choice of x and y.
+    /// Tests whether x ≤ y; `None` where that depends on the choice of x and y.
     pub(crate) fn at_most(&self, other: &Self) -> Option<bool> {
         Some(other.minus(self).sign()? != Ordering::Less)
     }

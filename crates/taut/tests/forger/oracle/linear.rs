@@ -8,7 +8,7 @@ use super::interval::Interval;
 pub(super) type Vector = Vec<Interval>;
 pub(super) type Matrix = Vec<Vector>;
 
-/// Whether radii are kept.
+/// States whether radii are kept.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Way {
     Proved,

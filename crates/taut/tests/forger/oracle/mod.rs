@@ -42,7 +42,7 @@ use self::surface::SurfaceOracle;
 use self::triangulation::TriangulationOracle;
 
 use crate::cases::Input;
-/// What an oracle says of an accepted answer and of every field of its verdict.
+/// The statements of an oracle about an accepted answer and of every field of its verdict.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Truth {
     /// Every claim is true.

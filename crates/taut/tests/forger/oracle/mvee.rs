@@ -29,7 +29,7 @@ pub(super) struct Bracket {
 /// The trial ellipsoid of some weights.
 pub(super) struct Trial {
     pub(super) mean: Vector,
-    /// Σ factorised.
+    /// Σ factorized.
     pub(super) factor: Factor,
     /// The lower bound on the log-volume.
     pub(super) lower: Interval,

@@ -10,7 +10,7 @@ use super::Truth;
 /// Up to this many rows in one cell are in order of their coordinates.
 const COORDINATE_ORDER_MAX: usize = 6;
 
-/// What is true of one input.
+/// The true facts about one input.
 pub struct OrderOracle {
     rows: Vec<Vec<f64>>,
 }

@@ -1,4 +1,4 @@
-//! Whether what is said of a robust ellipsoid is true.
+//! Decides whether what is said of a robust ellipsoid is true.
 //!
 //! *Claims.* As many points are kept as is said, and the objective is theirs. No C-step leads on: in the metric of the points
 //! kept none of them is farther than a point left out, and by `mve` and `trim` the ellipsoid around them is the smallest and

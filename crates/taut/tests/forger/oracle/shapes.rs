@@ -17,7 +17,7 @@ pub fn shapes(values: &[f64], columns: usize) -> Option<Vec<Shape>> {
 pub struct Shape(Body);
 
 impl Shape {
-    /// Whether the item lies in a ball; `None` where 256 bits do not tell.
+    /// Tests whether the item lies in a ball; `None` where 256 bits do not tell.
     pub fn is_within(&self, center: &[f64], tail: &[f64], radius: f64) -> Option<bool> {
         let dim = center.len();
         let tails = tail.iter().copied().chain(std::iter::repeat(0.0)).take(dim);

@@ -54,7 +54,7 @@ impl SurfaceOracle {
         SurfaceOracle { rows, points_hash, given, moved: OnceLock::new() }
     }
 
-    /// Whether every claim of an accepted answer and of its verdict is true.
+    /// Tests whether every claim of an accepted answer and of its verdict is true.
     pub(crate) fn judge(&self, solution: &Solution<Surface>, verdict: &SurfaceVerdict) -> Truth {
         match self.examine(solution, verdict) {
             Ok(()) => Truth::True,

@@ -45,7 +45,7 @@ impl TriangulationOracle {
         TriangulationOracle { columns, points_hash, built, counts, fingerprint }
     }
 
-    /// Whether every claim of an accepted answer and of its verdict is true.
+    /// Tests whether every claim of an accepted answer and of its verdict is true.
     pub(crate) fn judge(
         &self,
         solution: &Solution<Triangulation>,
@@ -101,7 +101,7 @@ impl TriangulationOracle {
         self.lists(answer).or_else(|| self.neighbors(answer, &certificate.neighbors))
     }
 
-    /// What is wrong with the simplices or the hull.
+    /// Returns what is wrong with the simplices or the hull.
     fn lists(&self, answer: &Triangulation) -> Option<String> {
         let width = self.built.dimension.map_or(0, usize::from);
         for (what, list, width, truth) in [
@@ -131,7 +131,7 @@ impl TriangulationOracle {
         None
     }
 
-    /// What is wrong with the neighbors of simplices that are the true ones.
+    /// Returns what is wrong with the neighbors of simplices that are the true ones.
     fn neighbors(&self, answer: &Triangulation, claimed: &[u32]) -> Option<String> {
         if claimed.is_empty() {
             return None;

@@ -1,11 +1,11 @@
-//! What is said about a circle in a polygon.
+//! The report about a circle in a polygon.
 
 use taut::Solution;
 use taut::certify::{InscribedCircle, Stop};
 use taut::points::PointSource;
 
 use crate::output::numbers::{count, counted, exact, gap};
-use crate::reports::{Claims, Field, Report, Summary, centre, gap_and_verified, rows_of, stopped};
+use crate::reports::{Claims, Field, Report, Summary, center, gap_and_verified, rows_of, stopped};
 
 impl Summary for InscribedCircle {
     const FOUND: &'static str = "the circle found";
@@ -30,7 +30,7 @@ impl Summary for InscribedCircle {
         let [gap, verified] = gap_and_verified(proved, certificate.gap, verified);
         vec![
             Field::new("radius", exact(answer.radius)),
-            centre(&answer.center, answer.radius),
+            center(&answer.center, answer.radius),
             gap,
             verified,
             Field::new("method", &*trace.method).remark(ended),

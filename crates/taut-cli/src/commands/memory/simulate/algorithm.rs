@@ -10,7 +10,7 @@ use taut_reference::algorithms::{
 
 use super::loops::{self, Layout, SEARCH_COUNT};
 
-/// What is run.
+/// The algorithm to run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Algorithm {
     /// Of a matrix of so many columns; none: as many as rows.
@@ -117,7 +117,7 @@ impl Algorithm {
         Err(Error::Option { name: "n", value: n.to_string(), expected })
     }
 
-    /// What there are n of, as an axis has it.
+    /// Returns what there are n of, as an axis has it.
     pub(super) fn axis(self) -> &'static str {
         match self {
             Transpose(_) | TransposeLoops(_) | Multiply | MultiplyLoops | Strassen => "rows, n",
@@ -203,7 +203,7 @@ impl Algorithm {
         }
     }
 
-    /// What one miss is counted for in figures: elements of matrices, numbers, searches.
+    /// Returns what one miss is counted for in figures: elements of matrices, numbers, searches.
     pub(super) fn units(self, n: u64) -> f64 {
         match self {
             Transpose(columns) | TransposeLoops(columns) => {

@@ -4,7 +4,7 @@
 //! these machines had, which explain the seconds and are the same everywhere.
 
 use anyhow::bail;
-use taut_draw::{Plot, Scale, Series, SeriesLook, Tone};
+use taut_draw::{Plot, Scale, Series, SeriesStyle, Tone};
 use taut_reference::simulate::{CacheShape, Simulator};
 
 use super::algorithm::Algorithm::{self, *};
@@ -27,7 +27,7 @@ const PRODUCTS: [u64; 7] = [32, 64, 100, 128, 160, 200, 256];
 const TREES: [u64; 7] = [255, 1023, 4095, 16_383, 65_535, 262_143, 1_048_575];
 const SORTS: [u64; 6] = [1 << 12, 1 << 14, 1 << 15, 1 << 16, 1 << 17, 1 << 18];
 
-/// What a figure compares.
+/// The curves that a figure compares.
 struct Figure {
     title: &'static str,
     /// A picture for each.
@@ -35,7 +35,7 @@ struct Figure {
     sizes: &'static [u64],
     /// Programs with the size at which they stop to divide.
     programs: Vec<(&'static str, Algorithm, usize)>,
-    /// What misses are counted for, as the axis has it.
+    /// The objects that misses are counted for, as the axis has it.
     unit: &'static str,
     scales: [Scale; 2],
 }
@@ -142,7 +142,12 @@ fn counted_in(
                 formula: algorithm.formula(n, cache.memory, cache.block),
             });
         }
-        series.push(Series { name: name.to_owned(), tone, look: SeriesLook::LineAndDots, points });
+        series.push(Series {
+            name: name.to_owned(),
+            tone,
+            style: SeriesStyle::LineAndDots,
+            points,
+        });
     }
     // The formula of the last program, which is the one that the section is about.
     if let Some(&(_, algorithm, _)) = programs.last() {
@@ -152,7 +157,7 @@ fn counted_in(
         series.push(Series {
             name: "formula".to_owned(),
             tone: Tone::Bound,
-            look: SeriesLook::Dashed,
+            style: SeriesStyle::Dashed,
             points: sizes.iter().map(at).collect(),
         });
     }
@@ -169,7 +174,7 @@ fn counted_in(
     Ok((rows, plot))
 }
 
-/// What the tour shows: misses of two algorithms against M and against B, each count within a factor of its formula.
+/// Returns a panel of the tour: misses of two algorithms against M and against B, each count within a factor of its formula.
 pub(crate) fn panel() -> anyhow::Result<Panel> {
     let wanted = |algorithm, sizes: &[u64], memories: &[usize], blocks: &[usize]| Wanted {
         algorithm,
@@ -184,7 +189,7 @@ pub(crate) fn panel() -> anyhow::Result<Panel> {
     // Of 256, 1024 and 4096 words, whose roots are powers of two, as the submatrices are.
     let squares = [2 << 10, 8 << 10, 32 << 10];
     let blocks: Vec<usize> = (6..=10).map(|power| 1 << power).collect();
-    // What the constant of each may be; the tests of the library hold larger sizes against the same.
+    // The largest constant of each; the tests of the library hold larger sizes against the same.
     let lists = [
         (wanted(Multiply, &[64], &squares, &[64]), 5.5),
         (wanted(Transpose(None), &[256], &[256 << 10], &blocks), 1.01),

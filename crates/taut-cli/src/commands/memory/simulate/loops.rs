@@ -35,7 +35,7 @@ pub(super) fn multiply<P: Probe>(n: usize, probe: &mut P) {
     [&c, &b, &a].into_iter().for_each(|matrix| probe.lift(matrix));
 }
 
-/// How the nodes of a complete search tree lie in memory.
+/// The way in which the nodes of a complete search tree lie in memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Layout {
     VanEmdeBoas,

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use taut_draw::{Axis, DrawOptions, Plot, Scale, Series, SeriesLook, Tone};
+use taut_draw::{Axis, DrawOptions, Plot, Scale, Series, SeriesStyle, Tone};
 use taut_reference::simulate::{CacheShape, Replacement, Simulator, Trace};
 
 use super::algorithm::Algorithm;
@@ -29,7 +29,7 @@ impl fmt::Display for Policy {
     }
 }
 
-/// What is to be counted: every n with every M and every B.
+/// The misses to be counted: every n with every M and every B.
 #[derive(Clone, Debug)]
 pub(super) struct Wanted {
     pub(super) algorithm: Algorithm,
@@ -138,15 +138,15 @@ pub(super) fn chart(wanted: &Wanted, rows: &[Counted]) -> Plot {
         let of = |y: &dyn Fn(&Counted) -> f64| -> Vec<[f64; 2]> {
             rows.iter().filter(|&row| others(row) == group).map(|row| [x(row), y(row)]).collect()
         };
-        let curve = |name: &str, tone, look, points| Series {
+        let curve = |name: &str, tone, style, points| Series {
             name: format!("{name}{}", named(group)),
             tone,
-            look,
+            style,
             points,
         };
         [
-            curve("misses", tone, SeriesLook::LineAndDots, of(&|row| row.misses as f64)),
-            curve("formula", Tone::Bound, SeriesLook::Dashed, of(&|row| row.formula)),
+            curve("misses", tone, SeriesStyle::LineAndDots, of(&|row| row.misses as f64)),
+            curve("formula", Tone::Bound, SeriesStyle::Dashed, of(&|row| row.formula)),
         ]
     });
     let series = series.collect();

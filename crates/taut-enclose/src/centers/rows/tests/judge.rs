@@ -26,7 +26,7 @@ impl Problem<'_> {
         self.columns - usize::from(self.weights || self.items == Items::Balls)
     }
 
-    /// The reach of an item from a centre.
+    /// The reach of an item from a center.
     pub(super) fn reach(&self, item: usize, center: &[f64]) -> f64 {
         let row = self.row(item);
         // By the largest difference, as hypot does, so that no square overflows.
@@ -46,7 +46,7 @@ impl Problem<'_> {
         }
     }
 
-    /// The radius that the rows with these numbers have as centres.
+    /// The radius that the rows with these numbers have as centers.
     fn radius(&self, centers: &[usize]) -> f64 {
         let nearest = |item| {
             let reaches = centers.iter().map(|&c| self.reach(item, self.row(c)));
@@ -97,7 +97,7 @@ pub(super) fn judge(problem: &Problem<'_>, found: &Solution<Centers>, epsilon: f
     }
 }
 
-/// A walk through the proof.
+/// A depth-first replay of the proof.
 struct Replay<'a> {
     /// For each item of the core-set, whether each row has it within less than the bound.
     near: Vec<Vec<bool>>,
@@ -126,7 +126,7 @@ impl<'a> Replay<'a> {
     #[track_caller]
     fn follow(&mut self) {
         match self.proof {
-            LowerBound::Apart => {
+            LowerBound::Separated => {
                 assert!(self.near.len() > self.k + self.outliers);
                 for a in 0..self.near.len() {
                     assert!((0..a).all(|b| !self.is_feasible(&[a, b])));

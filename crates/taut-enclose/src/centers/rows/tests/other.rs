@@ -19,7 +19,7 @@ pub(super) fn radius(problem: &Problem<'_>) -> f64 {
     radii[radii.partition_point(|&radius| !covers(radius))]
 }
 
-/// Whether k of the balls hold all of `rest` but some outliers: some ball has to hold the row that is in the fewest, or it is
+/// Returns true if k of the balls hold all of `rest` but some outliers: some ball has to hold the row that is in the fewest, or it is
 /// left out.
 fn covered(balls: &[u64], rest: u64, k: usize, outliers: usize) -> bool {
     let open = rest.count_ones() as usize;

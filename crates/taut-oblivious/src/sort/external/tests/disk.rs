@@ -13,7 +13,7 @@ use crate::store::Store;
 /// A record has this many bytes: an interpreter has time for few, and runs are as long as memory has room.
 const RECORD_BYTES: usize = if cfg!(miri) { 900 } else { 16 };
 
-/// What an interpreter has time for, or else all.
+/// Returns what an interpreter has time for, or else all.
 fn miri_or(few: u64, all: u64) -> u64 {
     if cfg!(miri) { few } else { all }
 }
@@ -38,7 +38,7 @@ impl Disk {
         Self { bytes: Mutex::new(bytes.to_vec()), ..Self::default() }
     }
 
-    /// How much of a call is done.
+    /// Returns how much of a call is done.
     fn part(&self, bytes: usize) -> io::Result<usize> {
         match word(self.calls.fetch_add(1, Ordering::Relaxed)) % 5 {
             0 if self.by_halves => Err(io::ErrorKind::Interrupted.into()),

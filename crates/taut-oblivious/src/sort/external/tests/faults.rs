@@ -42,7 +42,7 @@ impl Case {
         files::sort(&input, &output, &self.layout, &self.options, &monitor, open)?.finish()
     }
 
-    /// How a file is called in errors.
+    /// Returns how a file is called in errors.
     fn called(&self, name: &str) -> String {
         match name {
             "runs" if self.options.resume.is_none() => {
@@ -161,7 +161,7 @@ fn past_the_cache(resumes: bool) -> Case {
     Case::new(RECORDS, 2048, 2 << 20, resumes)
 }
 
-/// Whether files of the folder for temporary files can do it at all.
+/// Returns true if files of the folder for temporary files can do it at all.
 fn can_pass_the_cache() -> bool {
     let can = crate::store::Store::past_cache(&tempfile::tempfile().expect("a file"), true);
     if !can {

@@ -20,13 +20,13 @@ fn lanes(words: &[u64; 3]) -> [u64; 2] {
     [hash as u64, (hash >> 64) as u64]
 }
 
-/// Whether the two records differ in each half of the hash.
+/// Tests whether the two records differ in each half of the hash.
 fn differ(a: [u64; 2], b: [u64; 2]) -> bool {
     a[0] != b[0] && a[1] != b[1]
 }
 
 #[test]
-fn no_two_bits_of_neighbouring_words_cancel() {
+fn no_two_bits_of_neighboring_words_cancel() {
     for seed in 0..if cfg!(miri) { 1 } else { 2000 } {
         let words = record(seed);
         let (before, k) = (lanes(&words), (seed / 4 % 2) as usize);

@@ -18,11 +18,11 @@ fn sorts_slowly_where_it_is_told() {
     let resume = std::env::var_os(RESUME).map(|_| path("runs"));
     let options = FileSortOptions { memory: MEMORY_MIN, resume, scratch: None };
     // Each block is said, and then waits for a while.
-    let say = |records: u64| {
+    let report = |records: u64| {
         println!("block {records}");
         std::thread::sleep(std::time::Duration::from_millis(2));
     };
-    let monitor = Monitor { on_points: Some(&say), ..Monitor::silent() };
+    let monitor = Monitor { on_points: Some(&report), ..Monitor::silent() };
     sort_file(&path("in"), &path("out"), &whole_number(32), &options, &monitor).expect("sorted");
 }
 

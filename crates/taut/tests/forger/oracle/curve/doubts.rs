@@ -33,12 +33,12 @@ pub(super) struct Scene {
     outliers: Outliers,
 }
 
-/// What is known of the gaps of each curve.
+/// The known facts about the gaps of each curve.
 pub(super) struct Gaps {
     /// Half of each over φ: the least and the most that may be told.
     pub(super) ratios: Vec<Vec<[f64; 2]>>,
     /// Of each, its length over the mean of those beside it, and the most that chance makes of that.
-    lacunas: Vec<Vec<[f64; 2]>>,
+    gap_sizes: Vec<Vec<[f64; 2]>>,
 }
 
 impl Scene {
@@ -84,10 +84,10 @@ impl Scene {
             };
             (0..count).map(ratio).collect()
         };
-        let lacunas = |course: &Course| {
+        let gap_sizes = |course: &Course| {
             let count = course.points.len();
             let beside = NEIGHBOR_GAPS.min((count - 1) / 2);
-            let lacuna = |k: usize| {
+            let gap_size = |k: usize| {
                 let near: Vec<f64> = (1..=beside)
                     .flat_map(|step| [course.gap(k + step), course.gap(k + count - step)])
                     .collect();
@@ -98,15 +98,15 @@ impl Scene {
                 let most = 1.0 + (9.0 + 1.5 * (count as f64).ln()) * varied;
                 [course.gap(k) / mean, most]
             };
-            (0..count).map(lacuna).collect()
+            (0..count).map(gap_size).collect()
         };
         Gaps {
             ratios: self.courses.iter().map(ratios).collect(),
-            lacunas: self.courses.iter().map(lacunas).collect(),
+            gap_sizes: self.courses.iter().map(gap_sizes).collect(),
         }
     }
 
-    /// Whether a doubt told is so; or, without one, whether none is so.
+    /// Tests whether a doubt told is so; or, without one, whether none is so.
     pub(super) fn judge(&self, doubt: Option<CurveDoubt>, gaps: &Gaps) -> Judged {
         let is_near = |told: f64, found: f64| (told - found).abs() <= ROUNDING * found.abs();
         let Some(doubt) = doubt else { return self.has_none(gaps) };
@@ -122,7 +122,7 @@ impl Scene {
                 is_it && most == SAMPLING_MOST && ratio > most
             }
             CurveDoubt::Lacuna { curve, vertex, times } => {
-                let at = gaps.lacunas.get(curve).and_then(|of| of.get(vertex));
+                let at = gaps.gap_sizes.get(curve).and_then(|of| of.get(vertex));
                 at.is_some_and(|&[found, most]| {
                     is_near(times, found) && found > most * (1.0 - ROUNDING)
                 })
@@ -144,7 +144,7 @@ impl Scene {
         let sparse = gaps.ratios.iter().flatten().find(|ratio| ratio[0] > SAMPLING_MOST);
         ensure(sparse.is_none(), || format!("sparse samples: {sparse:?}"))?;
         let is_long = |&&[times, most]: &&[f64; 2]| times > most * (1.0 + ROUNDING);
-        let long = gaps.lacunas.iter().flatten().find(is_long);
+        let long = gaps.gap_sizes.iter().flatten().find(is_long);
         ensure(long.is_none(), || format!("a long gap: {long:?}"))?;
         self.outliers.are_few()
     }

@@ -7,7 +7,7 @@ use taut::certify::Curve;
 use taut::certify::{CurveDoubt, CurveVerdict};
 
 use super::doubts::{Gaps, Scene};
-use super::lists::{apart, foot, is_exact, key};
+use super::lists::{apart, is_exact, key, projection};
 use super::planar::Point;
 use super::{Edge, Judged, Stop, ensure};
 
@@ -85,7 +85,7 @@ fn counts(curve: &Curve, edges: &[Edge], rows: &[Point]) -> Vec<[usize; 2]> {
         }
         let mut nearest = vec![f64::INFINITY; counts.len()];
         for edge in edges {
-            let distance = apart(p, edge.ends, foot(p, edge.ends));
+            let distance = apart(p, edge.ends, projection(p, edge.ends));
             nearest[edge.curve] = nearest[edge.curve].min(distance);
         }
         let least = nearest.iter().fold(f64::INFINITY, |least, &x| least.min(x));

@@ -1,4 +1,4 @@
-//! What the lists of a curve and of its certificate claim of rows, vertices and places.
+//! Tests what the lists of a curve and of its certificate claim of rows, vertices and places.
 
 use std::collections::HashSet;
 
@@ -81,7 +81,7 @@ pub(super) fn places(curve: &Curve, rows: &[Point], edges: &[Edge]) -> Judged {
         let coordinates = p.iter().chain(edge.ends.as_flattened());
         let size = coordinates.fold(f64::MIN_POSITIVE, |most, x| most.max(x.abs()));
         let claimed = apart(p, edge.ends, t);
-        let nearest = edges.iter().map(|edge| apart(p, edge.ends, foot(p, edge.ends)));
+        let nearest = edges.iter().map(|edge| apart(p, edge.ends, projection(p, edge.ends)));
         let nearest = nearest.fold(f64::INFINITY, f64::min);
         let [a, b] = edge.ends;
         let moved = place.1 * (b[0] / 2.0 - a[0] / 2.0).hypot(b[1] / 2.0 - a[1] / 2.0);
@@ -103,8 +103,8 @@ pub(super) fn apart(p: Point, [a, b]: [Point; 2], t: f64) -> f64 {
     x.hypot(y)
 }
 
-/// The share of a segment before the foot of p.
-pub(super) fn foot(p: Point, [a, b]: [Point; 2]) -> f64 {
+/// The share of a segment before the projection of p.
+pub(super) fn projection(p: Point, [a, b]: [Point; 2]) -> f64 {
     let [e, r] = [b, p].map(|q| [0, 1].map(|k| q[k] / 2.0 - a[k] / 2.0));
     let size = e[0].abs().max(e[1].abs());
     if size == 0.0 {

@@ -1,4 +1,4 @@
-//! Whether outliers of curves whose vertices are rows could be the samples of a curve that was missed.
+//! Decides whether outliers of curves whose vertices are rows could be the samples of a curve that was missed.
 
 use std::collections::HashSet;
 use std::f64::consts::PI;
@@ -128,7 +128,7 @@ impl Outliers {
         rows > CLUSTER_MOST && rows <= most
     }
 
-    /// How near they may be on average.
+    /// Returns how near they may be on average.
     fn near_least(&self) -> f64 {
         NEAR_LEAST.min(1.0 - 4.0 * 0.52 / (self.all.len() as f64).sqrt())
     }

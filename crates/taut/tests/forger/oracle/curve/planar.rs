@@ -11,7 +11,7 @@ fn cross(a: &[BigInt], b: &[BigInt]) -> BigInt {
     &a[0] * &b[1] - &a[1] * &b[0]
 }
 
-/// Whether two closed segments have a point in common; either may be a point.
+/// Tests whether two closed segments have a point in common; either may be a point.
 pub(super) fn segments_meet([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
     let are_apart = |k: usize| a[k].max(b[k]) < c[k].min(d[k]) || c[k].max(d[k]) < a[k].min(b[k]);
     // Comparisons of doubles are exact, and boxes that are apart settle most pairs.
@@ -29,7 +29,7 @@ pub(super) fn segments_meet([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
         && !strictly_apart(side(&cd, 2, 0), side(&cd, 2, 1))
 }
 
-/// Whether a point is within `distance` of a segment.
+/// Tests whether a point is within `distance` of a segment.
 pub(super) fn is_within(p: Point, [a, b]: [Point; 2], distance: f64) -> bool {
     if distance.is_nan() || distance < 0.0 {
         return false;

@@ -21,7 +21,7 @@ const BITS: u64 = 100;
 /// The shortest tour is found of at most this many points.
 const TOUR_POINTS_MAX: usize = 11;
 
-/// How much more than proved the lower bound of a certificate may claim, relatively, as documented. What is told as the gap
+/// The amount by which the lower bound of a certificate may exceed the proved one, relatively, as documented. What is told as the gap
 /// may not be less than the truth at all.
 const BOUND_SLACK: f64 = 1e-9;
 
@@ -70,7 +70,7 @@ impl Tours {
         Tours { keys, distances, exponent, short, is_shortest }
     }
 
-    /// Whether what is said of a tour is true.
+    /// Tests whether what is said of a tour is true.
     pub(super) fn judge(&self, solution: &Solution<Curve>, verdict: &CurveVerdict) -> Judged {
         let Some(bound) = &solution.certificate.tour else {
             return ensure(verdict.tour_gap.is_none(), || "a gap of no tour".into());

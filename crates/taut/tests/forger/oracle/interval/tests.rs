@@ -6,7 +6,7 @@ fn exact(value: f64) -> Interval {
     Interval::exact(value).unwrap()
 }
 
-/// Whether the interval contains the decimal number, and is narrow.
+/// Returns true if the interval contains the decimal number, and is narrow.
 fn is_at(x: &Interval, decimal: &str) -> bool {
     let (whole, digits) = decimal.split_once('.').unwrap();
     let numerator: num_bigint::BigInt = format!("{whole}{digits}").parse().unwrap();

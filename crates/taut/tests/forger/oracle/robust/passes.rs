@@ -19,7 +19,7 @@ const DIFFERENCE_MIN: f64 = 1e-25;
 pub(super) struct Row {
     /// |F(x − c)|² of the answer.
     pub(super) square: Interval,
-    /// Whether it is on the hull; `None` where rounding may decide.
+    /// States whether it is on the hull; `None` where rounding may decide.
     pub(super) on_hull: Option<bool>,
     pub(super) y: Vector,
 }

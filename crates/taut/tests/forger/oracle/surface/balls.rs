@@ -50,7 +50,7 @@ pub(super) fn judge(solution: &Solution<Surface>, scene: &Scene, is_site: &[bool
 }
 
 impl Ball {
-    /// Whether it depends on the place of a row, other than that the row may be inside.
+    /// Returns true if it depends on the place of a row, other than that the row may be inside.
     pub(super) fn names(&self, row: u32) -> bool {
         self.triangle.contains(&row) || self.apex == Apex::Row(row)
     }
@@ -83,7 +83,7 @@ impl Ball {
         }
     }
 
-    /// What is inside where some rows, none of them named, have other places than before.
+    /// Returns what is inside where some rows, none of them named, have other places than before.
     pub(super) fn renewed(&self, before: &Inside, changed: &[u32], scene: &Scene) -> Inside {
         let mut inside = before.clone();
         for (_, rows) in &mut inside.sides {
@@ -93,7 +93,7 @@ impl Ball {
         inside
     }
 
-    /// Whether a place that is no corner is strictly inside: of the half-space on `side` of the triangle, if it is one.
+    /// Returns true if a place that is no corner is strictly inside: of the half-space on `side` of the triangle, if it is one.
     fn holds(&self, side: Sign, q: &Place, scene: &Scene) -> bool {
         let corners = scene.corners(self.triangle);
         match self.apex {
@@ -122,7 +122,7 @@ pub(super) fn orientation([a, b, c]: [&Place; 3], q: &Place) -> Sign {
     determinant(&[difference(b, a), difference(c, a), difference(q, a)]).sign()
 }
 
-/// Whether q is strictly inside of the smallest ball with the corners on its sphere, whose center is a + N/2|n|².
+/// Tests whether q is strictly inside of the smallest ball with the corners on its sphere, whose center is a + N/2|n|².
 fn is_in_smallest([a, b, c]: [&Place; 3], q: &Place) -> bool {
     let (u, v, r) = (difference(b, a), difference(c, a), difference(q, a));
     let n = cross(&u, &v);

@@ -77,7 +77,7 @@ pub(super) fn judge(
     }
 }
 
-/// What the surface promises to be.
+/// Returns what the surface promises to be.
 fn mode(mode: SurfaceMode, shape: &Shape, triangles: &[[u32; 3]], scene: &Scene) -> Judged {
     match mode {
         SurfaceMode::Closed => ensure(shape.topology.boundary_edges == 0, || "not closed".into()),
@@ -103,7 +103,7 @@ fn mode(mode: SurfaceMode, shape: &Shape, triangles: &[[u32; 3]], scene: &Scene)
     }
 }
 
-/// Whether a closed component has behind it what it bounds; the depth at which it lies if not.
+/// Tests whether a closed component has behind it what it bounds; the depth at which it lies if not.
 fn faces_outwards(
     number: usize,
     triangles: &[[u32; 3]],
@@ -120,7 +120,7 @@ fn faces_outwards(
     }
 }
 
-/// Whether a reason not to certify is as it is told.
+/// Tests whether a reason not to certify is as it is told.
 fn is_so(
     doubt: SurfaceDoubt,
     triangles: &[[u32; 3]],

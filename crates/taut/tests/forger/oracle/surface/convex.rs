@@ -1,4 +1,4 @@
-//! Whether convex hulls of a few points of space are apart, by planes between them.
+//! Decides whether convex hulls of a few points of space are apart, by planes between them.
 //!
 //! *Separation.* Two disjoint polytopes are strictly apart along the normal of a facet of their Minkowski difference: of
 //! triangles and segments that is a normal of one, a product of an edge of either, or, where all is in one plane, a normal
@@ -25,7 +25,7 @@ pub(super) fn normal([a, b, c]: [&Place; 3]) -> Place {
     cross(&difference(b, a), &difference(c, a))
 }
 
-/// Whether all points of one are on one side of a plane with this normal, and all of the other beyond it.
+/// Returns true if all points of one are on one side of a plane with this normal, and all of the other beyond it.
 fn are_apart_along(axis: &[BigInt], one: &[&Place], other: &[&Place]) -> bool {
     if is_zero(axis) {
         return false;
@@ -47,7 +47,7 @@ fn sides<'a>(points: &[&'a Place]) -> Vec<[&'a Place; 2]> {
     }
 }
 
-/// Whether a triangle with an area and a point, a segment or a triangle with an area have a point in common.
+/// Tests whether a triangle with an area and a point, a segment or a triangle with an area have a point in common.
 pub(super) fn meet(triangle: [&Place; 3], other: &[&Place]) -> bool {
     let n = normal(triangle);
     if are_apart_along(&n, &triangle, other) {
@@ -67,7 +67,7 @@ pub(super) fn meet(triangle: [&Place; 3], other: &[&Place]) -> bool {
     !axes.any(|axis| are_apart_along(&axis, &triangle, other))
 }
 
-/// Whether p is on the segment from a to b.
+/// Returns true if p is on the segment from a to b.
 pub(super) fn is_on(p: &Place, a: &Place, b: &Place) -> bool {
     let is_between = |k: usize| (&a[k]).min(&b[k]) <= &p[k] && &p[k] <= (&a[k]).max(&b[k]);
     is_zero(&normal([a, b, p])) && (0..3).all(is_between)

@@ -1,4 +1,4 @@
-//! What the lists of a surface claim of rows, and how far vertices were moved.
+//! Tests what the lists of a surface claim of rows, and how far vertices were moved.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -10,7 +10,7 @@ use super::super::lattice::{Lattice, difference, dot};
 use super::scene::Scene;
 use super::{Judged, Point, ensure};
 
-/// How far the displacement of a certificate may be from the true one, relatively, as documented.
+/// The largest deviation of the displacement of a certificate from the true one, relatively, as documented.
 const DISPLACEMENT_SLACK: f64 = 1e-9;
 
 /// Vertices that were moved: as many as rows, and none farther than told.

@@ -19,7 +19,7 @@ pub(super) struct Scene {
     pub(super) balls: Mutex<HashMap<Ball, Inside>>,
 }
 
-/// What is kept under a key, found now if it is not there.
+/// Returns what is kept under a key, found now if it is not there.
 pub(super) fn kept<K: Eq + std::hash::Hash, V: Clone>(
     all: &Mutex<HashMap<K, V>>,
     key: K,
@@ -90,13 +90,13 @@ impl Scene {
         triangle.map(|row| self.at(row))
     }
 
-    /// Whether the corners are on a line.
+    /// Tests whether the corners are on a line.
     pub(super) fn is_flat(&self, triangle: [u32; 3]) -> bool {
         let triangle = sorted(triangle);
         kept(&self.flat, triangle, || is_zero(&normal(self.corners(triangle))))
     }
 
-    /// Whether the boxes around two triangles are apart.
+    /// Tests whether the boxes around two triangles are apart.
     fn boxes_are_apart(&self, one: [u32; 3], other: [u32; 3]) -> bool {
         let ends = |triangle: [u32; 3], k: usize| {
             let of = triangle.map(|row| self.places[row as usize][k]);
@@ -108,7 +108,7 @@ impl Scene {
         })
     }
 
-    /// Whether two triangles that are not flat and have not the same corners share more than common corners and edges.
+    /// Tests whether two triangles that are not flat and have not the same corners share more than common corners and edges.
     pub(super) fn do_meet(&self, one: [u32; 3], other: [u32; 3]) -> bool {
         if self.boxes_are_apart(one, other) {
             return false;

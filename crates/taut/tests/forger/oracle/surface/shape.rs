@@ -5,19 +5,19 @@ use std::collections::{BTreeMap, BTreeSet};
 use taut::certify::SurfaceComponent;
 use taut::certify::SurfaceTopology;
 
-/// What the triangles are as a surface.
+/// The topology of the triangles.
 pub(super) struct Shape {
     pub(super) topology: SurfaceTopology,
     /// The component of each triangle.
     pub(super) component: Vec<usize>,
-    /// Whether each edge of a component has an even number of triangles.
+    /// States whether each edge of a component has an even number of triangles.
     pub(super) is_closed: Vec<bool>,
     /// For each edge, lower row first, its triangles, and whether each runs from the lower row to the higher.
     pub(super) edges: BTreeMap<[u32; 2], Vec<(usize, bool)>>,
     triangles: Vec<[u32; 3]>,
 }
 
-/// How many sets there are of items, those joined that `are_linked`.
+/// Returns how many sets there are of items, those joined that `are_linked`.
 fn sets<T>(items: &[T], are_linked: impl Fn(&T, &T) -> bool) -> Vec<usize> {
     let mut set = vec![usize::MAX; items.len()];
     let mut count = 0;

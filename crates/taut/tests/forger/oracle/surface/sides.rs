@@ -22,7 +22,7 @@ pub(super) fn volume(
     six_times.sign()
 }
 
-/// How many closed components, one left out or none, are around a point; `None` if it is on one.
+/// Returns how many closed components, one left out or none, are around a point; `None` if it is on one.
 ///
 /// Rays run in the directions (1, k, k²). A plane through the point has at most two of them, so one misses all edges.
 pub(super) fn depth(
@@ -58,7 +58,7 @@ pub(super) fn depth(
     })
 }
 
-/// Whether a ray crosses a triangle that the point is not on; `None` if it meets an edge's line or runs within the plane.
+/// Tests whether a ray crosses a triangle that the point is not on; `None` if it meets an edge's line or runs within the plane.
 fn crosses(p: &Place, direction: &Place, corners: [&Place; 3]) -> Option<bool> {
     let [a, b, c] = corners.map(|corner| difference(corner, p));
     let level = determinant(&[a.clone(), b.clone(), c.clone()]);

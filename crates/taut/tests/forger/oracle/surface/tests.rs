@@ -9,7 +9,7 @@ use super::super::Truth;
 use super::super::numbers::numbers;
 use super::{Point, SurfaceOracle};
 
-type Found = (Solution<Surface>, SurfaceVerdict);
+type Solved = (Solution<Surface>, SurfaceVerdict);
 
 fn flat(points: impl IntoIterator<Item = Point>) -> Vec<f64> {
     points.into_iter().flatten().collect()
@@ -69,7 +69,7 @@ fn inputs() -> Vec<Vec<f64>> {
 }
 
 /// The answers of all methods that find one.
-fn solved(values: &[f64]) -> Vec<Found> {
+fn solved(values: &[f64]) -> Vec<Solved> {
     let points = Points::new(values, 3).expect("rows");
     let mut found = vec![];
     let of = |positions| Some(Denoise { neighbors: 8, iterations: 1, positions });

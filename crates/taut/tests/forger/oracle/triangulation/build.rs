@@ -195,7 +195,7 @@ impl Wrapping<'_> {
         std::iter::once(plain).chain(terms.into_iter().map(|(_, c)| c)).collect()
     }
 
-    /// Whether `q` is in the perturbed open circumsphere.
+    /// Returns true if `q` is in the perturbed open circumsphere.
     fn is_inside(&self, simplex: &[u32], q: u32) -> bool {
         let decides = self.heights(simplex, q).into_iter().find(|c| !c.is_zero());
         decides.is_some_and(|c| c.sign() == Sign::Plus)

@@ -1,0 +1,360 @@
+//! Passes over all points: whose leverage is largest.
+//!
+//! A pass is one read of the source in fixed blocks on all threads. It lists points under a total order, so the result
+//! does not depend on how threads meet them. The first pass also hashes the points and refuses what is not finite.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+use taut_points::{
+    BlockHash, InputError, Monitor, PointSource, Points, PointsHash, Rows, Scalar, gather,
+    hash_block, map_blocks,
+};
+
+use crate::Error;
+use crate::kernel::Center;
+use crate::kernel::extremes::{all_finite, largest};
+use crate::kernel::triangle::{POINTS, above, leverages};
+use crate::top::{Far, Top};
+
+/// Rows whose leverages are worked out before they are compared.
+const ROWS_AT_ONCE: usize = 256;
+/// One comparison disposes of this many leverages, where some of those at once are large.
+const GROUP_SIZE: usize = 32;
+
+/// The question that a pass answers.
+#[derive(Clone, Copy)]
+pub(super) struct Query<'q> {
+    /// M, lower triangular by rows.
+    pub(super) matrix: &'q [f64],
+    /// c.
+    pub(super) center: &'q Center,
+    /// Only points with |M(x − c)|² above this are listed.
+    pub(super) above: f64,
+    pub(super) keep: usize,
+}
+
+pub(super) struct PassResult {
+    /// The largest |M(x − c)|²; infinite where a square is no `f64`.
+    pub(super) largest: f64,
+    /// Points above the threshold, the farthest first.
+    pub(super) far: Vec<Far>,
+    /// Every point beyond this is in `far`.
+    pub(super) listed_above: f64,
+}
+
+/// The points of a source, as a solver sees them.
+pub(crate) struct PointReader<'a> {
+    source: &'a dyn PointSource,
+    monitor: &'a Monitor<'a>,
+    passes: u64,
+    hash: Option<PointsHash>,
+}
+
+struct BlockReport {
+    largest: f64,
+    finite: bool,
+    hash: Option<BlockHash>,
+}
+
+impl<'a> PointReader<'a> {
+    pub(crate) fn new(
+        source: &'a dyn PointSource,
+        monitor: &'a Monitor<'a>,
+    ) -> Result<Self, Error> {
+        if source.is_empty() {
+            return Err(Error::Empty);
+        }
+        Ok(PointReader { source, monitor, passes: 0, hash: None })
+    }
+
+    pub(crate) fn dim(&self) -> usize {
+        self.source.dim()
+    }
+
+    pub(crate) fn len(&self) -> u64 {
+        self.source.len()
+    }
+
+    pub(crate) fn source(&self) -> &'a dyn PointSource {
+        self.source
+    }
+
+    pub(crate) fn monitor(&self) -> &'a Monitor<'a> {
+        self.monitor
+    }
+
+    pub(crate) fn passes(&self) -> u64 {
+        self.passes
+    }
+
+    /// Adds the passes that were made over the same points in other coordinates.
+    pub(crate) fn count(&mut self, passes: u64) {
+        self.passes += passes;
+    }
+
+    /// The hash of the rows; known after the first pass.
+    pub(crate) fn hash(&self) -> PointsHash {
+        self.hash.expect("the first pass hashes the rows")
+    }
+
+    pub(crate) fn rows(&self, ids: &[u64]) -> Result<Vec<f64>, Error> {
+        Ok(gather(self.source, ids)?)
+    }
+
+    /// The same, relative to an origin.
+    pub(super) fn rows_from(&self, origin: &[f64], ids: &[u64]) -> Result<Vec<f64>, Error> {
+        let mut rows = self.rows(ids)?;
+        for row in rows.chunks_exact_mut(origin.len()) {
+            row.iter_mut().zip(origin).for_each(|(x, o)| *x -= o);
+        }
+        Ok(rows)
+    }
+
+    fn begin_pass(&mut self) {
+        self.passes += 1;
+        self.monitor.pass(self.passes, self.len());
+    }
+
+    /// One pass of another kind: calls `work` with the number of the first row and the rows of each block.
+    pub(crate) fn visit<R: Send>(
+        &mut self,
+        work: impl Fn(u64, &[f64]) -> R + Sync,
+    ) -> Result<Vec<R>, Error> {
+        self.begin_pass();
+        let first = self.hash.is_none();
+        let reports = map_blocks(self.source, self.monitor, |row, rows| {
+            let mut hash = None;
+            if first {
+                if let Some((at, column, value)) = rows.first_non_finite() {
+                    return Err(Error::Input(InputError::NonFinite {
+                        row: row + at as u64,
+                        column,
+                        value,
+                    }));
+                }
+                hash = Some(hash_block(&rows));
+            }
+            let result = match rows {
+                Rows::F64(points) => work(row, points.values()),
+                Rows::F32(points) => {
+                    let values: Vec<f64> = points.values().iter().map(|&v| v.into()).collect();
+                    work(row, &values)
+                }
+            };
+            Ok((result, hash))
+        })?;
+        if first {
+            let hashes = reports.iter().filter_map(|report| report.1);
+            self.hash = Some(PointsHash::of_blocks(self.len(), self.dim(), hashes));
+        }
+        Ok(reports.into_iter().map(|report| report.0).collect())
+    }
+
+    pub(super) fn pass(&mut self, query: Query<'_>) -> Result<PassResult, Error> {
+        self.begin_pass();
+        let first = self.hash.is_none();
+        let (found, reports) = measure(self.source, self.monitor, query, first)?;
+        if first {
+            let hashes = reports.iter().filter_map(|report| report.hash);
+            self.hash = Some(PointsHash::of_blocks(self.len(), self.dim(), hashes));
+        }
+        Ok(found)
+    }
+
+    /// One pass that takes the rows with it whose |M(x − c)|² is above a threshold: of each block at most a share of its
+    /// rows and a few, the farthest. `None` where a square is no `f64`.
+    pub(super) fn take(
+        &mut self,
+        query: Query<'_>,
+        share: f64,
+    ) -> Result<Option<TakenRows>, Error> {
+        self.begin_pass();
+        let first = self.hash.is_none();
+        let reports = map_blocks(self.source, self.monitor, |row, rows| match rows {
+            Rows::F32(points) => take_block(query, share, row, &points, first),
+            Rows::F64(points) => take_block(query, share, row, &points, first),
+        })?;
+        if first {
+            let hashes = reports.iter().filter_map(|report| report.1);
+            self.hash = Some(PointsHash::of_blocks(self.len(), self.dim(), hashes));
+        }
+        let mut all = TakenRows { ids: vec![], rows: vec![], above: query.above };
+        for (taken, _) in reports {
+            let Some(taken) = taken else { return Ok(None) };
+            all.ids.extend(taken.ids);
+            all.rows.extend(taken.rows);
+            all.above = all.above.max(taken.above);
+        }
+        Ok(Some(all))
+    }
+}
+
+/// Rows that a pass took with it.
+pub(super) struct TakenRows {
+    /// Row numbers, ascending.
+    pub(super) ids: Vec<u64>,
+    /// The coordinates as they are in the source.
+    pub(super) rows: Vec<f64>,
+    /// No other row has an |M(x − c)|² above this.
+    pub(super) above: f64,
+}
+
+/// Returns what a pass over some rows finds.
+pub(super) fn pass_over(points: &Points<'_, f64>, query: Query<'_>) -> Result<PassResult, Error> {
+    Ok(measure(points, &Monitor::silent(), query, false)?.0)
+}
+
+/// Measures all blocks of a source; if they are met for the first time, they are hashed, too.
+fn measure(
+    source: &dyn PointSource,
+    monitor: &Monitor<'_>,
+    query: Query<'_>,
+    first: bool,
+) -> Result<(PassResult, Vec<BlockReport>), Error> {
+    let list = Mutex::new(Top::new(query.keep));
+    // It only saves work: what is listed in the end does not depend on when threads see it.
+    let bound = AtomicU64::new(query.above.to_bits());
+    let reports = map_blocks(source, monitor, |row, rows| match rows {
+        Rows::F32(points) => block(query, &list, &bound, row, &points, first),
+        Rows::F64(points) => block(query, &list, &bound, row, &points, first),
+    })?;
+    let far = list.into_inner().unwrap_or_else(PoisonError::into_inner).into_sorted();
+    let listed_above = match far.last() {
+        Some(last) if far.len() == query.keep => last.reach2,
+        _ => query.above,
+    };
+    let finite = reports.iter().all(|report| report.finite);
+    let largest = reports.iter().map(|report| report.largest).fold(0.0, f64::max);
+    let found =
+        PassResult { largest: if finite { largest } else { f64::INFINITY }, far, listed_above };
+    Ok((found, reports))
+}
+
+/// This many rows of a block are taken beside its share.
+const ROWS_BESIDE_SHARE: usize = 64;
+
+/// Measures a block and takes far rows while they are near at hand.
+fn take_block<T: Scalar>(
+    query: Query<'_>,
+    share: f64,
+    first_row: u64,
+    points: &Points<'_, T>,
+    first: bool,
+) -> Result<(Option<TakenRows>, Option<BlockHash>), Error> {
+    let (mut scratch, mut values) = (vec![], [0.0; ROWS_AT_ONCE]);
+    let mut bits = [0; ROWS_AT_ONCE / POINTS];
+    let mut finite = true;
+    let mut far: Vec<(u32, f64)> = vec![];
+    for start in (0..points.len()).step_by(ROWS_AT_ONCE) {
+        let part = points.slice(start..points.len().min(start + ROWS_AT_ONCE));
+        let values = &mut values[..part.len()];
+        leverages(part.values(), query.matrix, query.center, &mut scratch, values);
+        finite &= all_finite(values);
+        let bits = &mut bits[..part.len().div_ceil(POINTS)];
+        above(values, query.above, bits);
+        for (group, &bits) in bits.iter().enumerate() {
+            let mut left = bits;
+            while left != 0 {
+                let i = group * POINTS + left.trailing_zeros() as usize;
+                far.push(((start + i) as u32, values[i]));
+                left &= left - 1;
+            }
+        }
+    }
+    let mut hash = None;
+    if first {
+        let rows = T::rows(*points);
+        if !finite && let Some((row, column, value)) = rows.first_non_finite() {
+            return Err(Error::Input(InputError::NonFinite {
+                row: first_row + row as u64,
+                column,
+                value,
+            }));
+        }
+        hash = Some(hash_block(&rows));
+    }
+    if !finite {
+        return Ok((None, hash));
+    }
+    let mut none_above = query.above;
+    let most = (share * points.len() as f64) as usize + ROWS_BESIDE_SHARE;
+    if far.len() > most {
+        // Equal values by row, so that of many copies of one point some are taken.
+        let farther = |a: &(u32, f64), b: &(u32, f64)| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0));
+        let (_, &mut (_, last), _) = far.select_nth_unstable_by(most - 1, farther);
+        none_above = last;
+        far.truncate(most);
+        far.sort_unstable_by_key(|(i, _)| *i);
+    }
+    let dim = points.dim();
+    let mut taken = TakenRows {
+        ids: Vec::with_capacity(far.len()),
+        rows: Vec::with_capacity(far.len() * dim),
+        above: none_above,
+    };
+    for (i, _) in far {
+        taken.ids.push(first_row + u64::from(i));
+        taken.rows.extend(points.row(i as usize).iter().map(|&x| x.into()));
+    }
+    Ok((Some(taken), hash))
+}
+
+/// Measures a block; its far points are merged with those of the pass.
+fn block<T: Scalar>(
+    query: Query<'_>,
+    list: &Mutex<Top>,
+    bound: &AtomicU64,
+    first_row: u64,
+    points: &Points<'_, T>,
+    first: bool,
+) -> Result<BlockReport, Error> {
+    let mut top = Top::new(query.keep);
+    let mut scratch = vec![];
+    let mut values = [0.0; ROWS_AT_ONCE];
+    let mut report = BlockReport { largest: 0.0, finite: true, hash: None };
+    for start in (0..points.len()).step_by(ROWS_AT_ONCE) {
+        let part = points.slice(start..points.len().min(start + ROWS_AT_ONCE));
+        let values = &mut values[..part.len()];
+        leverages(part.values(), query.matrix, query.center, &mut scratch, values);
+        let far = largest(values);
+        report.finite &= all_finite(values);
+        report.largest = report.largest.max(far);
+        // Rows come in order, so what equals the bound of this block loses to the row that set it; what equals a
+        // bound set by another block may still win by its number, and `Top` decides.
+        let shared = f64::from_bits(bound.load(Ordering::Relaxed));
+        let worth = |value: f64, top: &Top| value > query.above.max(top.bound()) && value >= shared;
+        if !worth(far, &top) {
+            continue;
+        }
+        for (group, values) in values.chunks(GROUP_SIZE).enumerate() {
+            if !worth(largest(values), &top) {
+                continue;
+            }
+            let first = first_row + (start + group * GROUP_SIZE) as u64;
+            for (id, &reach2) in (first..).zip(values) {
+                if worth(reach2, &top) {
+                    top.offer(Far { id, reach2 });
+                }
+            }
+        }
+    }
+    if first {
+        let rows = T::rows(*points);
+        // A coordinate that is not finite makes a leverage that is not; large coordinates do, too.
+        if !report.finite
+            && let Some((row, column, value)) = rows.first_non_finite()
+        {
+            return Err(Error::Input(InputError::NonFinite {
+                row: first_row + row as u64,
+                column,
+                value,
+            }));
+        }
+        report.hash = Some(hash_block(&rows));
+    }
+    let mut list = list.lock().unwrap_or_else(PoisonError::into_inner);
+    list.merge(top);
+    bound.fetch_max(list.bound().to_bits(), Ordering::Relaxed);
+    Ok(report)
+}

@@ -1,0 +1,284 @@
+//! Passes over all items: who reaches farthest from a center.
+//!
+//! *Idea.* A pass is one read of the source in fixed blocks on all threads ([`pass`]); it returns the farthest items
+//! under a total order, so it does not depend on how threads meet them. The first pass also hashes the points and
+//! refuses coordinates that are not finite.
+//! *Scale.* Squares overflow beyond 1e154 and vanish below 1e-162. When the first pass finds itself near either end,
+//! all later reads multiply by an exact power of two that brings distances to about 1, after taking away a fixed
+//! point where coordinates are so large beside their differences that they would overflow. Centers, reaches
+//! and rows that leave this module are in those units; [`ItemReader::scale`] says which, and [`ItemReader::outside`] leads back.
+
+mod pass;
+
+use taut_certify::Items;
+use taut_points::{InputError, Monitor, PointSource, PointsHash, gather, map_blocks};
+
+use self::pass::Pass;
+use crate::Error;
+use crate::kernel::{Center, DoubleDouble};
+use crate::top::Far;
+
+/// The sample whose mean is the origin of a solver's calculations has this many rows.
+const SAMPLE_ROWS: u64 = 256;
+/// Squared distances between 2⁻⁴⁰⁰ and 2⁴⁰⁰ leave room for every product the solvers form.
+const SAFE_EXPONENT: i32 = 400;
+
+/// The question that a pass answers.
+pub(crate) struct Query<'c> {
+    /// From where.
+    pub(crate) center: &'c Center,
+    /// Only items with a squared reach above this are listed.
+    pub(crate) above: f64,
+    pub(crate) keep: usize,
+    /// List at most two items per face of the cube around the center, too, of those with a squared reach above this.
+    pub(crate) by_face_above: Option<f64>,
+}
+
+pub(crate) struct PassResult {
+    /// The item that reaches farthest, listed or not.
+    pub(crate) farthest: Far,
+    /// The items above the threshold, farthest first.
+    pub(crate) far: Vec<Far>,
+    /// Every item that reaches farther than this (squared) is in `far`.
+    pub(crate) listed_above: f64,
+    /// Where asked for: at most two items per face of the cube around the center, farthest first.
+    pub(crate) by_face: Vec<Far>,
+}
+
+/// The items of a source, as seen by a solver.
+pub(crate) struct ItemReader<'a> {
+    source: &'a dyn PointSource,
+    items: Items,
+    monitor: &'a Monitor<'a>,
+    dim: usize,
+    scale: f64,
+    /// The vector that is subtracted from coordinates before they are scaled, if anything.
+    shift: Vec<f64>,
+    passes: u64,
+    hash: Option<PointsHash>,
+    largest: Option<Far>,
+}
+
+impl<'a> ItemReader<'a> {
+    /// Looks at the shape of the source; reads nothing yet.
+    pub(crate) fn new(
+        source: &'a dyn PointSource,
+        items: Items,
+        monitor: &'a Monitor<'a>,
+    ) -> Result<Self, Error> {
+        match items {
+            Items::Balls if source.dim() < 2 => {
+                return Err(Error::NoRadius { columns: source.dim() });
+            }
+            Items::Ellipsoids => {
+                let (name, value) = ("inputs", "ellipsoids".into());
+                return Err(Error::Input(InputError::Option {
+                    name,
+                    value,
+                    expected: "points or balls",
+                }));
+            }
+            Items::Points | Items::Balls => {}
+        }
+        if source.is_empty() {
+            return Err(Error::Empty);
+        }
+        let dim = items.dim(source.dim());
+        Ok(ItemReader {
+            source,
+            items,
+            monitor,
+            dim,
+            scale: 1.0,
+            shift: vec![],
+            passes: 0,
+            hash: None,
+            largest: None,
+        })
+    }
+
+    /// Dimension of the space.
+    pub(crate) fn dim(&self) -> usize {
+        self.dim
+    }
+
+    pub(crate) fn len(&self) -> u64 {
+        self.source.len()
+    }
+
+    /// Points or balls.
+    pub(crate) fn items(&self) -> Items {
+        self.items
+    }
+
+    /// The caller's monitor.
+    pub(crate) fn monitor(&self) -> &'a Monitor<'a> {
+        self.monitor
+    }
+
+    /// Passes made so far.
+    pub(crate) fn passes(&self) -> u64 {
+        self.passes
+    }
+
+    /// The exact power of two by which everything that leaves this module is multiplied.
+    pub(crate) fn scale(&self) -> f64 {
+        self.scale
+    }
+
+    /// The hash of the rows; known after the first pass.
+    pub(crate) fn hash(&self) -> PointsHash {
+        self.hash.expect("the first pass hashes the rows")
+    }
+
+    /// The ball with the largest radius, the first of them; known after the first pass over balls.
+    pub(crate) fn largest(&self) -> Option<u64> {
+        self.largest.map(|far| far.id)
+    }
+
+    /// The first pass: from the mean of a sample, after settling the scale. Returns the mean, too.
+    pub(crate) fn first(&mut self, keep: usize) -> Result<(Center, PassResult), Error> {
+        let center = self.sample_mean()?;
+        self.begin_pass();
+        let report =
+            Pass::new(self, Query { center: &center, above: 0.0, keep, by_face_above: None })
+                .first()?;
+        self.hash = Some(report.hash);
+        self.largest = report.largest;
+        let found = report.found;
+        let safe = exponent(found.farthest.reach2).abs() <= SAFE_EXPONENT && !report.overflow;
+        if safe || !self.choose_scale(&center)? {
+            return Ok((center, found));
+        }
+        let center = self.sample_mean()?;
+        let found =
+            self.farthest(Query { center: &center, above: 0.0, keep, by_face_above: None })?;
+        Ok((center, found))
+    }
+
+    pub(crate) fn farthest(&mut self, query: Query<'_>) -> Result<PassResult, Error> {
+        self.begin_pass();
+        Pass::new(self, query).run()
+    }
+
+    fn begin_pass(&mut self) {
+        self.passes += 1;
+        self.monitor.pass(self.passes, self.len());
+    }
+
+    /// The mean of up to 256 rows at equal distances: an origin near the middle of the points.
+    fn sample_mean(&self) -> Result<Center, Error> {
+        let count = SAMPLE_ROWS.min(self.len());
+        let ids: Vec<u64> = (0..count).map(|k| k * (self.len() / count)).collect();
+        let rows = self.rows(&ids)?;
+        let columns = self.source.dim();
+        let first = &rows[..self.dim];
+        let mut mean = first.to_vec();
+        for row in rows.chunks_exact(columns) {
+            for ((mean, value), first) in mean.iter_mut().zip(row).zip(first) {
+                // Divided first, so that the sum cannot overflow; from the first row on, so that the mean of equal
+                // coordinates is that coordinate, to the last bit.
+                *mean += value / count as f64 - first / count as f64;
+            }
+        }
+        Ok(Center { high: mean, low: vec![] })
+    }
+
+    /// A pass for the largest |xⱼ − cⱼ|, and the scale from it; false when all items are one point.
+    fn choose_scale(&mut self, center: &Center) -> Result<bool, Error> {
+        self.begin_pass();
+        let dim = self.dim;
+        let spreads = map_blocks(self.source, self.monitor, |_, rows| {
+            let mut row = vec![0.0; self.source.dim()];
+            let (mut spread, mut largest) = (0.0f64, 0.0f64);
+            for i in 0..rows.len() {
+                rows.copy_row(i, &mut row);
+                for (x, c) in row.iter().zip(&center.high) {
+                    // May overflow to ∞, which asks for the same scale as the largest number.
+                    spread = spread.max((x - c).abs());
+                    largest = largest.max(x.abs());
+                }
+                if self.items == Items::Balls {
+                    spread = spread.max(row[dim]);
+                }
+            }
+            Ok::<_, Error>((spread, largest))
+        })?;
+        let spread = spreads.iter().map(|s| s.0).fold(0.0, f64::max);
+        let largest = spreads.iter().map(|s| s.1).fold(0.0, f64::max);
+        if spread == 0.0 {
+            return Ok(false);
+        }
+        self.scale = 2f64.powi((-exponent(spread)).clamp(-1000, 1000));
+        if exponent(largest) > SAFE_EXPONENT + exponent(spread) {
+            self.shift = center.high.clone();
+        }
+        Ok(true)
+    }
+
+    /// The rows with the given numbers, in the units of this reader: n × d, or n × (d + 1) with the radius.
+    pub(crate) fn rows(&self, ids: &[u64]) -> Result<Vec<f64>, Error> {
+        let mut rows = self.rows_as_given(ids)?;
+        self.scale_rows(&mut rows);
+        Ok(rows)
+    }
+
+    /// The rows with the given numbers, as they are in the source.
+    pub(crate) fn rows_as_given(&self, ids: &[u64]) -> Result<Vec<f64>, Error> {
+        Ok(gather(self.source, ids)?)
+    }
+
+    /// Brings rows to the units of this reader.
+    fn scale_rows(&self, rows: &mut [f64]) {
+        if self.scale == 1.0 {
+            return;
+        }
+        for row in rows.chunks_exact_mut(self.source.dim()) {
+            row.iter_mut().zip(&self.shift).for_each(|(v, shift)| *v -= shift);
+            row.iter_mut().for_each(|v| *v *= self.scale);
+        }
+    }
+
+    /// A center in the units of this reader as one or two terms in those of the source.
+    pub(crate) fn outside(&self, center: &Center) -> Center {
+        if self.scale == 1.0 {
+            return center.clone();
+        }
+        let mut outside = Center { high: vec![], low: vec![] };
+        for (j, &high) in center.high.iter().enumerate() {
+            let low = center.low.get(j).copied().unwrap_or(0.0);
+            let shift = self.shift.get(j).copied().unwrap_or(0.0);
+            let sum = DoubleDouble::sum(high / self.scale, low / self.scale).add(shift.into());
+            outside.high.push(sum.high);
+            outside.low.push(sum.low);
+        }
+        if outside.low.iter().all(|&low| low == 0.0) {
+            outside.low.clear();
+        }
+        outside
+    }
+
+    /// A center in the units of the source, brought to those of this reader; the inverse of [`outside`](Self::outside).
+    pub(crate) fn inside(&self, center: &Center) -> Center {
+        if self.scale == 1.0 {
+            return center.clone();
+        }
+        let mut inside = Center { high: vec![], low: vec![] };
+        for (j, &high) in center.high.iter().enumerate() {
+            let low = center.low.get(j).copied().unwrap_or(0.0);
+            let shift = self.shift.get(j).copied().unwrap_or(0.0);
+            let sum = DoubleDouble::sum(high, -shift).add(low.into());
+            inside.high.push(sum.high * self.scale);
+            inside.low.push(sum.low * self.scale);
+        }
+        if inside.low.iter().all(|&low| low == 0.0) {
+            inside.low.clear();
+        }
+        inside
+    }
+}
+
+/// The exponent of the leading bit: 2ᵉ ≤ |value| < 2ᵉ⁺¹; that of the smallest `f64` for 0, of the largest for ∞.
+fn exponent(value: f64) -> i32 {
+    if value == 0.0 { -1074 } else { value.abs().min(f64::MAX).log2().floor() as i32 }
+}

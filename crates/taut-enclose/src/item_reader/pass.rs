@@ -1,0 +1,226 @@
+//! One pass: every block is measured, compared with what is known to be far, and its best merged with that.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+use taut_certify::Items;
+use taut_points::{
+    BlockHash, InputError, Points, PointsHash, Rows, Scalar, hash_block, map_blocks,
+};
+
+use super::{ItemReader, PassResult, Query};
+use crate::Error;
+use crate::kernel::extremes::{all_finite, largest};
+use crate::kernel::{Center, squared_distances};
+use crate::top::{Face, Far, Top, TopByFace};
+
+/// Rows whose distances are worked out before they are compared: 4 KiB of results.
+const ROWS_AT_ONCE: usize = 512;
+/// One comparison disposes of this many reaches.
+const GROUP_SIZE: usize = 64;
+
+/// A pass under way, shared by all threads.
+pub(super) struct Pass<'p> {
+    reader: &'p ItemReader<'p>,
+    query: Query<'p>,
+    lists: Mutex<(Top, TopByFace)>,
+    /// The bits of a squared reach below which nothing can be listed any more. It only saves work: what is listed in
+    /// the end does not depend on when threads see it.
+    bound: AtomicU64,
+}
+
+/// The facts that the first pass finds beside the farthest items.
+pub(super) struct FirstReport {
+    pub(super) found: PassResult,
+    pub(super) hash: PointsHash,
+    /// The largest radius, in the place of a reach; balls only.
+    pub(super) largest: Option<Far>,
+    /// True if a square exceeded the largest `f64`.
+    pub(super) overflow: bool,
+}
+
+struct Measured {
+    farthest: Far,
+    /// True if every reach is a number.
+    finite: bool,
+}
+
+/// The contribution of one block to the first pass.
+struct BlockReport {
+    farthest: Far,
+    hash: BlockHash,
+    largest: Option<Far>,
+    overflow: bool,
+}
+
+impl<'p> Pass<'p> {
+    pub(super) fn new(reader: &'p ItemReader<'p>, query: Query<'p>) -> Self {
+        let lists = Mutex::new((Top::new(query.keep), TopByFace::default()));
+        let bound = AtomicU64::new(query.above.to_bits());
+        Pass { reader, query, lists, bound }
+    }
+
+    pub(super) fn run(self) -> Result<PassResult, Error> {
+        let farthest = map_blocks(self.reader.source, self.reader.monitor, |row, rows| {
+            Ok::<_, Error>(match rows {
+                Rows::F32(points) => self.block(row, &points).farthest,
+                Rows::F64(points) => self.block(row, &points).farthest,
+            })
+        })?;
+        Ok(self.found(farthest.into_iter()))
+    }
+
+    pub(super) fn first(self) -> Result<FirstReport, Error> {
+        let reports =
+            map_blocks(self.reader.source, self.reader.monitor, |row, rows| match rows {
+                Rows::F32(points) => self.first_block(row, &points),
+                Rows::F64(points) => self.first_block(row, &points),
+            })?;
+        let hashes = reports.iter().map(|report| report.hash);
+        Ok(FirstReport {
+            hash: PointsHash::of_blocks(self.reader.len(), self.reader.source.dim(), hashes),
+            largest: reports.iter().filter_map(|report| report.largest).reduce(farther),
+            overflow: reports.iter().any(|report| report.overflow),
+            found: self.found(reports.iter().map(|report| report.farthest)),
+        })
+    }
+
+    fn found(self, farthest: impl Iterator<Item = Far>) -> PassResult {
+        let (top, by_face) = self.lists.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let far = top.into_sorted();
+        let listed_above = match far.last() {
+            Some(last) if far.len() == self.query.keep => last.reach2,
+            _ => self.query.above,
+        };
+        PassResult {
+            farthest: farthest.reduce(farther).expect("a source that is not empty has a block"),
+            far,
+            listed_above,
+            by_face: by_face.into_sorted(self.query.keep),
+        }
+    }
+
+    /// Rows that are not finite have no place in a solver; nor have negative radii.
+    fn first_block<T: Scalar>(
+        &self,
+        first_row: u64,
+        points: &Points<'_, T>,
+    ) -> Result<BlockReport, Error> {
+        let rows = T::rows(*points);
+        let Measured { farthest, finite } = self.block(first_row, points);
+        // A coordinate that is not finite makes a reach that is not; large coordinates do, too.
+        if !finite && let Some((row, column, value)) = rows.first_non_finite() {
+            return Err(Error::Input(InputError::NonFinite {
+                row: first_row + row as u64,
+                column,
+                value,
+            }));
+        }
+        let largest = match self.reader.items {
+            Items::Balls => Some(largest_radius(first_row, points)?),
+            Items::Points | Items::Ellipsoids => None,
+        };
+        Ok(BlockReport { farthest, hash: hash_block(&rows), largest, overflow: !finite })
+    }
+
+    /// Measures a block; its far items are merged with those of the pass.
+    fn block<T: Scalar>(&self, first_row: u64, points: &Points<'_, T>) -> Measured {
+        if self.reader.scale == 1.0 {
+            return self.measure(first_row, points);
+        }
+        // Rare and not worth a kernel of its own: scale the block, then go on as usual.
+        let mut scaled: Vec<f64> = points.values().iter().map(|&v| v.into()).collect();
+        self.reader.scale_rows(&mut scaled);
+        let scaled = Points::new(&scaled, points.dim()).expect("the shape is that of the block");
+        self.measure(first_row, &scaled)
+    }
+
+    fn measure<T: Scalar>(&self, first_row: u64, points: &Points<'_, T>) -> Measured {
+        let query = &self.query;
+        let mut farthest = Far { id: first_row, reach2: 0.0 };
+        let mut finite = true;
+        let mut top = Top::new(query.keep);
+        let mut by_face = TopByFace::default();
+        let face_above = query.by_face_above.unwrap_or(f64::INFINITY);
+        let mut reaches = [0.0; ROWS_AT_ONCE];
+        for start in (0..points.len()).step_by(ROWS_AT_ONCE) {
+            let part = points.slice(start..points.len().min(start + ROWS_AT_ONCE));
+            let reaches = &mut reaches[..part.len()];
+            squared_distances(part.values(), part.dim(), query.center, reaches);
+            if self.reader.items == Items::Balls {
+                add_radii(&part, reaches);
+            }
+            finite &= all_finite(reaches);
+            // Rows come in order, so what equals the bound of this block loses to the row that set it; what equals a
+            // bound set by another block may still win by its number, and `Top` decides.
+            let shared = f64::from_bits(self.bound.load(Ordering::Relaxed));
+            let worth =
+                |reach2: f64, top: &Top| reach2 > query.above.max(top.bound()) && reach2 >= shared;
+            for (group, chunk) in reaches.chunks(GROUP_SIZE).enumerate() {
+                let first_id = first_row + (start + group * GROUP_SIZE) as u64;
+                let largest = largest(chunk);
+                if largest > farthest.reach2 {
+                    let at = chunk.iter().position(|&v| v == largest).expect("it is one of them");
+                    farthest = Far { id: first_id + at as u64, reach2: largest };
+                }
+                if !worth(largest, &top) && largest <= face_above {
+                    continue;
+                }
+                for (at, &reach2) in chunk.iter().enumerate() {
+                    let far = Far { id: first_id + at as u64, reach2 };
+                    if worth(reach2, &top) {
+                        top.offer(far);
+                    }
+                    if reach2 > face_above {
+                        let row = &part.row(group * GROUP_SIZE + at)[..self.reader.dim];
+                        by_face.offer(face(row, query.center), far);
+                    }
+                }
+            }
+        }
+        let mut lists = self.lists.lock().unwrap_or_else(PoisonError::into_inner);
+        lists.0.merge(top);
+        lists.1.merge(by_face);
+        self.bound.fetch_max(lists.0.bound().to_bits(), Ordering::Relaxed);
+        Measured { farthest, finite }
+    }
+}
+
+/// The one that reaches farther; the first of two that reach equally far.
+fn farther(a: Far, b: Far) -> Far {
+    if b.reach2 > a.reach2 { b } else { a }
+}
+
+fn largest_radius<T: Scalar>(first_row: u64, balls: &Points<'_, T>) -> Result<Far, Error> {
+    let mut largest = Far { id: first_row, reach2: f64::NEG_INFINITY };
+    for (id, ball) in (first_row..).zip(balls.rows()) {
+        let radius: f64 = ball[balls.dim() - 1].into();
+        if radius < 0.0 {
+            return Err(Error::NegativeRadius { row: id, value: radius });
+        }
+        largest = farther(largest, Far { id, reach2: radius });
+    }
+    Ok(largest)
+}
+
+/// Turns |x − c|² into (|x − c| + r)², the radius r being the last value of each row.
+fn add_radii<T: Scalar>(balls: &Points<'_, T>, reaches: &mut [f64]) {
+    for (reach2, ball) in reaches.iter_mut().zip(balls.rows()) {
+        let reach = reach2.sqrt() + ball[balls.dim() - 1].into();
+        *reach2 = reach * reach;
+    }
+}
+
+/// The face of the cube around the center towards which a row lies.
+fn face<T: Scalar>(row: &[T], center: &Center) -> Face {
+    let mut face = (0, false);
+    let mut largest = -1.0;
+    for (j, (&x, &c)) in row.iter().zip(&center.high).enumerate() {
+        let difference = x.into() - c;
+        if difference.abs() > largest {
+            largest = difference.abs();
+            face = (j, difference < 0.0);
+        }
+    }
+    face
+}
