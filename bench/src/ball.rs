@@ -21,7 +21,7 @@ use crate::input::{Input, Radii};
 use crate::judge::{Judgement, judge};
 use crate::prelude::*;
 use crate::raw;
-use crate::rounds::{Beside, PeerRuns, Rounds, Seen};
+use crate::rounds::{Opponents, PeerRuns, Rounds, Seen};
 pub(crate) use case::AREA;
 use case::{BUDGET_STOPS, FASTER, OF_CAT, READS, SHARE, UNEXPLAINED, stops};
 use paired::Paired;

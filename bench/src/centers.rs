@@ -19,7 +19,7 @@ use taut_points::{PointSource, Scalar};
 use crate::context::pool;
 use crate::prelude::*;
 use crate::read::plain_read;
-use crate::rounds::{self, Beside, Seen, TIME_COLUMNS};
+use crate::rounds::{self, Opponents, Seen, TIME_COLUMNS};
 pub(crate) use case::AREA;
 use case::{
     BANDWIDTH, CHECK, CORE_SET, DIFFERS, FACTOR, GERMANY, KNOWN_RADIUS_TOLERANCE, Set, Task,

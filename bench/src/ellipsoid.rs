@@ -27,7 +27,7 @@ use taut_points::{FileSource, ScalarKind};
 
 use crate::prelude::*;
 use crate::raw;
-use crate::rounds::{self, Beside, Rounds, TIME_COLUMNS};
+use crate::rounds::{self, Opponents, Rounds, TIME_COLUMNS};
 pub(crate) use case::AREA;
 use case::{DIFFERS, FASTER, Input, OBJECTIVE, OTHER_FLAGS, OTHER_THAN_PEER, OUTSIDE};
 use judgement::Judgement;

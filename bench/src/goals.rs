@@ -156,14 +156,14 @@ impl Goal {
 }
 
 /// A value, and what is to be said of it if not the value alone.
-type Said = (f64, Option<String>);
+type Statement = (f64, Option<String>);
 
 /// What was measured, quantity by quantity. Of several inputs the worst counts.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Found {
     rejected: Option<String>,
     /// `None` where a quantity of one of the inputs is not known: then nothing is.
-    values: BTreeMap<&'static str, Vec<Option<Said>>>,
+    values: BTreeMap<&'static str, Vec<Option<Statement>>>,
 }
 
 impl Found {
@@ -192,7 +192,7 @@ impl Found {
     }
 
     /// Adds a value, with what is to be said of it.
-    pub(crate) fn say(&mut self, what: Quantity, value: Option<(f64, String)>) {
+    pub(crate) fn add_with_text(&mut self, what: Quantity, value: Option<(f64, String)>) {
         let value = value.map(|(value, said)| (value, Some(said)));
         self.values.entry(what.name).or_default().push(value);
     }
@@ -204,7 +204,7 @@ impl Found {
         runs: Option<Summary>,
         show: fn(f64) -> String,
     ) {
-        self.say(what, runs.map(|runs| (runs.median, range(runs, show))));
+        self.add_with_text(what, runs.map(|runs| (runs.median, range(runs, show))));
     }
 
     /// Leaves out a quantity that does not count.
@@ -221,9 +221,9 @@ impl Found {
     }
 
     /// The value that is farthest on the wrong side.
-    fn worst(&self, goal: &Goal) -> Option<&Said> {
+    fn worst(&self, goal: &Goal) -> Option<&Statement> {
         let all = self.values.get(goal.what.name)?.iter().map(Option::as_ref);
-        let all: Vec<&Said> = all.collect::<Option<_>>()?;
+        let all: Vec<&Statement> = all.collect::<Option<_>>()?;
         all.into_iter().max_by(|a, b| goal.badness(a.0).total_cmp(&goal.badness(b.0)))
     }
 }

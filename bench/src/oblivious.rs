@@ -55,7 +55,7 @@ use voracious_radix_sort::RadixSort as _;
 
 use crate::prelude::*;
 use draw::{Draw, PATTERNS, Pattern};
-use lanes::{Guests, Lanes, have_memory, thread_cpu};
+use lanes::{Lanes, Peers, have_memory, thread_cpu};
 use one::{FileCost, RECORD_BYTES, Task, Work};
 
 /// All sections.

@@ -48,7 +48,7 @@ pub(crate) enum Seen<'a, T> {
 
 /// What takes part beside taut.
 #[derive(Clone, Copy, Default)]
-pub(crate) struct Beside<'a> {
+pub(crate) struct Opponents<'a> {
     /// Peers by name.
     pub(crate) peers: &'a [&'a str],
     /// The rows that peers read and the number of their columns.
@@ -61,7 +61,7 @@ pub(crate) struct Beside<'a> {
 pub(crate) fn run<T: Send>(
     context: &Context,
     runs: usize,
-    beside: Beside<'_>,
+    beside: Opponents<'_>,
     solve: impl Fn() -> Result<T> + Sync,
     mut see: impl FnMut(Seen<'_, T>) -> Result<()>,
 ) -> Result<Rounds<T>> {
@@ -97,7 +97,7 @@ pub(crate) fn run<T: Send>(
     Ok(Rounds { found: found.context("no round")?, taut, peers })
 }
 
-fn start_peers(context: &Context, beside: Beside<'_>) -> Result<Vec<PeerRuns>> {
+fn start_peers(context: &Context, beside: Opponents<'_>) -> Result<Vec<PeerRuns>> {
     let file = context.file("rows");
     if !beside.peers.is_empty() {
         write_rows(&file, beside.rows.0, beside.rows.1)?;

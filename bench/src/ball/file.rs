@@ -101,10 +101,10 @@ pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
         found.check(solved.gap);
         found.add(PASSES, solved.passes.len() as f64);
         found.add(MEMORY, solved.peak.map(|peak| peak as f64));
-        found.say(BUDGET_STOPS, Some(stops(solved.stop)));
+        found.add_with_text(BUDGET_STOPS, Some(stops(solved.stop)));
     }
     let slowest = Summary::of(&of_cat);
-    found.say(OF_CAT, slowest.map(|s| (s.min, format!("slowest: {}", range(s, times)))));
+    found.add_with_text(OF_CAT, slowest.map(|s| (s.min, format!("slowest: {}", range(s, times)))));
     let size = (n * dim as u64 * 4) as f64 / 1e9;
     let path = path.display();
     let caption = format!(

@@ -28,7 +28,7 @@ impl Paired {
             gap: first.certificate.gap,
         });
         let rows = if peers.is_empty() { (&[][..], 1) } else { input.rows()? };
-        let beside = Beside { peers, rows, reads: Some(input.bytes()) };
+        let beside = Opponents { peers, rows, reads: Some(input.bytes()) };
         let mut judgements: Vec<(String, Judgement)> = vec![];
         let rounds = rounds::run(context, context.runs, beside, solve, |seen| {
             match seen {
@@ -72,9 +72,9 @@ impl Paired {
         let mut found = Found::proved(gap.map_err(String::clone));
         let trace = &self.rounds.found.trace;
         if let Ok(verdict) = &self.verdict {
-            found.say(RADIUS, Some((verdict.upper, format!("{:.13}", verdict.upper))));
+            found.add_with_text(RADIUS, Some((verdict.upper, format!("{:.13}", verdict.upper))));
         }
-        found.say(BUDGET_STOPS, Some(stops(trace.stop)));
+        found.add_with_text(BUDGET_STOPS, Some(stops(trace.stop)));
         found.add(PASSES, trace.passes as f64);
         found.median(SECONDS, Summary::of(self.rounds.walls()), seconds);
         let reads = self.rounds.taut.last();
@@ -90,20 +90,23 @@ impl Paired {
                     let fastest = self.fastest(goal.peers).map(|(name, ratios)| {
                         (ratios.median, format!("{} against {name}", range(ratios, times)))
                     });
-                    found.say(FASTER, fastest);
+                    found.add_with_text(FASTER, fastest);
                 }
                 SHARE => {
                     for peer in goal.peers {
                         let share = self.fastest(&[peer]).map(|(name, ratios)| {
                             (1.0 / ratios.median, format!("1 / {} of {name}", range(ratios, times)))
                         });
-                        found.say(SHARE, share);
+                        found.add_with_text(SHARE, share);
                     }
                 }
                 UNEXPLAINED => {
                     for peer in goal.peers {
                         let judged = self.judgement(peer);
-                        found.say(UNEXPLAINED, judged.map(|it| (0.0, format!("{peer} {it}"))));
+                        found.add_with_text(
+                            UNEXPLAINED,
+                            judged.map(|it| (0.0, format!("{peer} {it}"))),
+                        );
                     }
                 }
                 _ => {}

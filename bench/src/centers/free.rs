@@ -61,7 +61,7 @@ fn run_task(
         let points = Points::new(&rows, dim)?;
         let mut first = None;
         let solve = || Ok(centers(&points, task.k, &options)?);
-        let rounds = rounds::run(context, 1, Beside::default(), solve, |seen| {
+        let rounds = rounds::run(context, 1, Opponents::default(), solve, |seen| {
             let Seen::Ours(answer) = seen else { return Ok(()) };
             let is_same = first.get_or_insert_with(|| answer.clone()) == answer;
             ensure!(is_same, "an answer differs from that with another number of threads");

@@ -62,7 +62,7 @@ pub(super) fn found(all: &[Judgement]) -> Found {
     let mut found = Found::default();
     for of in all {
         found.check(of.verdict.as_ref().map(|verdict| verdict.gap).map_err(String::clone));
-        found.say(RADIUS, Some((of.radius, Unit::Fixed(8).show(of.radius))));
+        found.add_with_text(RADIUS, Some((of.radius, Unit::Fixed(8).show(of.radius))));
         found.add(CORE_SET, of.core_set as f64);
     }
     let times: Vec<f64> = all.iter().map(|of| of.seconds).collect();

@@ -20,7 +20,8 @@ pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
         for outliers in OUTLIERS {
             let options = CentersOptions { epsilon: 1e-6, outliers, ..CentersOptions::default() };
             let solve = || Ok(centers(&points, k, &options)?);
-            let rounds = rounds::run(context, context.runs, Beside::default(), solve, |_| Ok(()))?;
+            let rounds =
+                rounds::run(context, context.runs, Opponents::default(), solve, |_| Ok(()))?;
             let judgement = judge(&rounds.found, &points);
             let head = json!({
                 "k": k, "left out": outliers, "clock": Summary::of(rounds.walls()).map(|all| all.median),

@@ -1,4 +1,4 @@
-//! Beside published errors of FitConnect, which is not run: its figures are from one draw of the same law.
+//! Opponents published errors of FitConnect, which is not run: its figures are from one draw of the same law.
 
 use super::*;
 

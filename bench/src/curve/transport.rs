@@ -1,4 +1,4 @@
-//! Beside CGAL's reconstruction by optimal transport, which simplifies noisy points to a set of edges.
+//! Opponents CGAL's reconstruction by optimal transport, which simplifies noisy points to a set of edges.
 
 use super::*;
 

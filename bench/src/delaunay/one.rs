@@ -22,13 +22,13 @@ impl Task {
         let options = DelaunayOptions { threads: Some(self.threads), ..Default::default() };
         let meter = Meter::start();
         match self.dim {
-            2 => self.tell(&points, &Plane::build(&points, &options)?, meter),
-            3 => self.tell(&points, &Space::build(&points, &options)?, meter),
+            2 => self.report(&points, &Plane::build(&points, &options)?, meter),
+            3 => self.report(&points, &Space::build(&points, &options)?, meter),
             dim => bail!("the dimension is {dim}: expected 2 or 3"),
         }
     }
 
-    fn tell<const D: usize, const V: usize>(
+    fn report<const D: usize, const V: usize>(
         &self,
         points: &Points<'_, f64>,
         built: &Triangulation<D, V>,

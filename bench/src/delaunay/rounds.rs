@@ -186,7 +186,7 @@ impl Rounds {
     pub(super) fn found(&self) -> Found {
         let one = Program::Taut(1);
         let mut found = Found::default();
-        found.say(
+        found.add_with_text(
             OF_CGAL,
             self.of_cgal(one).map(|(least, rounds)| {
                 (least, format!("{}; by rounds {}", times(least), range(rounds, times)))

@@ -28,7 +28,7 @@ fn add<T: Send>(
     tell: impl Fn(&T, &Points<'_, f64>) -> Told,
 ) -> Result<Found> {
     let rows = Points::new(values, columns)?;
-    let beside = Beside { peers: &[peer], rows: (values, columns), reads: None };
+    let beside = Opponents { peers: &[peer], rows: (values, columns), reads: None };
     let rounds = rounds::run(context, context.runs, beside, || solve(&rows), |_| Ok(()))?;
     let peer = rounds.peer().context("one peer")?;
     let theirs = peer.answer.as_ref().map(|answer| answer.radius);
@@ -43,7 +43,7 @@ fn add<T: Send>(
         "differs": differs, "verified gap": shown_gap(&gap), "why": peer.silence, "times": rounds.json(),
     }));
     let mut found = Found::proved(gap);
-    found.say(SECONDS, rounds.said());
+    found.add_with_text(SECONDS, rounds.said());
     found.add(DIFFERS, differs);
     Ok(found)
 }

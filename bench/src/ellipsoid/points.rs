@@ -23,7 +23,7 @@ pub(super) fn solve(
 ) -> Result<Solved> {
     let points = Points::new(values, d)?;
     let options = EllipsoidOptions { epsilon: EPSILON, ..EllipsoidOptions::default() };
-    let beside = Beside { peers, rows: (values, d), reads: None };
+    let beside = Opponents { peers, rows: (values, d), reads: None };
     let solve = || Ok(ellipsoid(&points, &options)?);
     let rounds = rounds::run(context, runs, beside, solve, |_| Ok(()))?;
     let verdict = rounds.found.check(&points).map_err(|why| why.to_string());
@@ -44,7 +44,7 @@ impl Solved {
     pub(super) fn found(&self) -> Found {
         let mut found = Found::proved(self.gap());
         found.add(PASSES, self.rounds.found.trace.passes as f64);
-        found.say(SECONDS, self.rounds.said());
+        found.add_with_text(SECONDS, self.rounds.said());
         let faster = self.rounds.peer().and_then(|peer| self.rounds.faster(peer));
         found.add(FASTER, faster.map(|(ratio, _)| ratio));
         found

@@ -104,7 +104,7 @@ pub(super) fn run(context: &Context, out: &mut Outcome, cloud: Cloud) -> Result<
     for (seed, runs) in (SEED..SEED + SEEDS).zip(once(context.runs).chain(repeat(1))) {
         let values = draw(cloud, n, D, seed)?;
         let points = Points::new(&values, D)?;
-        let beside = Beside { peers: &[PEER], rows: (&values, D), reads: None };
+        let beside = Opponents { peers: &[PEER], rows: (&values, D), reads: None };
         let solve = || Ok(robust_ellipsoid(&points, &RobustOptions::default())?);
         let rounds = rounds::run(context, runs, beside, solve, |_| Ok(()))?;
         found.reject(rounds.found.check(&points).err().map(|why| why.to_string()));
@@ -223,8 +223,8 @@ pub(super) fn run_flags(context: &Context, out: &mut Outcome) -> Result<()> {
         let said = if sets.is_empty() { "none".to_owned() } else { sets.join(", ") };
         (sets.len() as f64, said)
     };
-    found.say(OTHER_FLAGS, Some(counted(others)));
-    found.say(OTHER_THAN_PEER, peers.map(counted));
+    found.add_with_text(OTHER_FLAGS, Some(counted(others)));
+    found.add_with_text(OTHER_THAN_PEER, peers.map(counted));
     out.judge(&found);
     Ok(())
 }

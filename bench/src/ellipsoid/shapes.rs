@@ -32,7 +32,7 @@ fn add<T: Send>(
     solve: impl Fn() -> Result<T> + Sync,
     check: impl Fn(&T) -> (Result<f64, String>, u64),
 ) -> Result<()> {
-    let rounds = rounds::run(context, context.runs, Beside::default(), solve, |_| Ok(()))?;
+    let rounds = rounds::run(context, context.runs, Opponents::default(), solve, |_| Ok(()))?;
     let (gap, passes) = check(&rounds.found);
     let mut table = Table::new(&format!("{TIME_COLUMNS} | verified gap | passes"));
     let cells = json!({
@@ -41,7 +41,7 @@ fn add<T: Send>(
     table.push(joined([rounds.cells(), cells]));
     out.table(what, table);
     let mut found = Found::proved(gap);
-    found.say(SECONDS, rounds.said());
+    found.add_with_text(SECONDS, rounds.said());
     out.judge(&found);
     out.close(what);
     Ok(())

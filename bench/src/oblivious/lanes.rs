@@ -78,28 +78,28 @@ impl Lanes {
 }
 
 /// Peers that are processes of their own, as far as they are there: each gets the input as a file and takes its turn.
-pub(super) struct Guests(Vec<(&'static str, Peer)>);
+pub(super) struct Peers(Vec<(&'static str, Peer)>);
 
-impl Guests {
+impl Peers {
     /// Starts peers on rows of so many words; one that is not installed is named and left out.
-    pub(super) fn invite(
+    pub(super) fn start(
         context: &Context,
         words: &[u64],
         columns: usize,
         names: &[&'static str],
     ) -> Result<Self> {
-        let (mut guests, input) = (vec![], context.file("words"));
+        let (mut peers, input) = (vec![], context.file("words"));
         if !names.is_empty() {
             write_rows(&input, bytemuck::cast_slice(words), columns)?;
         }
         for &name in names {
             match Peer::start(name, &input, context.temp.path())? {
-                Ok(peer) => guests.push((name, peer)),
+                Ok(peer) => peers.push((name, peer)),
                 Err(silence @ Silence::NotInstalled) => println!("{name}: {silence}\n"),
                 Err(silence) => bail!("{name}: {silence}"),
             }
         }
-        Ok(Self(guests))
+        Ok(Self(peers))
     }
 
     /// A turn of each; its seconds are kept, and `judge` is given its name and the words it answers with.

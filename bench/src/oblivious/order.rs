@@ -43,7 +43,7 @@ fn case<const D: usize>(
     // Times, and of each program the mean step from a point to the next.
     let (mut lanes, mut steps) = (Lanes::default(), vec![]);
     let words: Vec<u64> = points.iter().flatten().map(|number| number.to_bits()).collect();
-    let mut guests = Guests::invite(context, &words, D, &cgal)?;
+    let mut peers = Peers::start(context, &words, D, &cgal)?;
     let ours: By<D> = |points| hilbert_order(points.len(), |i| points[i]);
     let morton: By<D> = |points| morton_order(points.len(), |i| points[i]);
     let programs = [("taut", Some(ours)), (MORTON, Some(morton)), (CRATE, other)];
@@ -63,7 +63,7 @@ fn case<const D: usize>(
             judge(name, &order)?;
         }
         have_memory(64 * points.len())?;
-        guests.turn(context, &mut lanes, |name, order| {
+        peers.turn(context, &mut lanes, |name, order| {
             let order: Vec<u32> = order.iter().map(|&word| f64::from_bits(word) as u32).collect();
             judge(name, &order)
         })?;

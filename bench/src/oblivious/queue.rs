@@ -5,7 +5,7 @@ use super::*;
 /// With values, and of keys alone, which its other queue is made for.
 const QUICKHEAP: [&str; 2] = ["quickheap", "quickheap-keys"];
 
-/// Beside std's heap and quickheap. All must hand out the keys as a sort does, each with the value that came with it.
+/// Opponents std's heap and quickheap. All must hand out the keys as a sort does, each with the value that came with it.
 pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
     let n = context.size(10_000_000, 100_000);
     let keys = Draw(1).words(n);
@@ -14,7 +14,7 @@ pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
     let expected: Vec<(u64, u64)> = sorted.into_iter().map(|key| (key, !key)).collect();
     let both: Vec<u64> = expected.iter().flat_map(|&(key, value)| [key, value]).collect();
     let mut lanes = Lanes::default();
-    let mut guests = Guests::invite(context, &keys, 1, &QUICKHEAP)?;
+    let mut peers = Peers::start(context, &keys, 1, &QUICKHEAP)?;
     for _ in 0..context.runs {
         have_memory(64 * n)?;
         let popped: Vec<(u64, u64)> = lanes.time("taut", || {
@@ -33,7 +33,7 @@ pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
         ensure!(popped == expected, "BinaryHeap: not in order");
         drop(popped);
         have_memory(64 * n)?;
-        guests.turn(context, &mut lanes, |name, popped| {
+        peers.turn(context, &mut lanes, |name, popped| {
             let same = match name == QUICKHEAP[0] {
                 true => popped == both,
                 false => popped.iter().eq(both.iter().step_by(2)),

@@ -45,7 +45,7 @@ fn judge(drawn: &[u64], n: u64, count: std::ops::RangeInclusive<usize>) -> Resul
     Ok(())
 }
 
-/// Beside Fisher and Yates' method, with the generator of this bench, which is a fast one, and as the crate rand has it.
+/// Opponents Fisher and Yates' method, with the generator of this bench, which is a fast one, and as the crate rand has it.
 fn shuffles(context: &Context, n: usize) -> Result<Lanes> {
     let mut items: Vec<u64> = (0..n as u64).collect();
     let mut lanes = Lanes::default();

@@ -70,7 +70,7 @@ fn keys(context: &Context, pattern: &Pattern, n: usize, names: &[&'static str]) 
     let given = (pattern.keys)(n);
     let mut expected = given.clone();
     expected.sort();
-    let mut guests = Guests::invite(context, &given, 1, names)?;
+    let mut peers = Peers::start(context, &given, 1, names)?;
     let mut lanes = Lanes::default();
     let mut work = given.clone();
     for _ in 0..context.runs {
@@ -87,7 +87,7 @@ fn keys(context: &Context, pattern: &Pattern, n: usize, names: &[&'static str]) 
             keys.radix_sort_builder().with_low_mem_tuner().with_parallel(false).sort()
         })?;
         run("voracious", |keys| keys.voracious_sort())?;
-        guests.turn(context, &mut lanes, |name, sorted| {
+        peers.turn(context, &mut lanes, |name, sorted| {
             ensure!(sorted == expected, "{name}: {} is not in order", pattern.name);
             Ok(())
         })?;

@@ -1,7 +1,7 @@
-//! Concorde's Lin-Kernighan in the protocol of `protocol.hpp`: `tours INPUT CENTRE`, points of the plane that are whole
+//! Concorde's Lin-Kernighan in the protocol of `protocol.hpp`: `tours INPUT CENTER`, points of the plane that are whole
 //! numbers.
 //!
-//! What goes to CENTRE is the order of the rows, as doubles. Seconds are those of the search alone, without the matrix of
+//! What goes to CENTER is the order of the rows, as doubles. Seconds are those of the search alone, without the matrix of
 //! distances, which takes n² / 2 numbers.
 #![forbid(unsafe_code)]
 
@@ -22,7 +22,7 @@ impl Distance for Place {
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().collect();
     let [_, input, center] = &arguments[..] else {
-        return Err("expected INPUT and CENTRE".into());
+        return Err("expected INPUT and CENTER".into());
     };
     let bytes = std::fs::read(input)?;
     let (words, _) = bytes.as_chunks::<8>();

@@ -144,14 +144,14 @@ proptest! {
 
     /// A random ellipsoid within the unit ball, scaled so that it just touches: accepted, and refused when 1e-6 larger.
     #[test]
-    fn the_reach_is_that_of_brute_force(dim in 1usize..6, seed in any::<u64>(), flat in any::<bool>(), centerd in any::<bool>()) {
+    fn the_reach_is_that_of_brute_force(dim in 1usize..6, seed in any::<u64>(), flat in any::<bool>(), centered in any::<bool>()) {
         let random = numbers(dim * dim + dim, seed);
         let mut root: Vec<Vec<f64>> = random[..dim * dim].chunks(dim).map(<[f64]>::to_vec).collect();
         if flat {
             root.iter_mut().for_each(|row| row[dim - 1] = 0.0);
         }
         let center: Vec<f64> =
-            random[dim * dim..].iter().map(|v| if centerd { 0.0 } else { *v }).collect();
+            random[dim * dim..].iter().map(|v| if centered { 0.0 } else { *v }).collect();
         let unit = aligned(Items::Points, &vec![0.0; dim], &vec![1.0; dim], &[0], &[1.0], &[], 0.0).solution.answer;
         let reach = reach_by_climbing(&unit, &center, &root, seed ^ 5);
         prop_assume!(reach > 1e-3);

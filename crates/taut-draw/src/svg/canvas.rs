@@ -181,7 +181,7 @@ impl Canvas {
             write!(self.body, "<text class=\"{class}\" x=\"{x}\" y=\"{y}\"{anchor}>{text}</text>");
     }
 
-    /// A word that reads upwards, centerd on its place.
+    /// A word that reads upwards, centered on its place.
     pub(super) fn text_upwards(&mut self, at: [f64; 2], class: &str, text: &str) {
         let [x, y] = at.map(px);
         let text = escape(text);

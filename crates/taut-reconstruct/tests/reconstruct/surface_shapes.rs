@@ -27,7 +27,7 @@ fn a_tetrahedron_a_cube_and_an_octahedron() {
     assert_eq!(found.triangles.len(), 8);
 }
 
-/// Cells whose spheres are centerd beyond one of their facets say that they are of the outside.
+/// Cells whose spheres are centered beyond one of their facets say that they are of the outside.
 #[test]
 fn tetrahedra_of_any_shape_and_few_points_at_will() {
     let mut chance = chances(11);

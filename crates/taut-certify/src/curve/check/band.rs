@@ -1,6 +1,6 @@
 //! The place of every row next to it on the curves, and how far off it is.
 //!
-//! *Distance.* The foot of a row on an edge is found in `f64`; any number t in [0, 1] names a point of the edge, so the distance
+//! *Distance.* The projection of a row on an edge is found in `f64`; any number t in [0, 1] names a point of the edge, so the distance
 //! to it, with all its roundings added, is no less than that of the curve. A vector p − a is right to u of its size, and
 //! w = (p − a) − t·(b − a) to 4u of |p − a| and |b − a|.
 //! *Trap.* Beside a vertex of 1e308 coordinates of 1e-150 underflow when all are scaled alike: what scaling takes is added.
@@ -57,10 +57,10 @@ pub(super) fn place(
         true => at_vertices(edges, rows, &inliers)?,
         false => next_to(edges, rows, &inliers, monitor).map_err(ReadError::from)?,
     };
-    let off = |foot: &Foot| edges.unscaled(foot.offset.abs());
-    let is_within = |foot: &&Foot| off(foot) <= certificate.band;
-    if let Some(foot) = feet.iter().find(|foot| !is_within(foot)) {
-        let (row, distance) = (foot.row as u64, off(foot));
+    let off = |projection: &Foot| edges.unscaled(projection.offset.abs());
+    let is_within = |projection: &&Foot| off(projection) <= certificate.band;
+    if let Some(projection) = feet.iter().find(|projection| !is_within(projection)) {
+        let (row, distance) = (projection.row as u64, off(projection));
         return Err(CurveViolation::OutsideBand { row, distance, band: certificate.band }.into());
     }
     if !curve.places.is_empty() {
@@ -79,7 +79,8 @@ impl Placed {
         is_exact: bool,
     ) -> Self {
         let scaled = |row: usize| (row, rows[row].map(|x| x * edges.scale));
-        let widest = inliers.iter().fold(0.0f64, |most, foot| most.max(foot.offset.abs()));
+        let widest =
+            inliers.iter().fold(0.0f64, |most, projection| most.max(projection.offset.abs()));
         let band = edges.unscaled(widest);
         let outliers = outliers.into_iter().map(scaled).collect();
         Self { inliers, outliers, band, is_exact }
@@ -128,7 +129,7 @@ fn at_vertices(
             return Err(CurveViolation::Repeated { curve, vertex, other, other_vertex });
         }
     }
-    let foot = |&row: &usize| {
+    let projection = |&row: &usize| {
         let found = vertices.get(&key(rows[row])).copied();
         let vertex = found.ok_or(CurveViolation::NoVertex { row: row as u64 })?;
         let curve = edges.first_vertex.partition_point(|&first| first <= vertex) - 1;
@@ -139,7 +140,7 @@ fn at_vertices(
             false => Foot { row, edge: edge - 1, t: 1.0, offset: 0.0 },
         })
     };
-    inliers.iter().map(foot).collect()
+    inliers.iter().map(projection).collect()
 }
 
 /// Rows next to the edges. A row that no edge is near, as far as squares go, is infinitely far from the first.
@@ -149,7 +150,7 @@ pub(super) fn next_to(
     inliers: &[usize],
     monitor: &Monitor<'_>,
 ) -> Result<Vec<Foot>, Cancelled> {
-    let foot = |&row: &usize| {
+    let projection = |&row: &usize| {
         let p = rows[row].map(|x| x * edges.scale);
         match nearest(edges, p, f64::INFINITY) {
             Some((edge, t)) => {
@@ -161,21 +162,21 @@ pub(super) fn next_to(
     };
     let of_task = |task: &[usize]| -> Result<Vec<Foot>, Cancelled> {
         monitor.check()?;
-        Ok(task.iter().map(foot).collect())
+        Ok(task.iter().map(projection).collect())
     };
     let tasks = inliers.par_chunks(ROWS_PER_TASK);
     let feet: Vec<Vec<Foot>> = tasks.map(of_task).collect::<Result<_, _>>()?;
     Ok(feet.into_iter().flatten().collect())
 }
 
-/// The edge next to p, if one is nearer than `most`, and the share of it before the foot.
+/// The edge next to p, if one is nearer than `most`, and the share of it before the projection.
 pub(super) fn nearest(edges: &Edges, p: [f64; 2], most: f64) -> Option<(usize, f64)> {
     let (mut best, mut found) = (most * most, None);
     edges.tree.least(
         &mut best,
         |area, _| area.distance_squared(p),
         |edge, best| {
-            let t = foot(edges, p, edge);
+            let t = projection(edges, p, edge);
             let [x, y] = beside(edges, p, edge, t);
             let squared = x * x + y * y;
             if squared < *best {
@@ -186,8 +187,8 @@ pub(super) fn nearest(edges: &Edges, p: [f64; 2], most: f64) -> Option<(usize, f
     found
 }
 
-/// The share of an edge before the foot of p.
-fn foot(edges: &Edges, p: [f64; 2], edge: usize) -> f64 {
+/// The share of an edge before the projection of p.
+fn projection(edges: &Edges, p: [f64; 2], edge: usize) -> f64 {
     let [a, b] = edges.segment(edge);
     let (along, to) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
     let t = (along[0] * to[0] + along[1] * to[1]) / (along[0] * along[0] + along[1] * along[1]);

@@ -122,18 +122,19 @@ pub(super) fn judge(
             doubts.noisy = Some(CurveDoubt::Noisy { row, curve, ratio, most });
         }
         noise_ratio = noise_ratio.max(worst.value);
-        doubts.lacuna = doubts.lacuna.or_else(|| sampling::lacuna(curve, &samples, &features));
+        doubts.wide_gap =
+            doubts.wide_gap.or_else(|| sampling::wide_gap(curve, &samples, &features));
         if !placed.is_exact {
             doubts.split = doubts.split.or_else(|| sampling::split(curve, &samples));
             doubts.winding = doubts.winding.or_else(|| sampling::winding(curve, &samples));
         }
         gaps.extend(sampling::lengths(&samples, &features));
     }
-    let Doubts { corner, sparse, lacuna, noisy, split, winding } = doubts;
+    let Doubts { corner, sparse, wide_gap, noisy, split, winding } = doubts;
     let doubt = corner
         .or(sparse)
         .or(noisy)
-        .or(lacuna)
+        .or(wide_gap)
         .or(winding)
         .or(split)
         .or_else(|| outliers::doubt(edges, placed, gaps, band));
@@ -145,7 +146,7 @@ pub(super) fn judge(
 struct Doubts {
     corner: Option<CurveDoubt>,
     sparse: Option<CurveDoubt>,
-    lacuna: Option<CurveDoubt>,
+    wide_gap: Option<CurveDoubt>,
     noisy: Option<CurveDoubt>,
     split: Option<CurveDoubt>,
     winding: Option<CurveDoubt>,

@@ -103,7 +103,11 @@ pub(super) fn lengths(samples: &[Sample], features: &Features) -> Vec<f64> {
 const VARIATION_MIN: f64 = 0.1;
 
 /// A gap so much longer than those beside it that chance would make one in many curves sampled as these are.
-pub(super) fn lacuna(curve: usize, samples: &[Sample], features: &Features) -> Option<CurveDoubt> {
+pub(super) fn wide_gap(
+    curve: usize,
+    samples: &[Sample],
+    features: &Features,
+) -> Option<CurveDoubt> {
     let gaps: Vec<(f64, usize, usize)> = gaps(samples, features).collect();
     let (count, mut worst) = (gaps.len(), Worst::NONE);
     let beside = NEIGHBOR_GAPS.min((count - 1) / 2);

@@ -45,7 +45,7 @@ fn features_of_a_circle_and_an_ellipse_are_their_formulas() {
 
 #[test]
 fn at_the_ends_of_an_arc_the_disks_beyond_it_count() {
-    // A half circle and less: nothing but its center. Three quarters: the disks between the ends, centerd on the diagonal.
+    // A half circle and less: nothing but its center. Three quarters: the disks between the ends, centered on the diagonal.
     let truth = truth("arc");
     assert_eq!(truth.closed, [false]);
     let (first, last) = (truth.loops[0][0], truth.loops[0][9999]);

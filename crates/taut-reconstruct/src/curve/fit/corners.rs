@@ -18,14 +18,14 @@ use super::parameters::{
     SIDE_DEVIATION_RATIO_MAX, SIDE_DEVIATIONS, SIDE_GROWTH, SIDE_POINTS_MIN, TURN_RATIO_MIN,
 };
 use super::regress::around;
-use super::strand::{Node, Strand};
+use super::spline::{Node, Spline};
 
 type Point = [f64; 2];
 
-/// A corner of a strand.
+/// A corner of a spline.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Corner {
-    /// Length along the strand where it turns most.
+    /// Length along the spline where it turns most.
     arc: f64,
     /// Half the length that it replaces.
     half: f64,
@@ -35,15 +35,15 @@ pub(super) struct Corner {
     leaves: Point,
 }
 
-/// The corners of a strand, in order.
-pub(super) fn corners(strand: &Strand) -> Vec<Corner> {
-    let turns = turns(strand);
-    let sharp: Vec<usize> = (0..turns.len()).filter(|&i| is_sharpest(strand, &turns, i)).collect();
+/// The corners of a spline, in order.
+pub(super) fn corners(spline: &Spline) -> Vec<Corner> {
+    let turns = turns(spline);
+    let sharp: Vec<usize> = (0..turns.len()).filter(|&i| is_sharpest(spline, &turns, i)).collect();
     let mut window = Window::default();
     let corner = |place: usize| {
-        let room = beside(sharp.len(), place, strand.closed)
-            .map(|other| other.map_or(f64::INFINITY, |k| apart(strand, sharp[place], sharp[k])));
-        measure(strand, sharp[place], room, &mut window)
+        let room = beside(sharp.len(), place, spline.closed)
+            .map(|other| other.map_or(f64::INFINITY, |k| apart(spline, sharp[place], sharp[k])));
+        measure(spline, sharp[place], room, &mut window)
     };
     (0..sharp.len()).filter_map(corner).collect()
 }
@@ -56,18 +56,18 @@ fn beside(count: usize, place: usize, closed: bool) -> [Option<usize>; 2] {
     [before, after]
 }
 
-/// Puts corners in the place of the nodes around them; nodes are those of the strand, moved perhaps.
-pub(super) fn insert(nodes: &mut Vec<Node>, strand: &Strand, corners: &[Corner]) {
+/// Puts corners in the place of the nodes around them; nodes are those of the spline, moved perhaps.
+pub(super) fn insert(nodes: &mut Vec<Node>, spline: &Spline, corners: &[Corner]) {
     if corners.is_empty() {
         return;
     }
     let mut put = vec![false; corners.len()];
     let mut kept = Vec::with_capacity(nodes.len());
-    for (&node, &arc) in nodes.iter().zip(&strand.arc) {
+    for (&node, &arc) in nodes.iter().zip(&spline.arc) {
         // Corners come in order: the nearest is the one before or after, or across the seam.
         let after = corners.partition_point(|corner| corner.arc < arc);
         let near = [after.checked_sub(1).unwrap_or(corners.len() - 1), after % corners.len()]
-            .map(|c| (along(strand, arc, corners[c].arc), c));
+            .map(|c| (along(spline, arc, corners[c].arc), c));
         let (away, c) = if near[0].0 < near[1].0 { near[0] } else { near[1] };
         if away >= corners[c].half {
             kept.push(node);
@@ -79,31 +79,31 @@ pub(super) fn insert(nodes: &mut Vec<Node>, strand: &Strand, corners: &[Corner])
     *nodes = kept;
 }
 
-/// The distance of two places along a strand.
-fn along(strand: &Strand, a: f64, b: f64) -> f64 {
+/// The distance of two places along a spline.
+fn along(spline: &Spline, a: f64, b: f64) -> f64 {
     let apart = (a - b).abs();
-    if strand.closed { apart.min(strand.length() - apart) } else { apart }
+    if spline.closed { apart.min(spline.length() - apart) } else { apart }
 }
 
-fn apart(strand: &Strand, i: usize, j: usize) -> f64 {
-    along(strand, strand.arc[i], strand.arc[j])
+fn apart(spline: &Spline, i: usize, j: usize) -> f64 {
+    along(spline, spline.arc[i], spline.arc[j])
 }
 
-/// At each node the angle between the tangents [`HALF_SPAN_RATIO`] before and after it; 0 near the ends of an open strand.
-fn turns(strand: &Strand) -> Vec<f64> {
+/// At each node the angle between the tangents [`HALF_SPAN_RATIO`] before and after it; 0 near the ends of an open spline.
+fn turns(spline: &Spline) -> Vec<f64> {
     let tangent = |arc: f64| {
-        let whole = strand.length();
-        let arc = if strand.closed { arc.rem_euclid(whole) } else { arc };
-        (0.0..=whole).contains(&arc).then(|| strand.place(arc).1)
+        let whole = spline.length();
+        let arc = if spline.closed { arc.rem_euclid(whole) } else { arc };
+        (0.0..=whole).contains(&arc).then(|| spline.place(arc).1)
     };
-    strand
+    spline
         .nodes
         .iter()
-        .zip(&strand.arc)
+        .zip(&spline.arc)
         .map(|(node, &arc)| {
             let span = HALF_SPAN_RATIO * node.deviation;
             match (tangent(arc - span), tangent(arc + span)) {
-                (Some(a), Some(b)) if 2.0 * span < 0.5 * strand.length() => angle(a, b),
+                (Some(a), Some(b)) if 2.0 * span < 0.5 * spline.length() => angle(a, b),
                 _ => 0.0,
             }
         })
@@ -115,36 +115,36 @@ fn angle(a: Point, b: Point) -> f64 {
     (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1])
 }
 
-/// Whether the strand turns by [`TURN_RATIO_MIN`]·[`CORNER_ANGLE_MIN`] at a node, and by more nowhere so near to it that it could be another corner.
-fn is_sharpest(strand: &Strand, turns: &[f64], i: usize) -> bool {
+/// Whether the spline turns by [`TURN_RATIO_MIN`]·[`CORNER_ANGLE_MIN`] at a node, and by more nowhere so near to it that it could be another corner.
+fn is_sharpest(spline: &Spline, turns: &[f64], i: usize) -> bool {
     let count = turns.len();
     let own = turns[i].abs();
     if own < TURN_RATIO_MIN * CORNER_ANGLE_MIN {
         return false;
     }
     // Between corners that are nearer to each other no side would be long enough.
-    let span = (SIDE_DEVIATIONS[0] + 2.0 * HALF_SPAN_RATIO) * strand.nodes[i].deviation;
+    let span = (SIDE_DEVIATIONS[0] + 2.0 * HALF_SPAN_RATIO) * spline.nodes[i].deviation;
     let sharper = |forward: bool| {
         (1..count)
-            .map_while(|k| match (forward, strand.closed) {
+            .map_while(|k| match (forward, spline.closed) {
                 (true, true) => Some((i + k) % count),
                 (false, true) => Some((i + count - k) % count),
                 (true, false) => (i + k < count).then_some(i + k),
                 (false, false) => i.checked_sub(k),
             })
             .take(NODES_MAX)
-            .take_while(|&j| apart(strand, i, j) <= span)
+            .take_while(|&j| apart(spline, i, j) <= span)
             .any(|j| turns[j].abs() > own || (turns[j].abs() == own && j < i))
     };
     !sharper(true) && !sharper(false)
 }
 
 /// The corner at a node, if it is one; `room` is how far the next ones are.
-fn measure(strand: &Strand, i: usize, room: [f64; 2], window: &mut Window) -> Option<Corner> {
-    let (node, arc) = (&strand.nodes[i], strand.arc[i]);
+fn measure(spline: &Spline, i: usize, room: [f64; 2], window: &mut Window) -> Option<Corner> {
+    let (node, arc) = (&spline.nodes[i], spline.arc[i]);
     let half = HALF_SPAN_RATIO * node.deviation;
-    let before = side(strand, arc - half, -1.0, room[0] - 2.0 * half, node, window)?;
-    let after = side(strand, arc + half, 1.0, room[1] - 2.0 * half, node, window)?;
+    let before = side(spline, arc - half, -1.0, room[0] - 2.0 * half, node, window)?;
+    let after = side(spline, arc + half, 1.0, room[1] - 2.0 * half, node, window)?;
     let (u, v) = meet(&before, &after, half)?;
     let (at, arrives, leaves) = (before.place(u), before.direction_at(u), after.direction_at(v));
     let turn = angle(arrives, leaves).abs();
@@ -153,7 +153,7 @@ fn measure(strand: &Strand, i: usize, room: [f64; 2], window: &mut Window) -> Op
     }
     let ends = [before.place(u.min(0.0) - half), after.place(v.max(0.0) + half)];
     let (mut count, mut corner, mut curve) = (0u32, 0.0, 0.0);
-    for member in around(strand, arc, half).into_iter().flatten() {
+    for member in around(spline, arc, half).into_iter().flatten() {
         let distance = to_segment(member.at, ends[0], at).min(to_segment(member.at, at, ends[1]));
         count += 1;
         corner += distance * distance;
@@ -168,19 +168,19 @@ fn measure(strand: &Strand, i: usize, room: [f64; 2], window: &mut Window) -> Op
     fits.then_some(Corner { arc, half, at, arrives, leaves })
 }
 
-/// The parabola of the longest side from a place on, in a direction along the strand, in which residuals are as small as noise is. Its
-/// tangent runs along the strand.
+/// The parabola of the longest side from a place on, in a direction along the spline, in which residuals are as small as noise is. Its
+/// tangent runs along the spline.
 fn side(
-    strand: &Strand,
+    spline: &Spline,
     from: f64,
     sign: f64,
     room: f64,
     node: &Node,
     window: &mut Window,
 ) -> Option<Parabola> {
-    let whole = strand.length();
+    let whole = spline.length();
     let [mut length, longest] = SIDE_DEVIATIONS.map(|side| side * node.deviation);
-    let left = match (strand.closed, sign > 0.0) {
+    let left = match (spline.closed, sign > 0.0) {
         (true, _) => 0.25 * whole,
         (false, true) => whole - from,
         (false, false) => from,
@@ -189,12 +189,12 @@ fn side(
     let mut best = None;
     while length <= longest {
         let middle = from + 0.5 * sign * length;
-        let middle = if strand.closed { middle.rem_euclid(whole) } else { middle };
-        let members = around(strand, middle, 0.5 * length);
+        let middle = if spline.closed { middle.rem_euclid(whole) } else { middle };
+        let members = around(spline, middle, 0.5 * length);
         let points = members.into_iter().flatten().map(|m| m.at);
         if points.clone().count() >= SIDE_POINTS_MIN as usize {
-            // The frame's origin is the strand's place next to the corner.
-            let origin = strand.place(if strand.closed { from.rem_euclid(whole) } else { from });
+            // The frame's origin is the spline's place next to the corner.
+            let origin = spline.place(if spline.closed { from.rem_euclid(whole) } else { from });
             let found = window.fit(origin.0, points)?;
             if found.variance.sqrt() > SIDE_DEVIATION_RATIO_MAX * node.deviation {
                 break;
@@ -245,19 +245,19 @@ fn to_segment(p: Point, a: Point, b: Point) -> f64 {
 mod tests {
     use taut_points::generate::{Distribution, generate};
 
-    use super::super::strand::assign;
+    use super::super::spline::assign;
     use super::*;
 
     const NOISE: f64 = 0.01;
 
-    /// A strand through points around sides of a length, each turned by so many degrees against the one before, from a node on.
+    /// A spline through points around sides of a length, each turned by so many degrees against the one before, from a node on.
     /// Nodes cut corners as windows do, by the way six deviations before to six after.
     fn around_sides(
         turns: &[f64],
         length: f64,
         closed: bool,
         first: usize,
-    ) -> (Strand, Vec<Point>) {
+    ) -> (Spline, Vec<Point>) {
         let (mut ends, mut angle) = (vec![[0.0, 0.0]], 0.0f64);
         for turn in turns {
             let [x, y] = ends[ends.len() - 1];
@@ -283,7 +283,7 @@ mod tests {
         let count = (whole / (2.0 * NOISE)) as usize;
         let mut nodes: Vec<Node> = (0..count).map(node).collect();
         nodes.rotate_left(first);
-        let strand = Strand::new(nodes, closed, 1);
+        let spline = Spline::new(nodes, closed, 1);
         // Six points for each deviation, off by up to √3 of it.
         let lots = generate(Distribution::Uniform, 6 * (whole / NOISE) as usize, 2, 1).unwrap();
         let point = |lots: &[f64]| {
@@ -294,14 +294,14 @@ mod tests {
             [x - off * (q[1] - p[1]), y + off * (q[0] - p[0])]
         };
         let points: Vec<Point> = lots.chunks_exact(2).map(point).collect();
-        let mut strands = [strand];
-        assign(&mut strands, &points, 5.0);
-        let [strand] = strands;
-        (strand, ends)
+        let mut splines = [spline];
+        assign(&mut splines, &points, 5.0);
+        let [spline] = splines;
+        (spline, ends)
     }
 
-    fn found_at(strand: &Strand) -> Vec<Point> {
-        corners(strand).iter().map(|corner| corner.at).collect()
+    fn found_at(spline: &Spline) -> Vec<Point> {
+        corners(spline).iter().map(|corner| corner.at).collect()
     }
 
     fn is_near(found: &[Point], wanted: Point) -> bool {
@@ -311,8 +311,8 @@ mod tests {
     #[test]
     fn the_corners_of_a_square_are_found_wherever_it_begins() {
         for first in [0, 1, 7, 30, 99] {
-            let (strand, ends) = around_sides(&[90.0; 4], 1.0, true, first);
-            let found = found_at(&strand);
+            let (spline, ends) = around_sides(&[90.0; 4], 1.0, true, first);
+            let found = found_at(&spline);
             assert_eq!(found.len(), 4, "{first}: {found:?}");
             assert!(ends.iter().all(|&end| is_near(&found, end)), "{first}: {found:?}");
         }
@@ -321,8 +321,8 @@ mod tests {
     #[test]
     fn turns_from_30_degrees_on_are_corners() {
         for (turn, wanted) in [(15.0, 0), (25.0, 0), (40.0, 1), (120.0, 1)] {
-            let (strand, ends) = around_sides(&[turn, 0.0], 1.0, false, 0);
-            let found = found_at(&strand);
+            let (spline, ends) = around_sides(&[turn, 0.0], 1.0, false, 0);
+            let found = found_at(&spline);
             assert_eq!(found.len(), wanted, "{turn}: {found:?}");
             assert!(wanted == 0 || is_near(&found, ends[1]), "{turn}: {found:?}");
         }
@@ -330,30 +330,30 @@ mod tests {
 
     #[test]
     fn a_corner_next_to_an_end_has_no_side() {
-        let (mut strand, _) = around_sides(&[90.0, 0.0], 1.0, false, 0);
+        let (mut spline, _) = around_sides(&[90.0, 0.0], 1.0, false, 0);
         let skipped = 45;
-        let cut = strand.arc[skipped];
-        strand.nodes.drain(..skipped);
-        strand.arc.drain(..skipped);
-        strand.arc.iter_mut().for_each(|arc| *arc -= cut);
-        strand.members.iter_mut().for_each(|member| member.arc -= cut);
-        strand.members.retain(|member| member.arc > 0.0);
-        assert!(corners(&strand).is_empty());
+        let cut = spline.arc[skipped];
+        spline.nodes.drain(..skipped);
+        spline.arc.drain(..skipped);
+        spline.arc.iter_mut().for_each(|arc| *arc -= cut);
+        spline.members.iter_mut().for_each(|member| member.arc -= cut);
+        spline.members.retain(|member| member.arc > 0.0);
+        assert!(corners(&spline).is_empty());
     }
 
     #[test]
     fn corners_take_the_place_of_the_nodes_they_spoil() {
-        let (strand, ends) = around_sides(&[90.0; 4], 1.0, true, 1);
-        let found = corners(&strand);
-        let mut nodes = strand.nodes.clone();
-        insert(&mut nodes, &strand, &found);
+        let (spline, ends) = around_sides(&[90.0; 4], 1.0, true, 1);
+        let found = corners(&spline);
+        let mut nodes = spline.nodes.clone();
+        insert(&mut nodes, &spline, &found);
         let sharp: Vec<Point> =
             nodes.iter().filter(|node| node.tangent != node.leaving).map(|node| node.at).collect();
         assert_eq!(sharp.len(), 4);
         assert!(ends.iter().all(|&end| is_near(&sharp, end)));
         // Six deviations on either side, at two of them from node to node.
         assert!((200 - 4 * 7 + 4..=200 - 4 * 5 + 4).contains(&nodes.len()), "{}", nodes.len());
-        insert(&mut nodes, &strand, &[]);
+        insert(&mut nodes, &spline, &[]);
         assert_eq!(nodes.iter().filter(|node| node.tangent != node.leaving).count(), 4);
     }
 

@@ -5,14 +5,14 @@
 //! one that is askew to more of its surroundings is taken out, until all is in order; then those taken out are put in again, on
 //! the cubic between the nodes beside them.
 //! *Guarantee.* Of the nodes that stay where they were, no two follow each other by a way that is more than 60° off a tangent, but in
-//! stretches of more than [`KINK_NODES_MAX`] nodes, which are left alone. A strand that is not in order after [`ROUNDS_MAX`] rounds, or of which
+//! stretches of more than [`KINK_NODES_MAX`] nodes, which are left alone. A spline that is not in order after [`ROUNDS_MAX`] rounds, or of which
 //! fewer than [`ORDERED_NODES_MIN`] nodes are, is left as it was. A function of the nodes that turns and scales with them; O(n) for each round, of
 //! which there are as many as kinks are long.
 
 use std::cmp::Ordering;
 
 use super::parameters::{ALONG_COS_MIN, KINK_NODES_MAX, ORDERED_NODES_MIN, ROUNDS_MAX};
-use super::strand::{Node, hermite};
+use super::spline::{Node, hermite};
 
 /// Puts nodes off the way onto it, and says how many there were.
 pub(super) fn straighten(nodes: &mut Vec<Node>, closed: bool) -> usize {
@@ -70,7 +70,7 @@ fn askew(nodes: &[Node], kept: &[usize], closed: bool) -> Vec<bool> {
             [a.leaving, b.tangent].map(|t| (dx * t[0] + dy * t[1]) / dx.hypot(dy))
         })
         .collect();
-    // The mean of those at each node, of one at the ends of an open strand.
+    // The mean of those at each node, of one at the ends of an open spline.
     let along: Vec<f64> = (0..count)
         .map(|k| {
             let before =
@@ -95,7 +95,7 @@ fn askew(nodes: &[Node], kept: &[usize], closed: bool) -> Vec<bool> {
     askew
 }
 
-/// Puts the nodes that are not kept onto the cubics between those that are, evenly; those beyond the last ones of an open strand go.
+/// Puts the nodes that are not kept onto the cubics between those that are, evenly; those beyond the last ones of an open spline go.
 fn put_between(nodes: &mut Vec<Node>, kept: &[usize], closed: bool) {
     let count = nodes.len();
     for (k, &first) in kept.iter().enumerate() {

@@ -25,7 +25,7 @@ pub(super) struct Parabola {
 
 impl Parabola {
     /// The place on the parabola at u = 0.
-    pub(super) fn foot(&self) -> Point {
+    pub(super) fn projection(&self) -> Point {
         let [tx, ty] = self.tangent;
         let a = self.coefficients[0];
         [self.origin[0] - a * ty, self.origin[1] + a * tx]

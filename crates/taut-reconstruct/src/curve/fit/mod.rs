@@ -2,7 +2,7 @@
 //!
 //! *Problem.* Points lie around unknown curves, off them by noise of unknown width; some may be outliers.
 //! *Idea.* [`seeds`] finds at which scale the points look like a band, and puts places on its middle line; [`link`] joins them to
-//! chains; [`strand`] gives each point its place along a chain, so that every neighborhood is a range of a sorted list; [`regress`]
+//! chains; [`spline`] gives each point its place along a chain, so that every neighborhood is a range of a sorted list; [`regress`]
 //! fits the curve in windows as long as it lets them be, first by least squares, then, as [`noise`] has shown of which kind the
 //! noise is, by the least largest residual where it has an edge. Where windows followed outliers, [`kinks`] puts the curve straight.
 //! *Guarantee.* The answer turns, scales and shifts with the points, to rounding. O(n log n) for windows of bounded overlap. Error
@@ -21,7 +21,7 @@ mod output;
 mod parameters;
 mod regress;
 mod seeds;
-mod strand;
+mod spline;
 mod vertices;
 
 use taut_points::Monitor;
@@ -36,7 +36,7 @@ use parameters::{
     BAND_DEVIATIONS, EDGE_DEVIATIONS_MAX, NODES_PER_SEED, NOISE_RATIO_MIN, NOISE_SEEDS,
     POINT_DEVIATIONS_MAX,
 };
-use strand::{Strand, assign};
+use spline::{Spline, assign};
 
 type Point = [f64; 2];
 
@@ -82,43 +82,43 @@ fn fit_within(
     monitor: &Monitor<'_>,
 ) -> Result<Fitted, Error> {
     let found = seeds::seeds(points, index, monitor)?;
-    let mut strands: Vec<Strand> =
-        link::chains(&found, ends).into_iter().map(Strand::through).collect();
-    assign(&mut strands, points, POINT_DEVIATIONS_MAX);
+    let mut splines: Vec<Spline> =
+        link::chains(&found, ends).into_iter().map(Spline::through).collect();
+    assign(&mut splines, points, POINT_DEVIATIONS_MAX);
     monitor.check()?;
     let mut straightened = 0;
-    let mut refined = |strands: &[Strand], parts: usize, noise: &Noise, is_last: bool| {
-        let one = |s: &Strand| {
+    let mut refined = |splines: &[Spline], parts: usize, noise: &Noise, is_last: bool| {
+        let one = |s: &Spline| {
             let mut nodes = regress::regress(s, parts, noise);
             if is_last {
                 let found = corners::corners(s);
                 corners::insert(&mut nodes, s, &found);
             }
             straightened += kinks::straighten(&mut nodes, s.closed);
-            Strand::new(nodes, s.closed, NOISE_SEEDS * NODES_PER_SEED)
+            Spline::new(nodes, s.closed, NOISE_SEEDS * NODES_PER_SEED)
         };
-        strands.iter().map(one).collect::<Vec<Strand>>()
+        splines.iter().map(one).collect::<Vec<Spline>>()
     };
-    strands = refined(&strands, NODES_PER_SEED, &Noise::UNKNOWN, false);
-    assign(&mut strands, points, POINT_DEVIATIONS_MAX);
+    splines = refined(&splines, NODES_PER_SEED, &Noise::UNKNOWN, false);
+    assign(&mut splines, points, POINT_DEVIATIONS_MAX);
     monitor.check()?;
-    // Of a strand without noise, distances are those of polylines.
-    let noisy = || strands.iter().filter(|s| noisiness(std::slice::from_ref(s)) > NOISE_RATIO_MIN);
+    // Of a spline without noise, distances are those of polylines.
+    let noisy = || splines.iter().filter(|s| noisiness(std::slice::from_ref(s)) > NOISE_RATIO_MIN);
     let noise = Noise::of(noisy(), POINT_DEVIATIONS_MAX);
-    strands = refined(&strands, 1, &noise, true);
+    splines = refined(&splines, 1, &noise, true);
     let outliers = assign(
-        &mut strands,
+        &mut splines,
         points,
         noise.edge.map_or(POINT_DEVIATIONS_MAX, |edge| EDGE_DEVIATIONS_MAX * edge),
     );
     monitor.check()?;
-    let deviation = typical(&strands, |_| 1.0);
-    let is_noisy = noisiness(&strands) > NOISE_RATIO_MIN;
-    let (curves, crossed) = output::curves(&strands, frame, ends, monitor)?;
+    let deviation = typical(&splines, |_| 1.0);
+    let is_noisy = noisiness(&splines) > NOISE_RATIO_MIN;
+    let (curves, crossed) = output::curves(&splines, frame, ends, monitor)?;
     let counters = [
         ("seeds", found.len()),
-        ("nodes", strands.iter().map(|s| s.nodes.len()).sum()),
-        ("corners", strands.iter().map(Strand::corners).sum()),
+        ("nodes", splines.iter().map(|s| s.nodes.len()).sum()),
+        ("corners", splines.iter().map(Spline::corners).sum()),
         ("nodes_straightened", straightened),
         ("edged_noise", usize::from(noise.edge.is_some())),
         ("edges_crossed", crossed as usize),
@@ -135,20 +135,20 @@ fn fit_within(
     Ok(Fitted { outcome, is_noisy, shows_curves })
 }
 
-/// How far most points are off, beside their spacing along their strand.
-fn noisiness(strands: &[Strand]) -> f64 {
-    typical(strands, |s| s.members.len() as f64 / s.length())
+/// How far most points are off, beside their spacing along their spline.
+fn noisiness(splines: &[Spline]) -> f64 {
+    typical(splines, |s| s.members.len() as f64 / s.length())
 }
 
-/// The median over all points of the standard deviation of the noise there, times a factor of their strand.
-fn typical(strands: &[Strand], factor: impl Fn(&Strand) -> f64) -> f64 {
+/// The median over all points of the standard deviation of the noise there, times a factor of their spline.
+fn typical(splines: &[Spline], factor: impl Fn(&Spline) -> f64) -> f64 {
     let mut all: Vec<(f64, usize)> = Vec::new();
-    for strand in strands {
-        let factor = factor(strand);
-        let mut left = &strand.members[..];
-        for (edge, node) in strand.nodes.iter().enumerate() {
-            // Beyond the last node of an open strand, all that are left.
-            let end = strand.arc.get(edge + 1).copied().unwrap_or(f64::INFINITY);
+    for spline in splines {
+        let factor = factor(spline);
+        let mut left = &spline.members[..];
+        for (edge, node) in spline.nodes.iter().enumerate() {
+            // Beyond the last node of an open spline, all that are left.
+            let end = spline.arc.get(edge + 1).copied().unwrap_or(f64::INFINITY);
             let (here, after) = left.split_at(left.partition_point(|m| m.arc < end));
             all.push((factor * node.deviation, here.len()));
             left = after;

@@ -6,7 +6,7 @@
 //! *Guarantee.* A function of the distances; O(n log n).
 
 use super::parameters::{EDGE_MEDIANS_MAX, KIND_POINTS_MIN, NOISE_DEVIATIONS_MAX};
-use super::strand::Strand;
+use super::spline::Spline;
 
 /// What is known about the noise.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,10 +21,10 @@ impl Noise {
     /// Nothing is known.
     pub(super) const UNKNOWN: Self = Self { edge: None, outliers: false };
 
-    /// Of the members of strands, whose distances go up to `width` deviations, more than [`NOISE_DEVIATIONS_MAX`].
-    pub(super) fn of<'a>(strands: impl Iterator<Item = &'a Strand>, width: f64) -> Self {
+    /// Of the members of splines, whose distances go up to `width` deviations, more than [`NOISE_DEVIATIONS_MAX`].
+    pub(super) fn of<'a>(splines: impl Iterator<Item = &'a Spline>, width: f64) -> Self {
         let mut shares: Vec<f64> =
-            strands.flat_map(|s| s.members.iter().map(|m| m.share)).collect();
+            splines.flat_map(|s| s.members.iter().map(|m| m.share)).collect();
         shares.sort_unstable_by(f64::total_cmp);
         let below = |z: f64| shares.partition_point(|&share| share <= z);
         let near = below(NOISE_DEVIATIONS_MAX);

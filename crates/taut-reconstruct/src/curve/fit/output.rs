@@ -1,4 +1,4 @@
-//! Polylines through the nodes of strands, with as many vertices between them as their error asks for.
+//! Polylines through the nodes of splines, with as many vertices between them as their error asks for.
 
 use taut_certify::CurveComponent;
 use taut_oblivious::hilbert_order;
@@ -6,20 +6,20 @@ use taut_points::Monitor;
 
 use super::Frame;
 use super::parameters::{EDGES_PER_NODE_MAX, PIECE_VERTICES_MIN};
-use super::strand::{Node, Strand, hermite};
+use super::spline::{Node, Spline, hermite};
 use crate::Error;
 use crate::curve::Ends;
 use crate::curve::chains::{chains, repair};
 
-/// One polyline for each strand that has points, unless some cross: then fewer edges, and how many are gone.
+/// One polyline for each spline that has points, unless some cross: then fewer edges, and how many are gone.
 pub(super) fn curves(
-    strands: &[Strand],
+    splines: &[Spline],
     frame: &Frame,
     ends: Ends,
     monitor: &Monitor<'_>,
 ) -> Result<(Vec<CurveComponent>, u64), Error> {
     let curves: Vec<CurveComponent> =
-        strands.iter().filter(|s| !s.members.is_empty()).map(|s| polyline(s, frame)).collect();
+        splines.iter().filter(|s| !s.members.is_empty()).map(|s| polyline(s, frame)).collect();
     let curves: Vec<CurveComponent> =
         curves.into_iter().filter(|c| c.vertices.len() > 1 + usize::from(c.closed)).collect();
     let vertices: Vec<[f64; 2]> = curves.iter().flat_map(|c| c.vertices.iter().copied()).collect();
@@ -53,34 +53,34 @@ pub(super) fn curves(
     Ok((curves.collect(), repairs.crossed))
 }
 
-fn polyline(strand: &Strand, frame: &Frame) -> CurveComponent {
+fn polyline(spline: &Spline, frame: &Frame) -> CurveComponent {
     let mut vertices = Vec::new();
     // An open curve goes on along its ends, to the last points there.
     let beyond = |node: &Node, length: f64| {
         frame
             .outward([node.at[0] + length * node.tangent[0], node.at[1] + length * node.tangent[1]])
     };
-    if let (false, Some(first)) = (strand.closed, strand.members.first())
+    if let (false, Some(first)) = (spline.closed, spline.members.first())
         && first.arc < 0.0
     {
-        vertices.push(beyond(&strand.nodes[0], first.arc));
+        vertices.push(beyond(&spline.nodes[0], first.arc));
     }
-    for edge in 0..strand.edges() {
-        let (a, b) = strand.edge(edge);
+    for edge in 0..spline.edges() {
+        let (a, b) = spline.edge(edge);
         let pieces = pieces(a, b);
         for k in 0..pieces {
             vertices.push(frame.outward(hermite(a, b, f64::from(k) / f64::from(pieces)).0));
         }
     }
-    if let Some(last) = strand.nodes.last().filter(|_| !strand.closed) {
+    if let Some(last) = spline.nodes.last().filter(|_| !spline.closed) {
         vertices.push(frame.outward(last.at));
-        let farthest = strand.members.last().map_or(0.0, |m| m.arc - strand.length());
+        let farthest = spline.members.last().map_or(0.0, |m| m.arc - spline.length());
         if farthest > 0.0 {
             vertices.push(beyond(last, farthest));
         }
     }
     vertices.dedup();
-    CurveComponent { vertices, closed: strand.closed, rows: Vec::new() }
+    CurveComponent { vertices, closed: spline.closed, rows: Vec::new() }
 }
 
 /// Edges between two nodes, so that the arc is no farther from them than half the error of the nodes.

@@ -106,7 +106,7 @@ pub(super) const END_DISTANCE_MAX: f64 = 4.0;
 /// Fewest seeds of a chain. Chosen.
 pub(super) const CHAIN_SEEDS_MIN: usize = 3;
 
-// Strands and their nodes.
+// Splines and their nodes.
 
 /// Nodes of each seed. Chosen.
 pub(super) const NODES_PER_SEED: usize = 3;
@@ -120,7 +120,7 @@ pub(super) const PIECES_PER_NODE: usize = 4;
 /// Points whose nearest places are sought together. Chosen for speed; it changes no result.
 pub(super) const POINTS_PER_RUN: usize = 16;
 
-// Regression along a strand.
+// Regression along a spline.
 
 /// Windows are grown at one place in this many: their length changes slowly along the curve. Chosen.
 pub(super) const PLACES_PER_WINDOW: usize = 3;
@@ -150,7 +150,7 @@ pub(super) const GAP_MIN: f64 = 1e-10;
 
 // Kinks.
 
-/// Most rounds after which a strand that is not in order is left as it was. Measured: kinks around outliers take two to five.
+/// Most rounds after which a spline that is not in order is left as it was. Measured: kinks around outliers take two to five.
 pub(super) const ROUNDS_MAX: usize = 50;
 /// Most nodes of a kink, three windows: where more are out of order, it is the order that is wrong. Chosen.
 pub(super) const KINK_NODES_MAX: usize = 9;
@@ -163,7 +163,7 @@ pub(super) const ORDERED_NODES_MIN: usize = 4;
 pub(super) const HALF_SPAN_RATIO: f64 = 6.0;
 /// Least angle of a corner. Unit: radians.
 pub(super) const CORNER_ANGLE_MIN: f64 = FRAC_PI_6;
-/// Least turn of the strand, over the angle of the corner: windows round corners off. No unit.
+/// Least turn of the spline, over the angle of the corner: windows round corners off. No unit.
 pub(super) const TURN_RATIO_MIN: f64 = 0.6;
 /// Shortest and longest side. Unit: deviations of the noise.
 pub(super) const SIDE_DEVIATIONS: [f64; 2] = [12.0, 60.0];

@@ -17,7 +17,7 @@ use super::parameters::{
     REGRESSION_WINDOW_GROWTH, SLOPE_MAX, STANDARD_ERRORS_MAX, WINDOW_DEVIATION_RATIO_MAX,
     WINDOW_POINTS_MIN,
 };
-use super::strand::{Member, Node, Strand, hermite};
+use super::spline::{Member, Node, Spline, hermite};
 
 type Point = [f64; 2];
 
@@ -36,24 +36,24 @@ pub(super) struct Estimate {
     pub(super) deviation: f64,
 }
 
-/// Nodes in the middle of the band, `parts` for each edge of the strand.
-pub(super) fn regress(strand: &Strand, parts: usize, noise: &Noise) -> Vec<Node> {
-    let places: Vec<Place> = (0..strand.edges() * parts + usize::from(!strand.closed))
-        .map(|number| Place::new(strand, number, parts))
+/// Nodes in the middle of the band, `parts` for each edge of the spline.
+pub(super) fn regress(spline: &Spline, parts: usize, noise: &Noise) -> Vec<Node> {
+    let places: Vec<Place> = (0..spline.edges() * parts + usize::from(!spline.closed))
+        .map(|number| Place::new(spline, number, parts))
         .collect();
     let asked: Vec<&Place> = places.iter().step_by(PLACES_PER_WINDOW).collect();
     let halves: Vec<f64> = asked
         .par_iter()
-        .map_init(Window::default, |window, place| longest(strand, place, noise, window))
+        .map_init(Window::default, |window, place| longest(spline, place, noise, window))
         .collect();
-    let halves = median_around(strand, &asked, &halves);
+    let halves = median_around(spline, &asked, &halves);
     places
         .par_iter()
         .enumerate()
         .map_init(Window::default, |window, (number, place)| {
-            let half = between(&halves, number, strand.closed);
+            let half = between(&halves, number, spline.closed);
             let Frame { origin, tangent } = place.frame;
-            match narrow(strand, place, half, noise, window) {
+            match narrow(spline, place, half, noise, window) {
                 Some(found) => Node {
                     at: place.frame.place(found.offset),
                     tangent: place.frame.direction(found.slope),
@@ -89,7 +89,7 @@ fn between(halves: &[f64], number: usize, closed: bool) -> f64 {
     (1.0 - part) * halves[before] + part * halves[after]
 }
 
-/// Where on a strand a node is to be.
+/// Where on a spline a node is to be.
 struct Place {
     frame: Frame,
     arc: f64,
@@ -98,18 +98,18 @@ struct Place {
 }
 
 impl Place {
-    fn new(strand: &Strand, number: usize, parts: usize) -> Self {
+    fn new(spline: &Spline, number: usize, parts: usize) -> Self {
         let (edge, t) = match number / parts {
-            edge if edge < strand.edges() => (edge, (number % parts) as f64 / parts as f64),
+            edge if edge < spline.edges() => (edge, (number % parts) as f64 / parts as f64),
             edge => (edge - 1, 1.0),
         };
-        let (a, b) = strand.edge(edge);
+        let (a, b) = spline.edge(edge);
         let (origin, slope) = hermite(a, b, t);
         let norm = slope[0].hypot(slope[1]);
         let between = |a: f64, b: f64| (1.0 - t) * a + t * b;
         Place {
             frame: Frame { origin, tangent: [slope[0] / norm, slope[1] / norm] },
-            arc: between(strand.arc[edge], strand.arc[edge + 1]),
+            arc: between(spline.arc[edge], spline.arc[edge + 1]),
             reach: between(a.reach, b.reach),
             deviation: between(a.deviation, b.deviation),
         }
@@ -117,15 +117,15 @@ impl Place {
 }
 
 /// For each place the median of the halves of the places within its own half.
-fn median_around(strand: &Strand, places: &[&Place], halves: &[f64]) -> Vec<f64> {
+fn median_around(spline: &Spline, places: &[&Place], halves: &[f64]) -> Vec<f64> {
     let count = places.len();
-    let whole = strand.length();
+    let whole = spline.length();
     (0..count)
         .map(|i| {
             let mut around = vec![halves[i]];
             for forward in [true, false] {
                 for k in 1..count / 2 {
-                    let j = match (forward, strand.closed) {
+                    let j = match (forward, spline.closed) {
                         (true, true) => (i + k) % count,
                         (false, true) => (i + count - k) % count,
                         (true, false) if i + k < count => i + k,
@@ -133,7 +133,7 @@ fn median_around(strand: &Strand, places: &[&Place], halves: &[f64]) -> Vec<f64>
                         _ => break,
                     };
                     let apart = (places[j].arc - places[i].arc).abs();
-                    let apart = if strand.closed { apart.min(whole - apart) } else { apart };
+                    let apart = if spline.closed { apart.min(whole - apart) } else { apart };
                     if apart > halves[i] {
                         break;
                     }
@@ -171,13 +171,13 @@ impl Frame {
 }
 
 /// Half the length of the longest window that agrees with all shorter ones.
-fn longest(strand: &Strand, place: &Place, noise: &Noise, window: &mut Window) -> f64 {
-    let longest = strand.length() / if strand.closed { 6.0 } else { 2.0 };
+fn longest(spline: &Spline, place: &Place, noise: &Noise, window: &mut Window) -> f64 {
+    let longest = spline.length() / if spline.closed { 6.0 } else { 2.0 };
     let mut half = 0.5 * place.reach;
     let mut best = half;
     let mut agreed = [f64::NEG_INFINITY, f64::INFINITY];
     while half <= longest {
-        if let Some(found) = measure(strand, place, half, noise, window) {
+        if let Some(found) = measure(spline, place, half, noise, window) {
             let interval = [
                 found.offset - STANDARD_ERRORS_MAX * found.error,
                 found.offset + STANDARD_ERRORS_MAX * found.error,
@@ -202,16 +202,16 @@ fn longest(strand: &Strand, place: &Place, noise: &Noise, window: &mut Window) -
 ///
 /// Lengths come from the places around, and where few points lie around a bend, none of those may be there.
 fn narrow(
-    strand: &Strand,
+    spline: &Spline,
     place: &Place,
     mut half: f64,
     noise: &Noise,
     window: &mut Window,
 ) -> Option<Estimate> {
-    let mut found = measure(strand, place, half, noise, window)?;
+    let mut found = measure(spline, place, half, noise, window)?;
     while found.deviation > WINDOW_DEVIATION_RATIO_MAX * place.deviation {
         half /= REGRESSION_WINDOW_GROWTH;
-        let Some(shorter) = measure(strand, place, half, noise, window) else { break };
+        let Some(shorter) = measure(spline, place, half, noise, window) else { break };
         found = shorter;
     }
     Some(found)
@@ -227,14 +227,14 @@ struct Window {
 
 /// What the window of one length says of a place; none where it holds too few points or all on one side.
 fn measure(
-    strand: &Strand,
+    spline: &Spline,
     place: &Place,
     half: f64,
     noise: &Noise,
     window: &mut Window,
 ) -> Option<Estimate> {
     window.points.clear();
-    for members in around(strand, place.arc, half / HALF_LENGTH_RATIO) {
+    for members in around(spline, place.arc, half / HALF_LENGTH_RATIO) {
         let local = members.iter().map(|m| place.frame.local(m.at));
         window.points.extend(local.filter(|p| p[0].abs() <= half));
     }
@@ -305,15 +305,16 @@ impl Window {
 /// wide, and a parabola in the frame would be held at the ends of the window only.
 fn straightened([u, v]: Point, parabola: &Estimate) -> Point {
     let Estimate { offset, slope, bend, .. } = *parabola;
-    let mut foot = u;
+    let mut projection = u;
     for _ in 0..2 {
-        // Newton's step for (foot − u) + (p(foot) − v)·p′(foot) = 0.
-        let above = offset + foot * (slope + foot * bend) - v;
-        let rise = slope + 2.0 * foot * bend;
-        foot -= (foot - u + above * rise) / (1.0 + rise * rise + 2.0 * above * bend).max(0.25);
+        // Newton's step for (projection − u) + (p(projection) − v)·p′(projection) = 0.
+        let above = offset + projection * (slope + projection * bend) - v;
+        let rise = slope + 2.0 * projection * bend;
+        projection -=
+            (projection - u + above * rise) / (1.0 + rise * rise + 2.0 * above * bend).max(0.25);
     }
-    let above = v - (offset + foot * (slope + foot * bend));
-    [foot, (((foot - u) * (foot - u) + above * above).sqrt()).copysign(above)]
+    let above = v - (offset + projection * (slope + projection * bend));
+    [projection, (((projection - u) * (projection - u) + above * above).sqrt()).copysign(above)]
 }
 
 /// The parabola of least squares.
@@ -376,13 +377,13 @@ fn peeled(window: &mut Vec<Point>, widest: f64, most: usize) -> Option<Minimax> 
     Some(found)
 }
 
-/// The members of a strand within some length of a place along it: one run, or two where it goes over the seam.
-pub(super) fn around(strand: &Strand, arc: f64, half: f64) -> [&[Member]; 2] {
-    let members = &strand.members[..];
+/// The members of a spline within some length of a place along it: one run, or two where it goes over the seam.
+pub(super) fn around(spline: &Spline, arc: f64, half: f64) -> [&[Member]; 2] {
+    let members = &spline.members[..];
     let before = |arc: f64| members.partition_point(|m| m.arc < arc);
     let (low, high) = (arc - half, arc + half);
-    let whole = strand.length();
-    match (strand.closed, low < 0.0, high > whole) {
+    let whole = spline.length();
+    match (spline.closed, low < 0.0, high > whole) {
         (true, true, _) => [&members[before(low + whole)..], &members[..before(high)]],
         (true, _, true) => [&members[before(low)..], &members[..before(high - whole)]],
         _ => [&members[before(low)..before(high)], &[]],

@@ -4,7 +4,7 @@
 //! seed on its middle line every now and then, everywhere.
 //! *Idea.* Points are taken in the order of their density, densest first. Around one that is not yet accounted for, windows
 //! grow until the points in it are [`FLATNESS_MIN`] times as long as their residuals from a parabola are wide, by more than chance:
-//! a blob inside the band is about twice as long as wide. The window is centerd anew on its parabola, and the seed there accounts
+//! a blob inside the band is about twice as long as wide. The window is centered again on its parabola, and the seed there accounts
 //! for all points of the slab around it. What is left when density has fallen to a fraction are outliers.
 //! *Guarantee.* A function of the point set that turns and scales with it; every point of the slab of a seed is accounted for,
 //! so a curve without gaps gets seeds without gaps. O(n) work in windows beside the search for neighbors.
@@ -232,7 +232,7 @@ impl<'a> Search<'a> {
             self.cover(&parabola, reach);
             self.covered[i] = self.seeds.len() as u32;
             self.seeds.push(Some(Seed {
-                at: parabola.foot(),
+                at: parabola.projection(),
                 tangent: parabola.direction(),
                 reach,
                 deviation: parabola.variance.sqrt(),
@@ -294,7 +294,7 @@ impl<'a> Search<'a> {
 
     /// The same as [`fit`](Self::fit), or none where a sample of the points shows that the window is far from as flat as `least`.
     ///
-    /// Most windows of many points are on the way to longer ones, or in vain; they took two thirds of the time of seeds.
+    /// Most windows of many points are on the way to longer ones, or without success; they took two thirds of the time of seeds.
     fn fit_if_flat(&mut self, at: Point, reach: f64, least: f64) -> Option<Parabola> {
         self.look(at, reach);
         let points = self.points;
@@ -311,7 +311,7 @@ impl<'a> Search<'a> {
         self.window.fit(at, self.ids.iter().map(|&i| points[i as usize]))
     }
 
-    /// The first window that is flat, centerd on its parabola; or the flattest, where none is flat enough.
+    /// The first window that is flat, centered on its parabola; or the flattest, where none is flat enough.
     fn flat(&mut self, start: Point, spacing: f64) -> Option<(Parabola, f64)> {
         let most = (self.points.len() / 3).max(DENSITY_NEIGHBORS);
         // Not the spacing itself, at which the last neighbor is inside or outside as rounding will have it.
@@ -340,11 +340,14 @@ impl<'a> Search<'a> {
         }
         let (as_flat, mut parabola, mut reach) = best?;
         for _ in 0..2 {
-            parabola =
-                self.centered(parabola.foot(), &mut reach, CONFIRMED_FLATNESS_RATIO * as_flat)?;
+            parabola = self.centered(
+                parabola.projection(),
+                &mut reach,
+                CONFIRMED_FLATNESS_RATIO * as_flat,
+            )?;
         }
-        let foot = parabola.foot();
-        (distance2(foot, start) <= (0.5 * reach).powi(2) && self.is_filled(&parabola))
+        let projection = parabola.projection();
+        (distance2(projection, start) <= (0.5 * reach).powi(2) && self.is_filled(&parabola))
             .then_some((parabola, reach))
     }
 

@@ -5,12 +5,12 @@
 //! *Idea.* Around a sample the samples within r fill a strip of width w(r) = 2δ + r²/(2R) where the curve bends with radius R. The
 //! flatness r/w is greatest at r = 2√(δR), where w = 4δ: there R = r²/w. Another part of the curve, at a distance of 2f, ends the
 //! flatness as soon as r reaches it. So each look at a sample gives min(r²/w at the flattest r, half of the r at which the
-//! samples are round); of looks at samples spread evenly over the order by radius(D), which turns with the input, a low quantile
+//! samples are round); of probes at samples spread evenly over the order by radius(D), which turns with the input, a low quantile
 //! is the estimate.
 //! *Guarantee.* None. With it the method finds the test curves at δ = 1/144 of the true one (`bench curve theorem`); the option
 //! `feature` replaces it.
 //! *Trap.* Within r < δ samples are a round blob: roundness counts only after flatness. Where the noise is so large that a look never
-//! becomes flat it says nothing, and an estimate from the other looks alone is too large.
+//! becomes flat it says nothing, and an estimate from the other probes alone is too large.
 
 use taut_points::Monitor;
 
@@ -19,8 +19,8 @@ use super::strip::{least_strip, reduce_to_hull};
 use super::{each, spread};
 use crate::Error;
 
-/// This many looks are taken; the estimate is their quantile 1/`QUANTILE_DIVISOR`.
-const LOOK_COUNT: usize = 256;
+/// This many probes are taken; the estimate is their quantile 1/`QUANTILE_DIVISOR`.
+const PROBE_COUNT: usize = 256;
 const QUANTILE_DIVISOR: usize = 100;
 /// Each disk of a look is so much larger than the one before.
 const DISK_GROWTH: f64 = 1.15;
@@ -48,14 +48,15 @@ pub(super) fn least_feature(
         let first = (radii[a] as f32).total_cmp(&(radii[b] as f32));
         (2..=4).fold(first, |order, count| order.then_with(|| nearest(count)))
     });
-    let looks: Vec<usize> = order.into_iter().step_by(n.div_ceil(LOOK_COUNT).max(1)).collect();
-    let mut found = each(looks.len(), monitor, |i| look(disks, looks[i], radii[looks[i]], extent))?;
+    let probes: Vec<usize> = order.into_iter().step_by(n.div_ceil(PROBE_COUNT).max(1)).collect();
+    let mut found =
+        each(probes.len(), monitor, |i| probe(disks, probes[i], radii[probes[i]], extent))?;
     found.sort_by(f64::total_cmp);
     Ok(found.get(found.len() / QUANTILE_DIVISOR).copied().unwrap_or(0.0))
 }
 
 /// What one sample sees, in disks from a radius on.
-fn look(disks: &Disks<'_>, sample: usize, start: f64, extent: f64) -> f64 {
+fn probe(disks: &Disks<'_>, sample: usize, start: f64, extent: f64) -> f64 {
     let mut disk = Growing::around(disks, sample);
     // Beyond `start` lies a sample, and rounding may put it within or without.
     let (mut radius, mut taken, mut hull) = (DISK_GROWTH * start, 0, Vec::new());

@@ -33,7 +33,7 @@ pub(super) struct Node {
 
 /// One connected curve.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Strand {
+pub(super) struct Spline {
     /// Its nodes in order.
     pub(super) nodes: Vec<Node>,
     /// Whether the first follows the last.
@@ -44,7 +44,7 @@ pub(super) struct Strand {
     pub(super) members: Vec<Member>,
 }
 
-/// A point and its place along a strand.
+/// A point and its place along a spline.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Member {
     /// Length along the curve from its first node.
@@ -71,8 +71,8 @@ pub(super) fn hermite(a: &Node, b: &Node, t: f64) -> (Point, Point) {
     ([place(0), place(1)], [slope(0), slope(1)])
 }
 
-impl Strand {
-    /// A strand through the seeds of a chain, without points.
+impl Spline {
+    /// A spline through the seeds of a chain, without points.
     pub(super) fn through(chain: Chain) -> Self {
         let node = |s: &Seed| Node {
             at: s.at,
@@ -85,24 +85,24 @@ impl Strand {
         Self::new(chain.seeds.iter().map(node).collect(), chain.closed, NOISE_SEEDS)
     }
 
-    /// A strand through nodes, without points. The noise at each is the median of what so many nodes on either side say: an outlier
+    /// A spline through nodes, without points. The noise at each is the median of what so many nodes on either side say: an outlier
     /// in a window makes it look wide, and points in a row by chance narrow, and either would decide what the next window holds.
     pub(super) fn new(mut nodes: Vec<Node>, closed: bool, span: usize) -> Self {
         let deviations = medians(&nodes, closed, span);
         for (node, deviation) in nodes.iter_mut().zip(deviations) {
             node.deviation = deviation.max(DEVIATION_MIN * node.reach);
         }
-        let mut strand = Self { nodes, closed, arc: vec![0.0], members: Vec::new() };
+        let mut spline = Self { nodes, closed, arc: vec![0.0], members: Vec::new() };
         let mut sum = 0.0;
-        for edge in 0..strand.edges() {
-            let places: Vec<Point> = (0..=PIECES_PER_NODE).map(|k| strand.piece(edge, k)).collect();
+        for edge in 0..spline.edges() {
+            let places: Vec<Point> = (0..=PIECES_PER_NODE).map(|k| spline.piece(edge, k)).collect();
             sum += places
                 .windows(2)
                 .map(|p| (p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1]))
                 .sum::<f64>();
-            strand.arc.push(sum);
+            spline.arc.push(sum);
         }
-        strand
+        spline
     }
 
     /// Edges between nodes.
@@ -154,40 +154,40 @@ fn medians(nodes: &[Node], closed: bool, span: usize) -> Vec<f64> {
     (0..count).map(median).collect()
 }
 
-/// A vertex of the fine polylines of all strands.
+/// A vertex of the fine polylines of all splines.
 struct Vertex {
-    strand: u32,
+    spline: u32,
     /// Number of the vertex in its polyline.
     number: u32,
 }
 
-/// Gives each point that is near enough to its strand; the others are named, ascending.
+/// Gives each point that is near enough to its spline; the others are named, ascending.
 ///
 /// Near is within `width` standard deviations of the noise at the node next to it.
-pub(super) fn assign(strands: &mut [Strand], points: &[Point], width: f64) -> Vec<u32> {
+pub(super) fn assign(splines: &mut [Spline], points: &[Point], width: f64) -> Vec<u32> {
     // The polylines, with the length along the curve at each vertex.
-    let lines: Vec<Vec<(Point, f64)>> = strands.par_iter().map(polyline).collect();
+    let lines: Vec<Vec<(Point, f64)>> = splines.par_iter().map(polyline).collect();
     let vertices: Vec<Vertex> = lines
         .iter()
         .enumerate()
         .flat_map(|(s, line)| {
-            (0..line.len()).map(move |k| Vertex { strand: s as u32, number: k as u32 })
+            (0..line.len()).map(move |k| Vertex { spline: s as u32, number: k as u32 })
         })
         .collect();
-    let at = |v: &Vertex| lines[v.strand as usize][v.number as usize].0;
+    let at = |v: &Vertex| lines[v.spline as usize][v.number as usize].0;
     let order = hilbert_order(vertices.len(), |i| at(&vertices[i]));
     let places: Vec<Point> = order.iter().map(|&i| at(&vertices[i as usize])).collect();
     let index = Index::new(&places);
-    let shared: &[Strand] = strands;
+    let shared: &[Spline] = splines;
     let place_of = |p: Point, nearest: u32| {
         let vertex = &vertices[order[nearest as usize] as usize];
-        let strand = &shared[vertex.strand as usize];
+        let spline = &shared[vertex.spline as usize];
         let (distance, arc) =
-            project(strand, &lines[vertex.strand as usize], vertex.number as usize, p);
+            project(spline, &lines[vertex.spline as usize], vertex.number as usize, p);
         let node =
-            &strand.nodes[(vertex.number as usize).div_ceil(PIECES_PER_NODE) % strand.nodes.len()];
+            &spline.nodes[(vertex.number as usize).div_ceil(PIECES_PER_NODE) % spline.nodes.len()];
         (distance <= width * node.deviation)
-            .then(|| (vertex.strand, arc, distance / node.deviation.max(f64::MIN_POSITIVE)))
+            .then(|| (vertex.spline, arc, distance / node.deviation.max(f64::MIN_POSITIVE)))
     };
     // Points come in the order of a Hilbert curve: a run of them is in one place, as a rule.
     let mut found: Vec<Option<(u32, f64, f64)>> = vec![None; points.len()];
@@ -198,60 +198,60 @@ pub(super) fn assign(strands: &mut [Strand], points: &[Point], width: f64) -> Ve
         .for_each_init(Nearest::default, |nearest, (points, found)| {
             index.nearest_to_each(points, nearest, |k, at| found[k] = place_of(points[k], at));
         });
-    let mut members: Vec<Vec<Member>> = vec![Vec::new(); strands.len()];
+    let mut members: Vec<Vec<Member>> = vec![Vec::new(); splines.len()];
     let mut left = Vec::new();
     for (site, (&at, found)) in points.iter().zip(&found).enumerate() {
         match found {
-            &Some((strand, arc, share)) => {
-                members[strand as usize].push(Member { arc, at, site: site as u32, share });
+            &Some((spline, arc, share)) => {
+                members[spline as usize].push(Member { arc, at, site: site as u32, share });
             }
             None => left.push(site as u32),
         }
     }
-    for (strand, mut members) in strands.iter_mut().zip(members) {
+    for (spline, mut members) in splines.iter_mut().zip(members) {
         members.par_sort_unstable_by(|a, b| a.arc.total_cmp(&b.arc).then(a.site.cmp(&b.site)));
-        strand.members = members;
+        spline.members = members;
     }
     left
 }
 
-fn polyline(strand: &Strand) -> Vec<(Point, f64)> {
-    let mut line: Vec<(Point, f64)> = Vec::with_capacity(strand.edges() * PIECES_PER_NODE + 1);
-    for edge in 0..strand.edges() {
-        let mut arc = strand.arc[edge];
+fn polyline(spline: &Spline) -> Vec<(Point, f64)> {
+    let mut line: Vec<(Point, f64)> = Vec::with_capacity(spline.edges() * PIECES_PER_NODE + 1);
+    for edge in 0..spline.edges() {
+        let mut arc = spline.arc[edge];
         for k in 0..PIECES_PER_NODE {
-            let at = strand.piece(edge, k);
+            let at = spline.piece(edge, k);
             if let Some(&(last, before)) = line.last().filter(|_| k > 0) {
                 arc = before + (at[0] - last[0]).hypot(at[1] - last[1]);
             }
             line.push((at, arc));
         }
     }
-    if !strand.closed {
-        line.push((strand.nodes[strand.nodes.len() - 1].at, strand.length()));
+    if !spline.closed {
+        line.push((spline.nodes[spline.nodes.len() - 1].at, spline.length()));
     }
     line
 }
 
 /// The distance of a point from the two pieces at a vertex, and its place along the curve. Beyond the ends of an open
-/// strand the last pieces go on.
-fn project(strand: &Strand, line: &[(Point, f64)], vertex: usize, p: Point) -> (f64, f64) {
+/// spline the last pieces go on.
+fn project(spline: &Spline, line: &[(Point, f64)], vertex: usize, p: Point) -> (f64, f64) {
     let mut best = (f64::INFINITY, 0.0);
     let count = line.len();
     for first in [vertex.wrapping_sub(1), vertex] {
         let first = match first {
-            usize::MAX if strand.closed => count - 1,
+            usize::MAX if spline.closed => count - 1,
             usize::MAX => continue,
-            last if last + 1 == count && !strand.closed => continue,
+            last if last + 1 == count && !spline.closed => continue,
             first => first,
         };
         let ((a, start), (b, end)) = (line[first], line[(first + 1) % count]);
-        let end = if first + 1 == count { strand.length() } else { end };
+        let end = if first + 1 == count { spline.length() } else { end };
         let (ex, ey) = (b[0] - a[0], b[1] - a[1]);
         let share =
             ((p[0] - a[0]) * ex + (p[1] - a[1]) * ey) / (ex * ex + ey * ey).max(f64::MIN_POSITIVE);
-        let least = if !strand.closed && first == 0 { -4.0 } else { 0.0 };
-        let most = if !strand.closed && first + 2 == count { 5.0 } else { 1.0 };
+        let least = if !spline.closed && first == 0 { -4.0 } else { 0.0 };
+        let most = if !spline.closed && first + 2 == count { 5.0 } else { 1.0 };
         let t = share.clamp(least, most);
         let distance = (p[0] - a[0] - t * ex).hypot(p[1] - a[1] - t * ey);
         if distance < best.0 {
