@@ -45,6 +45,9 @@ mod random;
 mod sample;
 mod sort;
 mod store;
+#[cfg(test)]
+#[path = "../../test_length.rs"]
+mod test_length;
 
 /// Queries of the machine by kernels, for algorithms in other crates: instruction sets, large pages, prefetches, and bytes of
 /// files by position. It serves the crates of taut and is not stable: any release may change it.

@@ -1,5 +1,8 @@
 //! The tests of `taut-certify` from outside, in one program: linking one for each file would take longer than running them.
 
+#[path = "../../../test_length.rs"]
+mod test_length;
+
 mod ball_closed_forms;
 mod ball_mutations;
 mod ball_properties;

@@ -148,7 +148,8 @@ fn wrong_meshes_of_collinear_points_are_refused() {
 #[test]
 fn extreme_coordinates() {
     let mut dice = Dice(4);
-    for scale in [1e-320, 1e-300, 1e-150, 1e-60, 1e60, 1e150, 1e300] {
+    let scales = [1e-320, 1e300, 1e-150, 1e-300, 1e-60, 1e60, 1e150];
+    for scale in scales.into_iter().take(crate::test_length::long_or(7, 3)) {
         for d in [2, 3] {
             let points: Vec<f64> = dice.grid(7 * d, 3).iter().map(|x| (x - 1.0) * scale).collect();
             is_accepted(&solved(&format!("grid times {scale:e}"), &points, d));

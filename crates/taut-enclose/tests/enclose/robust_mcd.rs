@@ -229,7 +229,7 @@ fn shifts_scales_and_turns_go_along() {
 
 #[test]
 fn order_threads_and_precision_change_nothing() {
-    for n in [150, 9000] {
+    for n in [150, crate::test_length::long_or(9000, 2000)] {
         let dim = 3;
         let narrow: Vec<f32> =
             contaminated(n, dim, n / 3, 30.0, 31).iter().map(|&v| v as f32).collect();

@@ -2,6 +2,9 @@
 
 #![allow(missing_docs)]
 
+#[path = "../../../test_length.rs"]
+mod test_length;
+
 mod bad_input;
 mod columns;
 mod corpus;

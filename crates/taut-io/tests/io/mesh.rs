@@ -251,6 +251,8 @@ fn other_elements_and_properties_of_ply_are_passed_over() {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig::with_cases(crate::test_length::long_or(256, 48)))]
+
     /// Any triangles and edges on any points come back from any format.
     #[test]
     fn random_meshes_come_back(

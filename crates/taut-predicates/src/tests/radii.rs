@@ -7,7 +7,7 @@ use crate::Sign;
 use crate::space::{self, Point};
 use crate::tests::cases::{case, lattice_sphere};
 use crate::tests::oracle::{self, Exactly};
-use crate::tests::{Met, Random};
+use crate::tests::{Met, Random, test_length::long_or};
 
 /// The sign of ρ − R for the sphere with this center, in integers: ρ²·denominator² against |p·denominator − numerators|².
 /// The last point of `truth` is (ρ, 0, 0), so that ρ is in the same unit.
@@ -40,7 +40,7 @@ fn radii(near: Option<f64>, random: &mut Random) -> [f64; 4] {
 fn radii_agree_with_exact_integers() {
     let (mut random, sphere) = (Random(11), lattice_sphere::<3>());
     let (mut facets, mut cells) = (Met::default(), Met::default());
-    for number in 0..25_000 {
+    for number in 0..long_or(25_000, 8_000) {
         let points = case::<3, 4>(number, &mut random, &sphere).points;
         let [a, b, c, d] = points;
         let plain = Exactly::new(&points);

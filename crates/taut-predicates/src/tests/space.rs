@@ -4,7 +4,7 @@ use crate::space::exact::{InSphere, Orient, any_length, fixed, relative, whole};
 use crate::space::*;
 use crate::tests::cases::{case, lattice_sphere};
 use crate::tests::oracle::{self, Exactly};
-use crate::tests::{Met, Random};
+use crate::tests::{Met, Random, test_length::long_or};
 use crate::{Exact, Fused, Separate, Sign, double_double, unbounded};
 
 #[test]
@@ -12,7 +12,7 @@ fn space_agrees_with_exact_integers() {
     let (mut random, sphere) = (Random(3), lattice_sphere::<3>());
     let (mut met, mut oriented) = (Met::default(), Met::default());
     let (mut broken, mut exact) = (0, Exact::default());
-    for number in 0..250_000 {
+    for number in 0..long_or(250_000, 60_000) {
         let case = case::<3, 5>(number, &mut random, &sphere);
         let [mut a, mut b, c, d, q] = case.points;
         let mut truth = Exactly::new(&[a, b, c, d, q]);
@@ -36,10 +36,10 @@ fn space_agrees_with_exact_integers() {
         }
     }
     assert!(met.is_balanced(50) && oriented.is_balanced(50), "{met:?} {oriented:?}");
-    assert!(broken > 15_000, "{broken} ties");
+    assert!(broken > long_or(15_000, 3_500), "{broken} ties");
     let stages = exact.stages;
     for count in [stages.integer, stages.wide, stages.double_double, stages.unbounded] {
-        assert!(count > 10_000, "{stages:?}");
+        assert!(count > long_or(10_000, 2_500), "{stages:?}");
     }
 }
 

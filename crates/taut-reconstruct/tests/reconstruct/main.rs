@@ -1,5 +1,8 @@
 //! The tests of `taut-reconstruct` from outside, in one program: linking one for each file would take longer than running them.
 
+#[path = "../../../test_length.rs"]
+mod test_length;
+
 mod alpha_shapes;
 mod clean_data;
 mod clean_guarantees;

@@ -11,7 +11,7 @@ use proptest::test_runner::{Config, RngSeed};
 
 proptest! {
     #![proptest_config(Config {
-        cases: 120, rng_seed: RngSeed::Fixed(7), failure_persistence: None, ..Config::default()
+        cases: crate::test_length::long_or(120, 24), rng_seed: RngSeed::Fixed(7), failure_persistence: None, ..Config::default()
     })]
 
     #[test]

@@ -62,6 +62,8 @@ fn counts_that_are_not_true_cost_nothing() {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig::with_cases(crate::test_length::long_or(256, 48)))]
+
     #[test]
     fn changed_bytes_are_no_panic(
         changes in proptest::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..4),

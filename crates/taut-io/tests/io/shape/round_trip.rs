@@ -106,6 +106,8 @@ prop_compose! {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig::with_cases(crate::test_length::long_or(256, 48)))]
+
     #[test]
     fn any_shape_comes_back(shape in shapes()) {
         for name in ["s.ply", "s.obj", "s.off"] {

@@ -4,6 +4,7 @@
 
 use super::*;
 use crate::store::faulty::{Fault, Faulty, Record};
+use crate::test_length::long_or;
 
 /// Tiles of eight by eight, and narrower ones at the ends.
 const MATRIX: FileMatrix = FileMatrix { rows: 20, columns: 15, width: 8, offset: 3 };
@@ -89,13 +90,13 @@ fn any_call() {
 #[cfg_attr(miri, ignore = "files")]
 fn a_disk_full_and_a_file_cut_at_any_byte() {
     let case = Case::new();
-    for k in 0..case.expected.len() as u64 {
+    for k in (0..case.expected.len() as u64).step_by(long_or(1, 7)) {
         case.is_told("to", Fault::Full(k), ErrorKind::StorageFull);
     }
     for k in (0..case.expected.len() as u64).step_by(97) {
         case.is_told("to", Fault::FullAndTold(k), ErrorKind::StorageFull);
     }
-    for k in 0..3 + 20 * 15 * 8 {
+    for k in (0..3 + 20 * 15 * 8).step_by(long_or(1, 5)) {
         case.is_told("from", Fault::Cut(k), ErrorKind::UnexpectedEof);
     }
 }

@@ -1,0 +1,6 @@
+//! How long the long tests are; included by path where they are.
+
+/// Returns `all` where `./check --long` runs the tests, else `few`: cases, rounds, or the step from one case to the next.
+pub(crate) fn long_or<T>(all: T, few: T) -> T {
+    if std::env::var_os("TAUT_LONG_TESTS").is_some() { all } else { few }
+}
