@@ -60,6 +60,7 @@ mod inscribed;
 mod items;
 mod json;
 mod order;
+mod polygon;
 mod registry;
 mod robust;
 mod solution;
@@ -88,6 +89,7 @@ pub use inscribed::{InscribedCertificate, InscribedEllipsoid, InscribedVerdict};
 pub use items::Items;
 pub use json::{JsonError, SCHEMA};
 pub use order::{Order, OrderCertificate, OrderCurve, OrderVerdict, OrderViolation};
+pub use polygon::PolygonViolation;
 pub use registry::{AnyDocument, AnyFileSolution, AnySolution, AnyVerdict};
 pub use robust::{
     Enclosure, RobustCertificate, RobustEllipsoid, RobustMethod, RobustVerdict, Unweighted,

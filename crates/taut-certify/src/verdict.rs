@@ -5,7 +5,7 @@ use taut_points::ReadError;
 
 use crate::{
     CentersViolation, CircleViolation, CurveViolation, MeshViolation, OrderViolation,
-    SurfaceViolation,
+    PolygonViolation, SurfaceViolation,
 };
 
 /// What was proved of an enclosing shape.
@@ -365,6 +365,9 @@ pub enum Violation {
     /// Something is wrong with an inscribed circle.
     #[error(transparent)]
     Circle(#[from] CircleViolation),
+    /// The points are no polygon.
+    #[error(transparent)]
+    Polygon(#[from] PolygonViolation),
     /// Something is wrong with a curve.
     #[error(transparent)]
     Curve(#[from] CurveViolation),
@@ -423,6 +426,7 @@ impl Violation {
                 _ => Fault::Answer,
             },
             Violation::Circle(ref violation) => violation.fault(),
+            Violation::Polygon(ref violation) => violation.fault(),
             Violation::Curve(ref violation) => match *violation {
                 CurveViolation::OutsideBand { row, .. }
                 | CurveViolation::NoVertex { row }
@@ -474,6 +478,12 @@ impl From<CentersViolation> for CheckError {
 
 impl From<CircleViolation> for CheckError {
     fn from(violation: CircleViolation) -> Self {
+        CheckError::Rejected(violation.into())
+    }
+}
+
+impl From<PolygonViolation> for CheckError {
+    fn from(violation: PolygonViolation) -> Self {
         CheckError::Rejected(violation.into())
     }
 }

@@ -57,6 +57,7 @@ mod plot;
 mod png;
 mod project;
 mod raster;
+mod rings;
 mod scene;
 mod scene2;
 mod scene3;

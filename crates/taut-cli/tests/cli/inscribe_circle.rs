@@ -54,7 +54,11 @@ fn geojson_and_other_points_are_read_alike() {
     // The closing vertex is a row of its own.
     desk.taut("verify circle.json ring.csv").ends(1).says(&["the data changed"]);
     desk.put("holes.geojson", polygon.replace("]]]", "]], [[1,1],[1.5,1],[1,1.5],[1,1]]]"));
-    desk.taut("inscribe circle holes.geojson").ends(2).complains(&["holes.geojson", "has a hole"]);
+    desk.taut("inscribe circle holes.geojson -o holed.json --draw holed.svg").ends(0).says(&[
+        "Largest circle in a polygon of 11 points",
+        "no circle in the polygon has a radius above 0.767949",
+    ]);
+    desk.taut("verify holed.json holes.geojson").ends(0).says(&["in a polygon of 11 points"]);
     let all = desk.taut("inscribe circle ring.csv --json").ends(0).out;
     assert_eq!(desk.pipe(L, "inscribe circle - --json").ends(0).out, all);
     assert_eq!(desk.taut("inscribe circle ring.csv -o - --threads 1").ends(0).out, all);
@@ -87,7 +91,11 @@ fn rings_that_are_no_polygon_are_refused() {
     desk.put("space.csv", "0,0,1\n2,2,1\n0,1,0\n");
     desk.taut("inscribe circle space.csv")
         .ends(2)
-        .complains(&["points have 3 coordinates", "--columns"]);
+        .complains(&["the ring number of point 0 is 1.0: expected 0 for the first point"]);
+    desk.put("four.csv", "0,0,1,1\n2,2,1,1\n0,1,0,1\n");
+    desk.taut("inscribe circle four.csv")
+        .ends(2)
+        .complains(&["points have 4 coordinates", "--columns"]);
     desk.put("ring.csv", L);
     desk.taut("inscribe circle ring.csv --epsilon 0")
         .ends(2)

@@ -6,4 +6,5 @@ mod countries;
 mod degenerate;
 mod laws;
 mod mutations;
+mod rings;
 mod sampling;
