@@ -4,8 +4,8 @@ use serde::Serialize;
 use taut_points::ReadError;
 
 use crate::{
-    CentersViolation, CircleViolation, CurveViolation, MeshViolation, OrderViolation,
-    PolygonViolation, SurfaceViolation,
+    CentersViolation, CircleViolation, CurveViolation, EllipseViolation, MeshViolation,
+    OrderViolation, PolygonViolation, SurfaceViolation,
 };
 
 /// What was proved of an enclosing shape.
@@ -365,6 +365,9 @@ pub enum Violation {
     /// Something is wrong with an inscribed circle.
     #[error(transparent)]
     Circle(#[from] CircleViolation),
+    /// Something is wrong with an inscribed ellipse.
+    #[error(transparent)]
+    Ellipse(#[from] EllipseViolation),
     /// The points are no polygon.
     #[error(transparent)]
     Polygon(#[from] PolygonViolation),
@@ -426,6 +429,7 @@ impl Violation {
                 _ => Fault::Answer,
             },
             Violation::Circle(ref violation) => violation.fault(),
+            Violation::Ellipse(ref violation) => violation.fault(),
             Violation::Polygon(ref violation) => violation.fault(),
             Violation::Curve(ref violation) => match *violation {
                 CurveViolation::OutsideBand { row, .. }
@@ -478,6 +482,12 @@ impl From<CentersViolation> for CheckError {
 
 impl From<CircleViolation> for CheckError {
     fn from(violation: CircleViolation) -> Self {
+        CheckError::Rejected(violation.into())
+    }
+}
+
+impl From<EllipseViolation> for CheckError {
+    fn from(violation: EllipseViolation) -> Self {
         CheckError::Rejected(violation.into())
     }
 }

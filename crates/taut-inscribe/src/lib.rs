@@ -3,6 +3,7 @@
 //! | you want | call | promise | cost, n vertices |
 //! |---|---|---|---|
 //! | the largest circle in a polygon, with holes | [`inscribed_circle()`] | largest radius ≤ (1 + ε)·radius, proved | O(n log n) for most rings, and the cells of the search |
+//! | the largest ellipse in a polygon, with holes | [`inscribed_ellipse()`] | largest area ≤ (1 + ε)·area, proved | O(n log n), and the cells of the search |
 //!
 //! ```
 //! use taut_inscribe::{CircleOptions, inscribed_circle};
@@ -20,9 +21,11 @@
 #![forbid(unsafe_code)]
 
 mod circle;
+mod ellipse;
 mod error;
 mod polygon;
 mod simple;
 
 pub use circle::{CircleOptions, inscribed_circle};
+pub use ellipse::{EllipseOptions, inscribed_ellipse};
 pub use error::Error;

@@ -42,6 +42,11 @@ impl Polygon {
         [self.scaled[edge], self.scaled[self.after(edge)]]
     }
 
+    /// The row at which an edge ends.
+    pub(crate) fn end(&self, edge: usize) -> u32 {
+        self.after[edge]
+    }
+
     fn after(&self, vertex: usize) -> usize {
         self.after[vertex] as usize
     }

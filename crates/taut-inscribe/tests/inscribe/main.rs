@@ -4,6 +4,8 @@ mod closed_forms;
 mod common;
 mod countries;
 mod degenerate;
+mod ellipse_mutations;
+mod ellipses;
 mod laws;
 mod mutations;
 mod rings;

@@ -13,7 +13,7 @@ pub(crate) fn rows(rings: &[Ring]) -> Vec<f64> {
     rings.iter().enumerate().flat_map(numbered).collect()
 }
 
-fn square(x: f64, y: f64, side: f64) -> Ring {
+pub(crate) fn square(x: f64, y: f64, side: f64) -> Ring {
     vec![[x, y], [x + side, y], [x + side, y + side], [x, y + side]]
 }
 
