@@ -18,6 +18,7 @@ mod report;
 mod search;
 mod shape;
 mod starts;
+mod tree;
 mod units;
 mod view;
 mod weights;

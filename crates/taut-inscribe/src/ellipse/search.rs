@@ -15,6 +15,7 @@ use super::ascent::Ellipse;
 use super::cell::{Axis, Cell, Frame, Width};
 use super::levels::Levels;
 use super::shape::{Nearest, Shape};
+use super::tree::{self, Log, Node, Reason};
 use super::units::Units;
 use super::view::View;
 use super::weights::{self, Column};
@@ -57,24 +58,6 @@ const SIDE_ERROR: f64 = f64::from_bits((1023 - 40) << 52);
 /// Errors by which a box of all centers is enlarged, per 1 + |m|: 2⁻⁴⁶.
 const BOX_ERROR: f64 = f64::from_bits((1023 - 46) << 52);
 
-/// Why no ellipse of a cell is larger than a bound.
-#[derive(Clone, Debug)]
-pub(super) enum Reason {
-    /// The widths of the polygon.
-    Widths,
-    /// All centers are outside.
-    Outside,
-    /// Edges with whole weights.
-    Edges(Vec<(u32, u64)>),
-}
-
-/// The tree, in the form of the certificate.
-#[derive(Default)]
-pub(super) struct Log {
-    pub(super) tree: String,
-    pub(super) leaves: Vec<Vec<(u32, u64)>>,
-}
-
 /// What a search found.
 pub(super) struct Found {
     /// The largest ellipse, in units, if one was found.
@@ -89,13 +72,6 @@ pub(super) struct Found {
     pub(super) ascents: u64,
     /// Whether no cell was left open by the budget.
     pub(super) is_complete: bool,
-}
-
-/// A node of the tree.
-enum Node {
-    Leaf(Reason),
-    Split(Axis, [usize; 2]),
-    Framed(usize),
 }
 
 /// A cell that waits to be split.
@@ -170,7 +146,8 @@ pub(super) fn search(units: &Units, options: &EllipseOptions<'_>) -> Result<Foun
         ascents: 0,
     };
     search.start();
-    if search.best.is_none() {
+    if search.rounded <= 0.0 {
+        search.best = None;
         return Ok(search.found([0, -1, 1], directions, false));
     }
     let (root, beyond) = search.root();
@@ -313,9 +290,10 @@ impl Search<'_> {
         }
         self.consider(Ellipse { shape: view.shape, center: view.middle, size: distance });
         let least = LEAST_LENGTH * self.size();
-        let single = vec![(parents[first], 1)];
-        let mut bound = cell.edge_bound(&[(edge(parents[first]), 1.0)], least);
-        let mut reason = Reason::Edges(single);
+        // There is a nearest edge, as each list has one.
+        let Some(&single) = parents.get(first) else { return };
+        let mut bound = cell.edge_bound(&[(edge(single), 1.0)], least);
+        let mut reason = Reason::Edges(vec![(single, 1)]);
         let by_widths = cell.width_bound(&self.widths);
         if by_widths < bound {
             (reason, bound) = (Reason::Widths, by_widths);
@@ -392,31 +370,7 @@ impl Search<'_> {
 
     /// The tree in the form of the certificate, and what it proves.
     fn found(self, root: [i32; 3], directions: Vec<[f64; 2]>, is_complete: bool) -> Found {
-        let mut log = Log::default();
-        let mut pending = if self.nodes.is_empty() { vec![] } else { vec![0] };
-        while let Some(node) = pending.pop() {
-            match &self.nodes[node] {
-                Node::Leaf(Reason::Widths) => log.tree.push('n'),
-                Node::Leaf(Reason::Outside) => log.tree.push('o'),
-                Node::Leaf(Reason::Edges(parts)) => {
-                    log.tree.push('b');
-                    log.leaves.push(parts.clone());
-                }
-                Node::Framed(child) => {
-                    log.tree.push('f');
-                    pending.push(*child);
-                }
-                Node::Split(axis, [below, above]) => {
-                    log.tree.push(match axis {
-                        Axis::S => 's',
-                        Axis::T => 't',
-                        Axis::X => 'x',
-                        Axis::Y => 'y',
-                    });
-                    pending.extend([*above, *below]);
-                }
-            }
-        }
+        let log = tree::log(&self.nodes);
         // Cells that were closed on the way have bounds up to the goal.
         let waiting = self.waiting.peek().map_or(0.0, |top| top.bound);
         let upper = waiting.max(self.stuck).max(self.goal());

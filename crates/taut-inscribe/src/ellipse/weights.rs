@@ -138,3 +138,51 @@ pub(super) fn best(columns: &[Column]) -> Weights {
     let step = [1, 2, 3, 4].map(|k: usize| (-prices[k]).clamp(-1.0, 1.0));
     Weights { parts, step, value: prices[0] }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn column(distance: f64, gradient: [f64; 4]) -> Column {
+        Column { distance, gradient }
+    }
+
+    #[test]
+    fn balanced_gradients_share_the_weight() {
+        let columns = [
+            column(1.0, [0.5, 0.0, 1.0, 0.0]),
+            column(1.25, [-0.5, 0.0, -1.0, 0.0]),
+            column(3.0, [0.0, 0.0, 0.0, 1.0]),
+        ];
+        let found = best(&columns);
+        assert!((found.value - 1.125).abs() < 1e-12, "{found:?}");
+        let sum: f64 = found.parts.iter().map(|part| part.1).sum();
+        assert!(found.parts.len() == 2 && (sum - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn no_step_of_a_grid_promises_more() {
+        let mut state = 5u64;
+        let mut next = || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 40) as f64 / (1u64 << 24) as f64
+        };
+        for _ in 0..200 {
+            let columns: Vec<Column> =
+                (0..8).map(|_| column(1.0 + next(), [(); 4].map(|()| next() - 0.5))).collect();
+            let found = best(&columns);
+            let at = |step: [f64; 4]| {
+                let value = |column: &Column| {
+                    let change = column.gradient.iter().zip(step).map(|(g, x)| g * x);
+                    column.distance + change.sum::<f64>()
+                };
+                columns.iter().map(value).fold(f64::INFINITY, f64::min)
+            };
+            assert!((at(found.step) - found.value).abs() < 1e-9, "{found:?}");
+            for code in 0..625 {
+                let step = [1, 5, 25, 125].map(|place| f64::from(code / place % 5 - 2) / 2.0);
+                assert!(at(step) <= found.value + 1e-9, "{found:?}, {step:?}");
+            }
+        }
+    }
+}

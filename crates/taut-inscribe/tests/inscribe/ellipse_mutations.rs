@@ -248,3 +248,21 @@ fn fields_of_the_json_are_all_needed() {
     }
     assert!(AnySolution::from_json(&text).is_ok());
 }
+
+#[test]
+fn contacts_are_decided_exactly() {
+    let rings = [square(-1.0, -1.0, 2.0)];
+    let mut exact = proved(&rings);
+    let area = std::f64::consts::PI;
+    exact.answer = InscribedEllipse { center: [0.0; 2], axes: [[1.0, 0.0], [0.0, 1.0]], area };
+    assert_eq!(violation(&exact, &rings), None);
+    // The least changes make an edge enter.
+    let enters = |change: &dyn Fn(&mut Found)| {
+        assert_rejected(&exact, &rings, "enters the ellipse", change);
+    };
+    enters(&|found| found.answer.axes[0][0] = 1.0f64.next_up());
+    enters(&|found| found.answer.axes[1][1] = 1.0f64.next_up());
+    enters(&|found| found.answer.center[0] = f64::MIN_POSITIVE);
+    enters(&|found| found.answer.center[1] = -1e-200);
+    enters(&|found| found.answer.axes[0][1] = 1e-160);
+}
