@@ -7,7 +7,7 @@ use crate::found::{Found, solve};
 use crate::items::raise;
 use crate::numbers::whole;
 
-/// The largest circle in the simple polygon whose vertices are the rows of an array.
+/// The largest circle in the polygon whose rings are the rows of an array.
 #[pyfunction]
 pub(crate) fn inscribed_circle(
     py: Python<'_>,

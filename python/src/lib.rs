@@ -11,6 +11,7 @@ mod choice;
 mod circle;
 mod curve;
 mod delaunay;
+mod ellipse;
 mod ellipsoid;
 mod farthest_first;
 mod files;
@@ -43,6 +44,8 @@ mod _native {
     use crate::curve::curve;
     #[pymodule_export]
     use crate::delaunay::{delaunay, spatial_order};
+    #[pymodule_export]
+    use crate::ellipse::inscribed_ellipse;
     #[pymodule_export]
     use crate::ellipsoid::{ellipsoid, ellipsoids, norms};
     #[pymodule_export]

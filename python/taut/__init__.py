@@ -15,6 +15,7 @@ from ._answers.ball import Ball, BallCertificate, Verdict
 from ._answers.centers import Centers, CentersCertificate, CentersVerdict, FarthestFirst, SphereTree
 from ._answers.circle import CircleCertificate, CircleVerdict, InscribedCircle
 from ._answers.curve import Curve, CurveCertificate, CurveComponent, CurveVerdict
+from ._answers.ellipse import EllipseCertificate, EllipseVerdict, InscribedEllipse
 from ._answers.ellipsoid import Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Hull
 from ._answers.file import FileVerdict
 from ._answers.inscribed import InscribedCertificate, InscribedEllipsoid, InscribedVerdict
@@ -28,6 +29,7 @@ from ._centers import centers, farthest_first, sphere_tree
 from ._circle import inscribed_circle
 from ._curve import curve
 from ._delaunay import delaunay
+from ._ellipse import inscribed_ellipse
 from ._ellipsoid import ellipsoid, ellipsoids, inscribed_ellipsoid
 from ._file_solution import FileSolution
 from ._generate import generate
@@ -50,6 +52,8 @@ __all__ = [
     "CurveCertificate",
     "CurveComponent",
     "CurveVerdict",
+    "EllipseCertificate",
+    "EllipseVerdict",
     "Ellipsoid",
     "EllipsoidCertificate",
     "EllipsoidVerdict",
@@ -59,6 +63,7 @@ __all__ = [
     "Hull",
     "InscribedCertificate",
     "InscribedCircle",
+    "InscribedEllipse",
     "InscribedEllipsoid",
     "InscribedVerdict",
     "Order",
@@ -91,6 +96,7 @@ __all__ = [
     "farthest_first",
     "generate",
     "inscribed_circle",
+    "inscribed_ellipse",
     "inscribed_ellipsoid",
     "robust_ellipsoid",
     "sample",

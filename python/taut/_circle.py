@@ -10,13 +10,14 @@ from ._solution import Solution
 
 
 def inscribed_circle(ring: ArrayLike, *, epsilon: float = 1e-9, max_cells: int = 1_000_000) -> Solution:
-    """Largest circle in a simple polygon, with a certificate.
+    """Largest circle in a polygon, with a certificate.
 
     Parameters
     ----------
-    ring : array_like of shape (n, 2)
-        The vertices in order, finite real numbers; the last may repeat the first. An array of float32 or float64 in C order
-        is read where it lies; anything else is first converted by NumPy, as by `ball`.
+    ring : array_like of shape (n, 2) or (n, 3)
+        The vertices of one ring in order, or of several rings, with holes and parts, as rows (x, y, number of the ring): numbers
+        are 0, 1, and so on, and inside is what an odd number of rings wind around. The last vertex of a ring may repeat its first.
+        An array of float32 or float64 in C order is read where it lies; anything else is first converted by NumPy, as by `ball`.
     epsilon : float in (0, 1), default 1e-9
         Relative gap to prove, largest radius <= (1 + epsilon) * radius.
     max_cells : int >= 1, default 1_000_000
@@ -30,13 +31,14 @@ def inscribed_circle(ring: ArrayLike, *, epsilon: float = 1e-9, max_cells: int =
     Raises
     ------
     ValueError
-        When the ring crosses or touches itself, with the two edges; when it has fewer than 3 distinct vertices; when a number
+        When rings cross or touch, with two edges; when a ring has fewer than 3 distinct vertices or a wrong number; when a number
         is NaN or infinite, or an option is out of range.
     KeyboardInterrupt
         Ctrl-C stops the work.
 
     See Also
     --------
+    inscribed_ellipse : the ellipse of largest area in a polygon.
     inscribed_ellipsoid : the ellipsoid of largest volume in a convex polytope.
 
     Examples

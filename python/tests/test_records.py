@@ -37,6 +37,7 @@ SOLVED = {
     "ellipsoid of one point": (taut.ellipsoid(LINE[:1]), (LINE[:1],), {}),
     "inscribed": (taut.inscribed_ellipsoid(NORMALS, OFFSETS), (NORMALS,), {"offsets": OFFSETS}),
     "circle": (taut.inscribed_circle(RINGS[:60]), (RINGS[:60],), {}),
+    "ellipse": (taut.inscribed_ellipse(RINGS[:60]), (RINGS[:60],), {}),
     "mcd": (taut.robust_ellipsoid(PLANE), (PLANE,), {}),
     "mve": (taut.robust_ellipsoid(PLANE, method="mve"), (PLANE,), {}),
     "trim": (taut.robust_ellipsoid(PLANE, method="trim"), (PLANE,), {}),

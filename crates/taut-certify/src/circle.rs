@@ -1,4 +1,4 @@
-//! The largest circle in a simple polygon, and its certificate.
+//! The largest circle in a polygon, and its certificate.
 
 mod check;
 mod violation;
@@ -13,8 +13,9 @@ pub use violation::CircleViolation;
 
 /// A circle in a polygon.
 ///
-/// The rows of the source are the vertices of the polygon in order, of dimension 2. Edge i leads from row i to the next row,
-/// the last edge back to row 0. A row may repeat the one before it, and the last row may repeat the first.
+/// The rows (x, y) of the source are the vertices of one ring in order; rows (x, y, r) are those of several rings, r being the
+/// number of the ring: 0 in the first row, then that of the row before or one more. Edge i leads from row i to the next row of its
+/// ring, from the last one to the first. A row may repeat the one before it, and the last row of a ring its first.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "an inscribed circle: an object with center and radius")]
 pub struct InscribedCircle {
@@ -54,8 +55,8 @@ pub struct CircleCertificate {
 
 /// The proved facts about an inscribed circle.
 ///
-/// A point is inside when the edges wind around it an odd number of times (even-odd rule). For a ring that neither meets nor
-/// touches itself these are the points inside the polygon; the checker does not prove that the ring is such a ring.
+/// A point is inside when the edges wind around it an odd number of times (even-odd rule). For rings that neither meet nor
+/// touch, these are the points inside the polygon, holes being outside; the checker does not prove that they are such rings.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct CircleVerdict {
     /// The radius of the answer: its center is inside, and no edge enters the circle.

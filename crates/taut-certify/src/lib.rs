@@ -7,6 +7,7 @@
 //! | [`RobustEllipsoid`] | [`RobustCertificate`] | center, scatter, factors and flags are those of the points kept; by `mcd`, no C-step leads on from them; by `mve` and `trim`, no much smaller ellipsoid holds them |
 //! | [`InscribedEllipsoid`] | [`InscribedCertificate`] | it lies in every half-space; no ellipsoid in the polytope has a log-volume larger by more than the gap |
 //! | [`InscribedCircle`] | [`CircleCertificate`] | its center is inside and no edge enters it; no circle in the polygon has a radius above (1 + gap)·r |
+//! | [`InscribedEllipse`] | [`EllipseCertificate`] | its center is inside and no edge enters it; no ellipse in the polygon has an area above (1 + gap) times its own |
 //! | [`Centers`] | [`CentersCertificate`] | every item that counts is within the radius of a center; no k equal balls much smaller hold the core-set |
 //! | [`Curve`] | [`CurveCertificate`] | it meets neither itself nor others; every point but the outliers is within the band; whether sampling was dense enough |
 //! | [`Surface`] | [`SurfaceCertificate`] | which rows it uses and why not the others; its topology; it meets itself nowhere; each triangle has an empty ball; it faces outwards |
@@ -53,6 +54,7 @@ mod ball;
 mod centers;
 mod circle;
 mod curve;
+mod ellipse;
 mod ellipsoid;
 mod files;
 mod hashed_pass;
@@ -60,6 +62,7 @@ mod inscribed;
 mod items;
 mod json;
 mod order;
+mod polygon;
 mod registry;
 mod robust;
 mod solution;
@@ -76,6 +79,7 @@ pub use curve::{
     Curve, CurveCertificate, CurveComponent, CurveDoubt, CurveEvidence, CurveVerdict,
     CurveViolation, Place, TourBound, curve_evidence, tour_bound, tour_length,
 };
+pub use ellipse::{EllipseCertificate, EllipseVerdict, EllipseViolation, InscribedEllipse};
 pub use ellipsoid::{
     EllipseSupport, Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Hull, ellipse_support,
 };
@@ -88,6 +92,7 @@ pub use inscribed::{InscribedCertificate, InscribedEllipsoid, InscribedVerdict};
 pub use items::Items;
 pub use json::{JsonError, SCHEMA};
 pub use order::{Order, OrderCertificate, OrderCurve, OrderVerdict, OrderViolation};
+pub use polygon::PolygonViolation;
 pub use registry::{AnyDocument, AnyFileSolution, AnySolution, AnyVerdict};
 pub use robust::{
     Enclosure, RobustCertificate, RobustEllipsoid, RobustMethod, RobustVerdict, Unweighted,

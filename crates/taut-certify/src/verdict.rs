@@ -4,8 +4,8 @@ use serde::Serialize;
 use taut_points::ReadError;
 
 use crate::{
-    CentersViolation, CircleViolation, CurveViolation, MeshViolation, OrderViolation,
-    SurfaceViolation,
+    CentersViolation, CircleViolation, CurveViolation, EllipseViolation, MeshViolation,
+    OrderViolation, PolygonViolation, SurfaceViolation,
 };
 
 /// The proved facts about an enclosing shape.
@@ -365,6 +365,12 @@ pub enum Violation {
     /// Something is wrong with an inscribed circle.
     #[error(transparent)]
     Circle(#[from] CircleViolation),
+    /// Something is wrong with an inscribed ellipse.
+    #[error(transparent)]
+    Ellipse(#[from] EllipseViolation),
+    /// The points are no polygon.
+    #[error(transparent)]
+    Polygon(#[from] PolygonViolation),
     /// Something is wrong with a curve.
     #[error(transparent)]
     Curve(#[from] CurveViolation),
@@ -423,6 +429,8 @@ impl Violation {
                 _ => Fault::Answer,
             },
             Violation::Circle(ref violation) => violation.fault(),
+            Violation::Ellipse(ref violation) => violation.fault(),
+            Violation::Polygon(ref violation) => violation.fault(),
             Violation::Curve(ref violation) => match *violation {
                 CurveViolation::OutsideBand { row, .. }
                 | CurveViolation::NoVertex { row }
@@ -474,6 +482,18 @@ impl From<CentersViolation> for CheckError {
 
 impl From<CircleViolation> for CheckError {
     fn from(violation: CircleViolation) -> Self {
+        CheckError::Rejected(violation.into())
+    }
+}
+
+impl From<EllipseViolation> for CheckError {
+    fn from(violation: EllipseViolation) -> Self {
+        CheckError::Rejected(violation.into())
+    }
+}
+
+impl From<PolygonViolation> for CheckError {
+    fn from(violation: PolygonViolation) -> Self {
         CheckError::Rejected(violation.into())
     }
 }

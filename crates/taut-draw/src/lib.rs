@@ -8,7 +8,8 @@
 //! | an ellipsoid and its points | [`ellipsoid_figures`] | scenes of the plane or of space, shadows on pairs of coordinates, and plots |
 //! | a robust ellipsoid and its points | [`robust_figures`] | the same with outliers apart, and the distance of each point |
 //! | an ellipsoid in a polytope, and its half-spaces | [`inscribed_figures`] | scenes of the plane or of space, cuts through the center, and plots |
-//! | a circle in a polygon, and the ring | [`circle_figures`] | a scene of the plane, with the edges that are touched |
+//! | a circle in a polygon, and the rings | [`circle_figures`] | a scene of the plane, with the edges that are touched |
+//! | an ellipse in a polygon, and the rings | [`ellipse_figures`] | the same |
 //! | a triangulation and its points | [`delaunay_figures`] | scenes of the plane or of space, and the Voronoi diagram |
 //! | curves and their points | [`curve_figures`] | scenes of the plane, with the band of noise, outliers and ends |
 //! | a surface and its points, or bare triangles | [`surface_figures`], [`surface_scene`] | a scene to turn, with fronts, backs, boundary and unused points, and fixed views |
@@ -43,6 +44,7 @@ mod centers;
 mod circle;
 mod curve;
 mod delaunay;
+mod ellipse;
 mod ellipsoid;
 mod error;
 mod figure;
@@ -58,6 +60,7 @@ mod plot;
 mod png;
 mod project;
 mod raster;
+mod rings;
 mod scene;
 mod scene2;
 mod scene3;
@@ -71,6 +74,7 @@ pub use centers::{ElbowStep, centers_figures, elbow_figure};
 pub use circle::circle_figures;
 pub use curve::curve_figures;
 pub use delaunay::delaunay_figures;
+pub use ellipse::ellipse_figures;
 pub use ellipsoid::{ellipsoid_figures, robust_figures};
 pub use error::Error;
 pub use figure::{Figure, Figures};

@@ -1,4 +1,4 @@
-//! The largest circle in a simple polygon.
+//! The largest circle in a polygon.
 //!
 //! *Problem.* The clearance of a point q is its distance to the nearest edge, d(q) = minᵢ dist(q, eᵢ). Find the center inside
 //! with the largest clearance.
@@ -26,7 +26,7 @@ use taut_certify::{CircleCertificate, InscribedCircle, Solution, Trace};
 use taut_points::{InputError, Monitor, PointSource, shown_number};
 
 use crate::Error;
-use crate::ring::Ring;
+use crate::polygon::Polygon;
 
 use self::distance::Edges;
 
@@ -50,20 +50,22 @@ impl Default for CircleOptions<'_> {
     }
 }
 
-/// Finds the largest circle in the simple polygon whose vertices are the points in order; the last may repeat the first.
+/// Finds the largest circle in a polygon.
 ///
+/// Points (x, y) are the vertices of one ring in order; points (x, y, r) those of several rings, r being the number of the ring:
+/// 0, 1, and so on. Inside is what an odd number of rings wind around. The last vertex of a ring may repeat its first.
 /// The points are read once and kept in memory.
 ///
 /// # Errors
-/// [`Error::NotSimple`] with the edges where the ring meets itself, [`Error::TooFewVertices`], [`Error::TooThin`], and
+/// [`Error::NotSimple`] with two edges that meet, [`Error::RingNumber`], [`Error::TooFewVertices`], [`Error::TooThin`], and
 /// [`Error::Input`] for bad points or options, and for what reading says.
 pub fn inscribed_circle(
-    ring: &dyn PointSource,
+    polygon: &dyn PointSource,
     options: &CircleOptions<'_>,
 ) -> Result<Solution<InscribedCircle>, Error> {
     check_options(options)?;
-    let ring = Ring::read(ring, &options.monitor)?;
-    let edges = Edges::of(&ring.exact);
+    let polygon = Polygon::read(polygon, &options.monitor)?;
+    let edges = Edges::of(&polygon.edges);
     let found = search::search(&edges, options)?;
     let radius = edges.unscaled_down(found.radius);
     if found.center.is_none() || radius <= 0.0 {
@@ -75,16 +77,16 @@ pub fn inscribed_circle(
     let most = found.radius * (1.0 + TOUCHING_SLACK) + rounding;
     let touching = (0..edges.len()).filter(|&edge| edges.distance(point, edge) <= most);
     let certificate = CircleCertificate {
-        touching: touching.map(|edge| ring.rows[edge as usize]).collect(),
+        touching: touching.map(|edge| polygon.rows[edge as usize]).collect(),
         tree: found.log.tree,
-        leaves: found.log.leaves.into_iter().map(|leaf| leaf.numbers(&ring.rows)).collect(),
+        leaves: found.log.leaves.into_iter().map(|leaf| leaf.numbers(&polygon.rows)).collect(),
         gap: ((found.upper / found.radius) * (1.0 + 8.0 * f64::EPSILON) - 1.0).max(0.0),
-        points_hash: ring.points_hash,
+        points_hash: polygon.points_hash,
     };
     let counters = [
         ("cells", certificate.tree.len() as u64),
         ("searches", found.searches),
-        ("vertices", ring.rows.len() as u64),
+        ("vertices", polygon.rows.len() as u64),
     ];
     let trace = Trace {
         method: "branch-and-bound".to_owned(),

@@ -2,7 +2,8 @@
 //!
 //! | you want | call | promise | cost, n vertices |
 //! |---|---|---|---|
-//! | the largest circle in a simple polygon | [`inscribed_circle()`] | largest radius ≤ (1 + ε)·radius, proved | O(n log n) for most rings, and the cells of the search |
+//! | the largest circle in a polygon, with holes | [`inscribed_circle()`] | largest radius ≤ (1 + ε)·radius, proved | O(n log n) for most rings, and the cells of the search |
+//! | the largest ellipse in a polygon, with holes | [`inscribed_ellipse()`] | largest area ≤ (1 + ε)·area, proved | O(n log n), and the cells of the search |
 //!
 //! ```
 //! use taut_inscribe::{CircleOptions, inscribed_circle};
@@ -15,13 +16,16 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Not for: polygons with holes, and rings that touch or cross themselves.
+//! A polygon is one ring of points (x, y), or several rings of points (x, y, number of the ring): holes and parts, by the
+//! even-odd rule. Not for: rings that touch or cross each other or themselves.
 #![forbid(unsafe_code)]
 
 mod circle;
+mod ellipse;
 mod error;
-mod ring;
+mod polygon;
 mod simple;
 
 pub use circle::{CircleOptions, inscribed_circle};
+pub use ellipse::{EllipseOptions, inscribed_ellipse};
 pub use error::Error;

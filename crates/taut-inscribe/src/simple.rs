@@ -1,15 +1,17 @@
-//! Decides whether a ring meets itself.
+//! Decides whether rings meet themselves or each other.
 //!
 //! *Problem.* Find two edges with a common point, other than neighbors at their common vertex.
 //! *Idea.* The bounding box is split at the middle, along the axis that puts fewer edges into both halves, until a cell has few
 //! edges or splitting no longer parts them; then pairs of edges are tested by exact signs, in the order of their left ends.
 //! *Guarantee.* No pair is missed: two edges that meet are both in a cell that holds the point where they do. The pair that is
-//! returned depends on the ring alone.
+//! returned depends on the rings alone.
 //! *Cost.* O(n log n) for rings whose edges crowd nowhere.
 //! *Trap.* Neighbors can fold back on each other: three points on a line, the middle one at the end.
 
 use taut_points::{Cancelled, Monitor};
 use taut_predicates::plane::{lexicographic, orient};
+
+use crate::polygon::{Loops, Segment};
 
 /// Edges that are tested in pairs without splitting their cell.
 const LEAF_EDGES_MAX: usize = 12;
@@ -20,8 +22,6 @@ const DEPTH_MAX: usize = 100;
 /// A split is worthwhile if its halves together have fewer edges than this share of the cell, in sixteenths.
 const SPLIT_SHARE: usize = 28;
 
-type Segment = [[f64; 2]; 2];
-
 struct Cell {
     low: [f64; 2],
     high: [f64; 2],
@@ -29,30 +29,30 @@ struct Cell {
     depth: usize,
 }
 
-/// Returns two edges of the closed ring that meet though they must not, the lower number first.
-///
-/// No two vertices that follow each other are equal.
+/// Returns two edges that meet though they must not, the lower number first. Each ring has at least three edges.
 pub(crate) fn crossing(
-    ring: &[[f64; 2]],
+    loops: &Loops,
     monitor: &Monitor<'_>,
 ) -> Result<Option<[usize; 2]>, Cancelled> {
-    let (mut low, mut high) = (ring[0], ring[0]);
-    for p in ring {
+    let segments = &loops.segments;
+    let (mut low, mut high) = (segments[0][0], segments[0][0]);
+    for [p, _] in segments {
         for k in 0..2 {
             (low[k], high[k]) = (low[k].min(p[k]), high[k].max(p[k]));
         }
     }
-    let mut pending = vec![Cell { low, high, edges: (0..ring.len() as u32).collect(), depth: 0 }];
+    let mut pending =
+        vec![Cell { low, high, edges: (0..segments.len() as u32).collect(), depth: 0 }];
     while let Some(cell) = pending.pop() {
         monitor.check()?;
         let halves = match cell.edges.len() <= LEAF_EDGES_MAX || cell.depth == DEPTH_MAX {
             true => None,
-            false => split(ring, &cell),
+            false => split(segments, &cell),
         };
         match halves {
             Some([lower, upper]) => pending.extend([upper, lower]),
             None => {
-                if let Some(found) = in_pairs(ring, cell.edges) {
+                if let Some(found) = in_pairs(loops, cell.edges) {
                     return Ok(Some(found));
                 }
             }
@@ -62,13 +62,13 @@ pub(crate) fn crossing(
 }
 
 /// The halves of a cell; `None` where both would have most of its edges.
-fn split(ring: &[[f64; 2]], cell: &Cell) -> Option<[Cell; 2]> {
+fn split(segments: &[Segment], cell: &Cell) -> Option<[Cell; 2]> {
     let of_axis = |axis: usize| {
         let middle = 0.5 * cell.low[axis] + 0.5 * cell.high[axis];
         let (mut below, mut above) = (cell.high, cell.low);
         (below[axis], above[axis]) = (middle, middle);
         [(cell.low, below), (above, cell.high)].map(|(low, high)| {
-            let meets = |&&edge: &&u32| meets_cell(segment(ring, edge as usize), low, high);
+            let meets = |&&edge: &&u32| meets_cell(segments[edge as usize], low, high);
             let edges = cell.edges.iter().filter(meets).copied().collect();
             Cell { low, high, edges, depth: cell.depth + 1 }
         })
@@ -80,18 +80,18 @@ fn split(ring: &[[f64; 2]], cell: &Cell) -> Option<[Cell; 2]> {
 }
 
 /// The first pair of edges that meet, in the order of their left ends.
-fn in_pairs(ring: &[[f64; 2]], mut edges: Vec<u32>) -> Option<[usize; 2]> {
+fn in_pairs(loops: &Loops, mut edges: Vec<u32>) -> Option<[usize; 2]> {
     let left = |edge: u32| {
-        let [a, b] = segment(ring, edge as usize);
+        let [a, b] = loops.segments[edge as usize];
         a[0].min(b[0])
     };
     edges.sort_by(|&one, &other| left(one).total_cmp(&left(other)).then(one.cmp(&other)));
     for (place, &one) in edges.iter().enumerate() {
-        let [a, b] = segment(ring, one as usize);
+        let [a, b] = loops.segments[one as usize];
         let right = a[0].max(b[0]);
         for &other in edges[place + 1..].iter().take_while(|&&other| left(other) <= right) {
             let (one, other) = (one.min(other) as usize, one.max(other) as usize);
-            if meet_wrongly(ring, one, other) {
+            if meet_wrongly(loops, one, other) {
                 return Some([one, other]);
             }
         }
@@ -99,17 +99,13 @@ fn in_pairs(ring: &[[f64; 2]], mut edges: Vec<u32>) -> Option<[usize; 2]> {
     None
 }
 
-fn segment(ring: &[[f64; 2]], edge: usize) -> Segment {
-    [ring[edge], ring[if edge + 1 == ring.len() { 0 } else { edge + 1 }]]
-}
-
-/// Tests whether two edges, the first of a lower number, have a point in common that they may not have.
-fn meet_wrongly(ring: &[[f64; 2]], one: usize, other: usize) -> bool {
-    let ([a, b], [c, d]) = (segment(ring, one), segment(ring, other));
+/// Whether two edges, the first of a lower number, have a point in common that they may not have.
+fn meet_wrongly(loops: &Loops, one: usize, other: usize) -> bool {
+    let ([a, b], [c, d]) = (loops.segments[one], loops.segments[other]);
     // Edges of a ring of two would be neighbors at both ends, but a ring has three.
     match () {
-        () if one + 1 == other => folds(a, b, d),
-        () if one == 0 && other + 1 == ring.len() => folds(c, d, b),
+        () if loops.after[one] as usize == other => folds(a, b, d),
+        () if loops.after[other] as usize == one => folds(c, d, b),
         () => meet([a, b], [c, d]),
     }
 }
@@ -146,8 +142,32 @@ pub(crate) fn meets_cell([a, b]: Segment, low: [f64; 2], high: [f64; 2]) -> bool
 mod tests {
     use super::*;
 
+    fn loops(rings: &[&[[f64; 2]]]) -> Loops {
+        let mut loops = Loops::default();
+        rings.iter().for_each(|ring| loops.push(ring));
+        loops
+    }
+
     fn found(ring: &[[f64; 2]]) -> Option<[usize; 2]> {
-        crossing(ring, &Monitor::silent()).unwrap()
+        crossing(&loops(&[ring]), &Monitor::silent()).unwrap()
+    }
+
+    #[test]
+    fn rings_that_meet_each_other_are_found() {
+        let square = |x: f64, y: f64, side: f64| {
+            [[x, y], [x + side, y], [x + side, y + side], [x, y + side]]
+        };
+        let of = |one: &[[f64; 2]], other: &[[f64; 2]]| {
+            crossing(&loops(&[one, other]), &Monitor::silent()).unwrap()
+        };
+        let outer = square(0.0, 0.0, 4.0);
+        assert_eq!(of(&outer, &square(1.0, 1.0, 1.0)), None);
+        assert_eq!(of(&outer, &square(5.0, 5.0, 1.0)), None);
+        for (x, y) in [(3.5, 1.0), (0.0, 1.0), (-1.0, -1.0), (4.0, 4.0), (0.0, 0.0)] {
+            let [one, other] = of(&outer, &square(x, y, 1.0)).unwrap();
+            assert!(one < 4 && other >= 4, "{x}, {y}");
+        }
+        assert!(of(&outer, &outer).is_some());
     }
 
     #[test]
@@ -194,7 +214,7 @@ mod tests {
                     continue;
                 }
                 let pairs = (0..ring.len()).flat_map(|i| (i + 1..ring.len()).map(move |j| (i, j)));
-                let expected = pairs.into_iter().any(|(i, j)| meet_wrongly(&ring, i, j));
+                let expected = pairs.into_iter().any(|(i, j)| meet_wrongly(&loops(&[&ring]), i, j));
                 assert_eq!(found(&ring).is_some(), expected, "{ring:?}");
                 *(if expected { &mut crossed } else { &mut simple }) += 1;
             }

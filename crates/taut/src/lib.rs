@@ -10,7 +10,8 @@
 //! | the ellipsoid of least volume around points, balls or ellipsoids | [`ellipsoid()`] | log-volume ≤ least + ε, proved | [`enclose`] |
 //! | one for each of many point sets | [`ellipsoids()`] | the same | [`enclose`] |
 //! | the ellipsoid of largest volume in a polytope | [`inscribed_ellipsoid()`] | optimum ≤ log-volume + ε, proved | [`enclose`] |
-//! | the largest circle in a simple polygon | [`inscribed_circle()`] | largest radius ≤ (1 + ε)·radius, proved | [`inscribe`] |
+//! | the largest circle in a polygon, with holes | [`inscribed_circle()`] | largest radius ≤ (1 + ε)·radius, proved | [`inscribe`] |
+//! | the largest ellipse in a polygon, with holes | [`inscribe::inscribed_ellipse()`] | largest area ≤ (1 + ε)·area, proved | [`inscribe`] |
 //! | center and scatter of most points, and the outliers | [`robust_ellipsoid()`] | all but the choice of points proved; that choice a local optimum | [`enclose`] |
 //! | the Delaunay triangulation of points in the plane or in space | [`delaunay()`] | exact, a function of the point set alone, proved | [mod@delaunay] |
 //! | the same, to walk around in; Voronoi cells, alpha complexes, nearest points | [`delaunay::Plane`], [`delaunay::Space`] | the same | [mod@delaunay] |
@@ -159,6 +160,8 @@ mod pages {
     struct Curve;
     #[doc = include_str!("../../../docs/delaunay.md")]
     struct Delaunay;
+    #[doc = include_str!("../../../docs/ellipse.md")]
+    struct Ellipse;
     #[doc = include_str!("../../../docs/ellipsoid.md")]
     struct Ellipsoid;
     #[doc = include_str!("../../../docs/robust.md")]

@@ -9,6 +9,7 @@ from .ball import Ball, BallCertificate, Verdict
 from .centers import Centers, CentersCertificate, CentersVerdict
 from .circle import CircleCertificate, CircleVerdict, InscribedCircle
 from .curve import Curve, CurveCertificate, CurveVerdict
+from .ellipse import EllipseCertificate, EllipseVerdict, InscribedEllipse
 from .ellipsoid import Ellipsoid, EllipsoidCertificate, EllipsoidVerdict
 from .inscribed import InscribedCertificate, InscribedEllipsoid, InscribedVerdict
 from .order import Order, OrderCertificate, OrderVerdict
@@ -21,6 +22,7 @@ AnyVerdict = (
     | EllipsoidVerdict
     | InscribedVerdict
     | CircleVerdict
+    | EllipseVerdict
     | RobustVerdict
     | CentersVerdict
     | CurveVerdict
@@ -67,6 +69,13 @@ KINDS = {
         CircleVerdict,
         "lies in",
         ("answer.radius", "certificate.gap"),
+    ),
+    "inscribed-ellipse": Kind(
+        InscribedEllipse,
+        EllipseCertificate,
+        EllipseVerdict,
+        "lies in",
+        ("answer.area", "certificate.gap"),
     ),
     "robust-ellipsoid": Kind(
         RobustEllipsoid,

@@ -1,6 +1,6 @@
 //! The checker of the inscribed circle, in arithmetic of its own.
 //!
-//! *Inside.* The number of edges to the left of the center, by exact signs, is odd: [`ring`].
+//! *Inside.* The number of edges to the left of the center, by exact signs, is odd: [`Polygon`].
 //! *Empty.* The distance from the center to every edge, rounded down, is at least the radius: [`distance`].
 //! *Upper bound.* The subdivision is replayed cell by cell, with distances rounded up: [`replay`].
 //! *Tolerances.* The gap claimed has [`GAP_SLACK`], as the solver may bound its rounding less carefully; inside and empty have none.
@@ -8,16 +8,13 @@
 
 mod distance;
 mod replay;
-mod ring;
-mod signs;
 
 use taut_points::{Monitor, PointSource};
 
 use self::distance::{distance, rounded_down};
-use self::ring::Ring;
 use super::{CircleCertificate, CircleVerdict, CircleViolation, InscribedCircle};
 use crate::arithmetic::U;
-use crate::hashed_pass::{WantedRows, all_finite, hashed_pass};
+use crate::polygon::{self, Polygon};
 use crate::{CheckError, Violation};
 
 /// The amount by which the gap claimed may fall short of the gap proved, relatively and absolutely.
@@ -33,19 +30,15 @@ pub(super) fn check(
     monitor: &Monitor<'_>,
 ) -> Result<CircleVerdict, CheckError> {
     numbers(answer, certificate)?;
-    if source.dim() != 2 {
-        return Err(CircleViolation::Plane { dim: source.dim() }.into());
-    }
-    monitor.pass(1, source.len());
-    let ring = Ring::of(read(source, certificate, monitor)?);
+    let polygon = polygon::read(source, certificate.points_hash, monitor)?;
     let [x, y] = answer.center;
-    if !ring.is_inside(answer.center) {
+    if !polygon.is_inside(answer.center) {
         return Err(CircleViolation::CenterOutside { x, y }.into());
     }
-    is_empty(answer, &ring)?;
-    touching(answer, &certificate.touching, &ring)?;
-    let radius = ring.scaled(answer.radius);
-    let upper = replay::replay(certificate, &ring, monitor)?.max(radius);
+    is_empty(answer, &polygon)?;
+    touching(answer, &certificate.touching, &polygon)?;
+    let radius = polygon.scaled(answer.radius);
+    let upper = replay::replay(certificate, &polygon, monitor)?.max(radius);
     let gap = ((upper / radius) * (1.0 + 8.0 * U) - 1.0).max(0.0);
     let (relative, absolute) = GAP_SLACK;
     let is_proved = gap <= certificate.gap * (1.0 + relative) + absolute;
@@ -53,7 +46,7 @@ pub(super) fn check(
         return Err(CircleViolation::Gap { claimed: certificate.gap, proved: gap }.into());
     }
     let upper = match upper > radius {
-        true => ring.unscaled_up(upper),
+        true => polygon.unscaled_up(upper),
         false => answer.radius,
     };
     Ok(CircleVerdict { lower: answer.radius, upper, gap })
@@ -81,33 +74,14 @@ fn numbers(answer: &InscribedCircle, certificate: &CircleCertificate) -> Result<
     Ok(())
 }
 
-/// Reads all rows, which must be finite and those of the hash.
-fn read(
-    source: &dyn PointSource,
-    certificate: &CircleCertificate,
-    monitor: &Monitor<'_>,
-) -> Result<Vec<[f64; 2]>, CheckError> {
-    let claimed = certificate.points_hash;
-    let (blocks, _) = hashed_pass(source, claimed, WantedRows::none(), monitor, |first, rows| {
-        all_finite(first, rows)?;
-        let mut point = [0.0; 2];
-        let points = (0..rows.len()).map(|row| {
-            rows.copy_row(row, &mut point);
-            point
-        });
-        Ok(points.collect::<Vec<_>>())
-    })?;
-    Ok(blocks.concat())
-}
-
 /// Proves that no edge enters the circle.
-fn is_empty(answer: &InscribedCircle, ring: &Ring) -> Result<(), CircleViolation> {
-    let (center, radius) = (ring.scaled_point(answer.center), ring.scaled_up(answer.radius));
-    for edge in 0..ring.len() {
-        let lower = rounded_down(distance(center, ring.scaled_edge(edge)));
+fn is_empty(answer: &InscribedCircle, polygon: &Polygon) -> Result<(), CircleViolation> {
+    let (center, radius) = (polygon.scaled_point(answer.center), polygon.scaled_up(answer.radius));
+    for edge in 0..polygon.len() {
+        let lower = rounded_down(distance(center, polygon.scaled_edge(edge)));
         let is_outside = lower >= radius;
         if !is_outside {
-            let distance = ring.unscaled(lower);
+            let distance = polygon.unscaled(lower);
             return Err(CircleViolation::EdgeInside { row: edge as u64, distance });
         }
     }
@@ -118,9 +92,13 @@ fn is_empty(answer: &InscribedCircle, ring: &Ring) -> Result<(), CircleViolation
 ///
 /// The center is rounded, so that three edges at the same distance from the exact center are at distances that differ by its
 /// rounding: half a unit in the last place of each coordinate.
-fn touching(answer: &InscribedCircle, list: &[u64], ring: &Ring) -> Result<(), CircleViolation> {
+fn touching(
+    answer: &InscribedCircle,
+    list: &[u64],
+    polygon: &Polygon,
+) -> Result<(), CircleViolation> {
     let wrong = |position, problem| Err(CircleViolation::Touching { position, problem });
-    let (center, radius) = (ring.scaled_point(answer.center), ring.scaled_up(answer.radius));
+    let (center, radius) = (polygon.scaled_point(answer.center), polygon.scaled_up(answer.radius));
     let rounding = 4.0 * U * (center[0].abs() + center[1].abs());
     let mut last = None;
     for (position, &row) in list.iter().enumerate() {
@@ -128,10 +106,10 @@ fn touching(answer: &InscribedCircle, list: &[u64], ring: &Ring) -> Result<(), C
             return wrong(position, "does not ascend");
         }
         last = Some(row);
-        let Some(edge) = usize::try_from(row).ok().filter(|&row| row < ring.len()) else {
+        let Some(edge) = usize::try_from(row).ok().filter(|&row| row < polygon.len()) else {
             return wrong(position, "names a row that does not exist");
         };
-        let lower = rounded_down(distance(center, ring.scaled_edge(edge)));
+        let lower = rounded_down(distance(center, polygon.scaled_edge(edge)));
         let is_touching = lower <= radius * (1.0 + TOUCHING_SLACK) + rounding;
         if !is_touching {
             return wrong(position, "names an edge that the circle does not touch");

@@ -6,12 +6,6 @@ use crate::Fault;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CircleViolation {
-    /// The points are not of the plane.
-    #[error("the points have {dim} coordinates: the vertices of a polygon have 2")]
-    Plane {
-        /// Coordinates of a point.
-        dim: usize,
-    },
     /// The center is not inside the polygon.
     #[error("the center ({x:?}, {y:?}) is not inside the polygon")]
     CenterOutside {
@@ -22,7 +16,7 @@ pub enum CircleViolation {
     },
     /// An edge may enter the circle.
     #[error(
-        "the edge from point {row} to the next is only proved to be {distance:?} from the center, less than the radius"
+        "the edge that begins at point {row} is only proved to be {distance:?} from the center, less than the radius"
     )]
     EdgeInside {
         /// The row at which the edge begins, from 0.
@@ -68,7 +62,6 @@ impl CircleViolation {
     /// Returns what this violation blames.
     pub(crate) fn fault(&self) -> Fault {
         match *self {
-            CircleViolation::Plane { .. } => Fault::Points,
             CircleViolation::EdgeInside { row, .. } => Fault::Row(row),
             _ => Fault::Answer,
         }

@@ -54,10 +54,16 @@ fn geojson_and_other_points_are_read_alike() {
     // The closing vertex is a row of its own.
     folder.taut("verify circle.json ring.csv").ends(1).stdout_has(&["the data changed"]);
     folder.put("holes.geojson", polygon.replace("]]]", "]], [[1,1],[1.5,1],[1,1.5],[1,1]]]"));
+    folder.taut("inscribe circle holes.geojson -o holed.json --draw holed.svg").ends(0).stdout_has(
+        &[
+            "Largest circle in a polygon of 11 points",
+            "no circle in the polygon has a radius above 0.767949",
+        ],
+    );
     folder
-        .taut("inscribe circle holes.geojson")
-        .ends(2)
-        .stderr_has(&["holes.geojson", "has a hole"]);
+        .taut("verify holed.json holes.geojson")
+        .ends(0)
+        .stdout_has(&["in a polygon of 11 points"]);
     let all = folder.taut("inscribe circle ring.csv --json").ends(0).out;
     assert_eq!(folder.pipe(L, "inscribe circle - --json").ends(0).out, all);
     assert_eq!(folder.taut("inscribe circle ring.csv -o - --threads 1").ends(0).out, all);
@@ -94,7 +100,12 @@ fn rings_that_are_no_polygon_are_refused() {
     folder
         .taut("inscribe circle space.csv")
         .ends(2)
-        .stderr_has(&["points have 3 coordinates", "--columns"]);
+        .stderr_has(&["the ring number of point 0 is 1.0: expected 0 for the first point"]);
+    folder.put("four.csv", "0,0,1,1\n2,2,1,1\n0,1,0,1\n");
+    folder
+        .taut("inscribe circle four.csv")
+        .ends(2)
+        .stderr_has(&["points have 4 coordinates", "--columns"]);
     folder.put("ring.csv", L);
     folder
         .taut("inscribe circle ring.csv --epsilon 0")

@@ -1,6 +1,6 @@
-//! Cells of the bounding box, and on which side of the ring their lower corners lie.
+//! Cells of the bounding box, and on which side of the edges their lower corners lie.
 //!
-//! A point is moved by (δ, δ²) for an infinitely small δ > 0, so that it lies on no edge. The ring is crossed as often on any
+//! A point is moved by (δ, δ²) for an infinitely small δ > 0, so that it lies on no edge. The edges are crossed as often on any
 //! path between two moved points as parity says; a path within a cell crosses only edges that meet the cell.
 
 use taut_predicates::plane::orient;
@@ -17,10 +17,10 @@ pub(super) struct Cell {
 }
 
 impl Cell {
-    /// The bounding box of the ring.
+    /// The bounding box of the rings.
     pub(super) fn root(edges: &Edges) -> Self {
-        let (mut low, mut high) = (edges.exact[0], edges.exact[0]);
-        for p in &edges.exact {
+        let (mut low, mut high) = (edges.exact[0][0], edges.exact[0][0]);
+        for [p, _] in &edges.exact {
             for k in 0..2 {
                 (low[k], high[k]) = (low[k].min(p[k]), high[k].max(p[k]));
             }
@@ -92,7 +92,7 @@ mod tests {
     #[test]
     fn corners_on_edges_and_vertices_have_a_side() {
         // A diamond whose vertices and center are corners of cells.
-        let edges = Edges::of(&[[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]]);
+        let edges = Edges::of_ring(&[[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]]);
         let list = [0, 1, 2, 3];
         let root = Cell::root(&edges);
         assert_eq!((root.low, root.high, root.is_inside), ([-1.0; 2], [1.0; 2], false));

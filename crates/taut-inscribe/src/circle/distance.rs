@@ -6,11 +6,13 @@ const PRODUCT_ERROR: f64 = f64::from_bits((1023 - 93) << 52);
 /// Unit roundoff.
 const U: f64 = f64::EPSILON / 2.0;
 
-/// The edges of a ring, with coordinates scaled by a power of two.
+use crate::polygon::Segment;
+
+/// The edges of a polygon, with coordinates scaled by a power of two.
 pub(super) struct Edges {
-    /// The vertices as given.
-    pub(super) exact: Vec<[f64; 2]>,
-    scaled: Vec<[f64; 2]>,
+    /// The edges as given.
+    pub(super) exact: Vec<Segment>,
+    scaled: Vec<Segment>,
     /// Of each edge its vector over its squared length, so that a projection takes no division; 0 where that overflows.
     inverse: Vec<[f64; 2]>,
     /// The product of both is the power of two that brings the largest coordinate to [1, 2).
@@ -18,13 +20,13 @@ pub(super) struct Edges {
 }
 
 impl Edges {
-    pub(super) fn of(exact: &[[f64; 2]]) -> Self {
-        let largest = exact.iter().flatten().fold(0.0f64, |most, x| most.max(x.abs()));
+    pub(super) fn of(exact: &[Segment]) -> Self {
+        let coordinates = exact.iter().flatten().flatten();
+        let largest = coordinates.fold(0.0f64, |most, x| most.max(x.abs()));
         let factors = factors_of(largest);
-        let scaled: Vec<[f64; 2]> =
-            exact.iter().map(|p| p.map(|x| x * factors[0] * factors[1])).collect();
-        let after = scaled[1..].iter().chain(&scaled[..1]);
-        let inverse = scaled.iter().zip(after).map(|(a, b)| {
+        let scale = |p: [f64; 2]| p.map(|x| x * factors[0] * factors[1]);
+        let scaled: Vec<Segment> = exact.iter().map(|edge| edge.map(scale)).collect();
+        let inverse = scaled.iter().map(|[a, b]| {
             let e = [b[0] - a[0], b[1] - a[1]];
             let inverse = e.map(|x| x / (e[0] * e[0] + e[1] * e[1]));
             if inverse.iter().all(|x| x.is_finite()) { inverse } else { [0.0; 2] }
@@ -36,13 +38,9 @@ impl Edges {
         self.exact.len() as u32
     }
 
-    fn ends(&self, points: &[[f64; 2]], edge: u32) -> [[f64; 2]; 2] {
-        let edge = edge as usize;
-        [points[edge], points[if edge + 1 == points.len() { 0 } else { edge + 1 }]]
-    }
-
-    pub(super) fn segment(&self, edge: u32) -> [[f64; 2]; 2] {
-        self.ends(&self.exact, edge)
+    /// The ends of an edge as given.
+    pub(super) fn segment(&self, edge: u32) -> Segment {
+        self.exact[edge as usize]
     }
 
     /// A point in scaled coordinates.
@@ -65,7 +63,7 @@ impl Edges {
     /// The distance of p from an edge, off by some units of the last place of p and of the ends.
     #[inline(always)]
     pub(super) fn distance(&self, p: [f64; 2], edge: u32) -> f64 {
-        let [a, b] = self.ends(&self.scaled, edge);
+        let [a, b] = self.scaled[edge as usize];
         let (d, inverse) = ([p[0] - a[0], p[1] - a[1]], self.inverse[edge as usize]);
         let share = (d[0] * inverse[0] + d[1] * inverse[1]).clamp(0.0, 1.0);
         let (x, y) = (d[0] - share * (b[0] - a[0]), d[1] - share * (b[1] - a[1]));
@@ -79,7 +77,7 @@ impl Edges {
 
     /// The unit vector to p from the nearest point of an edge, and the distance, both accurate; no vector for a p on the edge.
     pub(super) fn feature(&self, p: [f64; 2], edge: u32) -> ([f64; 2], f64) {
-        let [a, b] = self.ends(&self.scaled, edge);
+        let [a, b] = self.scaled[edge as usize];
         let between = |p: [f64; 2], q: [f64; 2]| [minus(p[0], q[0]), minus(p[1], q[1])];
         let (d, e, f) = (between(p, a), between(b, a), between(p, b));
         let length = |v: [Pair; 2]| (v[0].0 * v[0].0 + v[1].0 * v[1].0).sqrt();
@@ -109,7 +107,7 @@ impl Edges {
 
     /// Returns what products of differences may be off by in the checker as well, relative to the length of an edge.
     fn error(&self, p: [f64; 2], edge: u32) -> f64 {
-        let [a, b] = self.ends(&self.scaled, edge);
+        let [a, b] = self.scaled[edge as usize];
         let size = |p: [f64; 2], q: [f64; 2]| (p[0] - q[0]).abs() + (p[1] - q[1]).abs();
         PRODUCT_ERROR * (size(p, a) + size(b, a))
     }
@@ -158,18 +156,28 @@ fn factors_of(largest: f64) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::polygon::Loops;
+
+    impl Edges {
+        /// The edges of one ring.
+        pub(in crate::circle) fn of_ring(ring: &[[f64; 2]]) -> Self {
+            let mut loops = Loops::default();
+            loops.push(ring);
+            Edges::of(&loops.segments)
+        }
+    }
 
     #[test]
     fn a_needle_keeps_its_width() {
         let width = 2f64.powi(-60);
-        let edges = Edges::of(&[[-1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]);
+        let edges = Edges::of_ring(&[[-1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]);
         let expected = width * std::f64::consts::SQRT_2;
         assert!((edges.accurate([width, -width], 0) - expected).abs() <= 1e-15 * expected);
     }
 
     #[test]
     fn both_arithmetics_agree() {
-        let edges = Edges::of(&[[0.3, 0.1], [1.7, 0.9], [0.2, 1.9]]);
+        let edges = Edges::of_ring(&[[0.3, 0.1], [1.7, 0.9], [0.2, 1.9]]);
         for i in 0..20 {
             for j in 0..20 {
                 let p = [f64::from(i) / 10.0, f64::from(j) / 10.0];

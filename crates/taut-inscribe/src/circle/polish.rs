@@ -49,7 +49,7 @@ mod tests {
 
     #[test]
     fn the_center_of_an_incircle_is_found() {
-        let edges = Edges::of(&[[0.0, 0.0], [1.0, 0.0], [1.0, 0.75]]);
+        let edges = Edges::of_ring(&[[0.0, 0.0], [1.0, 0.0], [1.0, 0.75]]);
         let q = equidistant(&edges, &[0, 1, 2], [0.6, 0.3]).unwrap();
         assert!((q[0] - 0.75).abs() < 1e-15 && (q[1] - 0.25).abs() < 1e-15, "{q:?}");
         let q = equidistant(&edges, &[0, 1], [0.6, 0.3]).unwrap();

@@ -19,7 +19,7 @@ fn too_few_vertices_are_refused() {
         (vec![[0.0, 0.0], [1.0, 0.0], [1.0, 0.0], [0.0, 0.0]], 2),
     ] {
         let error = solve(&ring).unwrap_err();
-        let found = matches!(error, Error::TooFewVertices { distinct: found } if found == distinct);
+        let found = matches!(error, Error::TooFewVertices { ring: 0, distinct: found } if found == distinct);
         assert!(found, "{ring:?}: {error}");
     }
 }
@@ -29,7 +29,7 @@ fn rings_that_meet_themselves_are_refused_by_row() {
     let bow = [[0.0, 0.0], [2.0, 2.0], [2.0, 0.0], [0.0, 2.0]];
     assert_eq!(
         refusal(&bow),
-        "the edge from point 0 to point 1 meets the edge from point 2 to point 3: a ring may neither cross nor touch itself"
+        "the edge from point 0 to point 1 meets the edge from point 2 to point 3: rings may neither cross nor touch themselves or each other"
     );
     // Repeated rows: an edge is named by the rows between which it leads.
     let doubled: Ring = bow.iter().flat_map(|&p| [p, p]).collect();
@@ -53,8 +53,12 @@ fn bad_points_and_options_are_refused() {
     let error = inscribed_circle(&Points::new(&points, 2).unwrap(), &CircleOptions::default());
     let row = matches!(error, Err(Error::Input(InputError::NonFinite { row: 2, column: 0, .. })));
     assert!(row, "{error:?}");
-    let error = inscribed_circle(&Points::new(&points, 3).unwrap(), &CircleOptions::default());
-    assert!(matches!(error, Err(Error::Input(InputError::Dimension { dim: 3, .. }))), "{error:?}");
+    for dim in [1, 6] {
+        let error =
+            inscribed_circle(&Points::new(&points, dim).unwrap(), &CircleOptions::default());
+        let is_named = matches!(error, Err(Error::Input(InputError::Dimension { dim: found, .. })) if found == dim);
+        assert!(is_named, "{error:?}");
+    }
     let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
     for epsilon in [0.0, 1.0, -1e-9, f64::NAN, f64::INFINITY] {
         let options = CircleOptions { epsilon, ..Default::default() };

@@ -1,8 +1,9 @@
-//! GeoJSON: positions as points of the plane, and the outer ring of one polygon.
+//! GeoJSON: positions as points of the plane, and the rings of polygons.
 //!
-//! *Read.* Point, MultiPoint, LineString and Polygon, alone, as a Feature or as the Features of a FeatureCollection; a
-//! MultiPolygon of one polygon. Several Points are points in their order; of all other geometries there can be one.
-//! *Refused.* Polygons with holes and several geometries, each with its place: they need more than a list of points.
+//! *Read.* Point, MultiPoint, LineString, Polygon and MultiPolygon, alone, as a Feature or as the Features of a FeatureCollection.
+//! Several Points are points in their order; of all other geometries there can be one. One ring has the columns x and y; where
+//! there are more, a third column has the number of the ring, from 0, holes after the ring that they are in.
+//! *Refused.* Several geometries, with their places.
 //! *Trap.* Positions are longitude and latitude in degrees. They are taken as points of the plane as they stand; a third number,
 //! the height, is left out.
 //! *Reference.* RFC 7946.
@@ -28,18 +29,22 @@ pub(super) fn read(job: &Job<'_>, mut stream: Box<dyn BufRead>) -> Result<Decode
     };
     let document = json::parse(&text).map_err(damaged)?;
     drop(text);
-    let positions = document_positions(&document).map_err(damaged)?;
-    let names = ["x", "y"].map(str::to_owned);
+    let chains = document_chains(&document).map_err(damaged)?;
+    let width = if chains.len() > 1 { 3 } else { 2 };
+    let names = ["x", "y", "ring"].map(str::to_owned);
     let numbers = match &job.options.columns {
-        Some(columns) => columns.resolve(job.path, &names, 2)?,
-        None => vec![0, 1],
+        Some(columns) => columns.resolve(job.path, &names[..width], width)?,
+        None => (0..width).collect(),
     };
     let mut sink = Sink::new(job, numbers.len());
     let mut row = Vec::with_capacity(numbers.len());
-    for position in positions {
-        row.clear();
-        row.extend(numbers.iter().map(|&number| position[number]));
-        sink.push(&row)?;
+    for (ring, positions) in chains.into_iter().enumerate() {
+        for [x, y] in positions {
+            let all = [x, y, ring as f64];
+            row.clear();
+            row.extend(numbers.iter().map(|&number| all[number]));
+            sink.push(&row)?;
+        }
     }
     let columns = numbers.iter().map(|&number| names[number].clone()).collect();
     Ok(Decoded { source: sink.finish()?, columns, numbers: Some(numbers) })
@@ -48,12 +53,16 @@ pub(super) fn read(job: &Job<'_>, mut stream: Box<dyn BufRead>) -> Result<Decode
 /// The problem, as the end of a sentence about the file.
 type Problem = String;
 
-fn document_positions(document: &Value) -> Result<Vec<[f64; 2]>, Problem> {
+/// Positions that follow each other: points, a line or a ring.
+type Chain = Vec<[f64; 2]>;
+
+/// The rings of the document, or all its other positions as one chain.
+fn document_chains(document: &Value) -> Result<Vec<Chain>, Problem> {
     let features = match kind(document, "the document")? {
         "FeatureCollection" => array(field(document, "features", "the document")?, "`features`")?,
         _ => std::slice::from_ref(document),
     };
-    let mut found: Vec<[f64; 2]> = vec![];
+    let (mut found, mut points): (Vec<Chain>, Chain) = (vec![], vec![]);
     let mut first: Option<(usize, bool)> = None;
     for (number, feature) in features.iter().enumerate() {
         let place = format!("feature {number} (from 0)");
@@ -74,12 +83,20 @@ fn document_positions(document: &Value) -> Result<Vec<[f64; 2]>, Problem> {
             }
             _ => first = first.or(Some((number, is_point))),
         }
-        found.extend(geometry_positions(geometry, &place)?);
+        let chains = geometry_chains(geometry, &place)?;
+        match is_point {
+            true => points.extend(chains.concat()),
+            false => found = chains,
+        }
+    }
+    if !points.is_empty() {
+        found.push(points);
     }
     Ok(found)
 }
 
-fn geometry_positions(geometry: &Value, place: &str) -> Result<Vec<[f64; 2]>, Problem> {
+/// The rings of a geometry, or its other positions as one chain.
+fn geometry_chains(geometry: &Value, place: &str) -> Result<Vec<Chain>, Problem> {
     let kind = kind(geometry, place)?;
     let coordinates = || {
         let place = format!("the {kind} of {place}");
@@ -93,33 +110,36 @@ fn geometry_positions(geometry: &Value, place: &str) -> Result<Vec<[f64; 2]>, Pr
         })
     };
     let chain = |list: &[Value]| {
-        list.iter().enumerate().map(|(number, value)| position(value, number)).collect()
+        list.iter()
+            .enumerate()
+            .map(|(number, value)| position(value, number))
+            .collect::<Result<Chain, _>>()
     };
-    let ring = |rings: &[Value]| match rings {
-        [] => Ok(vec![]),
-        [ring] => chain(array(ring, &format!("the ring of the {kind} of {place}"))?),
-        [_, holes @ ..] => Err(format!(
-            "the {kind} of {place} has {} beside its outer ring, and polygons with holes are not supported: remove the rings \
-             from number 1 (from 0)",
-            if holes.len() == 1 { "a hole".to_owned() } else { format!("{} holes", holes.len()) }
-        )),
+    let rings = |list: &[Value], found: &mut Vec<Chain>| {
+        for (number, ring) in list.iter().enumerate() {
+            let place = format!("ring {number} (from 0) of the {kind} of {place}");
+            found.push(chain(array(ring, &place)?)?);
+        }
+        Ok::<(), Problem>(())
     };
+    let mut found = vec![];
     match kind {
-        "Point" => Ok(vec![position(field(geometry, "coordinates", place)?, 0)?]),
-        "MultiPoint" | "LineString" => chain(coordinates()?),
-        "Polygon" => ring(coordinates()?),
-        "MultiPolygon" => match coordinates()? {
-            [] => Ok(vec![]),
-            [polygon] => ring(array(polygon, &format!("the polygon of {place}"))?),
-            several => Err(format!(
-                "the MultiPolygon of {place} has {} polygons, and one is read: keep one of them",
-                several.len()
-            )),
-        },
-        other => Err(format!(
-            "{place} is a {other:?}: expected a Point, MultiPoint, LineString, Polygon or MultiPolygon"
-        )),
+        "Point" => found.push(vec![position(field(geometry, "coordinates", place)?, 0)?]),
+        "MultiPoint" | "LineString" => found.push(chain(coordinates()?)?),
+        "Polygon" => rings(coordinates()?, &mut found)?,
+        "MultiPolygon" => {
+            for (number, polygon) in coordinates()?.iter().enumerate() {
+                let place = format!("polygon {number} (from 0) of the MultiPolygon of {place}");
+                rings(array(polygon, &place)?, &mut found)?;
+            }
+        }
+        other => {
+            return Err(format!(
+                "{place} is a {other:?}: expected a Point, MultiPoint, LineString, Polygon or MultiPolygon"
+            ));
+        }
     }
+    Ok(found)
 }
 
 /// The first two numbers of a position.

@@ -1,7 +1,7 @@
 //! The distance from a point to an edge, with a bound on its error.
 //!
 //! *Idea.* Differences of coordinates are exact in double-double, and a product of two of them is right to about 2⁻¹⁰³.
-//! *Guarantee.* Coordinates are below 4 in size (see [`super::ring`]). With |d| the size of the differences between the point and
+//! *Guarantee.* Coordinates are below 4 in size (see [`crate::polygon`]). With |d| the size of the differences between the point and
 //! the edge and |e| the length of the edge, the cross product is off by less than 2⁻⁹⁹·|d|·|e|, and so is the position of the projection
 //! along the edge: where rounding decides that the projection is at an end, the distance changes by less than 2⁻⁹⁸·|d|. What underflows
 //! is below 2⁻¹⁰⁷⁰ in products; divided by |e| ≥ [`EDGE_MIN`] that is below 2⁻⁶⁶⁰, and a root of it is below 2⁻⁵³⁰. All of

@@ -2,7 +2,7 @@
 //!
 //! *Idea.* Each node has the edges that meet its closed cell, out of those of its parent, and the parity of its lower corner.
 //! The straight path from the lower corner of a cell to that of its upper half stays in the cell, so that only edges of the cell
-//! change the parity on the way. Corners are moved by an infinitely small amount into their cell: [`super::signs`].
+//! change the parity on the way. Corners are moved by an infinitely small amount into their cell: [`crate::polygon`].
 //! *Guarantee.* Cells cover their parent. A cell without edges lies on one side, which its lower corner tells.
 
 use std::cmp::Ordering;
@@ -10,10 +10,9 @@ use std::cmp::Ordering;
 use taut_points::{Cancelled, Monitor, ReadError};
 
 use super::distance::{distance, rounded_up};
-use super::ring::Ring;
-use super::signs::{crosses_below, crosses_left_of, orientation};
 use crate::arithmetic::U;
 use crate::circle::{CircleCertificate, CircleViolation};
+use crate::polygon::{Polygon, crosses_below, crosses_left_of, orientation};
 use crate::{CheckError, Violation};
 
 /// Nodes between two looks at the monitor.
@@ -35,13 +34,13 @@ struct Pending {
 /// Returns an upper bound of the clearance of all points inside, in scaled units; 0 where there is no such point.
 pub(super) fn replay(
     certificate: &CircleCertificate,
-    ring: &Ring,
+    polygon: &Polygon,
     monitor: &Monitor<'_>,
 ) -> Result<f64, CheckError> {
     let wrong = |position, problem| CheckError::from(CircleViolation::Tree { position, problem });
-    let Some([low, high]) = ring.bounding_box() else { return Ok(0.0) };
-    let mut lists: Vec<Vec<u32>> = vec![(0..ring.len() as u32).collect()];
-    let mut pending = vec![Pending { low, high, is_inside: ring.is_inside(low), depth: 0 }];
+    let Some([low, high]) = polygon.bounding_box() else { return Ok(0.0) };
+    let mut lists: Vec<Vec<u32>> = vec![(0..polygon.len() as u32).collect()];
+    let mut pending = vec![Pending { low, high, is_inside: polygon.is_inside(low), depth: 0 }];
     let (mut upper, mut leaves) = (0.0f64, certificate.leaves.iter().enumerate());
     let mut letters = certificate.tree.bytes().enumerate();
     while let Some(cell) = pending.pop() {
@@ -56,7 +55,7 @@ pub(super) fn replay(
                 let Some((leaf, reason)) = leaves.next() else {
                     return Err(wrong(position, "has no entry in the leaves"));
                 };
-                let bound = bound(leaf, reason, &cell, ring)?;
+                let bound = bound(leaf, reason, &cell, polygon)?;
                 // An overflow proves nothing.
                 upper = if bound >= 0.0 { upper.max(bound) } else { f64::INFINITY };
             }
@@ -65,7 +64,7 @@ pub(super) fn replay(
                     return Err(wrong(position, "calls a cell outside that has a corner inside"));
                 }
                 let parents = &lists[cell.depth];
-                if parents.iter().any(|&edge| meets(ring.edge(edge as usize), &cell)) {
+                if parents.iter().any(|&edge| meets(polygon.edge(edge as usize), &cell)) {
                     return Err(wrong(position, "calls a cell outside that an edge meets"));
                 }
             }
@@ -77,9 +76,9 @@ pub(super) fn replay(
                 }
                 let (parents, own) = lists.split_at_mut(depth);
                 own[0].clear();
-                let is_here = |edge: &&u32| meets(ring.edge(**edge as usize), &cell);
+                let is_here = |edge: &&u32| meets(polygon.edge(**edge as usize), &cell);
                 own[0].extend(parents[depth - 1].iter().filter(is_here));
-                let Some(halves) = halves(&cell, axis, depth, &own[0], ring) else {
+                let Some(halves) = halves(&cell, axis, depth, &own[0], polygon) else {
                     return Err(wrong(position, "splits a cell that has no middle"));
                 };
                 let [lower, upper] = halves;
@@ -105,7 +104,7 @@ fn halves(
     axis: usize,
     depth: usize,
     edges: &[u32],
-    ring: &Ring,
+    polygon: &Polygon,
 ) -> Option<[Pending; 2]> {
     let (low, high) = (cell.low, cell.high);
     // Halved first, so that the sum does not overflow.
@@ -118,7 +117,7 @@ fn halves(
     (below[axis], above[axis]) = (middle, middle);
     let crosses = if axis == 0 { crosses_left_of } else { crosses_below };
     let crossed = edges.iter().filter(|&&edge| {
-        let edge = ring.edge(edge as usize);
+        let edge = polygon.edge(edge as usize);
         crosses(edge, low) != crosses(edge, above)
     });
     let changes = crossed.count() % 2 == 1;
@@ -140,7 +139,7 @@ fn meets([a, b]: [[f64; 2]; 2], cell: &Pending) -> bool {
 }
 
 /// Returns the largest Σ λᵢ·dist(corner, eᵢ) of the corners of a cell, rounded up.
-fn bound(leaf: usize, reason: &[u64], cell: &Pending, ring: &Ring) -> Result<f64, Violation> {
+fn bound(leaf: usize, reason: &[u64], cell: &Pending, polygon: &Polygon) -> Result<f64, Violation> {
     let wrong = |problem| Violation::from(CircleViolation::Leaf { leaf, problem });
     let alone = |&[edge]: &[u64; 1]| [edge, 1];
     let single = reason.first_chunk::<1>().filter(|_| reason.len() == 1).map(alone);
@@ -153,7 +152,7 @@ fn bound(leaf: usize, reason: &[u64], cell: &Pending, ring: &Ring) -> Result<f64
     };
     let mut sum = 0u64;
     for &[edge, weight] in pairs {
-        if edge >= ring.len() as u64 {
+        if edge >= polygon.len() as u64 {
             return Err(wrong("names a row that does not exist"));
         }
         let total = sum.checked_add(weight).filter(|&sum| weight > 0 && sum <= WEIGHT_SUM_MAX);
@@ -162,9 +161,9 @@ fn bound(leaf: usize, reason: &[u64], cell: &Pending, ring: &Ring) -> Result<f64
     }
     let corners = [cell.low, [cell.high[0], cell.low[1]], [cell.low[0], cell.high[1]], cell.high];
     let mut upper = 0.0f64;
-    for corner in corners.map(|corner| ring.scaled_point(corner)) {
+    for corner in corners.map(|corner| polygon.scaled_point(corner)) {
         let terms = pairs.iter().map(|&[edge, weight]| {
-            weight as f64 * rounded_up(distance(corner, ring.scaled_edge(edge as usize)))
+            weight as f64 * rounded_up(distance(corner, polygon.scaled_edge(edge as usize)))
         });
         // k products and k − 1 sums of numbers of one sign, and a quotient.
         let mean = terms.sum::<f64>() / sum as f64 * (1.0 + (2 * pairs.len() + 8) as f64 * U);

@@ -1,4 +1,4 @@
-//! `taut inscribe circle`: the largest circle in a simple polygon.
+//! `taut inscribe circle`: the largest circle in a polygon.
 
 mod report;
 
@@ -14,18 +14,20 @@ use crate::pipeline::{Find, Input, Output, OutputOptions};
 use crate::reports;
 use crate::watch::Watch;
 
-/// Find the largest circle in a simple polygon, given by its vertices in order.
+/// Find the largest circle in a polygon, with or without holes.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-The last vertex may repeat the first. The ring may neither cross nor touch itself; if it does, the message names the
-two edges by the vertices between which they lead, counted from 0. Polygons with holes are not supported.
+Two columns x, y are the vertices of one ring in order. A third column has the number of the ring, 0, 1, and so on, for
+polygons with holes or of several parts; inside is what an odd number of rings wind around. The last vertex of a ring may
+repeat its first. Rings may neither cross nor touch; if they do, the message names two edges by the vertices between
+which they lead, counted from 0.
 Exit: 0 reached · 1 the check failed · 2 bad input or usage, nothing written ·
       3 stopped early by the budget of cells, or where rounding hides the gap that was asked for;
         the gap reached is reported
 Example: taut inscribe circle ring.csv -o circle.json --draw circle.svg &&
          taut verify circle.json ring.csv")]
 pub(super) struct Circle {
-    /// Vertices in order, in any format of `taut formats`, such as CSV or GeoJSON; - is standard input
+    /// Rings of vertices in order, in any format of `taut formats`, such as CSV or GeoJSON; - is standard input
     #[arg(value_name = "RING")]
     path: PathBuf,
     /// Proved relative gap to reach, in (0, 1): largest radius ≤ (1 + ε)·radius

@@ -11,7 +11,7 @@ pub fn all() -> Vec<Case> {
     cases(rings(), solve)
 }
 
-/// Returns small polygons, some of them far from 0, large, small, thin, or with repeated vertices.
+/// Returns small polygons, some of them with holes, far from 0, large, small, thin, or with repeated vertices.
 fn rings() -> Vec<Input> {
     let square = vec![0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0];
     let corner = vec![0.0, 0.0, 3.0, 0.0, 3.0, 2.0, 2.0, 2.0, 2.0, 3.0, 0.0, 3.0];
@@ -47,7 +47,23 @@ fn rings() -> Vec<Input> {
         });
         found.push((name, ring.collect()));
     }
-    found.into_iter().map(|(name, values)| Input::new(name, values, 2)).collect()
+    let rings = |rings: &[&[f64]]| -> Vec<f64> {
+        let numbered = |(number, ring): (usize, &&[f64])| {
+            ring.chunks_exact(2).flat_map(|p| [p[0], p[1], number as f64]).collect::<Vec<_>>()
+        };
+        rings.iter().enumerate().flat_map(numbered).collect()
+    };
+    let large: Vec<f64> = square.iter().map(|x| 4.0 * x).collect();
+    let at = |x: f64| square.iter().map(|y| x + y).collect::<Vec<_>>();
+    let hole: Vec<f64> = square.iter().map(|x| 0.5 + 3.0 * x).collect();
+    let with_holes = [
+        ("a square with a hole", rings(&[&large, &at(1.25)])),
+        ("two squares", rings(&[&square, &at(2.0)])),
+        ("an island", rings(&[&large, &hole, &at(1.5)])),
+        ("one ring with its number", rings(&[&corner])),
+    ];
+    let plain = found.into_iter().map(|(name, values)| Input::new(name, values, 2));
+    plain.chain(with_holes.map(|(name, values)| Input::new(name, values, 3))).collect()
 }
 
 fn solve(input: &Input) -> Vec<Solved> {

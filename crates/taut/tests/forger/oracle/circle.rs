@@ -21,9 +21,9 @@ const STARTS: usize = 24;
 /// Edges nearest to a start of which all triples are tried.
 const NEAREST: usize = 6;
 
-/// Knows the truth about the circles in one ring.
+/// Knows the truth about the circles in one polygon.
 pub struct CircleOracle {
-    ring: Vec<Point>,
+    edges: Vec<[Point; 2]>,
     /// The squared clearance of the best center found, which is inside.
     best: BigRational,
 }
@@ -33,15 +33,12 @@ fn exact(x: f64) -> BigRational {
 }
 
 impl CircleOracle {
-    /// Prepares to judge circles in the ring of these rows.
+    /// Prepares to judge circles in the rings of these rows.
     pub fn new(values: &[f64], columns: usize) -> Self {
-        if columns != 2 {
-            return CircleOracle { ring: vec![], best: BigRational::zero() };
-        }
-        let points: Vec<[f64; 2]> = values.chunks_exact(2).map(|row| [row[0], row[1]]).collect();
-        let ring = points.iter().map(|p| p.map(exact)).collect();
-        let mut oracle = CircleOracle { ring, best: BigRational::zero() };
-        for q in candidates(&points) {
+        let plain = edges(values, columns);
+        let edges = plain.iter().map(|edge| edge.map(|p| p.map(exact))).collect();
+        let mut oracle = CircleOracle { edges, best: BigRational::zero() };
+        for q in candidates(&plain) {
             let q = q.map(exact);
             let clearance = oracle.squared_clearance(&q);
             if clearance > oracle.best && oracle.is_inside(&q) {
@@ -97,11 +94,12 @@ impl CircleOracle {
     }
 
     fn edge(&self, row: usize) -> [&Point; 2] {
-        [&self.ring[row], &self.ring[(row + 1) % self.ring.len()]]
+        let [a, b] = &self.edges[row];
+        [a, b]
     }
 
     fn squared_clearance(&self, p: &Point) -> BigRational {
-        let distances = (0..self.ring.len()).map(|row| self.squared_distance(p, row));
+        let distances = (0..self.edges.len()).map(|row| self.squared_distance(p, row));
         distances.min().unwrap_or_else(BigRational::zero)
     }
 
@@ -131,22 +129,44 @@ impl CircleOracle {
                 height > p[1]
             }
         };
-        (0..self.ring.len()).filter(above).count() % 2 == 1
+        (0..self.edges.len()).filter(above).count() % 2 == 1
     }
 }
 
+/// The edge that begins at each row: rows (x, y) are one ring, rows (x, y, number) several. None where rows are no rings.
+fn edges(values: &[f64], columns: usize) -> Vec<[[f64; 2]; 2]> {
+    if columns != 2 && columns != 3 {
+        return vec![];
+    }
+    let rows: Vec<&[f64]> = values.chunks_exact(columns).collect();
+    let number = |row: usize| if columns == 3 { rows[row][2] } else { 0.0 };
+    let vertex = |row: usize| [rows[row][0], rows[row][1]];
+    let is_first = |row: &usize| *row == 0 || number(*row) != number(*row - 1);
+    let starts: Vec<usize> = (0..rows.len()).filter(is_first).collect();
+    if starts.iter().enumerate().any(|(ring, &row)| number(row) != ring as f64) {
+        return vec![];
+    }
+    let ends = starts.iter().skip(1).copied().chain([rows.len()]);
+    let rings = starts.iter().zip(ends);
+    let of_ring = |(&first, end): (&usize, usize)| {
+        (first..end).map(move |row| [row, if row + 1 == end { first } else { row + 1 }])
+    };
+    rings.flat_map(of_ring).map(|edge| edge.map(vertex)).collect()
+}
+
 /// Centers that may be good: points of a grid inside, and points equally far from three edges; found in plain arithmetic and proved by nobody.
-fn candidates(ring: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    let scale = ring.iter().flatten().fold(0.0f64, |most, x| most.max(x.abs()));
-    let ring: Vec<[f64; 2]> = ring.iter().map(|p| p.map(|x| x / scale)).collect();
+fn candidates(edges: &[[[f64; 2]; 2]]) -> Vec<[f64; 2]> {
+    let scale = edges.iter().flatten().flatten().fold(0.0f64, |most, x| most.max(x.abs()));
+    let edges: Vec<[[f64; 2]; 2]> =
+        edges.iter().map(|edge| edge.map(|p| p.map(|x| x / scale))).collect();
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-    for p in &ring {
+    for [p, _] in &edges {
         for k in 0..2 {
             (low[k], high[k]) = (low[k].min(p[k]), high[k].max(p[k]));
         }
     }
     let features = |q: [f64; 2]| -> Vec<([f64; 2], f64)> {
-        (0..ring.len()).map(|i| feature(q, ring[i], ring[(i + 1) % ring.len()])).collect()
+        edges.iter().map(|&[a, b]| feature(q, a, b)).collect()
     };
     let mut grid: Vec<(f64, [f64; 2])> = vec![];
     for i in 0..GRID {
@@ -155,7 +175,7 @@ fn candidates(ring: &[[f64; 2]]) -> Vec<[f64; 2]> {
                 low[k] + (high[k] - low[k]) * (step as f64 + 0.5) / GRID as f64
             };
             let q = [at(0, i), at(1, j)];
-            if is_inside(&ring, q) {
+            if is_inside(&edges, q) {
                 let clearance = features(q).iter().fold(f64::INFINITY, |least, f| least.min(f.1));
                 grid.push((clearance, q));
             }
@@ -165,7 +185,7 @@ fn candidates(ring: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut found: Vec<[f64; 2]> = grid.iter().take(STARTS).map(|point| point.1).collect();
     for (_, start) in grid.into_iter().take(STARTS) {
         let here = features(start);
-        let mut near: Vec<usize> = (0..ring.len()).collect();
+        let mut near: Vec<usize> = (0..edges.len()).collect();
         near.sort_by(|&i, &j| here[i].1.total_cmp(&here[j].1));
         near.truncate(NEAREST);
         for (i, &one) in near.iter().enumerate() {
@@ -187,13 +207,12 @@ fn candidates(ring: &[[f64; 2]]) -> Vec<[f64; 2]> {
 }
 
 /// The even-odd rule in plain arithmetic.
-fn is_inside(ring: &[[f64; 2]], p: [f64; 2]) -> bool {
-    let crosses = |row: &usize| {
-        let (a, b) = (ring[*row], ring[(row + 1) % ring.len()]);
+fn is_inside(edges: &[[[f64; 2]; 2]], p: [f64; 2]) -> bool {
+    let crosses = |&&[a, b]: &&[[f64; 2]; 2]| {
         (a[0] <= p[0]) != (b[0] <= p[0])
             && a[1] + (p[0] - a[0]) * ((b[1] - a[1]) / (b[0] - a[0])) > p[1]
     };
-    (0..ring.len()).filter(crosses).count() % 2 == 1
+    edges.iter().filter(crosses).count() % 2 == 1
 }
 
 /// The unit vector from the nearest point of the segment ab to q, and the distance.

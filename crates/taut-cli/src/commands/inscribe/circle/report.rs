@@ -48,12 +48,12 @@ impl Summary for InscribedCircle {
         let points = counted(source.len(), "point");
         let radius = exact(found.answer.radius);
         Claims {
-            what: format!("inscribed circle of radius {radius} in a ring of {points}"),
+            what: format!("inscribed circle of radius {radius} in a polygon of {points}"),
             gap: Some(verdict.gap),
             fields: vec![
                 Field::proved("bracket", format!("{lower} ≤ largest radius ≤ {upper}"))
                     .remark("of circles with their center inside by the even-odd rule"),
-                Field::proved("gap", gap(verdict.gap)).remark("relative, from the ring alone"),
+                Field::proved("gap", gap(verdict.gap)).remark("relative, from the polygon alone"),
             ],
         }
     }

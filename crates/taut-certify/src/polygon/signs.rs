@@ -10,7 +10,7 @@ use std::cmp::Ordering;
 use crate::arithmetic::{Integer, Ring, U, parts};
 
 /// Returns `Greater` when a, b, c turn left, `Equal` when they are on one line.
-pub(super) fn orientation(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Ordering {
+pub(crate) fn orientation(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Ordering {
     let left = (a[0] - c[0]) * (b[1] - c[1]);
     let right = (a[1] - c[1]) * (b[0] - c[0]);
     let (value, size) = (left - right, left.abs() + right.abs());
@@ -24,8 +24,8 @@ pub(super) fn orientation(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Ordering {
     left.minus(&a[1].minus(&c[1]).times(&b[0].minus(&c[0]))).sign()
 }
 
-/// Tests whether the edge crosses the horizontal line through the moved p, to the left of it.
-pub(super) fn crosses_left_of([a, b]: [[f64; 2]; 2], p: [f64; 2]) -> bool {
+/// Whether the edge crosses the horizontal line through the moved p, to the left of it.
+pub(crate) fn crosses_left_of([a, b]: [[f64; 2]; 2], p: [f64; 2]) -> bool {
     if (a[1] <= p[1]) == (b[1] <= p[1]) {
         return false;
     }
@@ -34,8 +34,8 @@ pub(super) fn crosses_left_of([a, b]: [[f64; 2]; 2], p: [f64; 2]) -> bool {
     orientation(low, high, p) != Ordering::Greater
 }
 
-/// Tests whether the edge crosses the vertical line through the moved p, below it.
-pub(super) fn crosses_below([a, b]: [[f64; 2]; 2], p: [f64; 2]) -> bool {
+/// Whether the edge crosses the vertical line through the moved p, below it.
+pub(crate) fn crosses_below([a, b]: [[f64; 2]; 2], p: [f64; 2]) -> bool {
     if (a[0] <= p[0]) == (b[0] <= p[0]) {
         return false;
     }

@@ -1,0 +1,108 @@
+//! The polygon in units of its bounding box.
+//!
+//! *Guarantee.* With a factor that brings the largest coordinate of an axis to [1, 2), differences of coordinates are right to u of
+//! themselves, and at most 4. Where an extent is not 0 it is at least 2⁻⁵³, so that it is brought to [1, 2] by a power of two below
+//! 2⁵⁴. What underflows is below 2⁻¹⁰⁷⁴ before that. A coordinate in units is off by less than [`COORDINATE_ERROR`].
+
+use crate::polygon::Polygon;
+
+/// Bound of the errors of coordinates in units: 2⁻⁵¹.
+pub(super) const COORDINATE_ERROR: f64 = f64::from_bits((1023 - 51) << 52);
+
+/// The vertices in units.
+pub(super) struct Units {
+    points: Vec<[f64; 2]>,
+    /// For each edge the vertex at which it ends.
+    ends: Vec<u32>,
+    axes: [Axis; 2],
+}
+
+/// The map of a coordinate.
+#[derive(Clone, Copy)]
+struct Axis {
+    /// The product of both brings the largest coordinate to [1, 2); one alone could overflow.
+    factors: [f64; 2],
+    /// The lower end of the bounding box, scaled by the factors.
+    origin: f64,
+    /// The power of two that brings the extent to [1, 2].
+    growth: f64,
+}
+
+impl Units {
+    pub(super) fn of(polygon: &Polygon) -> Self {
+        let given: Vec<[f64; 2]> = (0..polygon.len()).map(|edge| polygon.edge(edge)[0]).collect();
+        let axes = [0, 1].map(|k| Axis::of(given.iter().map(move |p| p[k])));
+        let units = |p: &[f64; 2]| [axes[0].units(p[0]), axes[1].units(p[1])];
+        let points = given.iter().map(units).collect();
+        let ends = (0..polygon.len()).map(|edge| polygon.end(edge)).collect();
+        Units { points, ends, axes }
+    }
+
+    /// Edges, which are as many as vertices.
+    pub(super) fn len(&self) -> usize {
+        self.points.len()
+    }
+
+    pub(super) fn points(&self) -> &[[f64; 2]] {
+        &self.points
+    }
+
+    pub(super) fn edge(&self, edge: usize) -> [[f64; 2]; 2] {
+        [self.points[edge], self.points[self.ends[edge] as usize]]
+    }
+
+    /// A coordinate scaled by the factors of its axis alone: exact unless it underflows.
+    pub(super) fn scaled(&self, axis: usize, x: f64) -> f64 {
+        x * self.axes[axis].factors[0] * self.axes[axis].factors[1]
+    }
+
+    /// The factors of an axis.
+    pub(super) fn factors(&self, axis: usize) -> [f64; 2] {
+        self.axes[axis].factors
+    }
+
+    /// An area of coordinates scaled by the factors, in units.
+    pub(super) fn grown(&self, area: f64) -> f64 {
+        area * self.axes[0].growth * self.axes[1].growth
+    }
+
+    /// An area in units as one of the input.
+    pub(super) fn given_area(&self, area: f64) -> f64 {
+        let [one, other] = self.axes;
+        let scaled = area / one.growth / other.growth;
+        // Large factors first meet small ones, so that nothing overflows on the way to a number that does not.
+        let [mut f, mut g] = [one.factors, other.factors];
+        if one.factors[0] > 1.0 {
+            std::mem::swap(&mut f, &mut g);
+        }
+        scaled / f[0] / g[0] / f[1] / g[1]
+    }
+}
+
+impl Axis {
+    fn of(values: impl Iterator<Item = f64> + Clone) -> Self {
+        let factors = power_pair(values.clone().fold(0.0, |most, x| x.abs().max(most)));
+        let scaled = values.map(|x| x * factors[0] * factors[1]);
+        let origin = scaled.clone().fold(f64::INFINITY, f64::min);
+        let extent = scaled.fold(0.0f64, |most, x| most.max(x - origin));
+        let [one, other] = power_pair(extent);
+        Axis { factors, origin, growth: one * other }
+    }
+
+    fn units(self, x: f64) -> f64 {
+        (x * self.factors[0] * self.factors[1] - self.origin) * self.growth
+    }
+}
+
+/// Two powers of two whose product brings a number to [1, 2); both 1 for 0.
+fn power_pair(largest: f64) -> [f64; 2] {
+    if largest == 0.0 {
+        return [1.0, 1.0];
+    }
+    let exponent = match largest < f64::MIN_POSITIVE {
+        true => -1011 - largest.to_bits().leading_zeros() as i32,
+        false => (largest.to_bits() >> 52) as i32 - 1023,
+    };
+    let half = -exponent / 2;
+    [half, -exponent - half].map(|power| f64::from_bits(((1023 + power) as u64) << 52))
+}

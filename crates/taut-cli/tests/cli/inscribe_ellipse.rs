@@ -1,0 +1,69 @@
+//! `taut inscribe ellipse`: found, proved, drawn; holes from GeoJSON; bad rings refused by row.
+
+use crate::folder::TestFolder;
+
+/// A square of side 4 with a hole of side 2 in its middle: the best ellipse fills a corridor of 4 by 1, π.
+const FRAME: &str = "x,y,ring\n0,0,0\n4,0,0\n4,4,0\n0,4,0\n1,1,1\n3,1,1\n3,3,1\n1,3,1\n";
+
+#[test]
+fn the_largest_ellipse_beside_a_hole_fills_a_corridor() {
+    let folder = TestFolder::new();
+    folder.put("frame.csv", FRAME);
+    folder
+        .taut("inscribe ellipse frame.csv -o ellipse.json --draw ellipse.svg --epsilon 1e-6")
+        .ends(0)
+        .stdout_has(&[
+            "Largest ellipse in a polygon of 8 points\n",
+            "\n  area",
+            "3.14159",
+            "\n  semi-axes",
+            "yes; its center is inside, no edge enters it",
+            "no ellipse in the polygon has an area above 3.14159",
+            "of the proof",
+        ]);
+    let found: serde_json::Value = serde_json::from_str(&folder.text("ellipse.json")).unwrap();
+    assert_eq!(found["kind"], "inscribed-ellipse");
+    let picture = folder.text("ellipse.svg");
+    for part in ["polygon of 8 points", "largest ellipse", "touching edges"] {
+        assert!(picture.contains(part), "{part}");
+    }
+    folder.taut("verify ellipse.json frame.csv --epsilon 1.1e-6").ends(0).stdout_has(&[
+        ": inscribed ellipse of area 3.14159",
+        "≤ largest area ≤",
+        "proved: of ellipses with their center inside by the even-odd rule",
+    ]);
+    folder.taut("draw ellipse.json frame.csv -o again.svg").ends(0);
+    assert_eq!(folder.text("again.svg"), picture);
+    // The same polygon as GeoJSON has closing vertices, which are rows of their own.
+    let rings = "[[0,0],[4,0],[4,4],[0,4],[0,0]], [[1,1],[3,1],[3,3],[1,3],[1,1]]";
+    folder.put("frame.geojson", format!("{{\"type\": \"Polygon\", \"coordinates\": [{rings}]}}"));
+    folder.taut("inscribe ellipse frame.geojson -o other.json").ends(0).stdout_has(&["3.14"]);
+    folder.taut("verify other.json frame.geojson").ends(0);
+    folder.taut("verify other.json frame.csv").ends(1).stdout_has(&["the data changed"]);
+}
+
+#[test]
+fn changed_ellipses_and_bad_polygons_are_refused() {
+    let folder = TestFolder::new();
+    folder.put("frame.csv", FRAME);
+    let all = folder.taut("inscribe ellipse frame.csv --json").ends(0).out;
+    assert_eq!(folder.pipe(FRAME, "inscribe ellipse - --json --threads 1").ends(0).out, all);
+    folder.taut("inscribe ellipse frame.csv -o ellipse.json").ends(0);
+    let text = folder.text("ellipse.json");
+    let mut found: serde_json::Value = serde_json::from_str(&text).unwrap();
+    found["answer"]["center"][0] = 2.0.into();
+    folder.put("moved.json", found.to_string());
+    folder.taut("verify moved.json frame.csv").ends(1).stdout_has(&["Rejected: "]);
+    folder.put("bad.csv", FRAME.replace("1,1,1", "1,1,2"));
+    folder
+        .taut("inscribe ellipse bad.csv")
+        .ends(2)
+        .stderr_has(&["bad.csv", "the ring number of point 4 is 2.0"]);
+    folder.put("crossed.csv", FRAME.replace("3,3,1", "5,3,1"));
+    folder.taut("inscribe ellipse crossed.csv").ends(2).stderr_has(&["meets the edge"]);
+    folder.taut("inscribe ellipse frame.csv --epsilon 0").ends(2).stderr_has(&["`--epsilon` is 0"]);
+    folder
+        .taut("inscribe ellipse frame.csv --max-cells 1")
+        .ends(3)
+        .stdout_has(&["within the budget of cells"]);
+}

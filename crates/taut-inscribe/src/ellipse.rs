@@ -1,0 +1,115 @@
+//! The largest ellipse in a polygon.
+//!
+//! *Problem.* Find the ellipse of the largest area whose center is inside and that no edge enters.
+//! *Idea.* For each shape (s, t), a norm of determinant 1, the ellipse is a largest circle ([`shape`]). Branch and bound over cells of
+//! shapes and centers ([`search`]), in units of the bounding box ([`units`]). The size of an ellipse is at most Σ λᵢ·dist(c, eᵢ)
+//! for weights λ ≥ 0 with Σ λᵢ = 1, and over a cell a linear bound of that sum is largest at one of sixteen corners ([`cell`]).
+//! The weights solve a linear program with five rows ([`weights`]); its dual is the step of a local ascent ([`ascent`]).
+//! *Guarantee.* largest area ≤ (1 + ε)·area, from the leaves of the subdivision, which are the certificate. No ellipse is reported
+//! that an edge enters.
+//! *Trap.* Cells of centers are skewed as their shapes are: a box along the axes is no cell for a long ellipse across it.
+//! *Reference.* For largest circles, Garcia-Castellanos and Lombardo, Scottish Geographical J. 123(3), 2007. The bound by edges
+//! over shapes is new here.
+
+mod ascent;
+mod cell;
+mod levels;
+mod report;
+mod search;
+mod shape;
+mod starts;
+mod tree;
+mod units;
+mod view;
+mod weights;
+
+use std::collections::BTreeMap;
+
+use taut_certify::{EllipseCertificate, InscribedEllipse, Solution, Trace};
+use taut_points::{InputError, Monitor, PointSource, shown_number};
+
+use crate::Error;
+use crate::polygon::Polygon;
+
+use self::units::Units;
+
+/// How to look for the ellipse. Write `EllipseOptions { epsilon: 1e-6, ..Default::default() }`.
+#[derive(Clone)]
+pub struct EllipseOptions<'a> {
+    /// Proved relative gap of the area to reach, in (0, 1): largest area ≤ (1 + ε)·area. Default 1e-3.
+    pub epsilon: f64,
+    /// Most cells of the certificate; where ε takes more, a larger gap is proved. At least 1, by default a million.
+    pub max_cells: u64,
+    /// Watches the work and can stop it. Default [`Monitor::silent`].
+    pub monitor: Monitor<'a>,
+}
+
+impl Default for EllipseOptions<'_> {
+    fn default() -> Self {
+        EllipseOptions { epsilon: 1e-3, max_cells: 1_000_000, monitor: Monitor::silent() }
+    }
+}
+
+/// Finds the ellipse of the largest area in a polygon.
+///
+/// Points (x, y) are the vertices of one ring in order; points (x, y, r) those of several rings, r being the number of the ring:
+/// 0, 1, and so on. Inside is what an odd number of rings wind around. The last vertex of a ring may repeat its first. The points
+/// are read once and kept in memory.
+///
+/// # Errors
+/// [`Error::NotSimple`] with two edges that meet, [`Error::RingNumber`], [`Error::TooFewVertices`], [`Error::TooThin`],
+/// [`Error::Area`] when the area is no normal number, and [`Error::Input`] for bad points or options, and for what reading says.
+pub fn inscribed_ellipse(
+    polygon: &dyn PointSource,
+    options: &EllipseOptions<'_>,
+) -> Result<Solution<InscribedEllipse>, Error> {
+    check_options(options)?;
+    let polygon = Polygon::read(polygon, &options.monitor)?;
+    let units = Units::of(&polygon.edges);
+    let found = search::search(&units, options)?;
+    let best = found.best.ok_or(Error::TooThin)?;
+    let reported = report::rounded(&best, &units).ok_or(Error::TooThin)?;
+    if !reported.answer.area.is_normal() {
+        return Err(Error::Area);
+    }
+    let ratio = found.upper / reported.size;
+    let numbers = |parts: Vec<(u32, u64)>| match parts[..] {
+        [(edge, _)] => vec![polygon.rows[edge as usize]],
+        _ => parts.iter().flat_map(|&(edge, w)| [polygon.rows[edge as usize], w]).collect(),
+    };
+    let certificate = EllipseCertificate {
+        touching: reported.touching.iter().map(|&edge| polygon.rows[edge as usize]).collect(),
+        root: found.root,
+        directions: found.directions,
+        tree: found.log.tree,
+        leaves: found.log.leaves.into_iter().map(numbers).collect(),
+        gap: (ratio * ratio * (1.0 + 16.0 * f64::EPSILON) - 1.0).max(0.0),
+        points_hash: polygon.points_hash,
+    };
+    let counters = [
+        ("cells", certificate.tree.len() as u64),
+        ("ascents", found.ascents),
+        ("vertices", polygon.rows.len() as u64),
+    ];
+    let trace = Trace {
+        method: "branch-and-bound".to_owned(),
+        stop: report::stop(found.is_complete, certificate.gap, options.epsilon),
+        passes: 1,
+        iterations: certificate.tree.len() as u64,
+        core_set: certificate.touching.len() as u64,
+        history: vec![],
+        counters: BTreeMap::from(counters.map(|(name, count)| (name.to_owned(), count))),
+    };
+    Ok(Solution { answer: reported.answer, certificate, trace })
+}
+
+fn check_options(options: &EllipseOptions<'_>) -> Result<(), InputError> {
+    let wrong = |name, value, expected| Err(InputError::Option { name, value, expected });
+    if !(options.epsilon > 0.0 && options.epsilon < 1.0) {
+        return wrong("epsilon", shown_number(options.epsilon), "a number above 0 and below 1");
+    }
+    if options.max_cells == 0 {
+        return wrong("max_cells", "0".to_owned(), "at least 1");
+    }
+    Ok(())
+}

@@ -1,0 +1,393 @@
+//! Best-first branch and bound over cells of shapes and centers, whose tree is the certificate.
+//!
+//! *Idea.* The cell of the largest bound is split until that is within the gap. Each cell has the edges that may be nearest to one
+//! of its ellipses, out of those of its parent. Middles of cells and the steps of the linear programs are starts of local
+//! [`ascent`](super::ascent).
+//! *Cells of shapes alone* are split until an ellipse changes little in them; then a frame gives them centers, skewed as the shapes.
+
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+use std::rc::Rc;
+
+use taut_points::Cancelled;
+
+use super::ascent::Ellipse;
+use super::cell::{Axis, Cell, Frame, Width};
+use super::levels::Levels;
+use super::shape::{Nearest, Shape};
+use super::tree::{self, Log, Node, Reason};
+use super::units::Units;
+use super::view::View;
+use super::weights::{self, Column};
+use super::{EllipseOptions, report, starts};
+use crate::polygon::Segment;
+
+/// Cells between two looks at the monitor.
+const CELLS_BETWEEN_LOOKS: u64 = 256;
+
+/// Half the extent of the shapes of a cell, from its middle, below which it has a frame.
+const FRAME_SHAPE_MAX: f64 = 0.51;
+
+/// How far shapes and centers change distances in a cell, relative to the size sought, for weights to be worth their cost.
+const WEIGHED_MAX: f64 = 1.2;
+
+/// How much larger than the size sought distances are of edges that are kept.
+const KEPT: f64 = 1.1;
+
+/// Starts of ascents before the search, the largest circles first.
+const STARTS_MAX: usize = 6;
+
+/// How much larger than the best ellipse another one must be to start an ascent, relatively.
+const START_GAIN: f64 = 1e-7;
+
+/// Denominators of the weights in a certificate, as powers of two; the first that closes the cell is taken.
+const WEIGHT_BITS: [u32; 3] = [6, 12, 24];
+
+/// Least z of a bound, relative to the size sought.
+const LEAST_LENGTH: f64 = 1e-3;
+
+/// How far below the gap asked for bounds are to end, relatively, so that rounding does not miss it.
+const GOAL_SLACK: f64 = 1e-12;
+
+/// Largest exponent of the root in size that a checker takes.
+const EXPONENT_MAX: f64 = 200.0;
+
+/// Errors of coordinates in a frame, per 1 + |m|, by which an edge must be apart from a box: 2⁻⁴⁰.
+const SIDE_ERROR: f64 = f64::from_bits((1023 - 40) << 52);
+
+/// Errors by which a box of all centers is enlarged, per 1 + |m|: 2⁻⁴⁶.
+const BOX_ERROR: f64 = f64::from_bits((1023 - 46) << 52);
+
+/// What a search found.
+pub(super) struct Found {
+    /// The largest ellipse, in units, if one was found.
+    pub(super) best: Option<Ellipse>,
+    /// No ellipse is larger.
+    pub(super) upper: f64,
+    pub(super) log: Log,
+    /// Exponents of the root: |s| ≤ 2^root[0], 2^root[1] ≤ t ≤ 2^root[2].
+    pub(super) root: [i32; 3],
+    /// Directions of widths besides the axes.
+    pub(super) directions: Vec<[f64; 2]>,
+    pub(super) ascents: u64,
+    /// Whether no cell was left open by the budget.
+    pub(super) is_complete: bool,
+}
+
+/// A cell that waits to be split.
+struct Waiting {
+    bound: f64,
+    node: usize,
+    cell: Cell,
+    next: Next,
+    list: Rc<[u32]>,
+    /// Whether the cell, which no edge meets, is known to be inside.
+    is_inside: bool,
+}
+
+/// What is done to a cell next.
+#[derive(Clone, Copy)]
+enum Next {
+    Split(Axis),
+    Frame,
+    Nothing,
+}
+
+impl Ord for Waiting {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.bound.total_cmp(&other.bound).then(other.node.cmp(&self.node))
+    }
+}
+
+impl PartialOrd for Waiting {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Waiting {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Waiting {}
+
+/// The tree so far and the best ellipse.
+struct Search<'a> {
+    units: &'a Units,
+    levels: Levels,
+    widths: Vec<Width>,
+    best: Option<Ellipse>,
+    /// The size of the best ellipse after rounding.
+    rounded: f64,
+    nodes: Vec<Node>,
+    waiting: BinaryHeap<Waiting>,
+    /// The largest bound of cells that cannot be split.
+    stuck: f64,
+    epsilon: f64,
+    ascents: u64,
+}
+
+/// Finds the largest ellipse, in units, and the tree that proves it.
+pub(super) fn search(units: &Units, options: &EllipseOptions<'_>) -> Result<Found, Cancelled> {
+    let directions = starts::narrow_directions(&units.edges);
+    let all = [[1.0, 0.0], [0.0, 1.0]].into_iter().chain(directions.iter().copied());
+    let mut search = Search {
+        units,
+        levels: Levels::of(&units.edges, units.extent[1]),
+        widths: all.map(|direction| starts::width(&units.edges, direction)).collect(),
+        best: None,
+        rounded: 0.0,
+        nodes: vec![],
+        waiting: BinaryHeap::new(),
+        stuck: 0.0,
+        epsilon: options.epsilon,
+        ascents: 0,
+    };
+    search.start();
+    if search.rounded <= 0.0 {
+        search.best = None;
+        return Ok(search.found([0, -1, 1], directions, false));
+    }
+    let (root, beyond) = search.root();
+    search.stuck = beyond;
+    let power = |exponent: i32| f64::from_bits(((1023 + exponent) as u64) << 52);
+    let [s, low, high] = root.map(power);
+    let list: Rc<[u32]> = (0..units.edges.len() as u32).collect();
+    search.add(Cell { s: [-s, s], t: [low, high], frame: None }, &list, false);
+    let mut opened = 0;
+    let is_complete = loop {
+        if opened % CELLS_BETWEEN_LOOKS == 0 {
+            options.monitor.check()?;
+        }
+        opened += 1;
+        if search.nodes.len() as u64 + 2 > options.max_cells {
+            break search.waiting.peek().is_none_or(|top| top.bound <= search.goal());
+        }
+        match search.waiting.pop() {
+            None => break true,
+            Some(top) if top.bound <= search.goal() => {
+                search.stuck = search.stuck.max(top.bound);
+                break true;
+            }
+            Some(top) => search.open(top),
+        }
+    };
+    Ok(search.found(root, directions, is_complete))
+}
+
+impl Search<'_> {
+    fn size(&self) -> f64 {
+        self.best.map_or(0.0, |best| best.size)
+    }
+
+    /// The largest bound that closes a cell.
+    fn goal(&self) -> f64 {
+        self.rounded * (1.0 + self.epsilon).sqrt() * (1.0 - GOAL_SLACK)
+    }
+
+    /// Climbs from the largest circles around middles of lines.
+    fn start(&mut self) {
+        let edges = &self.units.edges;
+        let circle = |center| Ellipse::of(Shape::new(0.0, 1.0), center, edges);
+        let centers = starts::centers(edges, self.units.extent);
+        let mut circles: Vec<Ellipse> = centers.into_iter().map(circle).collect();
+        circles.sort_by(|one, other| other.size.total_cmp(&one.size));
+        for circle in circles.into_iter().take(STARTS_MAX) {
+            self.climb(circle);
+        }
+    }
+
+    /// Exponents of a root beyond which no ellipse is as large as the best, and a bound of the sizes beyond.
+    fn root(&self) -> ([i32; 3], f64) {
+        let (w, h) = (self.widths[0].square, self.widths[1].square);
+        let least = self.size() * self.size();
+        let s = (h / (2.0 * least)).log2().ceil().clamp(0.0, EXPONENT_MAX);
+        let low = (least / w).log2().floor().clamp(-EXPONENT_MAX, -1.0);
+        let high = (h / least).log2().ceil().clamp(1.0, EXPONENT_MAX);
+        let beyond = (w * low.exp2()).max(h / high.exp2()).max(h / (2.0 * s.exp2())).sqrt();
+        ([s as i32, low as i32, high as i32], beyond * (1.0 + 1e-14))
+    }
+
+    /// Takes an ellipse of a list of edges, and what it climbs to, if that is the best so far.
+    fn consider(&mut self, ellipse: Ellipse) {
+        let least = self.size() * (1.0 + START_GAIN);
+        let edges = &self.units.edges;
+        if ellipse.size > least && self.levels.is_inside(edges, ellipse.center) {
+            let all = Ellipse::of(ellipse.shape, ellipse.center, edges);
+            if all.size > least {
+                self.climb(all);
+            }
+        }
+    }
+
+    /// Takes an ellipse with its center inside and what it climbs to, if that is the best so far.
+    fn climb(&mut self, from: Ellipse) {
+        self.ascents += 1;
+        let edges = &self.units.edges;
+        for ellipse in [from, from.climbed(edges)] {
+            if ellipse.size > self.size() && self.levels.is_inside(edges, ellipse.center) {
+                self.best = Some(ellipse);
+                let rounded = report::rounded(&ellipse, self.units);
+                self.rounded = rounded.map_or(0.0, |reported| reported.size);
+            }
+        }
+    }
+
+    /// Makes a node of a cell.
+    fn add(&mut self, cell: Cell, parents: &Rc<[u32]>, is_inside: bool) -> usize {
+        let node = self.nodes.len();
+        self.nodes.push(Node::Leaf(Reason::Widths));
+        let bound = cell.width_bound(&self.widths);
+        match cell.frame {
+            None => {
+                let [s, t] = cell.half_shape();
+                let next = match () {
+                    () if s > FRAME_SHAPE_MAX && s > t => Next::Split(Axis::S),
+                    () if t > FRAME_SHAPE_MAX => Next::Split(Axis::T),
+                    () => Next::Frame,
+                };
+                self.wait(Waiting { bound, node, cell, next, list: parents.clone(), is_inside });
+            }
+            Some(_) if bound <= self.goal() => self.stuck = self.stuck.max(bound),
+            Some(frame) => self.examine(node, cell, &frame, parents, is_inside),
+        }
+        node
+    }
+
+    fn wait(&mut self, waiting: Waiting) {
+        match waiting.next {
+            Next::Nothing => self.stuck = self.stuck.max(waiting.bound),
+            _ => self.waiting.push(waiting),
+        }
+    }
+
+    /// Finds a reason for a cell with centers, and how to split it.
+    fn examine(&mut self, node: usize, cell: Cell, frame: &Frame, parents: &[u32], inside: bool) {
+        let units = self.units;
+        let edge = |number: u32| units.edges[number as usize];
+        let view = View::of(&cell, frame);
+        let all: Vec<Nearest> =
+            parents.iter().map(|&number| view.shape.nearest(view.middle, edge(number))).collect();
+        let (mut first, mut distance) = (0, f64::INFINITY);
+        for (i, nearest) in all.iter().enumerate() {
+            if nearest.length < distance {
+                (first, distance) = (i, nearest.length);
+            }
+        }
+        let most = ((distance + view.reach()) * view.factor).min(KEPT * self.goal());
+        let kept = view.factor * most.max(distance) + view.reach();
+        let places: Vec<usize> = (0..all.len()).filter(|&i| all[i].length <= kept).collect();
+        let list: Rc<[u32]> = places.iter().map(|&i| parents[i]).collect();
+        let mut is_inside = inside;
+        if !inside && !list.iter().any(|&number| meets(edge(number), frame)) {
+            is_inside = self.levels.is_inside(&units.edges, view.middle);
+            if !is_inside {
+                self.nodes[node] = Node::Leaf(Reason::Outside);
+                return;
+            }
+        }
+        self.consider(Ellipse { shape: view.shape, center: view.middle, size: distance });
+        let least = LEAST_LENGTH * self.size();
+        // There is a nearest edge, as each list has one.
+        let Some(&single) = parents.get(first) else { return };
+        let mut bound = cell.edge_bound(&[(edge(single), 1.0)], least);
+        let mut reason = Reason::Edges(vec![(single, 1)]);
+        let by_widths = cell.width_bound(&self.widths);
+        if by_widths < bound {
+            (reason, bound) = (Reason::Widths, by_widths);
+        }
+        let changes = view.changes(self.size().max(distance));
+        if bound > self.goal() && changes.iter().sum::<f64>() <= WEIGHED_MAX {
+            let columns: Vec<Column> = places.iter().map(|&i| view.column(&all[i])).collect();
+            let found = weights::best(&columns);
+            if found.value > self.size() * (1.0 + START_GAIN) {
+                let (shape, center) = view.stepped(frame, found.step);
+                let some: Vec<Segment> = list.iter().map(|&number| edge(number)).collect();
+                self.consider(Ellipse::of(shape, center, &some));
+            }
+            for bits in WEIGHT_BITS {
+                let whole = |&(i, weight): &(usize, f64)| {
+                    (list[i], (weight * (1u64 << bits) as f64).round() as u64)
+                };
+                let parts: Vec<(u32, u64)> =
+                    found.parts.iter().map(whole).filter(|part| part.1 > 0).collect();
+                let sum = parts.iter().map(|part| part.1).sum::<u64>() as f64;
+                let weighted: Vec<(Segment, f64)> =
+                    parts.iter().map(|&(number, w)| (edge(number), w as f64 / sum)).collect();
+                let value = cell.edge_bound(&weighted, least);
+                if value < bound {
+                    (reason, bound) = (Reason::Edges(parts), value);
+                }
+                if bound <= self.goal() {
+                    break;
+                }
+            }
+        }
+        self.nodes[node] = Node::Leaf(reason);
+        let mut axes =
+            [Axis::S, Axis::T, Axis::X, Axis::Y].into_iter().zip(changes).collect::<Vec<_>>();
+        axes.sort_by(|one, other| other.1.total_cmp(&one.1));
+        let axis = axes.into_iter().map(|axis| axis.0).find(|&axis| cell.halves(axis).is_some());
+        let next = axis.map_or(Next::Nothing, Next::Split);
+        self.wait(Waiting { bound, node, cell, next, list, is_inside });
+    }
+
+    /// Puts the children of a cell in its place.
+    fn open(&mut self, waiting: Waiting) {
+        let Waiting { node, cell, next, list, is_inside, .. } = waiting;
+        match next {
+            Next::Split(axis) => {
+                let Some([below, above]) = cell.halves(axis) else { return };
+                let children = [below, above].map(|cell| self.add(cell, &list, is_inside));
+                self.nodes[node] = Node::Split(axis, children);
+            }
+            Next::Frame => {
+                let framed = self.framed(&cell);
+                let child = self.add(framed, &list, false);
+                self.nodes[node] = Node::Framed(child);
+            }
+            Next::Nothing => {}
+        }
+    }
+
+    /// The cell with all centers, skewed as the middle of its shapes.
+    fn framed(&self, cell: &Cell) -> Cell {
+        let skew = 0.5 * cell.s[0] + 0.5 * cell.s[1];
+        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        for [p, _] in &self.units.edges {
+            let p = [p[0], p[1] + skew * p[0]];
+            for k in 0..2 {
+                (low[k], high[k]) = (low[k].min(p[k]), high[k].max(p[k]));
+            }
+        }
+        let error = BOX_ERROR * (1.0 + skew.abs());
+        let (low, high) = (low.map(|x| x - error), high.map(|x| x + error));
+        let s = cell.s.map(|s| s - skew);
+        Cell { s, t: cell.t, frame: Some(Frame { skew, low, high }) }
+    }
+
+    /// The tree in the form of the certificate, and what it proves.
+    fn found(self, root: [i32; 3], directions: Vec<[f64; 2]>, is_complete: bool) -> Found {
+        let log = tree::log(&self.nodes);
+        // Cells that were closed on the way have bounds up to the goal.
+        let waiting = self.waiting.peek().map_or(0.0, |top| top.bound);
+        let upper = waiting.max(self.stuck).max(self.goal());
+        let (best, ascents) = (self.best, self.ascents);
+        Found { best, upper, log, root, directions, ascents, is_complete }
+    }
+}
+
+/// Whether an edge may meet the box of centers of a frame, or come as near as rounding.
+fn meets(edge: Segment, frame: &Frame) -> bool {
+    let error = SIDE_ERROR * (1.0 + frame.skew.abs());
+    let [a, b] = edge.map(|p| frame.skewed(p));
+    let (low, high) = (frame.low.map(|x| x - error), frame.high.map(|x| x + error));
+    if (0..2).any(|k| a[k].max(b[k]) < low[k] || a[k].min(b[k]) > high[k]) {
+        return false;
+    }
+    let corners = Frame { skew: frame.skew, low, high }.corners();
+    let sides = corners.map(|c| (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
+    !(sides.iter().all(|&side| side > error) || sides.iter().all(|&side| side < -error))
+}

@@ -1,0 +1,81 @@
+//! The polygon in units of its bounding box.
+//!
+//! *Idea.* Ellipses stay ellipses when an axis is scaled, and their areas keep their ratios. Each axis is shifted by the lower end
+//! of the bounding box and scaled by a power of two that brings its extent to [1, 2): needles along an axis and polygons far from
+//! the origin are then as good as any other.
+
+use crate::polygon::Segment;
+
+/// The edges in units of the bounding box.
+pub(super) struct Units {
+    pub(super) edges: Vec<Segment>,
+    /// The largest coordinates; the smallest are 0.
+    pub(super) extent: [f64; 2],
+    axes: [Axis; 2],
+}
+
+/// The map of a coordinate.
+#[derive(Clone, Copy)]
+struct Axis {
+    /// The product of both brings the largest coordinate to [1, 2); one alone could overflow.
+    factors: [f64; 2],
+    /// The lower end of the bounding box, scaled by the factors.
+    origin: f64,
+    /// The power of two that brings the extent to [1, 2).
+    growth: f64,
+}
+
+impl Units {
+    pub(super) fn of(edges: &[Segment]) -> Self {
+        let axes = [0, 1].map(|k| Axis::of(edges.iter().map(move |edge| edge[0][k])));
+        let map = |p: [f64; 2]| [axes[0].units(p[0]), axes[1].units(p[1])];
+        let edges: Vec<Segment> = edges.iter().map(|edge| edge.map(map)).collect();
+        let extent = [0, 1].map(|k| edges.iter().fold(0.0f64, |most, edge| most.max(edge[0][k])));
+        Units { edges, extent, axes }
+    }
+
+    /// A point of the input.
+    pub(super) fn point(&self, p: [f64; 2]) -> [f64; 2] {
+        [self.axes[0].units(p[0]), self.axes[1].units(p[1])]
+    }
+
+    /// The point of the input that is nearest to one in units, but for rounding.
+    pub(super) fn given_point(&self, p: [f64; 2]) -> [f64; 2] {
+        [0, 1].map(|k| {
+            let axis = self.axes[k];
+            (p[k] / axis.growth + axis.origin) / axis.factors[0] / axis.factors[1]
+        })
+    }
+
+    /// A length along an axis, as in the input.
+    pub(super) fn given_length(&self, axis: usize, length: f64) -> f64 {
+        let axis = self.axes[axis];
+        length / axis.growth / axis.factors[0] / axis.factors[1]
+    }
+}
+
+impl Axis {
+    fn of(values: impl Iterator<Item = f64> + Clone) -> Self {
+        let factors = factors_of(values.clone().fold(0.0, |most, x| x.abs().max(most)));
+        let scaled = values.map(|x| x * factors[0] * factors[1]);
+        let origin = scaled.clone().fold(f64::INFINITY, f64::min);
+        let extent = scaled.fold(0.0f64, |most, x| most.max(x - origin));
+        let [one, other] = factors_of(extent);
+        Axis { factors, origin, growth: one * other }
+    }
+
+    fn units(self, x: f64) -> f64 {
+        (x * self.factors[0] * self.factors[1] - self.origin) * self.growth
+    }
+}
+
+/// Two powers of two whose product brings a number above 0 to [1, 2); both 1 for 0.
+fn factors_of(largest: f64) -> [f64; 2] {
+    let exponent = match largest {
+        0.0 => 0,
+        x if x >= f64::MIN_POSITIVE => (x.to_bits() >> 52) as i32 - 1023,
+        x => -1011 - x.to_bits().leading_zeros() as i32,
+    };
+    let half = -exponent / 2;
+    [half, -exponent - half].map(|power| f64::from_bits(((1023 + power) as u64) << 52))
+}
