@@ -7,6 +7,7 @@
 //! | [`RobustEllipsoid`] | [`RobustCertificate`] | centre, scatter, factors and flags are those of the points kept; by `mcd`, no C-step leads on from them; by `mve` and `trim`, no much smaller ellipsoid holds them |
 //! | [`InscribedEllipsoid`] | [`InscribedCertificate`] | it lies in every half-space; no ellipsoid in the polytope has a log-volume larger by more than the gap |
 //! | [`InscribedCircle`] | [`CircleCertificate`] | its center is inside and no edge enters it; no circle in the polygon has a radius above (1 + gap)·r |
+//! | [`InscribedBodies`] | [`BodiesCertificate`] | each body lies inside the mesh, by whole numbers alone; its volume; nothing about larger bodies |
 //! | [`Centers`] | [`CentersCertificate`] | every item that counts is within the radius of a centre; no k equal balls much smaller hold the core-set |
 //! | [`Curve`] | [`CurveCertificate`] | it meets neither itself nor others; every point but the outliers is within the band; whether sampling was dense enough |
 //! | [`Surface`] | [`SurfaceCertificate`] | which rows it uses and why not the others; its topology; it meets itself nowhere; each triangle has an empty ball; it faces outwards |
@@ -50,6 +51,7 @@
 
 mod arithmetic;
 mod ball;
+mod bodies;
 mod centers;
 mod circle;
 mod curve;
@@ -68,6 +70,9 @@ mod triangulation;
 mod verdict;
 
 pub use ball::{Ball, BallCertificate};
+pub use bodies::{
+    BodiesCertificate, BodiesVerdict, BodiesViolation, BodyProof, ConvexBody, InscribedBodies,
+};
 pub use centers::{
     Centers, CentersCertificate, CentersVerdict, CentersViolation, LowerBound, Placement,
 };

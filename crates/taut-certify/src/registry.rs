@@ -9,8 +9,9 @@ use taut_points::{Monitor, PointSource};
 use crate::json::{kind_of, parse_document, without_mark};
 use crate::{
     Answer, Ball, Centers, CheckError, Curve, DrawnSample, Ellipsoid, FileAnswer, FileCheckError,
-    FileSolution, FileVerdict, Files, InscribedCircle, InscribedEllipsoid, JsonError, Order,
-    RobustEllipsoid, Solution, SortedFile, Surface, TransposedFile, Triangulation,
+    FileSolution, FileVerdict, Files, InscribedBodies, InscribedCircle, InscribedEllipsoid,
+    JsonError, Order, RobustEllipsoid, Solution, SortedFile, Surface, TransposedFile,
+    Triangulation,
 };
 
 /// Hands the answers about points to a macro, each with the name of its variant.
@@ -28,6 +29,8 @@ macro_rules! answers_about_points {
             Robust(RobustEllipsoid),
             /// A largest circle in a polygon.
             Circle(InscribedCircle),
+            /// Convex bodies in a triangle mesh.
+            Bodies(InscribedBodies),
             /// k centers.
             Centers(Centers),
             /// Curves of the plane.

@@ -4,8 +4,8 @@ use serde::Serialize;
 use taut_points::ReadError;
 
 use crate::{
-    CentersViolation, CircleViolation, CurveViolation, MeshViolation, OrderViolation,
-    SurfaceViolation,
+    BodiesViolation, CentersViolation, CircleViolation, CurveViolation, MeshViolation,
+    OrderViolation, SurfaceViolation,
 };
 
 /// What was proved of an enclosing shape.
@@ -359,6 +359,9 @@ pub enum Violation {
         /// Its squared distance.
         nearer: f64,
     },
+    /// Something is wrong with inscribed bodies.
+    #[error(transparent)]
+    Bodies(#[from] BodiesViolation),
     /// Something is wrong with centres.
     #[error(transparent)]
     Centers(#[from] CentersViolation),
@@ -422,6 +425,7 @@ impl Violation {
                 }
                 _ => Fault::Answer,
             },
+            Violation::Bodies(ref violation) => violation.fault(),
             Violation::Circle(ref violation) => violation.fault(),
             Violation::Curve(ref violation) => match *violation {
                 CurveViolation::OutsideBand { row, .. }
@@ -464,6 +468,12 @@ pub enum CheckError {
     /// The points could not be read.
     #[error(transparent)]
     Read(#[from] ReadError),
+}
+
+impl From<BodiesViolation> for CheckError {
+    fn from(violation: BodiesViolation) -> Self {
+        CheckError::Rejected(violation.into())
+    }
 }
 
 impl From<CentersViolation> for CheckError {

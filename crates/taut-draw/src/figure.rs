@@ -1,8 +1,8 @@
 //! The kinds of picture, so that renderers are written once, and the answers that have some.
 
 use taut_certify::{
-    Answer, Ball, Centers, Curve, Ellipsoid, InscribedCircle, InscribedEllipsoid, Order,
-    RobustEllipsoid, Solution, Surface, Triangulation,
+    Answer, Ball, Centers, Curve, Ellipsoid, InscribedBodies, InscribedCircle, InscribedEllipsoid,
+    Order, RobustEllipsoid, Solution, Surface, Triangulation,
 };
 use taut_points::PointSource;
 
@@ -50,6 +50,7 @@ drawn_by! {
     Ellipsoid: crate::ellipsoid_figures;
     InscribedEllipsoid: crate::inscribed_figures;
     InscribedCircle: crate::circle_figures;
+    InscribedBodies: crate::bodies_figures;
     RobustEllipsoid: crate::robust_figures;
     Centers: crate::centers_figures;
     Curve: crate::curve_figures;

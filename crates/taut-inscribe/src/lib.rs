@@ -1,8 +1,9 @@
-//! Largest shapes inside polygons, each with a certificate.
+//! Large shapes inside polygons and meshes, each with a certificate.
 //!
 //! | you want | call | promise | cost, n vertices |
 //! |---|---|---|---|
 //! | the largest circle in a simple polygon | [`inscribed_circle()`] | largest radius ≤ (1 + ε)·radius, proved | O(n log n) for most rings, and the cells of the search |
+//! | convex bodies in a closed triangle mesh that cover much of it | [`inscribed_dops()`] | each lies inside, proved; how much they cover is an estimate | O(log n) for most events |
 //!
 //! ```
 //! use taut_inscribe::{CircleOptions, inscribed_circle};
@@ -15,13 +16,15 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Not for: polygons with holes, and rings that touch or cross themselves.
+//! Not for: polygons with holes, rings that touch or cross themselves, and meshes with a boundary.
 #![forbid(unsafe_code)]
 
 mod circle;
+mod dops;
 mod error;
 mod ring;
 mod simple;
 
 pub use circle::{CircleOptions, inscribed_circle};
+pub use dops::{DopsOptions, inscribed_dops, triangle_rows};
 pub use error::Error;

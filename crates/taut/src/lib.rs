@@ -11,6 +11,7 @@
 //! | one for each of many point sets | [`ellipsoids()`] | the same | [`enclose`] |
 //! | the ellipsoid of largest volume in a polytope | [`inscribed_ellipsoid()`] | optimum ≤ log-volume + ε, proved | [`enclose`] |
 //! | the largest circle in a simple polygon | [`inscribed_circle()`] | largest radius ≤ (1 + ε)·radius, proved | [`inscribe`] |
+//! | convex bodies inside a closed triangle mesh | [`inscribe::inscribed_dops()`] | each lies inside, proved; coverage estimated | [`inscribe`] |
 //! | centre and scatter of most points, and the outliers | [`robust_ellipsoid()`] | all but the choice of points proved; that choice a local optimum | [`enclose`] |
 //! | the Delaunay triangulation of points in the plane or in space | [`delaunay()`] | exact, a function of the point set alone, proved | [mod@delaunay] |
 //! | the same, to walk around in; Voronoi cells, alpha complexes, nearest points | [`delaunay::Plane`], [`delaunay::Space`] | the same | [mod@delaunay] |
@@ -151,6 +152,8 @@ mod pages {
     struct Readme;
     #[doc = include_str!("../../../docs/ball.md")]
     struct Ball;
+    #[doc = include_str!("../../../docs/bodies.md")]
+    struct Bodies;
     #[doc = include_str!("../../../docs/centers.md")]
     struct Centers;
     #[doc = include_str!("../../../docs/circle.md")]

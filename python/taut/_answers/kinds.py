@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 from .._record import Record
 from .ball import Ball, BallCertificate, Verdict
+from .bodies import BodiesCertificate, BodiesVerdict, InscribedBodies
 from .centers import Centers, CentersCertificate, CentersVerdict
 from .circle import CircleCertificate, CircleVerdict, InscribedCircle
 from .curve import Curve, CurveCertificate, CurveVerdict
@@ -21,6 +22,7 @@ AnyVerdict = (
     | EllipsoidVerdict
     | InscribedVerdict
     | CircleVerdict
+    | BodiesVerdict
     | RobustVerdict
     | CentersVerdict
     | CurveVerdict
@@ -67,6 +69,13 @@ KINDS = {
         CircleVerdict,
         "lies in",
         ("answer.radius", "certificate.gap"),
+    ),
+    "inscribed-bodies": Kind(
+        InscribedBodies,
+        BodiesCertificate,
+        BodiesVerdict,
+        "lies in",
+        ("answer.bodies", "answer.disjoint"),
     ),
     "robust-ellipsoid": Kind(
         RobustEllipsoid,

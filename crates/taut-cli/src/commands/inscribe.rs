@@ -1,6 +1,7 @@
-//! `taut inscribe`: the largest shape inside another; here the ellipsoid inside a polytope.
+//! `taut inscribe`: large shapes inside another; here the ellipsoid inside a polytope.
 
 mod circle;
+mod dops;
 
 use taut::certify::InscribedEllipsoid;
 use taut::{InscribedOptions, Monitor, Solution, inscribed_ellipsoid};
@@ -16,7 +17,7 @@ use crate::watch::Watch;
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Example: taut inscribe circle ring.csv -o circle.json --draw circle.svg
-See: taut inscribe circle --help, taut inscribe ellipsoid --help")]
+See: taut inscribe circle --help, taut inscribe dops --help, taut inscribe ellipsoid --help")]
 pub(crate) struct Args {
     #[command(subcommand)]
     body: Body,
@@ -25,6 +26,7 @@ pub(crate) struct Args {
 #[derive(Debug, clap::Subcommand)]
 enum Body {
     Circle(circle::Circle),
+    Dops(dops::Dops),
     Ellipsoid(Ellipsoid),
 }
 
@@ -59,6 +61,7 @@ impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
         match &self.body {
             Body::Circle(args) => pipeline::run(args),
+            Body::Dops(args) => pipeline::run(args),
             Body::Ellipsoid(args) => pipeline::run(args),
         }
     }

@@ -10,6 +10,7 @@ mod ellipsoid;
 mod generate;
 mod inscribe;
 mod inscribe_circle;
+mod inscribe_dops;
 #[cfg(unix)]
 mod interrupt;
 mod limits;
