@@ -5,8 +5,10 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterable
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .._record import ROW, Floats, Record, RowNumbers, column, each, record, table, value
 
@@ -115,7 +117,7 @@ class InscribedBodies(Record):
         return np.array(sorted(places)).reshape(-1, 3) * math.ldexp(1.0, self.exponent)
 
 
-def _cross(a: RowNumbers, b: RowNumbers) -> RowNumbers:
+def _cross(a: NDArray[Any], b: NDArray[Any]) -> NDArray[Any]:
     """Cross products of rows of whole numbers of any size."""
     x = a[:, 1] * b[:, 2] - a[:, 2] * b[:, 1]
     y = a[:, 2] * b[:, 0] - a[:, 0] * b[:, 2]

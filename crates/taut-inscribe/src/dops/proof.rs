@@ -3,8 +3,8 @@
 //! *Idea.* For a triangle with corners v and facets j the numbers a = uⱼ·v − hⱼ form a matrix with three rows. Weights λ ≥ 0 with
 //! aλ ≥ 0 exist exactly if the triangle stays out of the interior. A solution needs one facet, or two, or three that give all
 //! three rows the same value.
-//! *Guarantee.* Coordinates that are not on the grid differ by less than one unit from those rounded to it. Σ λⱼuⱼ·v differs by
-//! less than Σ λⱼ|uⱼ|₁, so that offsets smaller by |uⱼ|₁ have the same weights for the mesh as given.
+//! *Guarantee.* Floors and ceilings of coordinates differ by at most one unit from the rounded coordinates, so that Σ λⱼuⱼ·v differs
+//! by at most Σ λⱼ|uⱼ|₁. Offsets that are smaller by |uⱼ|₁ have the same weights for the mesh as given.
 
 use taut_certify::{BodyProof, ConvexBody};
 
