@@ -1,7 +1,6 @@
 //! The oracles: each decides, by exact arithmetic, whether what a checker let pass is true.
 
 pub mod ball;
-pub mod bodies;
 mod body;
 pub mod centers;
 pub mod circle;
@@ -32,7 +31,6 @@ use taut::AnySolution;
 use taut::certify::{AnyVerdict, EllipsoidVerdict, RobustVerdict};
 
 use self::ball::BallOracle;
-use self::bodies::BodiesOracle;
 use self::centers::CentersOracle;
 use self::circle::CircleOracle;
 use self::curve::CurveOracle;
@@ -78,7 +76,6 @@ impl Truth {
 pub struct CaseOracle<'a> {
     input: &'a Input,
     balls: BTreeMap<u8, BallOracle>,
-    bodies: Option<BodiesOracle>,
     centers: Option<CentersOracle>,
     circle: Option<CircleOracle>,
     curve: Option<CurveOracle>,
@@ -106,7 +103,6 @@ impl<'a> CaseOracle<'a> {
         CaseOracle {
             input,
             balls: BTreeMap::new(),
-            bodies: None,
             centers: None,
             circle: None,
             curve: None,
@@ -134,10 +130,6 @@ impl<'a> CaseOracle<'a> {
             (AnySolution::Centers(found), AnyVerdict::Centers(verdict)) => {
                 let oracle =
                     self.centers.get_or_insert_with(|| CentersOracle::new(values, *columns));
-                oracle.judge(found, verdict)
-            }
-            (AnySolution::Bodies(found), AnyVerdict::Bodies(verdict)) => {
-                let oracle = self.bodies.get_or_insert_with(|| BodiesOracle::new(values, *columns));
                 oracle.judge(found, verdict)
             }
             (AnySolution::Circle(found), AnyVerdict::Circle(verdict)) => {
