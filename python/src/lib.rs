@@ -6,6 +6,7 @@
 #![forbid(unsafe_code)]
 
 mod ball;
+mod bodies;
 mod centers;
 mod choice;
 mod circle;
@@ -36,6 +37,8 @@ use pyo3::prelude::*;
 mod _native {
     #[pymodule_export]
     use crate::ball::ball;
+    #[pymodule_export]
+    use crate::bodies::inscribed_dops;
     #[pymodule_export]
     use crate::centers::centers;
     #[pymodule_export]

@@ -12,6 +12,7 @@ The names, options and defaults are those of the Rust library and of the command
 """
 
 from ._answers.ball import Ball, BallCertificate, Verdict
+from ._answers.bodies import BodiesCertificate, BodiesVerdict, BodyProof, ConvexBody, InscribedBodies
 from ._answers.centers import Centers, CentersCertificate, CentersVerdict, FarthestFirst, SphereTree
 from ._answers.circle import CircleCertificate, CircleVerdict, InscribedCircle
 from ._answers.curve import Curve, CurveCertificate, CurveComponent, CurveVerdict
@@ -25,6 +26,7 @@ from ._answers.surface import Surface, SurfaceCertificate, SurfaceComponent, Sur
 from ._answers.trace import PassBounds, Trace
 from ._answers.triangulation import Triangulation, TriangulationCertificate, TriangulationVerdict
 from ._ball import ball, ball_of_balls
+from ._bodies import inscribed_dops, triangle_rows
 from ._centers import centers, farthest_first, sphere_tree
 from ._circle import inscribed_circle
 from ._curve import curve
@@ -43,11 +45,15 @@ from ._verify import verify
 __all__ = [
     "Ball",
     "BallCertificate",
+    "BodiesCertificate",
+    "BodiesVerdict",
+    "BodyProof",
     "Centers",
     "CentersCertificate",
     "CentersVerdict",
     "CircleCertificate",
     "CircleVerdict",
+    "ConvexBody",
     "Curve",
     "CurveCertificate",
     "CurveComponent",
@@ -61,6 +67,7 @@ __all__ = [
     "FileSolution",
     "FileVerdict",
     "Hull",
+    "InscribedBodies",
     "InscribedCertificate",
     "InscribedCircle",
     "InscribedEllipse",
@@ -96,6 +103,7 @@ __all__ = [
     "farthest_first",
     "generate",
     "inscribed_circle",
+    "inscribed_dops",
     "inscribed_ellipse",
     "inscribed_ellipsoid",
     "robust_ellipsoid",
@@ -105,5 +113,6 @@ __all__ = [
     "sphere_tree",
     "surface",
     "transpose_file",
+    "triangle_rows",
     "verify",
 ]

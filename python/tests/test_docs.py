@@ -46,7 +46,7 @@ def test_everything_public_is_documented(name):
                 assert inspect.getdoc(member), attribute
 
 
-NAMES = ["ball", "centers", "circle", "curve", "delaunay", "ellipsoid", "robust"]
+NAMES = ["ball", "bodies", "centers", "circle", "curve", "delaunay", "ellipsoid", "robust"]
 OF_MEMORY = ["matrix", "order", "sample", "sort"]
 PAGES = ["README.md", *(f"docs/{page}.md" for page in NAMES), *(f"docs/memory/{page}.md" for page in OF_MEMORY)]
 

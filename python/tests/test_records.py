@@ -24,6 +24,8 @@ WEIGHTS = RNG.uniform(1, 2, len(PLANE))
 SHAPES = [np.diag(sizes) for sizes in RNG.uniform(0.1, 1, (len(PLANE), 2))]
 NORMALS, OFFSETS = np.vstack([np.eye(2), -np.eye(2), [[1, 1]]]), [1.0, 2.0, 1.0, 0.5, 1.5]
 LINE = np.c_[np.arange(5.0), np.arange(5.0)]
+SIMPLEX, SIDES = np.vstack([np.zeros(3), np.eye(3)]), [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]
+SIMPLEX_ROWS = taut.triangle_rows(SIMPLEX, SIDES)
 
 # Solutions of every kind with all that they may hold, each with the arrays that check it.
 SOLVED = {
@@ -38,6 +40,7 @@ SOLVED = {
     "inscribed": (taut.inscribed_ellipsoid(NORMALS, OFFSETS), (NORMALS,), {"offsets": OFFSETS}),
     "circle": (taut.inscribed_circle(RINGS[:60]), (RINGS[:60],), {}),
     "ellipse": (taut.inscribed_ellipse(RINGS[:60]), (RINGS[:60],), {}),
+    "bodies": (taut.inscribed_dops(SIMPLEX, SIDES, count=2, disjoint=True, events=500), (SIMPLEX_ROWS,), {}),
     "mcd": (taut.robust_ellipsoid(PLANE), (PLANE,), {}),
     "mve": (taut.robust_ellipsoid(PLANE, method="mve"), (PLANE,), {}),
     "trim": (taut.robust_ellipsoid(PLANE, method="trim"), (PLANE,), {}),

@@ -9,6 +9,7 @@
 //! | [`InscribedCircle`] | [`CircleCertificate`] | its center is inside and no edge enters it; no circle in the polygon has a radius above (1 + gap)·r |
 //! | [`InscribedEllipse`] | [`EllipseCertificate`] | its center is inside and no edge enters it; no ellipse in the polygon has an area above (1 + gap) times its own |
 //! | [`Centers`] | [`CentersCertificate`] | every item that counts is within the radius of a center; no k equal balls much smaller hold the core-set |
+//! | [`InscribedBodies`] | [`BodiesCertificate`] | each body lies inside the mesh, by whole numbers alone; its volume; nothing about larger bodies |
 //! | [`Curve`] | [`CurveCertificate`] | it meets neither itself nor others; every point but the outliers is within the band; whether sampling was dense enough |
 //! | [`Surface`] | [`SurfaceCertificate`] | which rows it uses and why not the others; its topology; it meets itself nowhere; each triangle has an empty ball; it faces outwards |
 //! | [`Order`] | [`OrderCertificate`] | each row once; it is *the* order of the points along its curve |
@@ -51,6 +52,7 @@
 
 mod arithmetic;
 mod ball;
+mod bodies;
 mod centers;
 mod circle;
 mod curve;
@@ -71,6 +73,9 @@ mod triangulation;
 mod verdict;
 
 pub use ball::{Ball, BallCertificate};
+pub use bodies::{
+    BodiesCertificate, BodiesVerdict, BodiesViolation, BodyProof, ConvexBody, InscribedBodies,
+};
 pub use centers::{
     Centers, CentersCertificate, CentersVerdict, CentersViolation, LowerBound, Placement,
 };

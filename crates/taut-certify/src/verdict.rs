@@ -4,8 +4,8 @@ use serde::Serialize;
 use taut_points::ReadError;
 
 use crate::{
-    CentersViolation, CircleViolation, CurveViolation, EllipseViolation, MeshViolation,
-    OrderViolation, PolygonViolation, SurfaceViolation,
+    BodiesViolation, CentersViolation, CircleViolation, CurveViolation, EllipseViolation,
+    MeshViolation, OrderViolation, PolygonViolation, SurfaceViolation,
 };
 
 /// The proved facts about an enclosing shape.
@@ -359,6 +359,9 @@ pub enum Violation {
         /// Its squared distance.
         nearer: f64,
     },
+    /// Something is wrong with inscribed bodies.
+    #[error(transparent)]
+    Bodies(#[from] BodiesViolation),
     /// Something is wrong with centers.
     #[error(transparent)]
     Centers(#[from] CentersViolation),
@@ -428,6 +431,7 @@ impl Violation {
                 }
                 _ => Fault::Answer,
             },
+            Violation::Bodies(ref violation) => violation.fault(),
             Violation::Circle(ref violation) => violation.fault(),
             Violation::Ellipse(ref violation) => violation.fault(),
             Violation::Polygon(ref violation) => violation.fault(),
@@ -472,6 +476,12 @@ pub enum CheckError {
     /// The points could not be read.
     #[error(transparent)]
     Read(#[from] ReadError),
+}
+
+impl From<BodiesViolation> for CheckError {
+    fn from(violation: BodiesViolation) -> Self {
+        CheckError::Rejected(violation.into())
+    }
 }
 
 impl From<CentersViolation> for CheckError {

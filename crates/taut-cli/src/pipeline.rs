@@ -30,6 +30,12 @@ pub(crate) trait Find {
     /// Describes what the subcommand does with its answer.
     fn output(&self) -> Output<'_>;
 
+    /// Opens the rows.
+    fn open(&self) -> anyhow::Result<Opened> {
+        let input = self.input();
+        input.reading.open(input.path)
+    }
+
     /// Refuses options and names of files, before any work.
     fn check_options(&self) -> anyhow::Result<()> {
         self.output().refuse_pictures_as_json()
@@ -125,7 +131,7 @@ pub(crate) fn run(command: &impl Find) -> anyhow::Result<Outcome> {
     let picture = output.check_files(input.path, &command.side_files())?;
     let watch = input.effort.start()?;
     let mut clock = Clock::start();
-    let points = input.reading.open(input.path)?;
+    let points = command.open()?;
     clock.lap("reading");
 
     let (mut found, extra) = command.solve(&points, &watch)?;

@@ -10,6 +10,7 @@
 //! | an ellipsoid in a polytope, and its half-spaces | [`inscribed_figures`] | scenes of the plane or of space, cuts through the center, and plots |
 //! | a circle in a polygon, and the rings | [`circle_figures`] | a scene of the plane, with the edges that are touched |
 //! | an ellipse in a polygon, and the rings | [`ellipse_figures`] | the same |
+//! | convex bodies in a mesh, and its triangles | [`bodies_figures`] | a scene of space, with the mesh translucent |
 //! | a triangulation and its points | [`delaunay_figures`] | scenes of the plane or of space, and the Voronoi diagram |
 //! | curves and their points | [`curve_figures`] | scenes of the plane, with the band of noise, outliers and ends |
 //! | a surface and its points, or bare triangles | [`surface_figures`], [`surface_scene`] | a scene to turn, with fronts, backs, boundary and unused points, and fixed views |
@@ -39,6 +40,7 @@
 mod axes;
 mod ball;
 mod base64;
+mod bodies;
 mod body;
 mod centers;
 mod circle;
@@ -70,6 +72,7 @@ mod svg;
 mod text;
 
 pub use ball::ball_figures;
+pub use bodies::bodies_figures;
 pub use centers::{ElbowStep, centers_figures, elbow_figure};
 pub use circle::circle_figures;
 pub use curve::curve_figures;

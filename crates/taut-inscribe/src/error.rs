@@ -2,7 +2,7 @@
 
 use taut_points::{Cancelled, InputError, ReadError};
 
-/// Why there is no largest shape.
+/// The reason why there is no largest shape, or no body in a mesh.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -49,6 +49,46 @@ pub enum Error {
          far from the origin, shift it there"
     )]
     TooThin,
+    /// The mesh has a boundary: some edge belongs to an odd number of triangles.
+    #[error(
+        "the mesh is not closed: {edges} of its edges belong to an odd number of triangles, the first of them the edge from \
+         {from:?} to {to:?} of triangle {row}; close the holes of the mesh"
+    )]
+    Open {
+        /// How many such edges there are.
+        edges: u64,
+        /// A triangle with such an edge, from 0.
+        row: u64,
+        /// One end of that edge.
+        from: [f64; 3],
+        /// The other end.
+        to: [f64; 3],
+    },
+    /// The mesh has no inside in which a body was found.
+    #[error(
+        "the mesh has no inside in which a body was found: it is flat, has no triangles, or is too thin for a grid of 2^-24 of \
+         its longest side"
+    )]
+    NoInside,
+    /// The grid cannot hold the mesh.
+    #[error(
+        "the longest side of the mesh is {side:?}: expected from 1e-80 to 1e90, and no coordinate beyond 10^10 times that side; \
+         scale the mesh, or shift it to the origin"
+    )]
+    Grid {
+        /// The longest side of the bounding box.
+        side: f64,
+    },
+    /// A triangle names a vertex that does not exist.
+    #[error("triangle {row} names vertex {vertex}, but there are {vertices} vertices")]
+    NoVertex {
+        /// The triangle, from 0.
+        row: u64,
+        /// The number that it names, from 0.
+        vertex: u32,
+        /// How many vertices there are.
+        vertices: usize,
+    },
     /// Invalid points or options, a read error, or cancellation by the caller.
     #[error(transparent)]
     Input(#[from] InputError),

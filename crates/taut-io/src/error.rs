@@ -535,7 +535,7 @@ pub enum Error {
     EmptyMesh {
         /// The file.
         path: String,
-        /// `simplex` or `vertex`.
+        /// `simplex`, `vertex` or `triangle`.
         missing: &'static str,
     },
     /// Normals or colors for another number of vertices.

@@ -40,6 +40,13 @@ impl std::fmt::Debug for Input {
 }
 
 impl Input {
+    /// The triangles of a mesh.
+    pub(crate) fn of_mesh(source: Box<dyn PointSource>, format: Format, path: String) -> Self {
+        let names = ["ax", "ay", "az", "bx", "by", "bz", "cx", "cy", "cz"];
+        let columns = names.map(str::to_owned).to_vec();
+        Input { source, columns, format, path, numbers: None }
+    }
+
     /// Where coordinate `column` of point `row` (both from 0, as solvers count) stands in the file.
     pub fn describe_cell(&self, row: u64, column: usize) -> Place {
         let number = self.numbers.as_ref().and_then(|numbers| numbers.get(column).copied());

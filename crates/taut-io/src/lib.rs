@@ -9,6 +9,7 @@
 //! | curves of the plane as a file | [`write_polylines`] | loops within loops are holes where a format knows them |
 //! | a mesh as a file: simplices on points, or a surface | [`write_mesh`] | every bit, where the format has room |
 //! | a mesh of a file, whoever wrote it | [`open_mesh`] | every vertex and simplex, or an error that names file and line or element |
+//! | the triangles of a mesh as points of dimension 9 | [`open_triangles`] | the same |
 //! | type, shape, order and place of a NumPy array in a file | [`NpyArray::open`] | elements of any fixed width, as many as the header promises |
 //!
 //! ```
@@ -62,7 +63,8 @@ pub use format::{Compression, Content, Format};
 pub use input::{Input, open, open_bytes};
 pub use limits::LONGEST_LINE;
 pub use mesh::{
-    Encoding, Mesh, MeshOptions, MeshView, mesh_file, open_mesh, open_mesh_bytes, write_mesh,
+    Encoding, Mesh, MeshOptions, MeshView, mesh_file, open_mesh, open_mesh_bytes, open_triangles,
+    write_mesh,
 };
 pub use options::{Header, RawLayout, ReadOptions};
 pub use polylines::{polylines_file, write_polylines};

@@ -22,6 +22,7 @@ mod ply;
 mod pov;
 mod reading;
 mod stl;
+mod triangles;
 mod vrml;
 mod vtu;
 mod writing;
@@ -33,6 +34,7 @@ use taut_points::PointSource;
 pub(crate) use builder::{MeshBuilder, printable};
 pub(crate) use reading::read_stream;
 pub use reading::{open_mesh, open_mesh_bytes};
+pub use triangles::open_triangles;
 pub use writing::{Encoding, MeshOptions, mesh_file, write_mesh};
 
 /// Simplices of one dimension on vertices, or vertices alone, as files hold them.

@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 from .._record import Record
 from .ball import Ball, BallCertificate, Verdict
+from .bodies import BodiesCertificate, BodiesVerdict, InscribedBodies
 from .centers import Centers, CentersCertificate, CentersVerdict
 from .circle import CircleCertificate, CircleVerdict, InscribedCircle
 from .curve import Curve, CurveCertificate, CurveVerdict
@@ -23,6 +24,7 @@ AnyVerdict = (
     | InscribedVerdict
     | CircleVerdict
     | EllipseVerdict
+    | BodiesVerdict
     | RobustVerdict
     | CentersVerdict
     | CurveVerdict
@@ -76,6 +78,13 @@ KINDS = {
         EllipseVerdict,
         "lies in",
         ("answer.area", "certificate.gap"),
+    ),
+    "inscribed-bodies": Kind(
+        InscribedBodies,
+        BodiesCertificate,
+        BodiesVerdict,
+        "lies in",
+        ("answer.bodies", "answer.disjoint"),
     ),
     "robust-ellipsoid": Kind(
         RobustEllipsoid,

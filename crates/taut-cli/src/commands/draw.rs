@@ -46,7 +46,7 @@ impl Args {
         writing::check_writable(&[&self.out], &[&self.answer, &self.points.path])?;
         let watch = self.effort.start()?;
         let answer = read_answer(&self.answer, &self.points.path)?;
-        let points = self.reading.open(&self.points.path)?;
+        let points = self.reading.open_for(&self.points.path, &answer)?;
         let drawing = with_solution!(&answer, found => self.drawing(found, &points, &watch)?);
         match drawing {
             Ok(drawing) => {

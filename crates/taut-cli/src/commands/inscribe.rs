@@ -1,6 +1,7 @@
-//! `taut inscribe`: the largest shape inside another; here the ellipsoid inside a polytope.
+//! `taut inscribe`: large shapes inside another; here the ellipsoid inside a polytope.
 
 mod circle;
+mod dops;
 mod ellipse;
 
 use taut::certify::InscribedEllipsoid;
@@ -17,7 +18,7 @@ use crate::watch::Watch;
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Example: taut inscribe circle ring.csv -o circle.json --draw circle.svg
-See: taut inscribe circle --help, taut inscribe ellipse --help, taut inscribe ellipsoid --help")]
+See: taut inscribe circle --help, taut inscribe dops --help, taut inscribe ellipse --help, taut inscribe ellipsoid --help")]
 pub(crate) struct Args {
     #[command(subcommand)]
     body: Body,
@@ -26,6 +27,7 @@ pub(crate) struct Args {
 #[derive(Debug, clap::Subcommand)]
 enum Body {
     Circle(circle::Circle),
+    Dops(dops::Dops),
     Ellipse(ellipse::Ellipse),
     Ellipsoid(Ellipsoid),
 }
@@ -61,6 +63,7 @@ impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
         match &self.body {
             Body::Circle(args) => pipeline::run(args),
+            Body::Dops(args) => pipeline::run(args),
             Body::Ellipse(args) => pipeline::run(args),
             Body::Ellipsoid(args) => pipeline::run(args),
         }

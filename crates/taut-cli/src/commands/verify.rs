@@ -36,7 +36,7 @@ Example: taut verify ball.json points.csv --epsilon 1e-6")]
 pub(crate) struct Args {
     /// The answer, as `taut ball -o`, `taut memory sort --certificate` and their like write it; - is standard input
     answer: PathBuf,
-    /// The points, in any format of `taut formats`; - is standard input. Of an answer about files: the file that was read,
+    /// The points, in any format of `taut formats`; - is standard input. Of inscribed bodies: the mesh. Of an answer about files: the file that was read,
     /// then the one that was written, or the latter alone
     #[arg(value_name = "POINTS", required = true, num_args = 1..=2)]
     files: Vec<PathBuf>,
@@ -59,7 +59,7 @@ impl Args {
             AnyDocument::Files(found) => return self.run_files(&found, &watch),
             AnyDocument::Points(answer) => *answer,
         };
-        let points = self.open_points()?;
+        let points = self.reading.open_for(self.only_file()?, &answer)?;
         let source = points.source();
         let judged = with_solution!(&answer, found => {
             judge(found, &points, &watch)?.map(|verdict| Summary::claims(found, &verdict, source))
@@ -83,8 +83,13 @@ impl Args {
 
 impl Args {
     fn open_points(&self) -> anyhow::Result<Opened> {
+        self.reading.open(self.only_file()?)
+    }
+
+    /// The one file that an answer about points has.
+    fn only_file(&self) -> anyhow::Result<&Path> {
         match &self.files[..] {
-            [path] => self.reading.open(path),
+            [path] => Ok(path),
             _ => bail!(
                 "{} belongs to one file of points: two belong to an answer about files",
                 shown(&self.answer)

@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use taut::PointSource;
 use taut::certify::Fault;
 use taut::certify::Violation;
 use taut::enclose::Error as SolveError;
 use taut::points::{InputError, ReadError, ScalarKind, shown_number};
+use taut::{AnySolution, PointSource};
 use taut_io::{Columns, Content, Format, Header, Input, RawLayout, ReadOptions};
 
 use crate::input::size;
@@ -91,6 +91,19 @@ impl Reading {
             writing::print_error("reading points from the terminal; Ctrl-D ends them");
         }
         Ok(Opened { input: taut_io::open(path, &self.options()?)? })
+    }
+
+    /// Opens the triangles of the mesh of `path`, a row for each.
+    pub(crate) fn open_triangles(&self, path: &Path) -> anyhow::Result<Opened> {
+        Ok(Opened { input: taut_io::open_triangles(path, &self.options()?)? })
+    }
+
+    /// Opens the rows that an answer of some kind is about.
+    pub(crate) fn open_for(&self, path: &Path, answer: &AnySolution) -> anyhow::Result<Opened> {
+        match answer {
+            AnySolution::Bodies(_) => self.open_triangles(path),
+            _ => self.open(path),
+        }
     }
 }
 

@@ -9,6 +9,7 @@ mod ellipsoid;
 mod generate;
 mod inscribe;
 mod inscribe_circle;
+mod inscribe_dops;
 mod inscribe_ellipse;
 #[cfg(unix)]
 mod interrupt;

@@ -1,0 +1,162 @@
+//! The checker of inscribed bodies, in whole numbers.
+//!
+//! *Grid.* Each coordinate lies between two whole numbers of units, its floor and its ceiling, which are found exactly: [`grid`].
+//! *Closed.* Each edge of the mesh belongs to an even number of triangles, by the coordinates as given: [`closed`].
+//! *Empty.* No triangle meets the interior of a body, wherever its corners lie between floor and ceiling: [`empty`].
+//! *Inside.* One point of each body is inside the mesh whose corners are the floors, by the parity of exact crossings: [`parity`].
+//! Moved from the coordinates as given to their floors, triangles never meet the body, so the point is inside the mesh as given.
+//! A body is convex, no triangle meets it, and one point is inside: so all of it is inside, and it is bounded.
+//! *Volume.* The volume of each body comes from its exact vertices, with bounded rounding: [`volume`].
+//! *Cost.* O(n log n) for n triangles, and O(n) for most bodies.
+
+mod closed;
+mod disjoint;
+mod empty;
+mod grid;
+mod parity;
+pub(super) mod volume;
+
+use taut_points::{Monitor, PointSource};
+
+use self::grid::Boxes;
+use super::{BodiesCertificate, BodiesVerdict, BodiesViolation, ConvexBody, InscribedBodies};
+use crate::hashed_pass::{WantedRows, all_finite, hashed_pass};
+use crate::{CheckError, Violation};
+
+/// Entries of a normal are at most this, so that all sums and products fit into 128 bits.
+const NORMAL_MAX: i64 = 1 << 16;
+
+/// Offsets are at most this, for the same reason.
+const OFFSET_MAX: i64 = 1 << 48;
+
+/// Weights are at most this, for the same reason: with 4 facets and coordinates of 2³⁰ a sum is below 2¹¹¹.
+const WEIGHT_MAX: u64 = 1 << 57;
+
+/// Facets of a body, at most.
+const FACETS_MAX: usize = 256;
+
+/// How much the volume claimed may differ from the volume proved, relatively.
+const VOLUME_SLACK: f64 = 1e-9;
+
+pub(super) fn check(
+    answer: &InscribedBodies,
+    certificate: &BodiesCertificate,
+    source: &dyn PointSource,
+    monitor: &Monitor<'_>,
+) -> Result<BodiesVerdict, CheckError> {
+    if source.dim() != 9 {
+        return Err(BodiesViolation::Triangles { dim: source.dim() }.into());
+    }
+    monitor.pass(1, source.len());
+    let triangles = read(source, certificate, monitor)?;
+    lengths(answer, certificate)?;
+    closed::is_closed(&triangles)?;
+    let boxes = Boxes::of(&triangles, answer.exponent, answer.origin)?;
+    let unit = grid::power_of_two(answer.exponent);
+    let mut verdict = BodiesVerdict {
+        bodies: answer.bodies.len() as u64,
+        disjoint: answer.disjoint,
+        volume_lower: 0.0,
+        volume_upper: 0.0,
+        largest: 0.0,
+    };
+    for (at, (body, proof)) in answer.bodies.iter().zip(&certificate.proofs).enumerate() {
+        monitor.check().map_err(taut_points::ReadError::from)?;
+        facets(at, body)?;
+        empty::is_empty(at, body, proof, &boxes)?;
+        contains(at, body, proof.inside)?;
+        if !parity::is_inside(proof.inside, &boxes) {
+            return Err(BodiesViolation::Outside { body: at }.into());
+        }
+        let [lower, upper] = volume::bounds(body, proof.inside).map(|v| v * unit * unit * unit);
+        let is_right = body.volume >= lower * (1.0 - VOLUME_SLACK)
+            && body.volume <= upper * (1.0 + VOLUME_SLACK);
+        if !is_right {
+            let (claimed, found) = (body.volume, lower / 2.0 + upper / 2.0);
+            return Err(BodiesViolation::Volume { body: at, claimed, found }.into());
+        }
+        verdict.volume_lower = (verdict.volume_lower + lower).next_down().max(0.0);
+        verdict.volume_upper = (verdict.volume_upper + upper).next_up();
+        verdict.largest = verdict.largest.max(lower);
+    }
+    if answer.disjoint {
+        disjoint::are_disjoint(&answer.bodies, &certificate.pairs)?;
+    }
+    Ok(verdict)
+}
+
+/// Reads all triangles, which must be finite and those of the hash.
+fn read(
+    source: &dyn PointSource,
+    certificate: &BodiesCertificate,
+    monitor: &Monitor<'_>,
+) -> Result<Vec<[[f64; 3]; 3]>, CheckError> {
+    let claimed = certificate.points_hash;
+    let (blocks, _) = hashed_pass(source, claimed, WantedRows::none(), monitor, |first, rows| {
+        all_finite(first, rows)?;
+        let mut row = [0.0; 9];
+        let triangles = (0..rows.len()).map(|k| {
+            rows.copy_row(k, &mut row);
+            [0, 3, 6].map(|corner| [row[corner], row[corner + 1], row[corner + 2]])
+        });
+        Ok(triangles.collect::<Vec<_>>())
+    })?;
+    Ok(blocks.concat())
+}
+
+/// Refuses lists whose lengths do not agree.
+fn lengths(answer: &InscribedBodies, certificate: &BodiesCertificate) -> Result<(), Violation> {
+    let bodies = answer.bodies.len();
+    let agree = |what, found, expected| match found == expected {
+        true => Ok(()),
+        false => Err(Violation::Length { what, found, expected }),
+    };
+    agree("the list of proofs", certificate.proofs.len(), bodies)?;
+    let pairs = if answer.disjoint { bodies * bodies.saturating_sub(1) / 2 } else { 0 };
+    agree("the list of pairs", certificate.pairs.len(), pairs)
+}
+
+/// Checks the half-spaces of a body one by one.
+fn facets(body: usize, found: &ConvexBody) -> Result<(), BodiesViolation> {
+    let facets = found.normals.len();
+    if !(4..=FACETS_MAX).contains(&facets) || facets != found.offsets.len() {
+        let problem = "has not from 4 to 256 normals, or another number of offsets";
+        return Err(BodiesViolation::Body { body, problem });
+    }
+    let wrong = |facet, problem| Err(BodiesViolation::Facet { body, facet, problem });
+    for (facet, normal) in found.normals.iter().enumerate() {
+        if normal.iter().any(|&n| !(-NORMAL_MAX..=NORMAL_MAX).contains(&n)) {
+            return wrong(facet, "has a normal with an entry above 2^16");
+        }
+        if normal.iter().fold(0, |divisor, &n| gcd(divisor, n.unsigned_abs())) != 1 {
+            return wrong(facet, "has a normal whose entries have a common divisor");
+        }
+        if found.normals[..facet].contains(normal) {
+            return wrong(facet, "has the normal of an earlier facet");
+        }
+        if !(-OFFSET_MAX..=OFFSET_MAX).contains(&found.offsets[facet]) {
+            return wrong(facet, "has an offset above 2^48");
+        }
+    }
+    Ok(())
+}
+
+/// Checks that a point of the grid is in the interior of a body.
+fn contains(body: usize, found: &ConvexBody, point: [i64; 3]) -> Result<(), BodiesViolation> {
+    let is_near = point.iter().all(|c| (-grid::COORDINATE_MAX..=grid::COORDINATE_MAX).contains(c));
+    let is_below = |(normal, &offset): (&[i64; 3], &i64)| {
+        let along: i64 = normal.iter().zip(&point).map(|(n, y)| n * y).sum();
+        along < offset
+    };
+    match is_near && found.normals.iter().zip(&found.offsets).all(is_below) {
+        true => Ok(()),
+        false => {
+            let problem = "does not have the point of its proof in its interior";
+            Err(BodiesViolation::Body { body, problem })
+        }
+    }
+}
+
+fn gcd(a: u64, b: u64) -> u64 {
+    if b == 0 { a } else { gcd(b, a % b) }
+}

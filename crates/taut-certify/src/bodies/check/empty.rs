@@ -1,0 +1,94 @@
+//! No triangle meets the interior of a body.
+
+use super::grid::{Boxes, COORDINATE_MAX};
+use super::{BodiesViolation, ConvexBody, WEIGHT_MAX};
+use crate::BodyProof;
+
+/// Most facets of an entry: four constraints of space always do.
+const COMBINED_FACETS_MAX: usize = 4;
+
+/// Checks that each triangle is separated from a body, by one facet or by the entry of the proof.
+pub(super) fn is_empty(
+    body: usize,
+    found: &ConvexBody,
+    proof: &BodyProof,
+    boxes: &Boxes,
+) -> Result<(), BodiesViolation> {
+    let mut entries = proof.combined.iter().enumerate().peekable();
+    // Neighbors in the list are mostly neighbors in space: the last facet that separated is tried first.
+    let mut last = 0;
+    for row in 0..boxes.floors.len() {
+        let [low, high] = [&boxes.floors[row], &boxes.ceilings[row]];
+        let separates = |&facet: &usize| {
+            let (normal, offset) = (found.normals[facet], found.offsets[facet]);
+            (0..3).all(|corner| least(normal, low[corner], high[corner]) >= offset)
+        };
+        match entries.next_if(|(_, entry)| entry.first() == Some(&(row as u64))) {
+            Some((position, entry)) => combined(body, position, found, entry, low, high)?,
+            None if separates(&last) => {}
+            None => {
+                let Some(facet) = (0..found.normals.len()).find(separates) else {
+                    return Err(BodiesViolation::Reaches { row: row as u64, body });
+                };
+                last = facet;
+            }
+        }
+    }
+    match entries.next() {
+        None => Ok(()),
+        Some((entry, _)) => {
+            let problem = "names no triangle, or one that does not follow the triangle before";
+            Err(BodiesViolation::Combined { body, entry, problem })
+        }
+    }
+}
+
+/// The least value of a linear function with small coefficients on a box. At most 3·2⁴⁶.
+fn least(normal: [i64; 3], low: [i64; 3], high: [i64; 3]) -> i64 {
+    debug_assert!(low.iter().chain(&high).all(|c| c.abs() <= COORDINATE_MAX));
+    (0..3).map(|c| normal[c] * if normal[c] > 0 { low[c] } else { high[c] }).sum()
+}
+
+/// Checks the weights of one entry: Σ λⱼ(uⱼ·y − hⱼ) ≥ 0 for the corners of the triangle, wherever they are in their boxes.
+fn combined(
+    body: usize,
+    entry: usize,
+    found: &ConvexBody,
+    list: &[u64],
+    low: &[[i64; 3]; 3],
+    high: &[[i64; 3]; 3],
+) -> Result<(), BodiesViolation> {
+    let wrong = |problem| Err(BodiesViolation::Combined { body, entry, problem });
+    let (pairs, rest) = list[1..].as_chunks::<2>();
+    if pairs.is_empty() || pairs.len() > COMBINED_FACETS_MAX || !rest.is_empty() {
+        return wrong("has not from 1 to 4 facets, each with a weight");
+    }
+    let (mut normal, mut offset) = ([0i128; 3], 0i128);
+    for &[facet, weight] in pairs {
+        let facet = usize::try_from(facet).unwrap_or(usize::MAX);
+        let (Some(u), Some(&h)) = (found.normals.get(facet), found.offsets.get(facet)) else {
+            return wrong("names a facet that does not exist");
+        };
+        if !(1..=WEIGHT_MAX).contains(&weight) {
+            return wrong("has a weight that is not from 1 to 2^57");
+        }
+        let weight = i128::from(weight);
+        for c in 0..3 {
+            normal[c] += weight * i128::from(u[c]);
+        }
+        offset += weight * i128::from(h);
+    }
+    let is_separated = (0..3).all(|corner| {
+        let least: i128 = (0..3)
+            .map(|c| {
+                let end = if normal[c] > 0 { low[corner][c] } else { high[corner][c] };
+                normal[c] * i128::from(end)
+            })
+            .sum();
+        least >= offset
+    });
+    match is_separated {
+        true => Ok(()),
+        false => wrong("does not separate the triangle from the body"),
+    }
+}

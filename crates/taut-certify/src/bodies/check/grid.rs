@@ -1,0 +1,91 @@
+//! The boxes of the grid in which the corners of the triangles lie.
+
+use super::BodiesViolation;
+
+/// Coordinates of the grid are at most this, so that all sums and products fit.
+pub(super) const COORDINATE_MAX: i64 = 1 << 30;
+
+/// Exponents of the unit for which neither the unit nor its cube leaves the range of normal numbers.
+const EXPONENTS: std::ops::RangeInclusive<i32> = -300..=310;
+
+/// Coordinates in units are below this, so that whole numbers hold them.
+const UNITS_MAX: f64 = (1u64 << 61) as f64;
+
+/// For each corner of each triangle the floors and the ceilings of its coordinates, in units from the origin.
+pub(super) struct Boxes {
+    pub(super) floors: Vec<[[i64; 3]; 3]>,
+    pub(super) ceilings: Vec<[[i64; 3]; 3]>,
+}
+
+/// 2^exponent, for an exponent of normal numbers.
+pub(super) fn power_of_two(exponent: i32) -> f64 {
+    f64::from_bits(((exponent + 1023) as u64) << 52)
+}
+
+impl Boxes {
+    pub(super) fn of(
+        triangles: &[[[f64; 3]; 3]],
+        exponent: i32,
+        origin: [i64; 3],
+    ) -> Result<Self, BodiesViolation> {
+        let wrong = |problem| BodiesViolation::Grid { problem };
+        if !EXPONENTS.contains(&exponent) {
+            return Err(wrong("the exponent is not from -300 to 310"));
+        }
+        let per_unit = power_of_two(-exponent);
+        let (mut floors, mut ceilings) = (vec![], vec![]);
+        for triangle in triangles {
+            let (mut low, mut high) = ([[0; 3]; 3], [[0; 3]; 3]);
+            for corner in 0..3 {
+                for c in 0..3 {
+                    let range = whole(triangle[corner][c], per_unit)
+                        .map(|range| range.map(|y| y.saturating_sub(origin[c])))
+                        .filter(|[low, high]| *low >= -COORDINATE_MAX && *high <= COORDINATE_MAX);
+                    let Some([floor, ceiling]) = range else {
+                        return Err(wrong("a coordinate is more than 2^30 units from the origin"));
+                    };
+                    (low[corner][c], high[corner][c]) = (floor, ceiling);
+                }
+            }
+            floors.push(low);
+            ceilings.push(high);
+        }
+        Ok(Boxes { floors, ceilings })
+    }
+}
+
+/// The floor and the ceiling of a number of units, exactly.
+///
+/// The product is exact unless it is subnormal, and then it is less than 1, as the exact number is.
+fn whole(x: f64, per_unit: f64) -> Option<[i64; 2]> {
+    let units = x * per_unit;
+    if units.abs() < 1.0 {
+        return Some([-i64::from(x < 0.0), i64::from(x > 0.0)]);
+    }
+    let fits = units.abs() < UNITS_MAX;
+    fits.then(|| [units.floor() as i64, units.ceil() as i64])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn floors_and_ceilings_are_exact() {
+        for (x, exponent, expected) in [
+            (0.0, 0, Some([0, 0])),
+            (-0.0, 0, Some([0, 0])),
+            (5e-324, 310, Some([0, 1])),
+            (-1e-300, 0, Some([-1, 0])),
+            (0.75, -2, Some([3, 3])),
+            (0.75, -1, Some([1, 2])),
+            (-0.75, -1, Some([-2, -1])),
+            (1.0, 0, Some([1, 1])),
+            (-1.0, 0, Some([-1, -1])),
+            (f64::MAX, 310, None),
+            (f64::MAX, -300, None),
+        ] {
+            assert_eq!(whole(x, power_of_two(-exponent)), expected, "{x} in 2^{exponent}");
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! What can be wrong with inscribed bodies.
+
+use crate::Fault;
+
+/// Why inscribed bodies or their certificate are wrong.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum BodiesViolation {
+    /// The rows are not triangles.
+    #[error("the rows have {dim} numbers: a triangle of space has 9")]
+    Triangles {
+        /// Numbers of a row.
+        dim: usize,
+    },
+    /// The mesh has a boundary: an edge belongs to an odd number of triangles.
+    #[error(
+        "the mesh is not closed: the edge from {from:?} to {to:?} of triangle {row} belongs to an odd number of triangles"
+    )]
+    Open {
+        /// A triangle with this edge, from 0.
+        row: u64,
+        /// One end of the edge.
+        from: [f64; 3],
+        /// The other end.
+        to: [f64; 3],
+    },
+    /// The grid is out of range, or too far from a triangle.
+    #[error("the grid does not fit the mesh: {problem}")]
+    Grid {
+        /// What is wrong with it.
+        problem: &'static str,
+    },
+    /// A body or its proof is malformed.
+    #[error("body {body} {problem}")]
+    Body {
+        /// Position of the body, from 0.
+        body: usize,
+        /// What is wrong with it.
+        problem: &'static str,
+    },
+    /// A facet of a body is malformed.
+    #[error("facet {facet} of body {body} {problem}")]
+    Facet {
+        /// Position of the body, from 0.
+        body: usize,
+        /// Position of the facet, from 0.
+        facet: usize,
+        /// What is wrong with it.
+        problem: &'static str,
+    },
+    /// An entry of the combined facets of a proof is malformed.
+    #[error("entry {entry} of the combined facets of body {body} {problem}")]
+    Combined {
+        /// Position of the body, from 0.
+        body: usize,
+        /// Position of the entry, from 0.
+        entry: usize,
+        /// What is wrong with it.
+        problem: &'static str,
+    },
+    /// A triangle may reach into a body.
+    #[error("triangle {row} is not proved to stay out of body {body}")]
+    Reaches {
+        /// The triangle, from 0.
+        row: u64,
+        /// Position of the body, from 0.
+        body: usize,
+    },
+    /// A body is not inside the mesh.
+    #[error("body {body} is not inside the mesh")]
+    Outside {
+        /// Position of the body, from 0.
+        body: usize,
+    },
+    /// The volume of a body is not that of its half-spaces.
+    #[error("the volume of body {body} is {claimed:?}, but its half-spaces give {found:?}")]
+    Volume {
+        /// Position of the body, from 0.
+        body: usize,
+        /// What the answer says.
+        claimed: f64,
+        /// What the checker finds.
+        found: f64,
+    },
+    /// Two bodies are not proved to be disjoint.
+    #[error("bodies {first} and {second} are not proved to be disjoint: {problem}")]
+    Pair {
+        /// Position of one body, from 0.
+        first: usize,
+        /// Position of the other body.
+        second: usize,
+        /// What is wrong with the proof.
+        problem: &'static str,
+    },
+}
+
+impl BodiesViolation {
+    /// Returns what this violation blames.
+    pub(crate) fn fault(&self) -> Fault {
+        match *self {
+            BodiesViolation::Triangles { .. } | BodiesViolation::Open { .. } => Fault::Points,
+            BodiesViolation::Reaches { row, .. } => Fault::Row(row),
+            _ => Fault::Answer,
+        }
+    }
+}

@@ -1,0 +1,77 @@
+//! What is said about convex bodies in a mesh.
+
+use taut::Solution;
+use taut::certify::InscribedBodies;
+use taut::points::PointSource;
+
+use crate::output::numbers::{count, counted, exact};
+use crate::reports::{Claims, Field, Report, Summary};
+
+impl Summary for InscribedBodies {
+    const FOUND: &'static str = "the bodies found";
+
+    fn title(report: &Report<'_, Self>) -> String {
+        let triangles = counted(report.points.source().len(), "triangle");
+        let bodies = bodies(report.found.answer.bodies.len() as u64);
+        format!("{bodies} in a mesh of {triangles}")
+    }
+
+    fn fields(report: &Report<'_, Self>) -> Vec<Field> {
+        let (answer, trace) = (&report.found.answer, &report.found.trace);
+        let volume: f64 = answer.bodies.iter().map(|body| body.volume).sum();
+        let largest = answer.bodies.iter().map(|body| body.volume).fold(0.0, f64::max);
+        let counter = |name: &str| trace.counters.get(name).copied().unwrap_or(0);
+        let points = counter("sample_points");
+        let share = 100.0 * counter("covered") as f64 / points.max(1) as f64;
+        let verified = match report.verdict {
+            Some(_) => Field::new("verified", "yes")
+                .remark("each body lies inside the mesh, by the even-odd rule"),
+            None => Field::new("verified", "not checked"),
+        };
+        vec![
+            Field::new("volume", exact(volume)).remark("the sum over all bodies"),
+            Field::new("largest", exact(largest)),
+            Field::new("coverage", format!("{share:.1} %")).remark(format!(
+                "of {} inside that the search did not see; an estimate",
+                counted(points, "point")
+            )),
+            Field::new("disjoint", if answer.disjoint { "yes" } else { "no" }),
+            verified,
+            Field::new("method", &*trace.method)
+                .remark(format!("facets in {} directions", counter("facets"))),
+            Field::new("events", count(trace.iterations)),
+            Field::new("grid", exact(2f64.powi(answer.exponent)))
+                .remark("the unit to which coordinates are rounded; the proof allows for it"),
+        ]
+    }
+
+    fn dim(_report: &Report<'_, Self>) -> usize {
+        3
+    }
+
+    fn claims(
+        _found: &Solution<Self>,
+        verdict: &Self::Verdict,
+        source: &dyn PointSource,
+    ) -> Claims {
+        let (bodies, triangles) = (bodies(verdict.bodies), counted(source.len(), "triangle"));
+        let (lower, upper) = (exact(verdict.volume_lower), exact(verdict.volume_upper));
+        let mut fields = vec![
+            Field::proved("inside", "each body lies inside the mesh")
+                .remark("by the even-odd rule, in whole numbers, for the coordinates as given"),
+            Field::proved("volume", format!("{lower} ≤ sum of the volumes ≤ {upper}")),
+            Field::proved("largest", format!("a body of volume ≥ {}", exact(verdict.largest))),
+        ];
+        if verdict.disjoint {
+            fields.push(Field::proved("disjoint", "no two bodies overlap"));
+        }
+        Claims { what: format!("{bodies} in a mesh of {triangles}"), gap: None, fields }
+    }
+}
+
+fn bodies(number: u64) -> String {
+    match number {
+        1 => "1 convex body".to_owned(),
+        more => format!("{} convex bodies", count(more)),
+    }
+}

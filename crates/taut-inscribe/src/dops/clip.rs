@@ -1,0 +1,75 @@
+//! The part of a triangle that other facets leave, and its lowest point.
+
+use super::directions::{Directions, Offsets};
+
+/// Depth in units of the grid up to which a triangle only touches a body. Far above the rounding of a clipped corner, 2⁻²⁵, and far
+/// below the unit; the proof in whole numbers takes a unit back where it matters.
+pub(super) const TOUCH: f64 = 1e-6;
+
+/// Corners of a clipped triangle, at most: each of 25 planes adds one, and rounding hardly more.
+const CORNERS_MAX: usize = 40;
+
+/// The least uᵢ·x over the triangle in the open body {uⱼ·x < hⱼ for all j ≠ i}; `None` where the triangle does not enter it.
+pub(super) fn lowest(
+    corners: &[[f64; 3]; 3],
+    i: usize,
+    h: &Offsets,
+    directions: &Directions,
+) -> Option<f64> {
+    let mut polygon = [[0.0; 3]; CORNERS_MAX];
+    let mut clipped = [[0.0; 3]; CORNERS_MAX];
+    let mut size = 3;
+    polygon[..3].copy_from_slice(corners);
+    for j in (0..directions.len()).filter(|&j| j != i) {
+        let beyond = |p: &[f64; 3]| height(directions, j, p) - f64::from(h[j]);
+        let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+        for p in &polygon[..size] {
+            let at = beyond(p);
+            (least, most) = (least.min(at), most.max(at));
+        }
+        if least >= -TOUCH {
+            return None;
+        }
+        if most <= 0.0 {
+            continue;
+        }
+        let mut kept = 0;
+        let mut from = polygon[size - 1];
+        let mut before = beyond(&from);
+        for to in &polygon[..size] {
+            if kept + 2 > CORNERS_MAX {
+                // The whole triangle is not higher than its part.
+                return Some(
+                    corners
+                        .iter()
+                        .fold(f64::INFINITY, |least, p| least.min(height(directions, i, p))),
+                );
+            }
+            let after = beyond(to);
+            if (before > 0.0) != (after > 0.0) {
+                let share = before / (before - after);
+                clipped[kept] = [0, 1, 2].map(|c| from[c] + share * (to[c] - from[c]));
+                kept += 1;
+            }
+            if after <= 0.0 {
+                clipped[kept] = *to;
+                kept += 1;
+            }
+            (from, before) = (*to, after);
+        }
+        std::mem::swap(&mut polygon, &mut clipped);
+        size = kept;
+    }
+    // Clipping by later facets may have left a part that lies in the plane of an earlier one.
+    let enters = (0..directions.len()).filter(|&j| j != i).all(|j| {
+        let most = f64::from(h[j]) - TOUCH;
+        polygon[..size].iter().any(|p| height(directions, j, p) < most)
+    });
+    let heights = polygon[..size].iter().map(|p| height(directions, i, p));
+    enters.then(|| heights.fold(f64::INFINITY, f64::min))
+}
+
+fn height(directions: &Directions, j: usize, p: &[f64; 3]) -> f64 {
+    let u = directions.normals[j];
+    u[0] as f64 * p[0] + u[1] as f64 * p[1] + u[2] as f64 * p[2]
+}

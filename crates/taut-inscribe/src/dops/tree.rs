@@ -1,0 +1,291 @@
+//! A tree of triangles that stores, for each direction, the least height of the triangles below each node.
+
+use super::clip::{self, TOUCH};
+use super::directions::{Directions, Offsets, opposite};
+
+/// Triangles of a leaf, at most. With the cost of a clipped triangle at about ten times that of a node, 2 to 8 differ little.
+const LEAF_TRIANGLES_MAX: usize = 4;
+
+/// A node: its triangles are `first..end` in the order of the tree. An inner node has its lower child next to it.
+struct Node {
+    first: u32,
+    end: u32,
+    /// The second child; 0 for a leaf.
+    other: u32,
+}
+
+/// Triangles in an order in which neighbors are near each other.
+pub(super) struct Tree<'a> {
+    directions: &'a Directions,
+    nodes: Vec<Node>,
+    /// For each node the least uⱼ·x of its triangles, direction by direction.
+    node_heights: Vec<i32>,
+    /// For each triangle the least uⱼ·x.
+    heights: Vec<i32>,
+    pub(super) corners: Vec<[[i32; 3]; 3]>,
+    /// The row of each triangle.
+    pub(super) rows: Vec<u32>,
+}
+
+impl<'a> Tree<'a> {
+    /// Builds the tree of the triangles, of which there is at least one.
+    pub(super) fn new(triangles: &[[[i32; 3]; 3]], directions: &'a Directions) -> Self {
+        let mut rows: Vec<u32> = (0..triangles.len() as u32).collect();
+        let center = |row: u32| {
+            let [a, b, c] = triangles[row as usize];
+            [0, 1, 2].map(|k| a[k] + b[k] + c[k])
+        };
+        let mut nodes = vec![];
+        split(&mut nodes, &mut rows, 0, &center);
+        let corners: Vec<_> = rows.iter().map(|&row| triangles[row as usize]).collect();
+        let k = directions.len();
+        let of_triangle = |corners: &[[i32; 3]; 3]| {
+            let [a, b, c] = *corners;
+            let least = move |j| {
+                let heights = [a, b, c].map(|p| directions.along(j, p) as i32);
+                heights[0].min(heights[1]).min(heights[2])
+            };
+            (0..k).map(least).collect::<Vec<_>>()
+        };
+        let heights: Vec<i32> = corners.iter().flat_map(of_triangle).collect();
+        let mut node_heights = vec![i32::MAX; k * nodes.len()];
+        // Children come after their parents.
+        for at in (0..nodes.len()).rev() {
+            let node: &Node = &nodes[at];
+            for j in 0..k {
+                node_heights[at * k + j] = match node.other {
+                    0 => {
+                        let triangles = node.first as usize..node.end as usize;
+                        triangles.map(|t| heights[t * k + j]).min().unwrap_or(i32::MAX)
+                    }
+                    other => {
+                        node_heights[(at + 1) * k + j].min(node_heights[other as usize * k + j])
+                    }
+                };
+            }
+        }
+        Tree { directions, nodes, node_heights, heights, corners, rows }
+    }
+
+    /// The largest uᵢ·x of all triangles.
+    pub(super) fn extent(&self, i: usize) -> i32 {
+        -self.node_heights[opposite(i)]
+    }
+
+    /// How far facet i of an empty body can move outward, at most to `most`: the event.
+    pub(super) fn event(&self, i: usize, h: &Offsets, most: i32) -> i32 {
+        let k = self.directions.len();
+        let mut limits = *h;
+        limits[i] = most;
+        let reaches = |heights: &[i32], limits: &Offsets| {
+            heights.iter().zip(limits).all(|(height, limit)| height < limit)
+        };
+        let mut stack = vec![0u32];
+        while let Some(at) = stack.pop() {
+            let at = at as usize;
+            if !reaches(&self.node_heights[at * k..][..k], &limits) {
+                continue;
+            }
+            let node = &self.nodes[at];
+            if node.other > 0 {
+                let (one, two) = (at as u32 + 1, node.other);
+                let height = |node: u32| self.node_heights[node as usize * k + i];
+                let is_nearer = height(one) <= height(two);
+                stack.extend(if is_nearer { [two, one] } else { [one, two] });
+                continue;
+            }
+            for t in node.first as usize..node.end as usize {
+                if reaches(&self.heights[t * k..][..k], &limits) {
+                    let corners = self.corners[t].map(|p| p.map(f64::from));
+                    if let Some(height) = clip::lowest(&corners, i, h, self.directions) {
+                        limits[i] = limits[i].min((height + TOUCH).floor() as i32);
+                    }
+                }
+            }
+        }
+        limits[i].max(h[i])
+    }
+
+    /// Calls a function for each triangle that no single facet separates from a body, until it returns false.
+    pub(super) fn near(&self, h: &Offsets, mut each: impl FnMut(usize) -> bool) -> bool {
+        let k = self.directions.len();
+        let reaches = |heights: &[i32]| heights.iter().zip(h).all(|(height, limit)| height < limit);
+        self.walk(
+            |at| reaches(&self.node_heights[at * k..][..k]),
+            |t| !reaches(&self.heights[t * k..][..k]) || each(t),
+        )
+    }
+
+    /// Whether a ray upward from a point of the grid crosses an odd number of triangles; `None` for a point on a triangle.
+    pub(super) fn is_inside(&self, p: [i32; 3]) -> Option<bool> {
+        let mut is_odd = false;
+        let is_off = self.column(p, |t| {
+            let [a, b, c] = self.corners[t].map(|q| [0, 1, 2].map(|k| i128::from(q[k] - p[k])));
+            let minus = |p: [i128; 3], q: [i128; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
+            let n = cross(minus(b, a), minus(c, a));
+            // The point of the plane above p is at the height n·a / n_z.
+            let height = (n[0] * a[0] + n[1] * a[1] + n[2] * a[2]).signum() * n[2].signum();
+            is_odd ^= height > 0;
+            height != 0
+        });
+        is_off.then_some(is_odd)
+    }
+
+    /// The heights at which the vertical line through a point of the grid crosses triangles, ascending.
+    pub(super) fn crossings(&self, x: i32, y: i32) -> Vec<f64> {
+        let mut heights = vec![];
+        self.column([x, y, 0], |t| {
+            let [a, b, c] = self.corners[t]
+                .map(|q| [f64::from(q[0] - x), f64::from(q[1] - y), f64::from(q[2])]);
+            let minus = |p: [f64; 3], q: [f64; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
+            let (u, v) = (minus(b, a), minus(c, a));
+            let n =
+                [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+            heights.push(a[2] + (n[0] * a[0] + n[1] * a[1]) / n[2]);
+            true
+        });
+        heights.sort_by(f64::total_cmp);
+        heights
+    }
+
+    /// Calls a function for each triangle that the vertical line through (x + ε, y + ε²) crosses, until it returns false.
+    fn column(&self, p: [i32; 3], mut each: impl FnMut(usize) -> bool) -> bool {
+        let k = self.directions.len();
+        let spans = |heights: &[i32]| {
+            heights[0] <= p[0] && -heights[1] >= p[0] && heights[2] <= p[1] && -heights[3] >= p[1]
+        };
+        self.walk(
+            |at| spans(&self.node_heights[at * k..][..k]),
+            |t| {
+                let [a, b, c] = &self.corners[t];
+                let is_crossed = passes(p, a, b) ^ passes(p, b, c) ^ passes(p, c, a);
+                !is_crossed || each(t)
+            },
+        )
+    }
+
+    /// The squared distance from a point to the nearest triangle.
+    pub(super) fn squared_distance(&self, p: [i32; 3]) -> f64 {
+        let k = self.directions.len();
+        let p = p.map(f64::from);
+        let to_box = |at: usize| {
+            let heights = &self.node_heights[at * k..][..6];
+            let off = |c: usize| {
+                let (low, high) = (f64::from(heights[2 * c]), -f64::from(heights[2 * c + 1]));
+                (low - p[c]).max(p[c] - high).max(0.0)
+            };
+            off(0) * off(0) + off(1) * off(1) + off(2) * off(2)
+        };
+        let mut least = f64::INFINITY;
+        let mut stack = vec![(0, to_box(0))];
+        while let Some((at, distance)) = stack.pop() {
+            let node = &self.nodes[at];
+            if distance >= least {
+                continue;
+            }
+            if node.other > 0 {
+                let mut children = [at + 1, node.other as usize].map(|at| (at, to_box(at)));
+                if children[0].1 <= children[1].1 {
+                    children.swap(0, 1);
+                }
+                stack.extend(children);
+                continue;
+            }
+            for corners in &self.corners[node.first as usize..node.end as usize] {
+                let corners = corners.map(|q| q.map(f64::from));
+                least = least.min(squared_distance(p, &corners));
+            }
+        }
+        least
+    }
+
+    /// Visits the leaves below nodes that pass a test, until `each` returns false for a triangle; returns whether it never did.
+    fn walk(&self, passes: impl Fn(usize) -> bool, mut each: impl FnMut(usize) -> bool) -> bool {
+        let mut stack = vec![0usize];
+        while let Some(at) = stack.pop() {
+            if !passes(at) {
+                continue;
+            }
+            let node = &self.nodes[at];
+            match node.other {
+                0 => {
+                    for t in node.first as usize..node.end as usize {
+                        if !each(t) {
+                            return false;
+                        }
+                    }
+                }
+                other => stack.extend([other as usize, at + 1]),
+            }
+        }
+        true
+    }
+}
+
+/// Splits rows at the median along the axis in which their centers spread most, and appends the nodes.
+fn split(nodes: &mut Vec<Node>, rows: &mut [u32], first: u32, center: &dyn Fn(u32) -> [i32; 3]) {
+    let at = nodes.len();
+    let end = first + rows.len() as u32;
+    nodes.push(Node { first, end, other: 0 });
+    if rows.len() <= LEAF_TRIANGLES_MAX {
+        return;
+    }
+    let spread = |axis: usize| {
+        let along = |&row: &u32| center(row)[axis];
+        let (low, high) = (rows.iter().map(along).min(), rows.iter().map(along).max());
+        i64::from(high.unwrap_or(0)) - i64::from(low.unwrap_or(0))
+    };
+    let axis = (0..3).max_by_key(|&axis| spread(axis)).unwrap_or(0);
+    let middle = rows.len() / 2;
+    rows.select_nth_unstable_by_key(middle, |&row| (center(row)[axis], row));
+    let (lower, upper) = rows.split_at_mut(middle);
+    split(nodes, lower, first, center);
+    nodes[at].other = nodes.len() as u32;
+    split(nodes, upper, first + middle as u32, center);
+}
+
+/// Whether the edge between two corners, seen from above, passes at the x of the point beyond its y, for the point moved by
+/// (ε, ε²).
+fn passes(p: [i32; 3], a: &[i32; 3], b: &[i32; 3]) -> bool {
+    if (a[0] > p[0]) == (b[0] > p[0]) {
+        return false;
+    }
+    let [a, b] = if a[0] < b[0] { [a, b] } else { [b, a] };
+    let minus = |p: i32, q: i32| i64::from(p) - i64::from(q);
+    let (dx, dy) = (minus(b[0], a[0]), minus(b[1], a[1]));
+    // The height of the edge above the point, times dx; at 0 the point is moved along by ε, then up by ε².
+    match dy * minus(p[0], a[0]) - dx * minus(p[1], a[1]) {
+        0 => dy > 0,
+        above => above > 0,
+    }
+}
+
+fn cross(a: [i128; 3], b: [i128; 3]) -> [i128; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// The squared distance from a point to a triangle.
+pub(super) fn squared_distance(p: [f64; 3], corners: &[[f64; 3]; 3]) -> f64 {
+    let minus = |p: [f64; 3], q: [f64; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
+    let dot = |p: [f64; 3], q: [f64; 3]| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
+    let [a, b, c] = *corners;
+    let (u, v, w) = (minus(b, a), minus(c, a), minus(p, a));
+    // Above the triangle the plane is nearest, else an edge.
+    let (uu, uv, vv) = (dot(u, u), dot(u, v), dot(v, v));
+    let (wu, wv) = (dot(w, u), dot(w, v));
+    let area = uu * vv - uv * uv;
+    let (s, t) = (vv * wu - uv * wv, uu * wv - uv * wu);
+    if area > 0.0 && s >= 0.0 && t >= 0.0 && s + t <= area {
+        let (s, t) = (s / area, t / area);
+        let off = [0, 1, 2].map(|k| w[k] - s * u[k] - t * v[k]);
+        return dot(off, off);
+    }
+    let to_edge = |[a, b]: [[f64; 3]; 2]| {
+        let (d, e) = (minus(p, a), minus(b, a));
+        let share = dot(d, e) / dot(e, e);
+        let share = if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.0 };
+        let off = [0, 1, 2].map(|k| d[k] - share * e[k]);
+        dot(off, off)
+    };
+    [[a, b], [b, c], [c, a]].map(to_edge).into_iter().fold(f64::INFINITY, f64::min)
+}

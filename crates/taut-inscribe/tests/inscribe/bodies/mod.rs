@@ -1,0 +1,8 @@
+//! Convex bodies in triangle meshes.
+
+mod closed_forms;
+mod degenerate;
+mod laws;
+mod models;
+mod mutations;
+mod shapes;

@@ -1,0 +1,50 @@
+"""Convex bodies in triangle meshes."""
+
+import numpy as np
+import pytest
+
+import taut
+
+OCTAHEDRON = np.vstack([np.eye(3), -np.eye(3)])
+FACES = np.array([[x, y, z] for x in (0, 3) for y in (1, 4) for z in (2, 5)])
+ROWS = taut.triangle_rows(OCTAHEDRON, FACES)
+
+
+def test_an_octahedron_is_a_body_with_14_directions():
+    found = taut.inscribed_dops(OCTAHEDRON, FACES, directions=14, events=1000)
+    assert found.kind == "inscribed-bodies"
+    verdict = found.check(ROWS)
+    assert verdict.bodies == 1 and abs(verdict.largest - 4 / 3) < 1e-5
+    normals, offsets = found.answer.half_spaces(0)
+    assert normals.shape == (14, 3) and np.all(OCTAHEDRON @ normals.T <= offsets + 1e-6)
+    vertices = found.answer.vertices(0)
+    assert np.all(vertices @ normals.T <= offsets + 1e-6)
+    # Facets end up to a unit of the grid, 2^-23, before the corners, so that each corner may be several vertices.
+    assert all(np.min(np.linalg.norm(vertices - corner, axis=1)) < 1e-5 for corner in OCTAHEDRON)
+    for name in ("InscribedBodies(", "BodiesCertificate(", "BodiesVerdict(", "ConvexBody(", "BodyProof("):
+        parts = (found.answer, found.certificate, verdict, found.answer.bodies[0], found.certificate.proofs[0])
+        assert any(name in repr(part) for part in parts)
+
+
+def test_disjoint_bodies_travel_as_json():
+    found = taut.inscribed_dops(OCTAHEDRON, FACES, count=3, disjoint=True, events=3000)
+    again = taut.Solution.from_json(found.to_json())
+    assert again == found and again.certificate.pairs == found.certificate.pairs
+    assert again.check(ROWS).disjoint
+    with pytest.raises(taut.Violation, match="the data changed"):
+        again.check(ROWS + 1)
+
+
+def test_meshes_that_are_not_closed_are_refused():
+    with pytest.raises(ValueError, match="the mesh is not closed: 3 of its edges"):
+        taut.inscribed_dops(OCTAHEDRON, FACES[1:])
+    with pytest.raises(ValueError, match="triangle 0 names vertex 9"):
+        taut.inscribed_dops(OCTAHEDRON, FACES + 7)
+    with pytest.raises(ValueError, match="`directions` is 7"):
+        taut.inscribed_dops(OCTAHEDRON, FACES, directions=7)
+    with pytest.raises(ValueError, match=r"expected \(n, 3\)"):
+        taut.inscribed_dops(OCTAHEDRON[:, :2], FACES)
+
+
+def test_a_notebook_shows_the_bodies():
+    assert "<svg" in taut.inscribed_dops(OCTAHEDRON, FACES, events=500)._repr_html_()
