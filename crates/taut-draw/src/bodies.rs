@@ -9,8 +9,8 @@ use taut_points::{PointSource, gather};
 use crate::marks::{agree, dot_size};
 use crate::number::{count, counted, short};
 use crate::{
-    DrawOptions, Error, Figure, Layer3, Look, Mesh3, Point3, Scene3, Shading, Shape3, Surface3,
-    Tone,
+    DrawOptions, Error, Figure, Layer3, LineStyle, Mesh3, Point3, Scene3, Shading, Shape3,
+    Surface3, Tone,
 };
 
 /// Triangles of a mesh that is drawn with all its triangles, at most: each is a polygon of the picture.
@@ -40,8 +40,12 @@ pub fn bodies_figures(
         if answer.disjoint { " that are disjoint" } else { "" },
         short(volume, 6)
     );
-    let layer =
-        |name: &str, tone, shape| Layer3 { name: name.to_owned(), tone, look: Look::Solid, shape };
+    let layer = |name: &str, tone, shape| Layer3 {
+        name: name.to_owned(),
+        tone,
+        line_style: LineStyle::Solid,
+        shape,
+    };
     let layers = vec![
         layer("bodies", Tone::Answer, Shape3::Surface(facets(answer)?)),
         layer("mesh", Tone::Point, mesh),

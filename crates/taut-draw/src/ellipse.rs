@@ -9,7 +9,7 @@ use taut_points::PointSource;
 use crate::marks::{all_finite, all_there};
 use crate::number::{counted, short};
 use crate::rings::Rings;
-use crate::{Aspect, DrawOptions, Error, Figure, Layer2, Look, Scene2, Shape2, Tone};
+use crate::{Aspect, DrawOptions, Error, Figure, Layer2, LineStyle, Scene2, Shape2, Tone};
 
 /// Corners of the ellipse: it is off by 1 − cos(π/256), less than 1e-4 of its axes.
 const CORNERS: usize = 256;
@@ -32,7 +32,12 @@ pub fn ellipse_figures(
     all_finite(center.chain(axes))?;
     let rings = Rings::read(source)?;
     let lines = certificate.touching.iter().map(|&row| rings.edge(row as usize).to_vec()).collect();
-    let layer = |name: &str, tone, look, shape| Layer2 { name: name.to_owned(), tone, look, shape };
+    let layer = |name: &str, tone, line_style, shape| Layer2 {
+        name: name.to_owned(),
+        tone,
+        line_style,
+        shape,
+    };
     let gap = match certificate.gap {
         gap if gap.is_finite() => format!("certified gap {}", short(gap, 3)),
         _ => "no gap is certified".to_owned(),
@@ -48,14 +53,19 @@ pub fn ellipse_figures(
         y: options.axis(1, 2),
         aspect: Aspect::Equal,
         layers: vec![
-            layer("polygon", Tone::Point, Look::Solid, Shape2::Polygons(rings.outlines(options))),
+            layer(
+                "polygon",
+                Tone::Point,
+                LineStyle::Solid,
+                Shape2::Polygons(rings.outlines(options)),
+            ),
             layer(
                 "largest ellipse",
                 Tone::Answer,
-                Look::Solid,
+                LineStyle::Solid,
                 Shape2::Polygons(vec![outline(answer)]),
             ),
-            layer("touching edges", Tone::Support, Look::Solid, Shape2::Polylines(lines)),
+            layer("touching edges", Tone::Support, LineStyle::Solid, Shape2::Polylines(lines)),
         ],
         width: options.width,
         height: options.height,

@@ -1,6 +1,6 @@
 //! `taut inscribe dops`: found, proved, drawn; meshes with holes refused by edge.
 
-use crate::folder::TestFolder;
+use crate::test_folder::TestFolder;
 
 /// An octahedron, which is a 14-dop.
 const OCTAHEDRON: &str = "OFF\n6 8 0\n1 0 0\n-1 0 0\n0 1 0\n0 -1 0\n0 0 1\n0 0 -1\n\
@@ -44,7 +44,10 @@ fn an_octahedron_is_filled_and_proved() {
 fn disjoint_bodies_are_proved_and_forgeries_refused() {
     let folder = folder();
     folder.taut("inscribe dops mesh.off --count 3 --disjoint --events 3000 -o bodies.json").ends(0);
-    folder.taut("verify bodies.json mesh.off").ends(0).stdout_has(&["no two bodies overlap; proved"]);
+    folder
+        .taut("verify bodies.json mesh.off")
+        .ends(0)
+        .stdout_has(&["no two bodies overlap; proved"]);
     let text = folder.text("bodies.json");
     let mut found: serde_json::Value = serde_json::from_str(&text).unwrap();
     for offset in found["answer"]["bodies"][0]["offsets"].as_array_mut().unwrap() {
@@ -74,7 +77,11 @@ fn rows_of_nine_numbers_are_triangles_and_holes_are_named() {
     folder.put("mesh.csv", rows);
     folder.taut("verify bodies.json mesh.csv").ends(0);
     folder.put("open.off", OCTAHEDRON.replace("6 8 0", "6 7 0").replace("3 1 3 5\n", ""));
-    folder.taut("inscribe dops open.off").ends(2).stderr_has(&["open.off", "3 of its edges", "close"]);
+    folder.taut("inscribe dops open.off").ends(2).stderr_has(&[
+        "open.off",
+        "3 of its edges",
+        "close",
+    ]);
     folder.taut("inscribe dops mesh.off -k 8").ends(2).stderr_has(&["--directions", "is 8"]);
     folder.put("points.off", "OFF\n1 0 0\n0 0 0\n");
     folder.taut("inscribe dops points.off").ends(2).stderr_has(&["points.off", "no triangle"]);

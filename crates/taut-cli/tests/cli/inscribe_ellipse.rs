@@ -1,6 +1,6 @@
 //! `taut inscribe ellipse`: found, proved, drawn; holes from GeoJSON; bad rings refused by row.
 
-use crate::folder::TestFolder;
+use crate::test_folder::TestFolder;
 
 /// A square of side 4 with a hole of side 2 in its middle: the best ellipse fills a corridor of 4 by 1, π.
 const FRAME: &str = "x,y,ring\n0,0,0\n4,0,0\n4,4,0\n0,4,0\n1,1,1\n3,1,1\n3,3,1\n1,3,1\n";
