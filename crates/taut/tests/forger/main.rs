@@ -25,6 +25,11 @@ fn no_false_centers_are_accepted() {
 }
 
 #[test]
+fn no_false_bodies_are_accepted() {
+    attack("bodies", &cases::bodies::all()).report("bodies");
+}
+
+#[test]
 fn no_false_circle_is_accepted() {
     attack("circle", &cases::circle::all()).report("circle");
 }

@@ -1,6 +1,7 @@
 //! Seeded inputs of every kind of answer, with the documents that the solvers make of them.
 
 pub mod ball;
+pub mod bodies;
 pub mod centers;
 pub mod circle;
 pub mod clouds;

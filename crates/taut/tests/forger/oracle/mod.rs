@@ -1,6 +1,7 @@
 //! The oracles: each decides, by exact arithmetic, whether what a checker let pass is true.
 
 pub mod ball;
+pub mod bodies;
 mod body;
 pub mod centers;
 pub mod circle;
@@ -31,6 +32,7 @@ use taut::AnySolution;
 use taut::certify::{AnyVerdict, EllipsoidVerdict, RobustVerdict};
 
 use self::ball::BallOracle;
+use self::bodies::BodiesOracle;
 use self::centers::CentersOracle;
 use self::circle::CircleOracle;
 use self::curve::CurveOracle;
@@ -76,6 +78,7 @@ impl Truth {
 pub struct CaseOracle<'a> {
     input: &'a Input,
     balls: BTreeMap<u8, BallOracle>,
+    bodies: Option<BodiesOracle>,
     centers: Option<CentersOracle>,
     circle: Option<CircleOracle>,
     curve: Option<CurveOracle>,
@@ -103,6 +106,7 @@ impl<'a> CaseOracle<'a> {
         CaseOracle {
             input,
             balls: BTreeMap::new(),
+            bodies: None,
             centers: None,
             circle: None,
             curve: None,
@@ -130,6 +134,10 @@ impl<'a> CaseOracle<'a> {
             (AnySolution::Centers(found), AnyVerdict::Centers(verdict)) => {
                 let oracle =
                     self.centers.get_or_insert_with(|| CentersOracle::new(values, *columns));
+                oracle.judge(found, verdict)
+            }
+            (AnySolution::Bodies(found), AnyVerdict::Bodies(verdict)) => {
+                let oracle = self.bodies.get_or_insert_with(|| BodiesOracle::new(values, *columns));
                 oracle.judge(found, verdict)
             }
             (AnySolution::Circle(found), AnyVerdict::Circle(verdict)) => {
