@@ -8,11 +8,11 @@ use crate::random::Random;
 
 /// Returns the cases of the largest circle in a polygon.
 pub fn all() -> Vec<Case> {
-    cases(rings(), solve)
+    cases(polygons(), solve)
 }
 
 /// Returns small polygons, some of them with holes, far from 0, large, small, thin, or with repeated vertices.
-fn rings() -> Vec<Input> {
+pub fn polygons() -> Vec<Input> {
     let square = vec![0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0];
     let corner = vec![0.0, 0.0, 3.0, 0.0, 3.0, 2.0, 2.0, 2.0, 2.0, 3.0, 0.0, 3.0];
     let scaled = |factor: f64| corner.iter().map(|x| x * factor).collect::<Vec<_>>();

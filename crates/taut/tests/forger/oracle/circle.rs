@@ -10,7 +10,8 @@ use taut::certify::{CircleVerdict, InscribedCircle, Solution};
 
 use super::Truth;
 
-type Point = [BigRational; 2];
+/// A point in fractions.
+pub(super) type Point = [BigRational; 2];
 
 /// Points of the grid along each axis.
 const GRID: usize = 40;
@@ -28,7 +29,8 @@ pub struct CircleOracle {
     best: BigRational,
 }
 
-fn exact(x: f64) -> BigRational {
+/// The number as a fraction.
+pub(super) fn exact(x: f64) -> BigRational {
     BigRational::from_float(x).expect("numbers of an input are finite")
 }
 
@@ -122,19 +124,20 @@ impl CircleOracle {
 
     /// The parity of the edges above p, which is on none.
     fn is_inside(&self, p: &Point) -> bool {
-        let above = |row: &usize| {
-            let [a, b] = self.edge(*row);
-            (a[0] <= p[0]) != (b[0] <= p[0]) && {
-                let height = &a[1] + (&p[0] - &a[0]) * (&b[1] - &a[1]) / (&b[0] - &a[0]);
-                height > p[1]
-            }
-        };
-        (0..self.edges.len()).filter(above).count() % 2 == 1
+        self.edges.iter().filter(|edge| crosses_above(edge, p)).count() % 2 == 1
+    }
+}
+
+/// Whether an edge crosses the vertical line through p above it; p is on no edge.
+pub(super) fn crosses_above([a, b]: &[Point; 2], p: &Point) -> bool {
+    (a[0] <= p[0]) != (b[0] <= p[0]) && {
+        let height = &a[1] + (&p[0] - &a[0]) * (&b[1] - &a[1]) / (&b[0] - &a[0]);
+        height > p[1]
     }
 }
 
 /// The edge that begins at each row: rows (x, y) are one ring, rows (x, y, number) several. None where rows are no rings.
-fn edges(values: &[f64], columns: usize) -> Vec<[[f64; 2]; 2]> {
+pub(super) fn edges(values: &[f64], columns: usize) -> Vec<[[f64; 2]; 2]> {
     if columns != 2 && columns != 3 {
         return vec![];
     }
@@ -207,7 +210,7 @@ fn candidates(edges: &[[[f64; 2]; 2]]) -> Vec<[f64; 2]> {
 }
 
 /// The even-odd rule in plain arithmetic.
-fn is_inside(edges: &[[[f64; 2]; 2]], p: [f64; 2]) -> bool {
+pub(super) fn is_inside(edges: &[[[f64; 2]; 2]], p: [f64; 2]) -> bool {
     let crosses = |&&[a, b]: &&[[f64; 2]; 2]| {
         (a[0] <= p[0]) != (b[0] <= p[0])
             && a[1] + (p[0] - a[0]) * ((b[1] - a[1]) / (b[0] - a[0])) > p[1]

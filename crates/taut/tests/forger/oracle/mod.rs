@@ -8,6 +8,7 @@ pub mod circle;
 mod claims;
 pub mod curve;
 pub mod dyadic;
+pub mod ellipse;
 pub mod ellipsoid;
 pub mod enclosing;
 mod exchange;
@@ -36,6 +37,7 @@ use self::bodies::BodiesOracle;
 use self::centers::CentersOracle;
 use self::circle::CircleOracle;
 use self::curve::CurveOracle;
+use self::ellipse::EllipseOracle;
 use self::ellipsoid::EllipsoidOracle;
 use self::inscribed::InscribedOracle;
 use self::order::OrderOracle;
@@ -82,6 +84,7 @@ pub struct CaseOracle<'a> {
     centers: Option<CentersOracle>,
     circle: Option<CircleOracle>,
     curve: Option<CurveOracle>,
+    ellipse: Option<EllipseOracle>,
     ellipsoids: BTreeMap<u8, EllipsoidOracle>,
     inscribed: Option<InscribedOracle>,
     order: Option<OrderOracle>,
@@ -110,6 +113,7 @@ impl<'a> CaseOracle<'a> {
             centers: None,
             circle: None,
             curve: None,
+            ellipse: None,
             ellipsoids: BTreeMap::new(),
             inscribed: None,
             order: None,
@@ -146,6 +150,11 @@ impl<'a> CaseOracle<'a> {
             }
             (AnySolution::Curve(found), AnyVerdict::Curve(verdict)) => {
                 let oracle = self.curve.get_or_insert_with(|| CurveOracle::new(values, *columns));
+                oracle.judge(found, verdict)
+            }
+            (AnySolution::Ellipse(found), AnyVerdict::Ellipse(verdict)) => {
+                let oracle =
+                    self.ellipse.get_or_insert_with(|| EllipseOracle::new(values, *columns));
                 oracle.judge(found, verdict)
             }
             (AnySolution::Ellipsoid(found), AnyVerdict::Ellipsoid(verdict)) => {
@@ -205,6 +214,10 @@ impl<'a> CaseOracle<'a> {
             }
             (AnySolution::Circle(_), AnyVerdict::Circle(verdict)) => {
                 let optimum = "the largest radius inside".to_owned();
+                vec![Interval { optimum, lower: verdict.lower, upper: verdict.upper }]
+            }
+            (AnySolution::Ellipse(_), AnyVerdict::Ellipse(verdict)) => {
+                let optimum = "the largest area inside".to_owned();
                 vec![Interval { optimum, lower: verdict.lower, upper: verdict.upper }]
             }
             (AnySolution::Ellipsoid(found), AnyVerdict::Ellipsoid(verdict)) => {
