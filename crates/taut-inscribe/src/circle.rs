@@ -52,7 +52,12 @@ impl Default for CircleOptions<'_> {
 
 /// Finds the largest circle in the simple polygon whose vertices are the points in order; the last may repeat the first.
 ///
-/// The points are read once and kept in memory.
+/// The rows of `ring` are n points of dimension 2, in order around the polygon; center and radius are in their unit. The points are
+/// read once and kept in memory. The method is that of the head of this module: cells with weights on edges as bounds.
+///
+/// # Cost
+/// O(n log n) for the test of the ring where its edges crowd nowhere, and for each cell of the search its near edges; tens to
+/// hundreds of cells for outlines of countries.
 ///
 /// # Errors
 /// [`Error::NotSimple`] with the edges where the ring meets itself, [`Error::TooFewVertices`], [`Error::TooThin`], and
