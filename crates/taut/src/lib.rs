@@ -5,7 +5,7 @@
 //! | the smallest ball around points, balls or ellipsoids | [`ball()`] | R ≤ (1 + ε)·R*, proved | [`enclose`] |
 //! | k-center: minimize the largest distance to the nearest center, for points or balls | [`centers()`] | radius ≤ (1 + ε) times the least, proved; with outliers, weights, or among the points | [`enclose`] |
 //! | centers for every k at once, of any number of points | [`farthest_first()`] | at most twice the least radius, for each k | [`enclose`] |
-//! | k centers of a stream, or of points in many places | [`enclose::StreamingCenters`], [`enclose::Summary`] | a factor of the least radius, both bounds told | [`enclose`] |
+//! | k centers of a stream, or of points in many places | [`enclose::StreamingCenters`], [`enclose::CoreSetSummary`] | a factor of the least radius, both bounds told | [`enclose`] |
 //! | a tree of balls | [`sphere_tree()`] | each the smallest around its points | [`enclose`] |
 //! | the ellipsoid of least volume around points, balls or ellipsoids | [`ellipsoid()`] | log-volume ≤ least + ε, proved | [`enclose`] |
 //! | one for each of many point sets | [`ellipsoids()`] | the same | [`enclose`] |

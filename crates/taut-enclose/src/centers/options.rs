@@ -19,7 +19,7 @@ pub enum CentersMethod {
     /// with weights and sets with outliers are held in memory and gone through 2k + z + d times; with weights or outliers
     /// the factor is not promised, the gap that is proved is in the certificate.
     FarthestFirst,
-    /// A [`StreamingCenters`](crate::Cover): two passes over a source of any size, by default in memory for some 8k points, at most 2.96
+    /// A [`StreamingCenters`](crate::StreamingCenters): two passes over a source of any size, by default in memory for some 8k points, at most 2.96
     /// times the optimal radius. Points without weights and outliers, and without assignment.
     Stream(StreamingOptions),
 }

@@ -28,7 +28,7 @@ use crate::{Error, FarthestFirst, FarthestFirstOptions, farthest_first};
 /// let part = |range: std::ops::Range<usize>| Points::new(&all[2 * range.start..2 * range.end], 2);
 /// // Three places, each with a thousand of the points:
 /// let summaries = [0, 1000, 2000].map(|first| {
-///     Summary::of(&part(first..first + 1000).unwrap(), first as u64, 50)
+///     CoreSetSummary::of(&part(first..first + 1000).unwrap(), first as u64, 50)
 /// });
 /// // In one place:
 /// let mut root = CoreSetSummary::default();

@@ -46,14 +46,14 @@ fn many(n: usize, columns: usize) -> Vec<f64> {
 #[test]
 fn free_centers() {
     let plain = CentersOptions { assignment: true, ..Default::default() };
-    let plane = many(crate::test_length::long_or(150_000, 70_000), 2);
+    let plane = many(150_000, 2);
     let found = same_centers("tree", &plane, 2, Items::Points, 6, plain);
     assert!(found.trace.iterations > 100, "{}", found.trace.iterations);
     let options = CentersOptions { outliers: 3, ..plain };
     same_centers("outliers", &plane, 2, Items::Points, 2, options);
     let thesis = CentersOptions { method: CentersMethod::Thesis, epsilon: 0.1, ..plain };
     same_centers("thesis", &plane, 2, Items::Points, 3, thesis);
-    let mut space = many(crate::test_length::long_or(100_000, 70_000), 4);
+    let mut space = many(100_000, 4);
     space.iter_mut().skip(3).step_by(4).for_each(|v| *v = 0.1 + v.abs());
     same_centers("balls", &space, 4, Items::Balls, 3, plain);
     let weights = CentersOptions { weights: true, epsilon: 0.05, ..plain };

@@ -23,7 +23,7 @@ use crate::hashed_pass::{WantedRows, hashed_pass};
 /// The sets of all places take at most this many bytes.
 const SET_BYTES_MAX: u64 = 1 << 30;
 
-/// The number of times that there is a bit for each place and item: by place, by item, and in the groups and what is kept to undo them, as
+/// The number of bits kept for each pair of a place and an item: by place, by item, and in the groups and what is kept to undo them, as
 /// each item begins a group or narrows one.
 const SETS_PER_PLACE: u64 = 3;
 

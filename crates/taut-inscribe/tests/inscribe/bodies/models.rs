@@ -55,7 +55,9 @@ fn capped(mut mesh: Mesh) -> Mesh {
             let ends = hole[at];
             let next: Vec<_> =
                 odd.iter().filter(|e| e.iter().any(|p| ends.contains(p))).copied().collect();
-            next.iter().for_each(|edge| drop(odd.remove(edge)));
+            for edge in &next {
+                odd.remove(edge);
+            }
             hole.extend(next);
             at += 1;
         }
