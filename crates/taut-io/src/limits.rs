@@ -41,6 +41,11 @@ pub(crate) fn check_point(path: &str, bytes: u64, memory: Option<u64>) -> Result
     }
 }
 
+/// Most bytes of parts of a file that must be held together.
+pub(crate) fn most_held(memory: Option<u64>) -> u64 {
+    memory.map_or(u64::MAX, |memory| memory.max(PIECE_LEAST))
+}
+
 /// Refuses parts of a file that must be held together, of which `bytes` are known so far.
 pub(crate) fn check_held(
     path: &str,
@@ -49,7 +54,7 @@ pub(crate) fn check_held(
     memory: Option<u64>,
     remedy: &'static str,
 ) -> Result<(), Error> {
-    let most = memory.map_or(u64::MAX, |memory| memory.max(PIECE_LEAST));
+    let most = most_held(memory);
     match bytes <= most {
         true => Ok(()),
         false => {

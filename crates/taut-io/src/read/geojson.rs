@@ -12,22 +12,41 @@ mod json;
 
 use std::io::{BufRead, Read};
 
-use self::json::Value;
+use self::json::{Refusal, Value};
 use super::Decoded;
 use crate::input::Job;
 use crate::sink::Sink;
-use crate::{Error, Format};
+use crate::{Error, Format, limits};
 
 pub(super) fn read(job: &Job<'_>, mut stream: Box<dyn BufRead>) -> Result<Decoded, Error> {
+    // The text is held whole, and then its values: each may take half of the memory.
+    let most = limits::most_held(job.options.memory) / 2;
+    let too_large = |bytes| Error::TooLarge {
+        path: job.path.to_owned(),
+        problem: "a GeoJSON document",
+        bytes,
+        memory: most,
+        remedy: "allow more memory, or write the positions as csv: x, y and the number of the ring",
+    };
     let mut text = vec![];
-    stream.read_to_end(&mut text).map_err(|source| Error::reading(job.path, source))?;
+    stream
+        .by_ref()
+        .take(most.saturating_add(1))
+        .read_to_end(&mut text)
+        .map_err(|source| Error::reading(job.path, source))?;
+    if text.len() as u64 > most {
+        return Err(too_large(text.len() as u64));
+    }
     let damaged = |problem| Error::Damaged {
         path: job.path.to_owned(),
         format: Format::GeoJson,
         place: crate::FilePlace::File,
         problem,
     };
-    let document = json::parse(&text).map_err(damaged)?;
+    let document = json::parse(&text, most).map_err(|refusal| match refusal {
+        Refusal::NotJson(problem) => damaged(problem),
+        Refusal::TooLarge(bytes) => too_large(bytes),
+    })?;
     drop(text);
     let chains = document_chains(&document).map_err(damaged)?;
     let width = if chains.len() > 1 { 3 } else { 2 };

@@ -11,7 +11,7 @@ use taut_points::{Monitor, ScalarKind, Scratch, hash_points};
 type Parser = (&'static str, fn(&[u8]));
 
 /// Every parser by the name of its fuzz target.
-pub(crate) const ALL: [Parser; 18] = [
+pub(crate) const ALL: [Parser; 19] = [
     ("csv", csv),
     ("npy", npy),
     ("parquet", parquet),
@@ -20,6 +20,7 @@ pub(crate) const ALL: [Parser; 18] = [
     ("xyz", xyz),
     ("raw", raw),
     ("json", json),
+    ("geojson", geojson),
     ("ply", ply),
     ("obj", obj),
     ("off", off),
@@ -89,6 +90,15 @@ pub(crate) fn json(bytes: &[u8]) {
     let Ok(found) = AnySolution::from_json(text) else { return };
     let again = found.to_json();
     assert_eq!(AnySolution::from_json(&again).expect("written by us"), found);
+}
+
+/// With all columns and with some, and where little memory is allowed.
+pub(crate) fn geojson(bytes: &[u8]) {
+    let all = read(bytes, Format::GeoJson, ReadOptions::default());
+    let columns = Some("1,0".parse().expect("numbers"));
+    let turned = read(bytes, Format::GeoJson, ReadOptions { columns, ..Default::default() });
+    assert_eq!(all.map(|input| input.source.len()), turned.map(|input| input.source.len()));
+    read(bytes, Format::GeoJson, ReadOptions { memory: Some(1 << 20), ..Default::default() });
 }
 
 pub(crate) fn ply(bytes: &[u8]) {

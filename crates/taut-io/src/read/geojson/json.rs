@@ -1,9 +1,16 @@
 //! JSON text as a tree of values.
 //!
-//! *Trap.* Lists can be nested as deep as the text is long: [`DEPTH_MAX`] keeps the recursion short.
+//! *Trap.* Lists can be nested as deep as the text is long: [`DEPTH_MAX`] keeps the recursion short. A byte or two of text can be a
+//! value of tens of bytes: what values take is counted while they are read.
 
 /// Lists and objects within each other; GeoJSON has at most ten.
 const DEPTH_MAX: usize = 64;
+
+/// Bytes counted for a value: its place in a list that grows by doubling, of which the old half is copied.
+const VALUE_BYTES: u64 = 3 * size_of::<Value>() as u64;
+
+/// Bytes counted for a list or an object besides its values: the least that is allocated for one, four places.
+const LIST_BYTES: u64 = 4 * size_of::<(String, Value)>() as u64;
 
 /// A value.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,10 +24,19 @@ pub(super) enum Value {
     Object(Vec<(String, Value)>),
 }
 
-/// Reads one value as long as the text; an error says what is wrong and in which line.
-pub(super) fn parse(text: &[u8]) -> Result<Value, String> {
+/// Why a text is refused.
+#[derive(Debug, PartialEq)]
+pub(super) enum Refusal {
+    /// It is no JSON: the line and what is wrong.
+    NotJson(String),
+    /// Its values take more than the memory allowed for them: the bytes counted so far.
+    TooLarge(u64),
+}
+
+/// Reads one value as long as the text, of at most `memory` bytes.
+pub(super) fn parse(text: &[u8], memory: u64) -> Result<Value, Refusal> {
     let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
-    let mut parser = Parser { text, at: 0 };
+    let mut parser = Parser { text, at: 0, held: 0, memory };
     let found = parser.value(0).and_then(|value| {
         parser.skip_blanks();
         match parser.at == text.len() {
@@ -29,14 +45,21 @@ pub(super) fn parse(text: &[u8]) -> Result<Value, String> {
         }
     });
     found.map_err(|problem| {
+        if parser.held > parser.memory {
+            return Refusal::TooLarge(parser.held);
+        }
         let line = 1 + text[..parser.at].iter().filter(|&&byte| byte == b'\n').count();
-        format!("line {line}: {problem}")
+        Refusal::NotJson(format!("line {line}: {problem}"))
     })
 }
 
 struct Parser<'a> {
     text: &'a [u8],
     at: usize,
+    /// Bytes counted for the values so far.
+    held: u64,
+    /// Most of them.
+    memory: u64,
 }
 
 type Parsed<T> = Result<T, &'static str>;
@@ -44,6 +67,15 @@ type Parsed<T> = Result<T, &'static str>;
 impl Parser<'_> {
     fn peek(&self) -> Option<u8> {
         self.text.get(self.at).copied()
+    }
+
+    /// Counts bytes that are about to be allocated.
+    fn hold(&mut self, bytes: u64) -> Parsed<()> {
+        self.held = self.held.saturating_add(bytes);
+        match self.held > self.memory {
+            true => Err("the values take too much memory"),
+            false => Ok(()),
+        }
     }
 
     fn skip_blanks(&mut self) {
@@ -64,6 +96,7 @@ impl Parser<'_> {
         if depth > DEPTH_MAX {
             return Err("lists are nested too deep");
         }
+        self.hold(VALUE_BYTES)?;
         self.skip_blanks();
         match self.peek() {
             Some(b'{') => self.object(depth),
@@ -77,6 +110,7 @@ impl Parser<'_> {
 
     fn object(&mut self, depth: usize) -> Parsed<Value> {
         self.at += 1;
+        self.hold(LIST_BYTES)?;
         let mut fields = vec![];
         if self.eat(b'}') {
             return Ok(Value::Object(fields));
@@ -86,6 +120,7 @@ impl Parser<'_> {
             if self.peek() != Some(b'"') {
                 return Err("expected the name of a field");
             }
+            self.hold(3 * size_of::<String>() as u64)?;
             let name = self.text()?;
             if !self.eat(b':') {
                 return Err("expected a colon");
@@ -101,6 +136,7 @@ impl Parser<'_> {
 
     fn array(&mut self, depth: usize) -> Parsed<Value> {
         self.at += 1;
+        self.hold(LIST_BYTES)?;
         let mut items = vec![];
         if self.eat(b']') {
             return Ok(Value::Array(items));
@@ -141,6 +177,7 @@ impl Parser<'_> {
         loop {
             let byte = self.peek().ok_or("a text does not end")?;
             self.at += 1;
+            self.hold(3)?;
             match byte {
                 b'"' => break,
                 b'\\' => {
@@ -167,7 +204,8 @@ mod tests {
     #[test]
     fn values_are_read() {
         let found =
-            parse(b"\xef\xbb\xbf {\"a\": [1, -2.5e3, []], \"b\\\"\": {}, \"c\": null}\n").unwrap();
+            parse(b"\xef\xbb\xbf {\"a\": [1, -2.5e3, []], \"b\\\"\": {}, \"c\": null}\n", u64::MAX)
+                .unwrap();
         let numbers = vec![Value::Number(1.0), Value::Number(-2500.0), Value::Array(vec![])];
         let expected =
             [("a", Value::Array(numbers)), ("b\"", Value::Object(vec![])), ("c", Value::Null)];
@@ -186,8 +224,22 @@ mod tests {
             ("\"abc", "line 1: a text does not end"),
             ("[--1]", "line 1: this is no number"),
         ] {
-            assert_eq!(parse(text.as_bytes()).unwrap_err(), problem, "{text}");
+            let refusal = Refusal::NotJson(problem.to_owned());
+            assert_eq!(parse(text.as_bytes(), u64::MAX), Err(refusal), "{text}");
         }
-        assert!(parse("[".repeat(100_000).as_bytes()).unwrap_err().contains("too deep"));
+        let deep = parse("[".repeat(100_000).as_bytes(), u64::MAX);
+        assert_eq!(deep, Err(Refusal::NotJson("line 1: lists are nested too deep".to_owned())));
+    }
+
+    #[test]
+    fn values_that_outgrow_the_memory_are_refused() {
+        // Two bytes of text are a list of some hundred bytes.
+        let lists = format!("[{}[]]", "[],".repeat(1000));
+        let text = format!("\"{}\"", "a".repeat(100_000));
+        for text in [lists.as_str(), &text] {
+            assert!(parse(text.as_bytes(), 1 << 20).is_ok());
+            let refused = parse(text.as_bytes(), 50_000);
+            assert!(matches!(refused, Err(Refusal::TooLarge(50_001..60_000))), "{refused:?}");
+        }
     }
 }
