@@ -8,6 +8,7 @@
 //! | [`InscribedEllipsoid`] | [`InscribedCertificate`] | it lies in every half-space; no ellipsoid in the polytope has a log-volume larger by more than the gap |
 //! | [`InscribedCircle`] | [`CircleCertificate`] | its center is inside and no edge enters it; no circle in the polygon has a radius above (1 + gap)·r |
 //! | [`InscribedEllipse`] | [`EllipseCertificate`] | its center is inside and no edge enters it; no ellipse in the polygon has an area above (1 + gap) times its own |
+//! | [`ConvexPolygon`] | [`ConvexCertificate`] | it is convex and inside; no convex set in the polygon has an area above (1 + gap) times its own |
 //! | [`Centers`] | [`CentersCertificate`] | every item that counts is within the radius of a center; no k equal balls much smaller hold the core-set |
 //! | [`InscribedBodies`] | [`BodiesCertificate`] | each body lies inside the mesh, by whole numbers alone; its volume; nothing about larger bodies |
 //! | [`Curve`] | [`CurveCertificate`] | it meets neither itself nor others; every point but the outliers is within the band; whether sampling was dense enough |
@@ -55,6 +56,7 @@ mod ball;
 mod bodies;
 mod centers;
 mod circle;
+mod convex;
 mod curve;
 mod ellipse;
 mod ellipsoid;
@@ -80,6 +82,7 @@ pub use centers::{
     Centers, CentersCertificate, CentersVerdict, CentersViolation, LowerBound, Placement,
 };
 pub use circle::{CircleCertificate, CircleVerdict, CircleViolation, InscribedCircle};
+pub use convex::{ConvexCertificate, ConvexPolygon, ConvexVerdict, ConvexViolation};
 pub use curve::{
     Curve, CurveCertificate, CurveComponent, CurveDoubt, CurveEvidence, CurveVerdict,
     CurveViolation, Place, TourBound, curve_evidence, tour_bound, tour_length,

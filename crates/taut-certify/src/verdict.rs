@@ -4,8 +4,8 @@ use serde::Serialize;
 use taut_points::ReadError;
 
 use crate::{
-    BodiesViolation, CentersViolation, CircleViolation, CurveViolation, EllipseViolation,
-    MeshViolation, OrderViolation, PolygonViolation, SurfaceViolation,
+    BodiesViolation, CentersViolation, CircleViolation, ConvexViolation, CurveViolation,
+    EllipseViolation, MeshViolation, OrderViolation, PolygonViolation, SurfaceViolation,
 };
 
 /// The proved facts about an enclosing shape.
@@ -368,6 +368,9 @@ pub enum Violation {
     /// Something is wrong with an inscribed circle.
     #[error(transparent)]
     Circle(#[from] CircleViolation),
+    /// Something is wrong with a convex polygon.
+    #[error(transparent)]
+    Convex(#[from] ConvexViolation),
     /// Something is wrong with an inscribed ellipse.
     #[error(transparent)]
     Ellipse(#[from] EllipseViolation),
@@ -433,6 +436,7 @@ impl Violation {
             },
             Violation::Bodies(ref violation) => violation.fault(),
             Violation::Circle(ref violation) => violation.fault(),
+            Violation::Convex(ref violation) => violation.fault(),
             Violation::Ellipse(ref violation) => violation.fault(),
             Violation::Polygon(ref violation) => violation.fault(),
             Violation::Curve(ref violation) => match *violation {
@@ -492,6 +496,12 @@ impl From<CentersViolation> for CheckError {
 
 impl From<CircleViolation> for CheckError {
     fn from(violation: CircleViolation) -> Self {
+        CheckError::Rejected(violation.into())
+    }
+}
+
+impl From<ConvexViolation> for CheckError {
+    fn from(violation: ConvexViolation) -> Self {
         CheckError::Rejected(violation.into())
     }
 }

@@ -21,7 +21,6 @@ mod mesh;
 mod pack;
 mod polytope;
 mod proof;
-mod random;
 mod samples;
 mod tree;
 
@@ -37,8 +36,8 @@ use crate::Error;
 
 use self::directions::Directions;
 use self::mesh::GridMesh;
-use self::random::Random;
 use self::tree::Tree;
+use crate::random::Random;
 
 pub use self::mesh::triangle_rows;
 

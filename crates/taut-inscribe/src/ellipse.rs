@@ -19,7 +19,7 @@ mod search;
 mod shape;
 mod starts;
 mod tree;
-mod units;
+pub(crate) mod units;
 mod view;
 mod weights;
 
@@ -31,6 +31,9 @@ use taut_points::{InputError, Monitor, PointSource, shown_number};
 use crate::Error;
 use crate::polygon::Polygon;
 
+use self::ascent::Ellipse;
+use self::levels::Levels;
+use self::shape::Shape;
 use self::units::Units;
 
 /// How to look for the ellipse. Write `EllipseOptions { epsilon: 1e-6, ..Default::default() }`.
@@ -65,10 +68,18 @@ pub fn inscribed_ellipse(
 ) -> Result<Solution<InscribedEllipse>, Error> {
     check_options(options)?;
     let polygon = Polygon::read(polygon, &options.monitor)?;
-    let units = Units::of(&polygon.edges);
-    let found = search::search(&units, options)?;
+    solved(&polygon, &Units::of(&polygon.edges), options)
+}
+
+/// Finds the ellipse in a polygon that has been read.
+pub(crate) fn solved(
+    polygon: &Polygon,
+    units: &Units,
+    options: &EllipseOptions<'_>,
+) -> Result<Solution<InscribedEllipse>, Error> {
+    let found = search::search(units, options)?;
     let best = found.best.ok_or(Error::TooThin)?;
-    let reported = report::rounded(&best, &units).ok_or(Error::TooThin)?;
+    let reported = report::rounded(&best, units).ok_or(Error::TooThin)?;
     if !reported.answer.area.is_normal() {
         return Err(Error::Area);
     }
@@ -103,7 +114,17 @@ pub fn inscribed_ellipse(
     Ok(Solution { answer: reported.answer, certificate, trace })
 }
 
-fn check_options(options: &EllipseOptions<'_>) -> Result<(), InputError> {
+/// Local optima: their centers and the forms of their norms |w|² = m₀w₁² + 2m₁w₁w₂ + m₂w₂², the largest of their starts first.
+pub(crate) fn local_optima(units: &Units, most: usize) -> Vec<([f64; 2], [f64; 3])> {
+    let (edges, levels) = (&units.edges, Levels::of(&units.edges, units.extent[1]));
+    let is_inside = |ellipse: &Ellipse| levels.is_inside(edges, ellipse.center);
+    let circles = search::largest_circles(units, most).into_iter().filter(is_inside);
+    let found = circles.map(|circle| circle.climbed(edges)).filter(is_inside);
+    let form = |Shape { s, t, .. }: Shape| [t + s * s / t, s / t, 1.0 / t];
+    found.map(|ellipse| (ellipse.center, form(ellipse.shape))).collect()
+}
+
+pub(crate) fn check_options(options: &EllipseOptions<'_>) -> Result<(), InputError> {
     let wrong = |name, value, expected| Err(InputError::Option { name, value, expected });
     if !(options.epsilon > 0.0 && options.epsilon < 1.0) {
         return wrong("epsilon", shown_number(options.epsilon), "a number above 0 and below 1");

@@ -10,7 +10,7 @@ mod bounds;
 mod contact;
 mod levels;
 mod replay;
-mod units;
+pub(crate) mod units;
 
 use taut_points::{Monitor, PointSource};
 

@@ -5,9 +5,9 @@ use taut_points::Monitor;
 use super::clip;
 use super::directions::{Directions, Offsets, opposite};
 use super::polytope;
-use super::random::Random;
 use super::tree::Tree;
 use crate::Error;
+use crate::random::Random;
 
 /// The part of its width by which a body may grow at once in the first rounds of growth; afterwards there is no limit.
 const FIRST_STEPS: [f64; 2] = [0.15, 0.3];

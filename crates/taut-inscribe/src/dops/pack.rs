@@ -9,9 +9,9 @@ use super::DopsOptions;
 use super::directions::{self, DIRECTIONS_MAX, Directions, Offsets};
 use super::grow::{Dop, Obstacle, Space};
 use super::mesh::GridMesh;
-use super::random::Random;
 use super::tree::Tree;
 use crate::Error;
+use crate::random::Random;
 
 /// Points by which the search tells which body is better. With 4,000 it fits the points instead of the mesh, by 2.8 % of a bunny.
 pub(super) const SCORED_POINTS: usize = 14_000;

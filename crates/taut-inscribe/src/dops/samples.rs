@@ -3,8 +3,8 @@
 //! *Idea.* Vertical lines through the cells of a square grid, one at a random place of each cell, cross the mesh an even number of
 //! times; between crossings with odd and even number they are inside. On each line points follow at the distance of the lines.
 
-use super::random::Random;
 use super::tree::Tree;
+use crate::random::Random;
 
 /// Lines along each side for the first count, from which the distance is found.
 const FIRST_LINES: f64 = 40.0;

@@ -4,9 +4,9 @@ use super::clip::{self, TOUCH};
 use super::directions::{Directions, KINDS, Offsets, opposite};
 use super::mesh::GridMesh;
 use super::proof;
-use super::random::Random;
 use super::tree::Tree;
 use super::{DopsOptions, inscribed_dops};
+use crate::random::Random;
 
 type Triangle = [[i32; 3]; 3];
 

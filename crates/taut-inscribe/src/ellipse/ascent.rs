@@ -16,8 +16,14 @@ const TRUST: (f64, f64) = (0.1, 0.4);
 /// Promised gain, relative to the size, and region of trust below which a climb ends.
 const GAIN_MIN: f64 = 1e-11;
 
-/// How many times as far as the nearest edge others are looked at.
+/// How many times as far as the nearest edge others are looked at, and how far a climb goes before it looks again.
 const NEAR: f64 = 3.0;
+
+/// Climbs, each with the edges that are near then.
+const CLIMBS_MAX: usize = 20;
+
+/// Points of an ellipse that tell how far it reaches.
+const BORDER_POINTS: usize = 16;
 
 /// An ellipse in units.
 #[derive(Clone, Copy, Debug)]
@@ -38,12 +44,11 @@ impl Ellipse {
     /// Returns a local optimum, or an ellipse near one.
     pub(super) fn climbed(self, edges: &[Segment]) -> Self {
         let mut best = self;
-        for _ in 0..3 {
-            let is_near = |&&edge: &&Segment| {
-                best.shape.nearest(best.center, edge).length <= NEAR * best.size
-            };
+        for _ in 0..CLIMBS_MAX {
+            let far = NEAR * best.size;
+            let is_near = |&&edge: &&Segment| best.shape.nearest(best.center, edge).length <= far;
             let near: Vec<Segment> = edges.iter().filter(is_near).copied().collect();
-            let next = best.climbed_among(&near);
+            let next = best.climbed_among(&near, far);
             let next = Ellipse::of(next.shape, next.center, edges);
             if next.size <= best.size * (1.0 + GAIN_MIN) {
                 return if next.size > best.size { next } else { best };
@@ -53,7 +58,8 @@ impl Ellipse {
         best
     }
 
-    fn climbed_among(self, near: &[Segment]) -> Self {
+    /// Climbs by edges that are nearer than `far` in the norm of the start, and no farther than that.
+    fn climbed_among(self, near: &[Segment], far: f64) -> Self {
         let (mut best, mut trust) = (self, TRUST.0);
         for _ in 0..STEPS_MAX {
             let column = |&edge: &Segment| {
@@ -83,6 +89,9 @@ impl Ellipse {
                 trust *= 0.35;
             }
             if held > 0.0 {
+                if !next.is_within(&self, far) {
+                    break;
+                }
                 best = next;
             }
             if trust < GAIN_MIN {
@@ -90,6 +99,19 @@ impl Ellipse {
             }
         }
         best
+    }
+}
+
+impl Ellipse {
+    /// Whether the ellipse stays nearer than `far` to the center of another one, in its norm.
+    fn is_within(&self, other: &Ellipse, far: f64) -> bool {
+        (0..BORDER_POINTS).all(|i| {
+            let (sine, cosine) =
+                (std::f64::consts::TAU * i as f64 / BORDER_POINTS as f64).sin_cos();
+            let w = self.shape.inverse([self.size * cosine, self.size * sine]);
+            let way = [0, 1].map(|k| self.center[k] + w[k] - other.center[k]);
+            other.shape.square(way) <= far * far
+        })
     }
 }
 

@@ -189,12 +189,7 @@ impl Search<'_> {
 
     /// Climbs from the largest circles around middles of lines.
     fn start(&mut self) {
-        let edges = &self.units.edges;
-        let circle = |center| Ellipse::of(Shape::new(0.0, 1.0), center, edges);
-        let centers = starts::centers(edges, self.units.extent);
-        let mut circles: Vec<Ellipse> = centers.into_iter().map(circle).collect();
-        circles.sort_by(|one, other| other.size.total_cmp(&one.size));
-        for circle in circles.into_iter().take(STARTS_MAX) {
+        for circle in largest_circles(self.units, STARTS_MAX) {
             self.climb(circle);
         }
     }
@@ -377,6 +372,16 @@ impl Search<'_> {
         let (best, ascents) = (self.best, self.ascents);
         Found { best, upper, log, root, directions, ascents, is_complete }
     }
+}
+
+/// The largest of the circles around middles of lines, in descending order.
+pub(super) fn largest_circles(units: &Units, most: usize) -> Vec<Ellipse> {
+    let circle = |center| Ellipse::of(Shape::new(0.0, 1.0), center, &units.edges);
+    let centers = starts::centers(&units.edges, units.extent);
+    let mut circles: Vec<Ellipse> = centers.into_iter().map(circle).collect();
+    circles.sort_by(|one, other| other.size.total_cmp(&one.size));
+    circles.truncate(most);
+    circles
 }
 
 /// Whether an edge may meet the box of centers of a frame, or come as near as rounding.

@@ -7,10 +7,10 @@
 use crate::polygon::Segment;
 
 /// The edges in units of the bounding box.
-pub(super) struct Units {
-    pub(super) edges: Vec<Segment>,
+pub(crate) struct Units {
+    pub(crate) edges: Vec<Segment>,
     /// The largest coordinates; the smallest are 0.
-    pub(super) extent: [f64; 2],
+    pub(crate) extent: [f64; 2],
     axes: [Axis; 2],
 }
 
@@ -26,7 +26,7 @@ struct Axis {
 }
 
 impl Units {
-    pub(super) fn of(edges: &[Segment]) -> Self {
+    pub(crate) fn of(edges: &[Segment]) -> Self {
         let axes = [0, 1].map(|k| Axis::of(edges.iter().map(move |edge| edge[0][k])));
         let map = |p: [f64; 2]| [axes[0].units(p[0]), axes[1].units(p[1])];
         let edges: Vec<Segment> = edges.iter().map(|edge| edge.map(map)).collect();
@@ -35,12 +35,12 @@ impl Units {
     }
 
     /// A point of the input.
-    pub(super) fn point(&self, p: [f64; 2]) -> [f64; 2] {
+    pub(crate) fn point(&self, p: [f64; 2]) -> [f64; 2] {
         [self.axes[0].units(p[0]), self.axes[1].units(p[1])]
     }
 
     /// The point of the input that is nearest to one in units, but for rounding.
-    pub(super) fn given_point(&self, p: [f64; 2]) -> [f64; 2] {
+    pub(crate) fn given_point(&self, p: [f64; 2]) -> [f64; 2] {
         [0, 1].map(|k| {
             let axis = self.axes[k];
             (p[k] / axis.growth + axis.origin) / axis.factors[0] / axis.factors[1]
@@ -48,7 +48,7 @@ impl Units {
     }
 
     /// A length along an axis, as in the input.
-    pub(super) fn given_length(&self, axis: usize, length: f64) -> f64 {
+    pub(crate) fn given_length(&self, axis: usize, length: f64) -> f64 {
         let axis = self.axes[axis];
         length / axis.growth / axis.factors[0] / axis.factors[1]
     }

@@ -5,7 +5,8 @@ use std::path::Path;
 
 use super::common::{Ring, solve, verify};
 use super::ellipses::{solve as solve_ellipse, verified};
-use taut_inscribe::Error;
+use taut_inscribe::{ConvexOptions, Error, inscribed_polygon};
+use taut_points::Points;
 
 /// The rings of a file: countries by name, each a list of rings.
 fn rings(name: &str) -> Option<Vec<(String, Ring)>> {
@@ -120,4 +121,28 @@ fn rings_that_touch_themselves_are_named() {
         }
     }
     assert!(refused > 0);
+}
+
+#[test]
+fn countries_have_a_proved_convex_polygon() {
+    for file in ["countries_110m.json.xz", "countries_10m.json.xz"] {
+        let Some(rings) = rings(file) else { return };
+        for (name, ring) in rings {
+            let source = Points::new(ring.as_flattened(), 2).unwrap();
+            let begun = std::time::Instant::now();
+            let found = match inscribed_polygon(&source, &ConvexOptions::default()) {
+                Ok(found) => found,
+                Err(Error::NotSimple { .. }) => continue,
+                Err(error) => panic!("{name}: {error}"),
+            };
+            let solved = begun.elapsed().as_secs_f64();
+            let verdict = found.check(&source).unwrap_or_else(|error| panic!("{name}: {error}"));
+            let (vertices, corners) = (ring.len(), found.answer.vertices.len());
+            let (area, gap) = (found.answer.area, verdict.gap);
+            println!(
+                "{name}: {vertices} vertices, area {area:.6}, {corners} corners, gap {gap:.3}, {solved:.3} s"
+            );
+            assert!(gap <= 0.671, "{name}: {gap}");
+        }
+    }
 }

@@ -9,5 +9,6 @@ mod ellipse_mutations;
 mod ellipses;
 mod laws;
 mod mutations;
+mod polygons;
 mod rings;
 mod sampling;

@@ -7,10 +7,10 @@
 use crate::polygon::Polygon;
 
 /// Bound of the errors of coordinates in units: 2⁻⁵¹.
-pub(super) const COORDINATE_ERROR: f64 = f64::from_bits((1023 - 51) << 52);
+pub(crate) const COORDINATE_ERROR: f64 = f64::from_bits((1023 - 51) << 52);
 
 /// The vertices in units.
-pub(super) struct Units {
+pub(crate) struct Units {
     points: Vec<[f64; 2]>,
     /// For each edge the vertex at which it ends.
     ends: Vec<u32>,
@@ -29,7 +29,7 @@ struct Axis {
 }
 
 impl Units {
-    pub(super) fn of(polygon: &Polygon) -> Self {
+    pub(crate) fn of(polygon: &Polygon) -> Self {
         let given: Vec<[f64; 2]> = (0..polygon.len()).map(|edge| polygon.edge(edge)[0]).collect();
         let axes = [0, 1].map(|k| Axis::of(given.iter().map(move |p| p[k])));
         let units = |p: &[f64; 2]| [axes[0].units(p[0]), axes[1].units(p[1])];
@@ -39,35 +39,35 @@ impl Units {
     }
 
     /// Edges, which are as many as vertices.
-    pub(super) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.points.len()
     }
 
-    pub(super) fn points(&self) -> &[[f64; 2]] {
+    pub(crate) fn points(&self) -> &[[f64; 2]] {
         &self.points
     }
 
-    pub(super) fn edge(&self, edge: usize) -> [[f64; 2]; 2] {
+    pub(crate) fn edge(&self, edge: usize) -> [[f64; 2]; 2] {
         [self.points[edge], self.points[self.ends[edge] as usize]]
     }
 
     /// A coordinate scaled by the factors of its axis alone: exact unless it underflows.
-    pub(super) fn scaled(&self, axis: usize, x: f64) -> f64 {
+    pub(crate) fn scaled(&self, axis: usize, x: f64) -> f64 {
         x * self.axes[axis].factors[0] * self.axes[axis].factors[1]
     }
 
     /// The factors of an axis.
-    pub(super) fn factors(&self, axis: usize) -> [f64; 2] {
+    pub(crate) fn factors(&self, axis: usize) -> [f64; 2] {
         self.axes[axis].factors
     }
 
     /// An area of coordinates scaled by the factors, in units.
-    pub(super) fn grown(&self, area: f64) -> f64 {
+    pub(crate) fn grown(&self, area: f64) -> f64 {
         area * self.axes[0].growth * self.axes[1].growth
     }
 
     /// An area in units as one of the input.
-    pub(super) fn given_area(&self, area: f64) -> f64 {
+    pub(crate) fn given_area(&self, area: f64) -> f64 {
         let [one, other] = self.axes;
         let scaled = area / one.growth / other.growth;
         // Large factors first meet small ones, so that nothing overflows on the way to a number that does not.
