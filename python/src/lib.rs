@@ -24,6 +24,7 @@ mod names;
 mod numbers;
 mod object;
 mod picture;
+mod polygon;
 mod robust;
 mod rows;
 mod sphere_tree;
@@ -63,6 +64,8 @@ mod _native {
     use crate::inscribed::inscribed_ellipsoid;
     #[pymodule_export]
     use crate::names::names;
+    #[pymodule_export]
+    use crate::polygon::inscribed_polygon;
     #[pymodule_export]
     use crate::robust::robust_ellipsoid;
     #[pymodule_export]

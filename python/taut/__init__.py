@@ -21,6 +21,7 @@ from ._answers.ellipsoid import Ellipsoid, EllipsoidCertificate, EllipsoidVerdic
 from ._answers.file import FileVerdict
 from ._answers.inscribed import InscribedCertificate, InscribedEllipsoid, InscribedVerdict
 from ._answers.order import Order, OrderCertificate, OrderVerdict
+from ._answers.polygon import ConvexCertificate, ConvexPolygon, ConvexVerdict
 from ._answers.robust import RobustCertificate, RobustEllipsoid, RobustVerdict
 from ._answers.surface import Surface, SurfaceCertificate, SurfaceComponent, SurfaceVerdict
 from ._answers.trace import PassBounds, Trace
@@ -37,6 +38,7 @@ from ._file_solution import FileSolution
 from ._generate import generate
 from ._memory import sample, sort_file, spatial_order, transpose_file
 from ._native import Violation, __version__
+from ._polygon import inscribed_polygon
 from ._robust import robust_ellipsoid
 from ._solution import Solution
 from ._surface import surface
@@ -54,6 +56,9 @@ __all__ = [
     "CircleCertificate",
     "CircleVerdict",
     "ConvexBody",
+    "ConvexCertificate",
+    "ConvexPolygon",
+    "ConvexVerdict",
     "Curve",
     "CurveCertificate",
     "CurveComponent",
@@ -106,6 +111,7 @@ __all__ = [
     "inscribed_dops",
     "inscribed_ellipse",
     "inscribed_ellipsoid",
+    "inscribed_polygon",
     "robust_ellipsoid",
     "sample",
     "sort_file",

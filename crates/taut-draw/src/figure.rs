@@ -1,8 +1,8 @@
 //! The kinds of picture, so that renderers are written once, and the answers that have some.
 
 use taut_certify::{
-    Answer, Ball, Centers, Curve, Ellipsoid, InscribedBodies, InscribedCircle, InscribedEllipse,
-    InscribedEllipsoid, Order, RobustEllipsoid, Solution, Surface, Triangulation,
+    Answer, Ball, Centers, ConvexPolygon, Curve, Ellipsoid, InscribedBodies, InscribedCircle,
+    InscribedEllipse, InscribedEllipsoid, Order, RobustEllipsoid, Solution, Surface, Triangulation,
 };
 use taut_points::PointSource;
 
@@ -51,6 +51,7 @@ drawn_by! {
     InscribedEllipsoid: crate::inscribed_figures;
     InscribedCircle: crate::circle_figures;
     InscribedEllipse: crate::ellipse_figures;
+    ConvexPolygon: crate::convex_figures;
     InscribedBodies: crate::bodies_figures;
     RobustEllipsoid: crate::robust_figures;
     Centers: crate::centers_figures;

@@ -10,6 +10,7 @@
 //! | an ellipsoid in a polytope, and its half-spaces | [`inscribed_figures`] | scenes of the plane or of space, cuts through the center, and plots |
 //! | a circle in a polygon, and the rings | [`circle_figures`] | a scene of the plane, with the edges that are touched |
 //! | an ellipse in a polygon, and the rings | [`ellipse_figures`] | the same |
+//! | a convex polygon in a polygon, and the rings | [`convex_figures`] | the same |
 //! | convex bodies in a mesh, and its triangles | [`bodies_figures`] | a scene of space, with the mesh translucent |
 //! | a triangulation and its points | [`delaunay_figures`] | scenes of the plane or of space, and the Voronoi diagram |
 //! | curves and their points | [`curve_figures`] | scenes of the plane, with the band of noise, outliers and ends |
@@ -44,6 +45,7 @@ mod bodies;
 mod body;
 mod centers;
 mod circle;
+mod convex;
 mod curve;
 mod delaunay;
 mod ellipse;
@@ -75,6 +77,7 @@ pub use ball::ball_figures;
 pub use bodies::bodies_figures;
 pub use centers::{ElbowStep, centers_figures, elbow_figure};
 pub use circle::circle_figures;
+pub use convex::convex_figures;
 pub use curve::curve_figures;
 pub use delaunay::delaunay_figures;
 pub use ellipse::ellipse_figures;

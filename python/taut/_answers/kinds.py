@@ -14,6 +14,7 @@ from .ellipse import EllipseCertificate, EllipseVerdict, InscribedEllipse
 from .ellipsoid import Ellipsoid, EllipsoidCertificate, EllipsoidVerdict
 from .inscribed import InscribedCertificate, InscribedEllipsoid, InscribedVerdict
 from .order import Order, OrderCertificate, OrderVerdict
+from .polygon import ConvexCertificate, ConvexPolygon, ConvexVerdict
 from .robust import RobustCertificate, RobustEllipsoid, RobustVerdict
 from .surface import Surface, SurfaceCertificate, SurfaceVerdict
 from .triangulation import Triangulation, TriangulationCertificate, TriangulationVerdict
@@ -24,6 +25,7 @@ AnyVerdict = (
     | InscribedVerdict
     | CircleVerdict
     | EllipseVerdict
+    | ConvexVerdict
     | BodiesVerdict
     | RobustVerdict
     | CentersVerdict
@@ -76,6 +78,13 @@ KINDS = {
         InscribedEllipse,
         EllipseCertificate,
         EllipseVerdict,
+        "lies in",
+        ("answer.area", "certificate.gap"),
+    ),
+    "convex-polygon": Kind(
+        ConvexPolygon,
+        ConvexCertificate,
+        ConvexVerdict,
         "lies in",
         ("answer.area", "certificate.gap"),
     ),

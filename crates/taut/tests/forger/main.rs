@@ -40,6 +40,11 @@ fn no_false_ellipse_in_a_polygon_is_accepted() {
 }
 
 #[test]
+fn no_false_convex_polygon_is_accepted() {
+    attack("convex-polygon", &cases::convex::all()).report("convex-polygon");
+}
+
+#[test]
 fn no_false_order_is_accepted() {
     attack("order", &cases::order::all()).report("order");
 }

@@ -5,6 +5,7 @@ pub mod bodies;
 pub mod centers;
 pub mod circle;
 pub mod clouds;
+pub mod convex;
 pub mod curve;
 pub mod ellipse;
 pub mod ellipsoid;

@@ -6,6 +6,7 @@ mod body;
 pub mod centers;
 pub mod circle;
 mod claims;
+pub mod convex;
 pub mod curve;
 pub mod dyadic;
 pub mod ellipse;
@@ -36,6 +37,7 @@ use self::ball::BallOracle;
 use self::bodies::BodiesOracle;
 use self::centers::CentersOracle;
 use self::circle::CircleOracle;
+use self::convex::ConvexOracle;
 use self::curve::CurveOracle;
 use self::ellipse::EllipseOracle;
 use self::ellipsoid::EllipsoidOracle;
@@ -83,6 +85,7 @@ pub struct CaseOracle<'a> {
     bodies: Option<BodiesOracle>,
     centers: Option<CentersOracle>,
     circle: Option<CircleOracle>,
+    convex: Option<ConvexOracle>,
     curve: Option<CurveOracle>,
     ellipse: Option<EllipseOracle>,
     ellipsoids: BTreeMap<u8, EllipsoidOracle>,
@@ -112,6 +115,7 @@ impl<'a> CaseOracle<'a> {
             bodies: None,
             centers: None,
             circle: None,
+            convex: None,
             curve: None,
             ellipse: None,
             ellipsoids: BTreeMap::new(),
@@ -146,6 +150,10 @@ impl<'a> CaseOracle<'a> {
             }
             (AnySolution::Circle(found), AnyVerdict::Circle(verdict)) => {
                 let oracle = self.circle.get_or_insert_with(|| CircleOracle::new(values, *columns));
+                oracle.judge(found, verdict)
+            }
+            (AnySolution::Convex(found), AnyVerdict::Convex(verdict)) => {
+                let oracle = self.convex.get_or_insert_with(|| ConvexOracle::new(values, *columns));
                 oracle.judge(found, verdict)
             }
             (AnySolution::Curve(found), AnyVerdict::Curve(verdict)) => {
@@ -214,6 +222,10 @@ impl<'a> CaseOracle<'a> {
             }
             (AnySolution::Circle(_), AnyVerdict::Circle(verdict)) => {
                 let optimum = "the largest radius inside".to_owned();
+                vec![Interval { optimum, lower: verdict.lower, upper: verdict.upper }]
+            }
+            (AnySolution::Convex(_), AnyVerdict::Convex(verdict)) => {
+                let optimum = "the largest area of a convex set inside".to_owned();
                 vec![Interval { optimum, lower: verdict.lower, upper: verdict.upper }]
             }
             (AnySolution::Ellipse(_), AnyVerdict::Ellipse(verdict)) => {
