@@ -25,6 +25,7 @@ mod numbers;
 mod object;
 mod picture;
 mod polygon;
+mod rectangle;
 mod robust;
 mod rows;
 mod sphere_tree;
@@ -66,6 +67,8 @@ mod _native {
     use crate::names::names;
     #[pymodule_export]
     use crate::polygon::inscribed_polygon;
+    #[pymodule_export]
+    use crate::rectangle::inscribed_rectangle;
     #[pymodule_export]
     use crate::robust::robust_ellipsoid;
     #[pymodule_export]

@@ -22,6 +22,7 @@ from ._answers.file import FileVerdict
 from ._answers.inscribed import InscribedCertificate, InscribedEllipsoid, InscribedVerdict
 from ._answers.order import Order, OrderCertificate, OrderVerdict
 from ._answers.polygon import ConvexCertificate, ConvexPolygon, ConvexVerdict
+from ._answers.rectangle import InscribedRectangle, RectangleCertificate, RectangleVerdict
 from ._answers.robust import RobustCertificate, RobustEllipsoid, RobustVerdict
 from ._answers.surface import Surface, SurfaceCertificate, SurfaceComponent, SurfaceVerdict
 from ._answers.trace import PassBounds, Trace
@@ -39,6 +40,7 @@ from ._generate import generate
 from ._memory import sample, sort_file, spatial_order, transpose_file
 from ._native import Violation, __version__
 from ._polygon import inscribed_polygon
+from ._rectangle import inscribed_rectangle
 from ._robust import robust_ellipsoid
 from ._solution import Solution
 from ._surface import surface
@@ -77,11 +79,14 @@ __all__ = [
     "InscribedCircle",
     "InscribedEllipse",
     "InscribedEllipsoid",
+    "InscribedRectangle",
     "InscribedVerdict",
     "Order",
     "OrderCertificate",
     "OrderVerdict",
     "PassBounds",
+    "RectangleCertificate",
+    "RectangleVerdict",
     "RobustCertificate",
     "RobustEllipsoid",
     "RobustVerdict",
@@ -112,6 +117,7 @@ __all__ = [
     "inscribed_ellipse",
     "inscribed_ellipsoid",
     "inscribed_polygon",
+    "inscribed_rectangle",
     "robust_ellipsoid",
     "sample",
     "sort_file",

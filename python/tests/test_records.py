@@ -40,6 +40,7 @@ SOLVED = {
     "inscribed": (taut.inscribed_ellipsoid(NORMALS, OFFSETS), (NORMALS,), {"offsets": OFFSETS}),
     "circle": (taut.inscribed_circle(RINGS[:60]), (RINGS[:60],), {}),
     "ellipse": (taut.inscribed_ellipse(RINGS[:60]), (RINGS[:60],), {}),
+    "rectangle": (taut.inscribed_rectangle(RINGS[:60]), (RINGS[:60],), {}),
     "convex polygon": (taut.inscribed_polygon(RINGS[:60], rounds=5), (RINGS[:60],), {}),
     "bodies": (taut.inscribed_dops(SIMPLEX, SIDES, count=2, disjoint=True, events=500), (SIMPLEX_ROWS,), {}),
     "mcd": (taut.robust_ellipsoid(PLANE), (PLANE,), {}),

@@ -8,6 +8,7 @@
 //! | [`InscribedEllipsoid`] | [`InscribedCertificate`] | it lies in every half-space; no ellipsoid in the polytope has a log-volume larger by more than the gap |
 //! | [`InscribedCircle`] | [`CircleCertificate`] | its center is inside and no edge enters it; no circle in the polygon has a radius above (1 + gap)·r |
 //! | [`InscribedEllipse`] | [`EllipseCertificate`] | its center is inside and no edge enters it; no ellipse in the polygon has an area above (1 + gap) times its own |
+//! | [`InscribedRectangle`] | [`RectangleCertificate`] | it is inside; no rectangle along the axes in the polygon has an area above (1 + gap) times its own |
 //! | [`ConvexPolygon`] | [`ConvexCertificate`] | it is convex and inside; no convex set in the polygon has an area above (1 + gap) times its own |
 //! | [`Centers`] | [`CentersCertificate`] | every item that counts is within the radius of a center; no k equal balls much smaller hold the core-set |
 //! | [`InscribedBodies`] | [`BodiesCertificate`] | each body lies inside the mesh, by whole numbers alone; its volume; nothing about larger bodies |
@@ -67,6 +68,7 @@ mod items;
 mod json;
 mod order;
 mod polygon;
+mod rectangle;
 mod registry;
 mod robust;
 mod solution;
@@ -101,6 +103,9 @@ pub use items::Items;
 pub use json::{JsonError, SCHEMA};
 pub use order::{Order, OrderCertificate, OrderCurve, OrderVerdict, OrderViolation};
 pub use polygon::PolygonViolation;
+pub use rectangle::{
+    InscribedRectangle, RectangleCertificate, RectangleVerdict, RectangleViolation,
+};
 pub use registry::{AnyDocument, AnyFileSolution, AnySolution, AnyVerdict};
 pub use robust::{
     Enclosure, RobustCertificate, RobustEllipsoid, RobustMethod, RobustVerdict, Unweighted,

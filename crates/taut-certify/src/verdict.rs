@@ -5,7 +5,8 @@ use taut_points::ReadError;
 
 use crate::{
     BodiesViolation, CentersViolation, CircleViolation, ConvexViolation, CurveViolation,
-    EllipseViolation, MeshViolation, OrderViolation, PolygonViolation, SurfaceViolation,
+    EllipseViolation, MeshViolation, OrderViolation, PolygonViolation, RectangleViolation,
+    SurfaceViolation,
 };
 
 /// The proved facts about an enclosing shape.
@@ -374,6 +375,9 @@ pub enum Violation {
     /// Something is wrong with an inscribed ellipse.
     #[error(transparent)]
     Ellipse(#[from] EllipseViolation),
+    /// Something is wrong with an inscribed rectangle.
+    #[error(transparent)]
+    Rectangle(#[from] RectangleViolation),
     /// The points are no polygon.
     #[error(transparent)]
     Polygon(#[from] PolygonViolation),
@@ -437,6 +441,7 @@ impl Violation {
             Violation::Bodies(ref violation) => violation.fault(),
             Violation::Circle(ref violation) => violation.fault(),
             Violation::Convex(ref violation) => violation.fault(),
+            Violation::Rectangle(ref violation) => violation.fault(),
             Violation::Ellipse(ref violation) => violation.fault(),
             Violation::Polygon(ref violation) => violation.fault(),
             Violation::Curve(ref violation) => match *violation {
@@ -502,6 +507,12 @@ impl From<CircleViolation> for CheckError {
 
 impl From<ConvexViolation> for CheckError {
     fn from(violation: ConvexViolation) -> Self {
+        CheckError::Rejected(violation.into())
+    }
+}
+
+impl From<RectangleViolation> for CheckError {
+    fn from(violation: RectangleViolation) -> Self {
         CheckError::Rejected(violation.into())
     }
 }

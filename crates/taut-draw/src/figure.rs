@@ -2,7 +2,8 @@
 
 use taut_certify::{
     Answer, Ball, Centers, ConvexPolygon, Curve, Ellipsoid, InscribedBodies, InscribedCircle,
-    InscribedEllipse, InscribedEllipsoid, Order, RobustEllipsoid, Solution, Surface, Triangulation,
+    InscribedEllipse, InscribedEllipsoid, InscribedRectangle, Order, RobustEllipsoid, Solution,
+    Surface, Triangulation,
 };
 use taut_points::PointSource;
 
@@ -52,6 +53,7 @@ drawn_by! {
     InscribedCircle: crate::circle_figures;
     InscribedEllipse: crate::ellipse_figures;
     ConvexPolygon: crate::convex_figures;
+    InscribedRectangle: crate::rectangle_figures;
     InscribedBodies: crate::bodies_figures;
     RobustEllipsoid: crate::robust_figures;
     Centers: crate::centers_figures;

@@ -12,6 +12,7 @@
 //! | the ellipsoid of largest volume in a polytope | [`inscribed_ellipsoid()`] | optimum ≤ log-volume + ε, proved | [`enclose`] |
 //! | the largest circle in a polygon, with holes | [`inscribed_circle()`] | largest radius ≤ (1 + ε)·radius, proved | [`inscribe`] |
 //! | the largest ellipse in a polygon, with holes | [`inscribe::inscribed_ellipse()`] | largest area ≤ (1 + ε)·area, proved | [`inscribe`] |
+//! | the largest rectangle along the axes in a polygon | [`inscribe::inscribed_rectangle()`] | largest area ≤ (1 + ε)·area, proved | [`inscribe`] |
 //! | a large convex polygon in a polygon, with holes | [`inscribe::inscribed_polygon()`] | inside, proved; largest area ≤ (1 + gap)·area, proved | [`inscribe`] |
 //! | center and scatter of most points, and the outliers | [`robust_ellipsoid()`] | all but the choice of points proved; that choice a local optimum | [`enclose`] |
 //! | convex bodies inside a closed triangle mesh | [`inscribe::inscribed_dops()`] | each lies inside, proved; coverage estimated | [`inscribe`] |
@@ -170,6 +171,8 @@ mod pages {
     struct Ellipsoid;
     #[doc = include_str!("../../../docs/polygon.md")]
     struct Polygon;
+    #[doc = include_str!("../../../docs/rectangle.md")]
+    struct Rectangle;
     #[doc = include_str!("../../../docs/robust.md")]
     struct Robust;
     #[doc = include_str!("../../../docs/surface.md")]

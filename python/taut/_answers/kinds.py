@@ -15,6 +15,7 @@ from .ellipsoid import Ellipsoid, EllipsoidCertificate, EllipsoidVerdict
 from .inscribed import InscribedCertificate, InscribedEllipsoid, InscribedVerdict
 from .order import Order, OrderCertificate, OrderVerdict
 from .polygon import ConvexCertificate, ConvexPolygon, ConvexVerdict
+from .rectangle import InscribedRectangle, RectangleCertificate, RectangleVerdict
 from .robust import RobustCertificate, RobustEllipsoid, RobustVerdict
 from .surface import Surface, SurfaceCertificate, SurfaceVerdict
 from .triangulation import Triangulation, TriangulationCertificate, TriangulationVerdict
@@ -26,6 +27,7 @@ AnyVerdict = (
     | CircleVerdict
     | EllipseVerdict
     | ConvexVerdict
+    | RectangleVerdict
     | BodiesVerdict
     | RobustVerdict
     | CentersVerdict
@@ -85,6 +87,13 @@ KINDS = {
         ConvexPolygon,
         ConvexCertificate,
         ConvexVerdict,
+        "lies in",
+        ("answer.area", "certificate.gap"),
+    ),
+    "inscribed-rectangle": Kind(
+        InscribedRectangle,
+        RectangleCertificate,
+        RectangleVerdict,
         "lies in",
         ("answer.area", "certificate.gap"),
     ),

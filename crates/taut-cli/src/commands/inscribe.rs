@@ -4,6 +4,7 @@ mod circle;
 mod dops;
 mod ellipse;
 mod polygon;
+mod rectangle;
 
 use taut::certify::InscribedEllipsoid;
 use taut::{InscribedOptions, Monitor, Solution, inscribed_ellipsoid};
@@ -20,7 +21,7 @@ use crate::watch::Watch;
 #[command(after_help = "\
 Example: taut inscribe circle ring.csv -o circle.json --draw circle.svg
 See: taut inscribe circle --help, taut inscribe dops --help, taut inscribe ellipse --help, taut inscribe ellipsoid --help,
-     taut inscribe polygon --help")]
+     taut inscribe polygon --help, taut inscribe rectangle --help")]
 pub(crate) struct Args {
     #[command(subcommand)]
     body: Body,
@@ -33,6 +34,7 @@ enum Body {
     Ellipse(ellipse::Ellipse),
     Ellipsoid(Ellipsoid),
     Polygon(polygon::Polygon),
+    Rectangle(rectangle::Rectangle),
 }
 
 /// Find the ellipsoid of largest volume inside a polytope, given by half-spaces.
@@ -70,6 +72,7 @@ impl Args {
             Body::Ellipse(args) => pipeline::run(args),
             Body::Ellipsoid(args) => pipeline::run(args),
             Body::Polygon(args) => pipeline::run(args),
+            Body::Rectangle(args) => pipeline::run(args),
         }
     }
 }

@@ -12,6 +12,7 @@ mod inscribe_circle;
 mod inscribe_dops;
 mod inscribe_ellipse;
 mod inscribe_polygon;
+mod inscribe_rectangle;
 #[cfg(unix)]
 mod interrupt;
 mod limits;

@@ -5,7 +5,9 @@ use std::path::Path;
 
 use super::common::{Ring, solve, verify};
 use super::ellipses::{solve as solve_ellipse, verified};
-use taut_inscribe::{ConvexOptions, Error, inscribed_polygon};
+use taut_inscribe::{
+    ConvexOptions, Error, RectangleOptions, inscribed_polygon, inscribed_rectangle,
+};
 use taut_points::Points;
 
 /// The rings of a file: countries by name, each a list of rings.
@@ -143,6 +145,31 @@ fn countries_have_a_proved_convex_polygon() {
                 "{name}: {vertices} vertices, area {area:.6}, {corners} corners, gap {gap:.3}, {solved:.3} s"
             );
             assert!(gap <= 0.671, "{name}: {gap}");
+        }
+    }
+}
+
+#[test]
+fn countries_have_a_proved_rectangle() {
+    for (file, epsilon) in [("countries_110m.json.xz", 1e-3), ("countries_10m.json.xz", 1e-2)] {
+        let Some(rings) = rings(file) else { return };
+        for (name, ring) in rings {
+            let source = Points::new(ring.as_flattened(), 2).unwrap();
+            let begun = std::time::Instant::now();
+            let options = RectangleOptions { epsilon, max_cells: 300_000, ..Default::default() };
+            let found = match inscribed_rectangle(&source, &options) {
+                Ok(found) => found,
+                Err(Error::NotSimple { .. }) => continue,
+                Err(error) => panic!("{name}: {error}"),
+            };
+            let solved = begun.elapsed().as_secs_f64();
+            let verdict = found.check(&source).unwrap_or_else(|error| panic!("{name}: {error}"));
+            let (vertices, cells) = (ring.len(), found.certificate.tree.len());
+            let (area, gap) = (found.answer.area, verdict.gap);
+            println!(
+                "{name}: {vertices} vertices, area {area:.6}, {cells} cells, gap {gap:.2e}, {solved:.3} s"
+            );
+            assert!(gap <= 0.05, "{name}: {gap}");
         }
     }
 }

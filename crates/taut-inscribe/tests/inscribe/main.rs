@@ -10,5 +10,6 @@ mod ellipses;
 mod laws;
 mod mutations;
 mod polygons;
+mod rectangles;
 mod rings;
 mod sampling;

@@ -45,6 +45,11 @@ fn no_false_convex_polygon_is_accepted() {
 }
 
 #[test]
+fn no_false_rectangle_is_accepted() {
+    attack("rectangle", &cases::rectangle::all()).report("rectangle");
+}
+
+#[test]
 fn no_false_order_is_accepted() {
     attack("order", &cases::order::all()).report("order");
 }

@@ -13,6 +13,7 @@ pub mod files;
 pub mod hand;
 pub mod inscribed;
 pub mod order;
+pub mod rectangle;
 pub mod robust;
 pub mod surface;
 pub mod triangulation;

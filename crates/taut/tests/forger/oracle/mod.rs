@@ -23,6 +23,7 @@ mod mvee;
 mod mvie;
 mod numbers;
 pub mod order;
+pub mod rectangle;
 pub mod robust;
 pub mod shapes;
 pub mod surface;
@@ -43,6 +44,7 @@ use self::ellipse::EllipseOracle;
 use self::ellipsoid::EllipsoidOracle;
 use self::inscribed::InscribedOracle;
 use self::order::OrderOracle;
+use self::rectangle::RectangleOracle;
 use self::robust::RobustOracle;
 use self::surface::SurfaceOracle;
 use self::triangulation::TriangulationOracle;
@@ -91,6 +93,7 @@ pub struct CaseOracle<'a> {
     ellipsoids: BTreeMap<u8, EllipsoidOracle>,
     inscribed: Option<InscribedOracle>,
     order: Option<OrderOracle>,
+    rectangle: Option<RectangleOracle>,
     robust: Option<RobustOracle>,
     surface: Option<SurfaceOracle>,
     triangulation: Option<TriangulationOracle>,
@@ -121,6 +124,7 @@ impl<'a> CaseOracle<'a> {
             ellipsoids: BTreeMap::new(),
             inscribed: None,
             order: None,
+            rectangle: None,
             robust: None,
             surface: None,
             triangulation: None,
@@ -195,6 +199,11 @@ impl<'a> CaseOracle<'a> {
                     .get_or_insert_with(|| TriangulationOracle::new(values, *columns));
                 oracle.judge(found, verdict)
             }
+            (AnySolution::Rectangle(found), AnyVerdict::Rectangle(verdict)) => {
+                let oracle =
+                    self.rectangle.get_or_insert_with(|| RectangleOracle::new(values, *columns));
+                oracle.judge(found, verdict)
+            }
             (AnySolution::Robust(found), AnyVerdict::Robust(verdict)) => {
                 let oracle = self.robust.get_or_insert_with(|| RobustOracle::new(values, *columns));
                 let enclosure = verdict.enclosure.map(|enclosure| finite(&enclosure));
@@ -226,6 +235,10 @@ impl<'a> CaseOracle<'a> {
             }
             (AnySolution::Convex(_), AnyVerdict::Convex(verdict)) => {
                 let optimum = "the largest area of a convex set inside".to_owned();
+                vec![Interval { optimum, lower: verdict.lower, upper: verdict.upper }]
+            }
+            (AnySolution::Rectangle(_), AnyVerdict::Rectangle(verdict)) => {
+                let optimum = "the largest area of a rectangle inside".to_owned();
                 vec![Interval { optimum, lower: verdict.lower, upper: verdict.upper }]
             }
             (AnySolution::Ellipse(_), AnyVerdict::Ellipse(verdict)) => {
