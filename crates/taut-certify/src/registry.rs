@@ -10,8 +10,8 @@ use crate::json::{kind_of, parse_document, without_mark};
 use crate::{
     Answer, Ball, Centers, CheckError, Curve, DrawnSample, Ellipsoid, FileAnswer, FileCheckError,
     FileSolution, FileVerdict, Files, InscribedBodies, InscribedCircle, InscribedEllipse,
-    InscribedEllipsoid, JsonError, Order, RobustEllipsoid, Solution, SortedFile, Surface,
-    TransposedFile, Triangulation,
+    InscribedEllipsoid, InscribedTriangle, JsonError, Order, RobustEllipsoid, Solution, SortedFile,
+    Surface, TransposedFile, Triangulation,
 };
 
 /// Hands the answers about points to a macro, each with the name of its variant.
@@ -31,6 +31,8 @@ macro_rules! answers_about_points {
             Circle(InscribedCircle),
             /// A largest ellipse in a polygon.
             Ellipse(InscribedEllipse),
+            /// A largest triangle in a polygon.
+            Triangle(InscribedTriangle),
             /// Convex bodies in a triangle mesh.
             Bodies(InscribedBodies),
             /// k centers.

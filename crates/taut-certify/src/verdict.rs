@@ -5,7 +5,7 @@ use taut_points::ReadError;
 
 use crate::{
     BodiesViolation, CentersViolation, CircleViolation, CurveViolation, EllipseViolation,
-    MeshViolation, OrderViolation, PolygonViolation, SurfaceViolation,
+    MeshViolation, OrderViolation, PolygonViolation, SurfaceViolation, TriangleViolation,
 };
 
 /// The proved facts about an enclosing shape.
@@ -371,6 +371,9 @@ pub enum Violation {
     /// Something is wrong with an inscribed ellipse.
     #[error(transparent)]
     Ellipse(#[from] EllipseViolation),
+    /// Something is wrong with an inscribed triangle.
+    #[error(transparent)]
+    Triangle(#[from] TriangleViolation),
     /// The points are no polygon.
     #[error(transparent)]
     Polygon(#[from] PolygonViolation),
@@ -434,6 +437,7 @@ impl Violation {
             Violation::Bodies(ref violation) => violation.fault(),
             Violation::Circle(ref violation) => violation.fault(),
             Violation::Ellipse(ref violation) => violation.fault(),
+            Violation::Triangle(ref violation) => violation.fault(),
             Violation::Polygon(ref violation) => violation.fault(),
             Violation::Curve(ref violation) => match *violation {
                 CurveViolation::OutsideBand { row, .. }
@@ -498,6 +502,12 @@ impl From<CircleViolation> for CheckError {
 
 impl From<EllipseViolation> for CheckError {
     fn from(violation: EllipseViolation) -> Self {
+        CheckError::Rejected(violation.into())
+    }
+}
+
+impl From<TriangleViolation> for CheckError {
+    fn from(violation: TriangleViolation) -> Self {
         CheckError::Rejected(violation.into())
     }
 }

@@ -4,6 +4,7 @@
 //! |---|---|---|---|
 //! | the largest circle in a polygon, with holes | [`inscribed_circle()`] | largest radius ≤ (1 + ε)·radius, proved | O(n log n) for most rings, and the cells of the search |
 //! | the largest ellipse in a polygon, with holes | [`inscribed_ellipse()`] | largest area ≤ (1 + ε)·area, proved | O(n log n), and the cells of the search |
+//! | the largest triangle in a polygon, with holes | [`inscribed_triangle()`] | largest area ≤ (1 + ε)·area, proved | O(n log n), and the cells of the search |
 //! | convex bodies in a closed triangle mesh that cover much of it | [`inscribed_dops()`] | each lies inside, proved; how much they cover is an estimate | O(log n) for most events |
 //!
 //! ```
@@ -25,10 +26,16 @@ mod circle;
 mod dops;
 mod ellipse;
 mod error;
+mod inner_points;
+mod levels;
+mod pair;
 mod polygon;
 mod simple;
+mod triangle;
+mod units;
 
 pub use circle::{CircleOptions, inscribed_circle};
 pub use dops::{DopsOptions, inscribed_dops, triangle_rows};
 pub use ellipse::{EllipseOptions, inscribed_ellipse};
 pub use error::Error;
+pub use triangle::{TriangleOptions, inscribed_triangle};

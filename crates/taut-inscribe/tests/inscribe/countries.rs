@@ -5,6 +5,7 @@ use std::path::Path;
 
 use super::common::{Ring, solve, verify};
 use super::ellipses::{solve as solve_ellipse, verified};
+use super::triangles;
 use taut_inscribe::Error;
 
 /// The rings of a file: countries by name, each a list of rings.
@@ -101,6 +102,32 @@ fn countries_have_a_proved_ellipse() {
                 "{name}: {vertices} vertices, area {area:.6}, {cells} cells, {json} bytes, {solved:.3} s, check {checked:.3} s"
             );
             assert!(cells < 200_000, "{name}: {cells} cells");
+        }
+    }
+}
+
+#[test]
+fn countries_have_a_proved_triangle() {
+    for (file, gap) in [("countries_110m.json.xz", 1e-3), ("countries_10m.json.xz", 1e-2)] {
+        let Some(rings) = rings(file) else { return };
+        for (name, ring) in rings {
+            let rings = [ring];
+            let begun = std::time::Instant::now();
+            let found = match triangles::solve(&rings, gap) {
+                Ok(found) => found,
+                Err(Error::NotSimple { .. }) => continue,
+                Err(error) => panic!("{name}: {error}"),
+            };
+            let solved = begun.elapsed().as_secs_f64();
+            let begun = std::time::Instant::now();
+            let verdict = triangles::verified(&found, &rings);
+            let checked = begun.elapsed().as_secs_f64();
+            let (vertices, cells) = (rings[0].len(), found.certificate.tree.len());
+            let (area, json) = (found.answer.area, found.to_json().len());
+            println!(
+                "{name}: {vertices} vertices, area {area:.6}, gap {:.2e}, {cells} cells, {json} bytes, {solved:.3} s, check {checked:.3} s",
+                verdict.gap
+            );
         }
     }
 }

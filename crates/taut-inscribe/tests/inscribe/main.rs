@@ -11,3 +11,4 @@ mod laws;
 mod mutations;
 mod rings;
 mod sampling;
+mod triangles;

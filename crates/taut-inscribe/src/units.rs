@@ -1,16 +1,17 @@
 //! The polygon in units of its bounding box.
 //!
-//! *Idea.* Ellipses stay ellipses when an axis is scaled, and their areas keep their ratios. Each axis is shifted by the lower end
-//! of the bounding box and scaled by a power of two that brings its extent to [1, 2): needles along an axis and polygons far from
-//! the origin are then as good as any other.
+//! *Idea.* Ellipses and triangles stay what they are when an axis is scaled, and their areas keep their ratios. Each axis is shifted by
+//! the lower end of the bounding box and scaled by a power of two that brings its extent to [1, 2): needles along an axis and
+//! polygons far from the origin are then as good as any other.
 
+use crate::pair::{Pair, minus};
 use crate::polygon::Segment;
 
 /// The edges in units of the bounding box.
-pub(super) struct Units {
-    pub(super) edges: Vec<Segment>,
+pub(crate) struct Units {
+    pub(crate) edges: Vec<Segment>,
     /// The largest coordinates; the smallest are 0.
-    pub(super) extent: [f64; 2],
+    pub(crate) extent: [f64; 2],
     axes: [Axis; 2],
 }
 
@@ -26,7 +27,7 @@ struct Axis {
 }
 
 impl Units {
-    pub(super) fn of(edges: &[Segment]) -> Self {
+    pub(crate) fn of(edges: &[Segment]) -> Self {
         let axes = [0, 1].map(|k| Axis::of(edges.iter().map(move |edge| edge[0][k])));
         let map = |p: [f64; 2]| [axes[0].units(p[0]), axes[1].units(p[1])];
         let edges: Vec<Segment> = edges.iter().map(|edge| edge.map(map)).collect();
@@ -35,20 +36,27 @@ impl Units {
     }
 
     /// A point of the input.
-    pub(super) fn point(&self, p: [f64; 2]) -> [f64; 2] {
+    pub(crate) fn point(&self, p: [f64; 2]) -> [f64; 2] {
         [self.axes[0].units(p[0]), self.axes[1].units(p[1])]
     }
 
     /// The point of the input that is nearest to one in units, but for rounding.
-    pub(super) fn given_point(&self, p: [f64; 2]) -> [f64; 2] {
+    pub(crate) fn given_point(&self, p: [f64; 2]) -> [f64; 2] {
         [0, 1].map(|k| {
             let axis = self.axes[k];
             (p[k] / axis.growth + axis.origin) / axis.factors[0] / axis.factors[1]
         })
     }
 
+    /// A difference of two coordinates of the input along an axis, in units.
+    pub(crate) fn difference(&self, axis: usize, a: f64, b: f64) -> Pair {
+        let Axis { factors: [one, other], growth, .. } = self.axes[axis];
+        let (high, low) = minus(a * one * other, b * one * other);
+        (high * growth, low * growth)
+    }
+
     /// A length along an axis, as in the input.
-    pub(super) fn given_length(&self, axis: usize, length: f64) -> f64 {
+    pub(crate) fn given_length(&self, axis: usize, length: f64) -> f64 {
         let axis = self.axes[axis];
         length / axis.growth / axis.factors[0] / axis.factors[1]
     }
@@ -70,7 +78,7 @@ impl Axis {
 }
 
 /// Two powers of two whose product brings a number above 0 to [1, 2); both 1 for 0.
-fn factors_of(largest: f64) -> [f64; 2] {
+pub(crate) fn factors_of(largest: f64) -> [f64; 2] {
     let exponent = match largest {
         0.0 => 0,
         x if x >= f64::MIN_POSITIVE => (x.to_bits() >> 52) as i32 - 1023,
