@@ -24,6 +24,7 @@ from ._answers.order import Order, OrderCertificate, OrderVerdict
 from ._answers.robust import RobustCertificate, RobustEllipsoid, RobustVerdict
 from ._answers.surface import Surface, SurfaceCertificate, SurfaceComponent, SurfaceVerdict
 from ._answers.trace import PassBounds, Trace
+from ._answers.triangle import InscribedTriangle, TriangleCertificate, TriangleVerdict
 from ._answers.triangulation import Triangulation, TriangulationCertificate, TriangulationVerdict
 from ._ball import ball, ball_of_balls
 from ._bodies import inscribed_dops, triangle_rows
@@ -40,6 +41,7 @@ from ._native import Violation, __version__
 from ._robust import robust_ellipsoid
 from ._solution import Solution
 from ._surface import surface
+from ._triangle import inscribed_triangle
 from ._verify import verify
 
 __all__ = [
@@ -72,6 +74,7 @@ __all__ = [
     "InscribedCircle",
     "InscribedEllipse",
     "InscribedEllipsoid",
+    "InscribedTriangle",
     "InscribedVerdict",
     "Order",
     "OrderCertificate",
@@ -87,6 +90,8 @@ __all__ = [
     "SurfaceComponent",
     "SurfaceVerdict",
     "Trace",
+    "TriangleCertificate",
+    "TriangleVerdict",
     "Triangulation",
     "TriangulationCertificate",
     "TriangulationVerdict",
@@ -106,6 +111,7 @@ __all__ = [
     "inscribed_dops",
     "inscribed_ellipse",
     "inscribed_ellipsoid",
+    "inscribed_triangle",
     "robust_ellipsoid",
     "sample",
     "sort_file",

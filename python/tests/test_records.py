@@ -40,6 +40,7 @@ SOLVED = {
     "inscribed": (taut.inscribed_ellipsoid(NORMALS, OFFSETS), (NORMALS,), {"offsets": OFFSETS}),
     "circle": (taut.inscribed_circle(RINGS[:60]), (RINGS[:60],), {}),
     "ellipse": (taut.inscribed_ellipse(RINGS[:60]), (RINGS[:60],), {}),
+    "triangle": (taut.inscribed_triangle(RINGS[:60]), (RINGS[:60],), {}),
     "bodies": (taut.inscribed_dops(SIMPLEX, SIDES, count=2, disjoint=True, events=500), (SIMPLEX_ROWS,), {}),
     "mcd": (taut.robust_ellipsoid(PLANE), (PLANE,), {}),
     "mve": (taut.robust_ellipsoid(PLANE, method="mve"), (PLANE,), {}),

@@ -2,7 +2,8 @@
 
 use taut_certify::{
     Answer, Ball, Centers, Curve, Ellipsoid, InscribedBodies, InscribedCircle, InscribedEllipse,
-    InscribedEllipsoid, Order, RobustEllipsoid, Solution, Surface, Triangulation,
+    InscribedEllipsoid, InscribedTriangle, Order, RobustEllipsoid, Solution, Surface,
+    Triangulation,
 };
 use taut_points::PointSource;
 
@@ -51,6 +52,7 @@ drawn_by! {
     InscribedEllipsoid: crate::inscribed_figures;
     InscribedCircle: crate::circle_figures;
     InscribedEllipse: crate::ellipse_figures;
+    InscribedTriangle: crate::triangle_figures;
     InscribedBodies: crate::bodies_figures;
     RobustEllipsoid: crate::robust_figures;
     Centers: crate::centers_figures;

@@ -9,7 +9,7 @@
 //! | a robust ellipsoid and its points | [`robust_figures`] | the same with outliers apart, and the distance of each point |
 //! | an ellipsoid in a polytope, and its half-spaces | [`inscribed_figures`] | scenes of the plane or of space, cuts through the center, and plots |
 //! | a circle in a polygon, and the rings | [`circle_figures`] | a scene of the plane, with the edges that are touched |
-//! | an ellipse in a polygon, and the rings | [`ellipse_figures`] | the same |
+//! | an ellipse or a triangle in a polygon, and the rings | [`ellipse_figures`], [`triangle_figures`] | the same |
 //! | convex bodies in a mesh, and its triangles | [`bodies_figures`] | a scene of space, with the mesh translucent |
 //! | a triangulation and its points | [`delaunay_figures`] | scenes of the plane or of space, and the Voronoi diagram |
 //! | curves and their points | [`curve_figures`] | scenes of the plane, with the band of noise, outliers and ends |
@@ -66,10 +66,12 @@ mod rings;
 mod scene;
 mod scene2;
 mod scene3;
+mod shape_in_rings;
 mod style;
 mod surface;
 mod svg;
 mod text;
+mod triangle;
 
 pub use ball::ball_figures;
 pub use bodies::bodies_figures;
@@ -94,3 +96,4 @@ pub use scene3::{
 pub use style::{LineStyle, Style, Theme, Tone};
 pub use surface::{SurfaceView, UnusedPoints, surface_figures, surface_scene};
 pub use svg::to_svg;
+pub use triangle::triangle_figures;

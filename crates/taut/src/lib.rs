@@ -12,6 +12,7 @@
 //! | the ellipsoid of largest volume in a polytope | [`inscribed_ellipsoid()`] | optimum ≤ log-volume + ε, proved | [`enclose`] |
 //! | the largest circle in a polygon, with holes | [`inscribed_circle()`] | largest radius ≤ (1 + ε)·radius, proved | [`inscribe`] |
 //! | the largest ellipse in a polygon, with holes | [`inscribe::inscribed_ellipse()`] | largest area ≤ (1 + ε)·area, proved | [`inscribe`] |
+//! | the largest triangle in a polygon, with holes | [`inscribe::inscribed_triangle()`] | largest area ≤ (1 + ε)·area, proved | [`inscribe`] |
 //! | center and scatter of most points, and the outliers | [`robust_ellipsoid()`] | all but the choice of points proved; that choice a local optimum | [`enclose`] |
 //! | convex bodies inside a closed triangle mesh | [`inscribe::inscribed_dops()`] | each lies inside, proved; coverage estimated | [`inscribe`] |
 //! | the Delaunay triangulation of points in the plane or in space | [`delaunay()`] | exact, a function of the point set alone, proved | [mod@delaunay] |
@@ -171,6 +172,8 @@ mod pages {
     struct Robust;
     #[doc = include_str!("../../../docs/surface.md")]
     struct Surface;
+    #[doc = include_str!("../../../docs/triangle.md")]
+    struct Triangle;
     #[doc = include_str!("../../../docs/memory/matrix.md")]
     struct Matrix;
     #[doc = include_str!("../../../docs/memory/order.md")]

@@ -16,6 +16,7 @@ from .inscribed import InscribedCertificate, InscribedEllipsoid, InscribedVerdic
 from .order import Order, OrderCertificate, OrderVerdict
 from .robust import RobustCertificate, RobustEllipsoid, RobustVerdict
 from .surface import Surface, SurfaceCertificate, SurfaceVerdict
+from .triangle import InscribedTriangle, TriangleCertificate, TriangleVerdict
 from .triangulation import Triangulation, TriangulationCertificate, TriangulationVerdict
 
 AnyVerdict = (
@@ -24,6 +25,7 @@ AnyVerdict = (
     | InscribedVerdict
     | CircleVerdict
     | EllipseVerdict
+    | TriangleVerdict
     | BodiesVerdict
     | RobustVerdict
     | CentersVerdict
@@ -76,6 +78,13 @@ KINDS = {
         InscribedEllipse,
         EllipseCertificate,
         EllipseVerdict,
+        "lies in",
+        ("answer.area", "certificate.gap"),
+    ),
+    "inscribed-triangle": Kind(
+        InscribedTriangle,
+        TriangleCertificate,
+        TriangleVerdict,
         "lies in",
         ("answer.area", "certificate.gap"),
     ),

@@ -3,6 +3,7 @@
 mod circle;
 mod dops;
 mod ellipse;
+mod triangle;
 
 use taut::certify::InscribedEllipsoid;
 use taut::{InscribedOptions, Monitor, Solution, inscribed_ellipsoid};
@@ -18,7 +19,8 @@ use crate::watch::Watch;
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Example: taut inscribe circle ring.csv -o circle.json --draw circle.svg
-See: taut inscribe circle --help, taut inscribe dops --help, taut inscribe ellipse --help, taut inscribe ellipsoid --help")]
+See: taut inscribe circle --help, taut inscribe dops --help, taut inscribe ellipse --help, taut inscribe ellipsoid --help,
+     taut inscribe triangle --help")]
 pub(crate) struct Args {
     #[command(subcommand)]
     body: Body,
@@ -30,6 +32,7 @@ enum Body {
     Dops(dops::Dops),
     Ellipse(ellipse::Ellipse),
     Ellipsoid(Ellipsoid),
+    Triangle(triangle::Triangle),
 }
 
 /// Find the ellipsoid of largest volume inside a polytope, given by half-spaces.
@@ -66,6 +69,7 @@ impl Args {
             Body::Dops(args) => pipeline::run(args),
             Body::Ellipse(args) => pipeline::run(args),
             Body::Ellipsoid(args) => pipeline::run(args),
+            Body::Triangle(args) => pipeline::run(args),
         }
     }
 }

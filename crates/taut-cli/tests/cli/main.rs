@@ -11,6 +11,7 @@ mod inscribe;
 mod inscribe_circle;
 mod inscribe_dops;
 mod inscribe_ellipse;
+mod inscribe_triangle;
 #[cfg(unix)]
 mod interrupt;
 mod limits;

@@ -51,7 +51,10 @@ impl Candidate {
 
     /// Returns a local optimum, or a triangle near one.
     pub(super) fn climbed(self, edges: &Groups) -> Self {
-        let mut best = self;
+        // Edges near a triangle are all that can stop it once it touches one.
+        let Some(mut best) = Candidate::of(&self.corners, edges, f64::INFINITY) else {
+            return self;
+        };
         for _ in 0..ROUNDS_MAX {
             if best.doubled.is_nan() || best.doubled <= 0.0 {
                 break;
@@ -88,6 +91,7 @@ impl Candidate {
 /// Climbs from a triangle with legs of about 1.
 fn climb(start: Triangle, near: &Groups) -> Triangle {
     let (mut best, mut area, mut trust) = (start, doubled_area(&start), TRUST.0);
+    let gauge = Gauge::of(&start);
     for _ in 0..STEPS_MAX {
         let half = [[trust; 2]; 3];
         let columns = columns(&best, near, trust);
@@ -108,6 +112,12 @@ fn climb(start: Triangle, near: &Groups) -> Triangle {
             *p += trust * step[k];
         }
         let next = Candidate::of(&next, near, REACH);
+        // Beyond the reach there may be other edges.
+        if next
+            .is_some_and(|next| next.corners.iter().any(|&p| gauge.scale([p, p], REACH) >= REACH))
+        {
+            break;
+        }
         let held = next.map_or(f64::NEG_INFINITY, |next| next.doubled - area);
         if held > 0.7 * promised {
             trust = (2.0 * trust).min(TRUST.1);

@@ -36,11 +36,6 @@ impl Column {
         Column { value: value / size, gradient: gradient.map(|g| g / size), size }
     }
 
-    /// How much the step 0 breaks the condition, −1 where all steps obey it and 1 where none does.
-    pub(super) fn value(&self) -> f64 {
-        self.value
-    }
-
     /// Whether some step of [−1, 1]⁹ breaks the condition.
     pub(super) fn can_bind(&self) -> bool {
         self.value > -1.0

@@ -24,12 +24,22 @@ pub(super) enum Condition {
     Half { corner: usize, normal: [f64; 2] },
 }
 
+impl Condition {
+    /// Numbers by which conditions differ.
+    pub(super) fn key(&self) -> [u32; 3] {
+        match *self {
+            Condition::Side { side, edge, share, .. } => [side as u32, edge, share],
+            Condition::Half { corner, .. } => [3 + corner as u32, 0, 0],
+        }
+    }
+}
+
 /// What is known of the groups of a list.
 pub(super) enum Entered {
     /// A point of an edge, by a share of its length, that is in all triangles.
     Surely(u32, u32),
-    /// The groups that may enter some triangle, and conditions.
-    Perhaps(Vec<u32>, Vec<Condition>),
+    /// The groups that may enter some triangle, and conditions with how much the middle of the cell breaks them, from −1 to 1.
+    Perhaps(Vec<u32>, Vec<(f64, Condition)>),
 }
 
 /// The number of halves of a share, strictly within a range where it does not end with the edge.
@@ -91,7 +101,7 @@ struct Examined<'a> {
     error: f64,
     /// The last edge, and the values of the lines at its ends.
     last: Option<(u32, [[[f64; 2]; 3]; 2])>,
-    conditions: Vec<Condition>,
+    conditions: Vec<(f64, Condition)>,
 }
 
 impl Examined<'_> {
@@ -142,15 +152,18 @@ impl Examined<'_> {
         for side in 0..3 {
             let others = [left[(side + 1) % 3], left[(side + 2) % 3]];
             let Some([low, high]) = common(&others).and_then(whole_shares) else { continue };
-            // The last vertex is the first one of the next edge.
-            for share in [low, high] {
+            let shares = [low, high];
+            for &share in &shares[..if low < high { 2 } else { 1 }] {
                 let t = f64::from(share) / SHARES;
+                // The last vertex is the first one of the next edge.
                 if t < 1.0 {
                     let point = [0, 1].map(|k| a[k] + t * (b[k] - a[k]));
-                    self.conditions.push(Condition::Side { side, edge, share, point });
-                }
-                if low == high {
-                    break;
+                    let range = if share == 0 { from[side] } else { lines[side].range(point) };
+                    if range[1] > 0.0 {
+                        let broken = (range[1] + range[0]) / (range[1] - range[0]);
+                        let condition = Condition::Side { side, edge, share, point };
+                        self.conditions.push((broken, condition));
+                    }
                 }
             }
         }

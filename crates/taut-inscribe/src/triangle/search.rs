@@ -28,8 +28,8 @@ const CELLS_BETWEEN_LOOKS: u64 = 256;
 /// How much larger than the area sought that of the boxes alone may be for conditions to be worth their cost.
 const WEIGHED_MAX: f64 = 6.0;
 
-/// Most conditions in the program of a cell; of more those that its middle breaks most.
-const CONDITIONS_MAX: usize = 96;
+/// Most conditions by edges in the program of a cell; of more those that its middle breaks most.
+const CONDITIONS_MAX: usize = 64;
 
 /// How much larger than the best triangle another one must be to start an ascent, relatively.
 const START_GAIN: f64 = 1e-7;
@@ -95,7 +95,7 @@ struct Search<'a> {
     reported: Option<Reported>,
     nodes: Vec<Node>,
     waiting: BinaryHeap<Waiting>,
-    /// The largest bound of cells that cannot be split.
+    /// The largest bound of cells that are closed or cannot be split.
     stuck: f64,
     epsilon: f64,
     ascents: u64,
@@ -232,17 +232,20 @@ impl Search<'_> {
         &mut self,
         node: usize,
         cell: &Cell,
-        mut conditions: Vec<Condition>,
+        mut conditions: Vec<(f64, Condition)>,
         mut bound: f64,
     ) -> f64 {
-        conditions.extend(rows::half_planes(cell, &self.tiles));
-        let column = |condition| (rows::column(cell, &self.tiles, &condition), condition);
-        let mut all: Vec<(Column, Condition)> = conditions.into_iter().map(column).collect();
-        all.retain(|(column, _)| column.can_bind());
-        if all.len() > CONDITIONS_MAX {
-            all.sort_by(|one, other| other.0.value().total_cmp(&one.0.value()));
-            all.truncate(CONDITIONS_MAX);
+        if conditions.len() > CONDITIONS_MAX {
+            conditions.select_nth_unstable_by(CONDITIONS_MAX, |one, other| {
+                other.0.total_cmp(&one.0).then(one.1.key().cmp(&other.1.key()))
+            });
+            conditions.truncate(CONDITIONS_MAX);
         }
+        let of_edges = conditions.into_iter().map(|pair| pair.1);
+        let of_boxes = rows::half_planes(cell, &self.tiles);
+        let column = |condition| (rows::column(cell, &self.tiles, &condition), condition);
+        let mut all: Vec<(Column, Condition)> = of_edges.chain(of_boxes).map(column).collect();
+        all.retain(|(column, _)| column.can_bind());
         let columns: Vec<Column> = all.iter().map(|pair| pair.0).collect();
         let middle = cell::middle(cell);
         let at_middle = gauge::doubled_area(&middle);
@@ -308,9 +311,9 @@ impl Search<'_> {
     /// The tree in the form of the certificate, and what it proves.
     fn found(self, is_complete: bool) -> Found {
         let log = tree::log(&self.nodes);
-        // Cells that were closed on the way have bounds up to the goal.
         let waiting = self.waiting.peek().map_or(0.0, |top| top.bound);
-        let upper = waiting.max(self.stuck).max(self.goal());
+        let reported = self.reported.as_ref().map_or(0.0, |reported| reported.doubled);
+        let upper = waiting.max(self.stuck).max(reported);
         let (best, ascents) = (self.reported, self.ascents);
         Found { best, upper, log, ascents, is_complete }
     }

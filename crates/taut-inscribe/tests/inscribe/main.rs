@@ -11,4 +11,5 @@ mod laws;
 mod mutations;
 mod rings;
 mod sampling;
+mod triangle_mutations;
 mod triangles;

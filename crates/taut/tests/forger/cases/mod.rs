@@ -14,6 +14,7 @@ pub mod inscribed;
 pub mod order;
 pub mod robust;
 pub mod surface;
+pub mod triangle;
 pub mod triangulation;
 
 use serde_json::Value;

@@ -25,6 +25,7 @@ pub mod order;
 pub mod robust;
 pub mod shapes;
 pub mod surface;
+pub mod triangle;
 pub mod triangulation;
 
 use std::collections::BTreeMap;
@@ -43,6 +44,7 @@ use self::inscribed::InscribedOracle;
 use self::order::OrderOracle;
 use self::robust::RobustOracle;
 use self::surface::SurfaceOracle;
+use self::triangle::TriangleOracle;
 use self::triangulation::TriangulationOracle;
 
 use crate::cases::Input;
@@ -90,6 +92,7 @@ pub struct CaseOracle<'a> {
     order: Option<OrderOracle>,
     robust: Option<RobustOracle>,
     surface: Option<SurfaceOracle>,
+    triangle: Option<TriangleOracle>,
     triangulation: Option<TriangulationOracle>,
 }
 
@@ -119,6 +122,7 @@ impl<'a> CaseOracle<'a> {
             order: None,
             robust: None,
             surface: None,
+            triangle: None,
             triangulation: None,
         }
     }
@@ -181,6 +185,11 @@ impl<'a> CaseOracle<'a> {
                     self.surface.get_or_insert_with(|| SurfaceOracle::new(values, *columns));
                 oracle.judge(found, verdict)
             }
+            (AnySolution::Triangle(found), AnyVerdict::Triangle(verdict)) => {
+                let oracle =
+                    self.triangle.get_or_insert_with(|| TriangleOracle::new(values, *columns));
+                oracle.judge(found, verdict)
+            }
             (AnySolution::Triangulation(found), AnyVerdict::Triangulation(verdict)) => {
                 let oracle = self
                     .triangulation
@@ -218,6 +227,10 @@ impl<'a> CaseOracle<'a> {
             }
             (AnySolution::Ellipse(_), AnyVerdict::Ellipse(verdict)) => {
                 let optimum = "the largest area inside".to_owned();
+                vec![Interval { optimum, lower: verdict.lower, upper: verdict.upper }]
+            }
+            (AnySolution::Triangle(_), AnyVerdict::Triangle(verdict)) => {
+                let optimum = "the largest area of a triangle inside".to_owned();
                 vec![Interval { optimum, lower: verdict.lower, upper: verdict.upper }]
             }
             (AnySolution::Ellipsoid(found), AnyVerdict::Ellipsoid(verdict)) => {
