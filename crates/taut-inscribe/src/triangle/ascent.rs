@@ -51,7 +51,7 @@ impl Candidate {
 
     /// Returns a local optimum, or a triangle near one.
     pub(super) fn climbed(self, edges: &Groups) -> Self {
-        // Edges near a triangle are all that can stop it once it touches one.
+        // Where it touches no edge, those that stop it may be out of reach.
         let Some(mut best) = Candidate::of(&self.corners, edges, f64::INFINITY) else {
             return self;
         };

@@ -42,13 +42,14 @@ pub(super) enum Entered {
     Perhaps(Vec<u32>, Vec<(f64, Condition)>),
 }
 
-/// The number of halves of a share, strictly within a range where it does not end with the edge.
+/// The first and the last multiple of 1/[`SHARES`] in a range, strictly within it except at the ends of the edge.
 fn whole_shares([from, to]: [f64; 2]) -> Option<[u32; 2]> {
     let low = if from == 0.0 { 0.0 } else { (from * SHARES).floor() + 1.0 };
     let high = if to == 1.0 { SHARES } else { (to * SHARES).ceil() - 1.0 };
     (low <= high).then_some([low as u32, high as u32])
 }
 
+/// The intersection of ranges; `None` where it or one of them is empty.
 fn common(ranges: &[Option<[f64; 2]>]) -> Option<[f64; 2]> {
     let both = |[a, b]: [f64; 2], range: &Option<[f64; 2]>| {
         range.map(|[from, to]| [a.max(from), b.min(to)]).filter(|[from, to]| from <= to)
@@ -67,12 +68,19 @@ pub(super) fn examine(groups: &Groups, lines: &[Lines; 3], list: &[u32], error: 
             if extent.half[0].is_infinite() {
                 continue;
             }
-            let bounds = [0, 1, 2].map(|side: usize| lines[side].largest_over(extent));
-            if bounds.iter().any(|bound| bound[1] <= 0.0) {
+            // A condition takes a point that is surely left of two sides.
+            let (mut is_right, mut sides) = (false, 0);
+            for side in lines {
+                let [least, most] = side.largest_over(extent);
+                if most <= 0.0 {
+                    is_right = true;
+                    break;
+                }
+                sides += u32::from(least > error);
+            }
+            if is_right {
                 continue;
             }
-            // A condition takes a point that is surely left of two sides.
-            let sides = bounds.iter().filter(|bound| bound[0] > error).count();
             match groups.children(group) {
                 _ if sides < 2 => kept.push(group),
                 Some([one, other]) => pending.extend([other, one]),
@@ -146,8 +154,8 @@ impl Examined<'_> {
             return None;
         }
         let left = [one, other, left(2)];
-        if let Some([share, last]) = common(&left).and_then(whole_shares) {
-            return Some(if share == 0 { 0 } else { (share + last) / 2 });
+        if let Some([first, last]) = common(&left).and_then(whole_shares) {
+            return Some(if first == 0 { 0 } else { (first + last) / 2 });
         }
         for side in 0..3 {
             let others = [left[(side + 1) % 3], left[(side + 2) % 3]];

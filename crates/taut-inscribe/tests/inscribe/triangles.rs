@@ -10,7 +10,15 @@ use taut_points::Points;
 const EPSILON: f64 = 1e-4;
 
 pub(super) fn solve(rings: &[Ring], epsilon: f64) -> Result<Solution<InscribedTriangle>, Error> {
-    let options = TriangleOptions { epsilon, ..Default::default() };
+    solve_with(rings, epsilon, TriangleOptions::default().max_cells)
+}
+
+pub(super) fn solve_with(
+    rings: &[Ring],
+    epsilon: f64,
+    max_cells: u64,
+) -> Result<Solution<InscribedTriangle>, Error> {
+    let options = TriangleOptions { epsilon, max_cells, ..Default::default() };
     inscribed_triangle(&Points::new(&rows(rings), 3).unwrap(), &options)
 }
 

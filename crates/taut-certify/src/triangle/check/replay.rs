@@ -123,7 +123,8 @@ fn root(
     let error = units.error();
     let [least, most] = ROOT_RANGE;
     let is_held = (0..2).all(|k| {
-        let holds = |p: &[f64; 2]| low[k] + error < p[k] && p[k] < high[k] - error;
+        // Twice the error, for the rounding of the sums.
+        let holds = |p: &[f64; 2]| low[k] + 2.0 * error < p[k] && p[k] < high[k] - 2.0 * error;
         low[k] >= least && high[k] <= most && units.points().iter().all(holds)
     });
     match is_held {
