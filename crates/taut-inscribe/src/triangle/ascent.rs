@@ -25,7 +25,7 @@ const TRUST: (f64, f64) = (0.1, 0.3);
 const GAIN_MIN: f64 = 1e-12;
 
 /// The scale up to which a triangle reaches edges that are looked at.
-const REACH: f64 = 3.0;
+const NEAR_SCALE_MAX: f64 = 3.0;
 
 /// How many regions of trust an edge may be away to have a condition.
 const TRUSTS_AWAY: f64 = 4.0;
@@ -80,7 +80,7 @@ impl Candidate {
             let d = minus(w, origin);
             [(d[0] * v[1] - d[1] * v[0]) / self.doubled, (u[0] * d[1] - u[1] * d[0]) / self.doubled]
         };
-        let near = edges.reached(&gauge, REACH).into_iter();
+        let near = edges.reached(&gauge, NEAR_SCALE_MAX).into_iter();
         let near: Vec<Segment> = near.map(|edge| edges.edge(edge).map(map)).collect();
         let near = Groups::of(&near);
         let found = climb([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], &near);
@@ -111,11 +111,11 @@ fn climb(start: Triangle, near: &Groups) -> Triangle {
         for (k, p) in next.as_flattened_mut().iter_mut().enumerate() {
             *p += trust * step[k];
         }
-        let next = Candidate::of(&next, near, REACH);
+        let next = Candidate::of(&next, near, NEAR_SCALE_MAX);
         // Beyond the reach there may be other edges.
-        if next
-            .is_some_and(|next| next.corners.iter().any(|&p| gauge.scale([p, p], REACH) >= REACH))
-        {
+        if next.is_some_and(|next| {
+            next.corners.iter().any(|&p| gauge.scale([p, p], NEAR_SCALE_MAX) >= NEAR_SCALE_MAX)
+        }) {
             break;
         }
         let held = next.map_or(f64::NEG_INFINITY, |next| next.doubled - area);

@@ -10,16 +10,16 @@ use crate::inner_points::inner_points;
 const STARTS_MAX: usize = 12;
 
 /// Positions of an equilateral triangle, evenly over a third of a turn.
-const TURNS: usize = 4;
+const TURNS_TRIED: usize = 4;
 
 /// The largest equilateral triangles around inner points.
 pub(super) fn starts(frame: &Frame, edges: &Groups) -> Vec<Candidate> {
     let mut best: Vec<(f64, Triangle)> = vec![];
     for center in inner_points(&frame.edges, frame.extent) {
         let mut largest: Option<(f64, Triangle)> = None;
-        for turn in 0..TURNS {
+        for turn in 0..TURNS_TRIED {
             let triangle = [0, 1, 2].map(|corner| {
-                let share = corner as f64 + turn as f64 / TURNS as f64;
+                let share = corner as f64 + turn as f64 / TURNS_TRIED as f64;
                 let (sine, cosine) = (std::f64::consts::TAU * share / 3.0).sin_cos();
                 [center[0] + cosine, center[1] + sine]
             });

@@ -14,10 +14,10 @@ use super::circle::{Point, crosses_above, edges, exact, is_inside};
 use crate::random::Random;
 
 /// Starts of the random search.
-const STARTS: usize = 40;
+const STARTS_TRIED: usize = 40;
 
 /// Changes of each start.
-const STEPS: usize = 400;
+const STEPS_OF_A_START: usize = 400;
 
 /// How much the triangles of the search are shrunk, so that plain arithmetic does not let edges into them.
 const SHRUNK: f64 = 1.0 - 1e-9;
@@ -162,10 +162,10 @@ fn candidates(edges: &[[[f64; 2]; 2]]) -> Vec<Corners> {
     let unit: Vec<[[f64; 2]; 2]> = edges.iter().map(|edge| edge.map(unit)).collect();
     let mut random = Random::new("triangles", edges.len() as u64);
     let mut found = vec![];
-    for _ in 0..STARTS {
+    for _ in 0..STARTS_TRIED {
         let mut here = [(); 3].map(|()| [random.unit(), random.unit()]);
         let (mut grown, mut step) = (largest(here, &unit), 0.5);
-        for _ in 0..STEPS {
+        for _ in 0..STEPS_OF_A_START {
             let next = here.map(|p| p.map(|x| x + step * random.signed()));
             let other = largest(next, &unit);
             if other.0 > grown.0 {
