@@ -30,6 +30,7 @@ mod robust;
 mod rows;
 mod sphere_tree;
 mod surface;
+mod triangle;
 mod work;
 
 use pyo3::prelude::*;
@@ -75,6 +76,8 @@ mod _native {
     use crate::sphere_tree::sphere_tree;
     #[pymodule_export]
     use crate::surface::surface;
+    #[pymodule_export]
+    use crate::triangle::inscribed_triangle;
 
     #[pymodule_export]
     #[allow(non_upper_case_globals)]

@@ -26,6 +26,7 @@ from ._answers.rectangle import InscribedRectangle, RectangleCertificate, Rectan
 from ._answers.robust import RobustCertificate, RobustEllipsoid, RobustVerdict
 from ._answers.surface import Surface, SurfaceCertificate, SurfaceComponent, SurfaceVerdict
 from ._answers.trace import PassBounds, Trace
+from ._answers.triangle import InscribedTriangle, TriangleCertificate, TriangleVerdict
 from ._answers.triangulation import Triangulation, TriangulationCertificate, TriangulationVerdict
 from ._ball import ball, ball_of_balls
 from ._bodies import inscribed_dops, triangle_rows
@@ -44,6 +45,7 @@ from ._rectangle import inscribed_rectangle
 from ._robust import robust_ellipsoid
 from ._solution import Solution
 from ._surface import surface
+from ._triangle import inscribed_triangle
 from ._verify import verify
 
 __all__ = [
@@ -80,6 +82,7 @@ __all__ = [
     "InscribedEllipse",
     "InscribedEllipsoid",
     "InscribedRectangle",
+    "InscribedTriangle",
     "InscribedVerdict",
     "Order",
     "OrderCertificate",
@@ -97,6 +100,8 @@ __all__ = [
     "SurfaceComponent",
     "SurfaceVerdict",
     "Trace",
+    "TriangleCertificate",
+    "TriangleVerdict",
     "Triangulation",
     "TriangulationCertificate",
     "TriangulationVerdict",
@@ -118,6 +123,7 @@ __all__ = [
     "inscribed_ellipsoid",
     "inscribed_polygon",
     "inscribed_rectangle",
+    "inscribed_triangle",
     "robust_ellipsoid",
     "sample",
     "sort_file",

@@ -39,6 +39,7 @@ def inscribed_circle(ring: ArrayLike, *, epsilon: float = 1e-9, max_cells: int =
     See Also
     --------
     inscribed_ellipse : the ellipse of largest area in a polygon.
+    inscribed_triangle : the triangle of largest area in a polygon.
     inscribed_ellipsoid : the ellipsoid of largest volume in a convex polytope.
 
     Examples

@@ -39,6 +39,7 @@ def inscribed_ellipse(polygon: ArrayLike, *, epsilon: float = 1e-3, max_cells: i
     See Also
     --------
     inscribed_circle : the largest circle in a polygon.
+    inscribed_triangle : the triangle of largest area in a polygon.
     inscribed_ellipsoid : the ellipsoid of largest volume in a convex polytope.
 
     Examples

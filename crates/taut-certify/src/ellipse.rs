@@ -9,7 +9,6 @@ use taut_points::{Monitor, PointSource, PointsHash};
 use crate::json::{hash_from_hex, hash_to_hex};
 use crate::{Answer, CheckError};
 
-pub(crate) use check::units::Units;
 pub use violation::EllipseViolation;
 
 /// An ellipse {c + Gz : |z| ≤ 1} in a polygon.

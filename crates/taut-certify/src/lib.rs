@@ -10,6 +10,7 @@
 //! | [`InscribedEllipse`] | [`EllipseCertificate`] | its center is inside and no edge enters it; no ellipse in the polygon has an area above (1 + gap) times its own |
 //! | [`InscribedRectangle`] | [`RectangleCertificate`] | it is inside; no rectangle along the axes in the polygon has an area above (1 + gap) times its own |
 //! | [`ConvexPolygon`] | [`ConvexCertificate`] | it is convex and inside; no convex set in the polygon has an area above (1 + gap) times its own |
+//! | [`InscribedTriangle`] | [`TriangleCertificate`] | it lies in the polygon; no triangle in the polygon has an area above (1 + gap) times its own |
 //! | [`Centers`] | [`CentersCertificate`] | every item that counts is within the radius of a center; no k equal balls much smaller hold the core-set |
 //! | [`InscribedBodies`] | [`BodiesCertificate`] | each body lies inside the mesh, by whole numbers alone; its volume; nothing about larger bodies |
 //! | [`Curve`] | [`CurveCertificate`] | it meets neither itself nor others; every point but the outliers is within the band; whether sampling was dense enough |
@@ -73,6 +74,7 @@ mod registry;
 mod robust;
 mod solution;
 mod surface;
+mod triangle;
 mod triangulation;
 mod verdict;
 
@@ -115,6 +117,7 @@ pub use surface::{
     Apex, Surface, SurfaceCertificate, SurfaceComponent, SurfaceDoubt, SurfaceMethod, SurfaceMode,
     SurfaceTopology, SurfaceVerdict, SurfaceViolation, Unused,
 };
+pub use triangle::{InscribedTriangle, TriangleCertificate, TriangleVerdict, TriangleViolation};
 pub use triangulation::{
     Fingerprint, FingerprintFormError, MeshViolation, NO_NEIGHBOR, SiteHash, Triangulation,
     TriangulationCertificate, TriangulationCounts, TriangulationVerdict, check_simplices,

@@ -1,7 +1,9 @@
 //! Polygons as the checkers of the shapes in them read them.
 
+mod levels;
 mod rings;
 mod signs;
+mod units;
 mod violation;
 
 use taut_points::{Monitor, PointSource, PointsHash};
@@ -9,8 +11,10 @@ use taut_points::{Monitor, PointSource, PointsHash};
 use crate::CheckError;
 use crate::hashed_pass::{WantedRows, all_finite, hashed_pass};
 
+pub(crate) use levels::Levels;
 pub(crate) use rings::Polygon;
 pub(crate) use signs::{crosses_below, crosses_left_of, orientation};
+pub(crate) use units::{COORDINATE_ERROR, Units};
 pub use violation::PolygonViolation;
 
 /// Reads all rows, which must be finite, those of the hash, and rings.

@@ -10,8 +10,8 @@ use crate::json::{kind_of, parse_document, without_mark};
 use crate::{
     Answer, Ball, Centers, CheckError, ConvexPolygon, Curve, DrawnSample, Ellipsoid, FileAnswer,
     FileCheckError, FileSolution, FileVerdict, Files, InscribedBodies, InscribedCircle,
-    InscribedEllipse, InscribedEllipsoid, InscribedRectangle, JsonError, Order, RobustEllipsoid,
-    Solution, SortedFile, Surface, TransposedFile, Triangulation,
+    InscribedEllipse, InscribedEllipsoid, InscribedRectangle, InscribedTriangle, JsonError, Order,
+    RobustEllipsoid, Solution, SortedFile, Surface, TransposedFile, Triangulation,
 };
 
 /// Hands the answers about points to a macro, each with the name of its variant.
@@ -35,6 +35,8 @@ macro_rules! answers_about_points {
             Convex(ConvexPolygon),
             /// A largest rectangle in a polygon.
             Rectangle(InscribedRectangle),
+            /// A largest triangle in a polygon.
+            Triangle(InscribedTriangle),
             /// Convex bodies in a triangle mesh.
             Bodies(InscribedBodies),
             /// k centers.

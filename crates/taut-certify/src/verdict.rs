@@ -6,7 +6,7 @@ use taut_points::ReadError;
 use crate::{
     BodiesViolation, CentersViolation, CircleViolation, ConvexViolation, CurveViolation,
     EllipseViolation, MeshViolation, OrderViolation, PolygonViolation, RectangleViolation,
-    SurfaceViolation,
+    SurfaceViolation, TriangleViolation,
 };
 
 /// The proved facts about an enclosing shape.
@@ -378,6 +378,9 @@ pub enum Violation {
     /// Something is wrong with an inscribed rectangle.
     #[error(transparent)]
     Rectangle(#[from] RectangleViolation),
+    /// Something is wrong with an inscribed triangle.
+    #[error(transparent)]
+    Triangle(#[from] TriangleViolation),
     /// The points are no polygon.
     #[error(transparent)]
     Polygon(#[from] PolygonViolation),
@@ -443,6 +446,7 @@ impl Violation {
             Violation::Convex(ref violation) => violation.fault(),
             Violation::Rectangle(ref violation) => violation.fault(),
             Violation::Ellipse(ref violation) => violation.fault(),
+            Violation::Triangle(ref violation) => violation.fault(),
             Violation::Polygon(ref violation) => violation.fault(),
             Violation::Curve(ref violation) => match *violation {
                 CurveViolation::OutsideBand { row, .. }
@@ -519,6 +523,12 @@ impl From<RectangleViolation> for CheckError {
 
 impl From<EllipseViolation> for CheckError {
     fn from(violation: EllipseViolation) -> Self {
+        CheckError::Rejected(violation.into())
+    }
+}
+
+impl From<TriangleViolation> for CheckError {
+    fn from(violation: TriangleViolation) -> Self {
         CheckError::Rejected(violation.into())
     }
 }

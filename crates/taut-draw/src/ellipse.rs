@@ -1,15 +1,13 @@
 //! The figure of the largest ellipse in a polygon.
 //!
-//! *Guarantee.* The rings are drawn as they are, but for vertices that are nearer to the one before than a pixel; edges that the
-//! ellipse touches are drawn in full. The ellipse is a polygon of [`CORNERS`] corners on it.
+//! *Guarantee.* The ellipse is a polygon of [`CORNERS`] corners on it.
 
 use taut_certify::{InscribedEllipse, Solution};
 use taut_points::PointSource;
 
 use crate::marks::{all_finite, all_there};
-use crate::number::{counted, short};
-use crate::rings::Rings;
-use crate::{Aspect, DrawOptions, Error, Figure, Layer2, LineStyle, Scene2, Shape2, Tone};
+use crate::shape_in_rings::ShapeInRings;
+use crate::{DrawOptions, Error, Figure};
 
 /// Corners of the ellipse: it is off by 1 − cos(π/256), less than 1e-4 of its axes.
 const CORNERS: usize = 256;
@@ -30,47 +28,14 @@ pub fn ellipse_figures(
     let center = answer.center.iter().map(|x| ("a coordinate of the center", x));
     let axes = answer.axes.iter().flatten().map(|x| ("an entry of the axes", x));
     all_finite(center.chain(axes))?;
-    let rings = Rings::read(source)?;
-    let lines = certificate.touching.iter().map(|&row| rings.edge(row as usize).to_vec()).collect();
-    let layer = |name: &str, tone, line_style, shape| Layer2 {
-        name: name.to_owned(),
-        tone,
-        line_style,
-        shape,
+    let picture = ShapeInRings {
+        name: "ellipse",
+        outline: outline(answer),
+        area: answer.area,
+        gap: certificate.gap,
+        touching: &certificate.touching,
     };
-    let gap = match certificate.gap {
-        gap if gap.is_finite() => format!("certified gap {}", short(gap, 3)),
-        _ => "no gap is certified".to_owned(),
-    };
-    let scene = Scene2 {
-        title: format!("Largest ellipse in a polygon of {}", counted(source.len(), "point")),
-        caption: format!(
-            "Area {}; {gap}. It touches {}.",
-            short(answer.area, 8),
-            counted(certificate.touching.len() as u64, "edge")
-        ),
-        x: options.axis(0, 2),
-        y: options.axis(1, 2),
-        aspect: Aspect::Equal,
-        layers: vec![
-            layer(
-                "polygon",
-                Tone::Point,
-                LineStyle::Solid,
-                Shape2::Polygons(rings.outlines(options)),
-            ),
-            layer(
-                "largest ellipse",
-                Tone::Answer,
-                LineStyle::Solid,
-                Shape2::Polygons(vec![outline(answer)]),
-            ),
-            layer("touching edges", Tone::Support, LineStyle::Solid, Shape2::Polylines(lines)),
-        ],
-        width: options.width,
-        height: options.height,
-    };
-    Ok(vec![Figure::Plane(scene)])
+    picture.figures(source, options)
 }
 
 /// Points of the ellipse, all the way round.

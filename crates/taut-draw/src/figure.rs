@@ -2,8 +2,8 @@
 
 use taut_certify::{
     Answer, Ball, Centers, ConvexPolygon, Curve, Ellipsoid, InscribedBodies, InscribedCircle,
-    InscribedEllipse, InscribedEllipsoid, InscribedRectangle, Order, RobustEllipsoid, Solution,
-    Surface, Triangulation,
+    InscribedEllipse, InscribedEllipsoid, InscribedRectangle, InscribedTriangle, Order,
+    RobustEllipsoid, Solution, Surface, Triangulation,
 };
 use taut_points::PointSource;
 
@@ -54,6 +54,7 @@ drawn_by! {
     InscribedEllipse: crate::ellipse_figures;
     ConvexPolygon: crate::convex_figures;
     InscribedRectangle: crate::rectangle_figures;
+    InscribedTriangle: crate::triangle_figures;
     InscribedBodies: crate::bodies_figures;
     RobustEllipsoid: crate::robust_figures;
     Centers: crate::centers_figures;

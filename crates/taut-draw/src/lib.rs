@@ -12,6 +12,7 @@
 //! | an ellipse in a polygon, and the rings | [`ellipse_figures`] | the same |
 //! | a convex polygon in a polygon, and the rings | [`convex_figures`] | the same |
 //! | a rectangle in a polygon, and the rings | [`rectangle_figures`] | the same |
+//! | an ellipse or a triangle in a polygon, and the rings | [`ellipse_figures`], [`triangle_figures`] | the same |
 //! | convex bodies in a mesh, and its triangles | [`bodies_figures`] | a scene of space, with the mesh translucent |
 //! | a triangulation and its points | [`delaunay_figures`] | scenes of the plane or of space, and the Voronoi diagram |
 //! | curves and their points | [`curve_figures`] | scenes of the plane, with the band of noise, outliers and ends |
@@ -70,10 +71,12 @@ mod rings;
 mod scene;
 mod scene2;
 mod scene3;
+mod shape_in_rings;
 mod style;
 mod surface;
 mod svg;
 mod text;
+mod triangle;
 
 pub use ball::ball_figures;
 pub use bodies::bodies_figures;
@@ -100,3 +103,4 @@ pub use scene3::{
 pub use style::{LineStyle, Style, Theme, Tone};
 pub use surface::{SurfaceView, UnusedPoints, surface_figures, surface_scene};
 pub use svg::to_svg;
+pub use triangle::triangle_figures;

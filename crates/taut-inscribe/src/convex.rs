@@ -23,9 +23,9 @@ use taut_certify::{ConvexCertificate, ConvexPolygon, Solution, Stop, Trace};
 use taut_points::{InputError, Monitor, PointSource};
 
 use crate::Error;
-use crate::ellipse::units::Units;
 use crate::ellipse::{self, EllipseOptions};
 use crate::polygon::Polygon;
+use crate::units::Units;
 
 /// Ratio of areas of a triangle and its largest ellipse, 3√3/π, rounded up.
 const RATIO_MAX: f64 = 1.653_986_686_265_376_4;

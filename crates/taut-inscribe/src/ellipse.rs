@@ -2,7 +2,7 @@
 //!
 //! *Problem.* Find the ellipse of the largest area whose center is inside and that no edge enters.
 //! *Idea.* For each shape (s, t), a norm of determinant 1, the ellipse is a largest circle ([`shape`]). Branch and bound over cells of
-//! shapes and centers ([`search`]), in units of the bounding box ([`units`]). The size of an ellipse is at most Σ λᵢ·dist(c, eᵢ)
+//! shapes and centers ([`search`]), in units of the bounding box ([`crate::units`]). The size of an ellipse is at most Σ λᵢ·dist(c, eᵢ)
 //! for weights λ ≥ 0 with Σ λᵢ = 1, and over a cell a linear bound of that sum is largest at one of sixteen corners ([`cell`]).
 //! The weights solve a linear program with five rows ([`weights`]); its dual is the step of a local ascent ([`ascent`]).
 //! *Guarantee.* largest area ≤ (1 + ε)·area, from the leaves of the subdivision, which are the certificate. No ellipse is reported
@@ -13,15 +13,13 @@
 
 mod ascent;
 mod cell;
-mod levels;
 mod report;
 mod search;
 mod shape;
-mod starts;
 mod tree;
-pub(crate) mod units;
 mod view;
 mod weights;
+mod widths;
 
 use std::collections::BTreeMap;
 
@@ -29,12 +27,12 @@ use taut_certify::{EllipseCertificate, InscribedEllipse, Solution, Trace};
 use taut_points::{InputError, Monitor, PointSource, shown_number};
 
 use crate::Error;
+use crate::levels::Levels;
 use crate::polygon::Polygon;
+use crate::units::Units;
 
 use self::ascent::Ellipse;
-use self::levels::Levels;
 use self::shape::Shape;
-use self::units::Units;
 
 /// How to look for the ellipse. Write `EllipseOptions { epsilon: 1e-6, ..Default::default() }`.
 #[derive(Clone)]

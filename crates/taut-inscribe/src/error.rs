@@ -38,9 +38,9 @@ pub enum Error {
         /// The rows of the ends of the other one.
         other: [u64; 2],
     },
-    /// The area of the ellipse overflows or underflows.
+    /// The area of the shape overflows or underflows.
     #[error(
-        "the area of the ellipse is out of the range of double precision: scale the coordinates towards 1"
+        "the area of the shape is out of the range of double precision: scale the coordinates towards 1"
     )]
     Area,
     /// No point with coordinates in double precision was found that is provably inside.

@@ -6,6 +6,7 @@
 //! | the largest ellipse in a polygon, with holes | [`inscribed_ellipse()`] | largest area ≤ (1 + ε)·area, proved | O(n log n), and the cells of the search |
 //! | a large convex polygon in a polygon, with holes | [`inscribed_polygon()`] | inside, proved; largest area ≤ (1 + gap)·area, proved with a gap of up to 65 % | the ellipse, and O(n) for each turn of a side |
 //! | the largest rectangle along the axes in a polygon, with holes | [`inscribed_rectangle()`] | largest area ≤ (1 + ε)·area, proved | the cells of the search |
+//! | the largest triangle in a polygon, with holes | [`inscribed_triangle()`] | largest area ≤ (1 + ε)·area, proved | O(n log n), and the cells of the search |
 //! | convex bodies in a closed triangle mesh that cover much of it | [`inscribed_dops()`] | each lies inside, proved; how much they cover is an estimate | O(log n) for most events |
 //!
 //! ```
@@ -28,10 +29,15 @@ mod convex;
 mod dops;
 mod ellipse;
 mod error;
+mod inner_points;
+mod levels;
+mod pair;
 mod polygon;
 mod random;
 mod rectangle;
 mod simple;
+mod triangle;
+mod units;
 
 pub use circle::{CircleOptions, inscribed_circle};
 pub use convex::{ConvexOptions, inscribed_polygon};
@@ -39,3 +45,4 @@ pub use dops::{DopsOptions, inscribed_dops, triangle_rows};
 pub use ellipse::{EllipseOptions, inscribed_ellipse};
 pub use error::Error;
 pub use rectangle::{RectangleOptions, inscribed_rectangle};
+pub use triangle::{TriangleOptions, inscribed_triangle};

@@ -14,6 +14,7 @@
 //! | the largest ellipse in a polygon, with holes | [`inscribe::inscribed_ellipse()`] | largest area ≤ (1 + ε)·area, proved | [`inscribe`] |
 //! | the largest rectangle along the axes in a polygon | [`inscribe::inscribed_rectangle()`] | largest area ≤ (1 + ε)·area, proved | [`inscribe`] |
 //! | a large convex polygon in a polygon, with holes | [`inscribe::inscribed_polygon()`] | inside, proved; largest area ≤ (1 + gap)·area, proved | [`inscribe`] |
+//! | the largest triangle in a polygon, with holes | [`inscribe::inscribed_triangle()`] | largest area ≤ (1 + ε)·area, proved | [`inscribe`] |
 //! | center and scatter of most points, and the outliers | [`robust_ellipsoid()`] | all but the choice of points proved; that choice a local optimum | [`enclose`] |
 //! | convex bodies inside a closed triangle mesh | [`inscribe::inscribed_dops()`] | each lies inside, proved; coverage estimated | [`inscribe`] |
 //! | the Delaunay triangulation of points in the plane or in space | [`delaunay()`] | exact, a function of the point set alone, proved | [mod@delaunay] |
@@ -177,6 +178,8 @@ mod pages {
     struct Robust;
     #[doc = include_str!("../../../docs/surface.md")]
     struct Surface;
+    #[doc = include_str!("../../../docs/triangle.md")]
+    struct Triangle;
     #[doc = include_str!("../../../docs/memory/matrix.md")]
     struct Matrix;
     #[doc = include_str!("../../../docs/memory/order.md")]

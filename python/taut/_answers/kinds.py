@@ -18,6 +18,7 @@ from .polygon import ConvexCertificate, ConvexPolygon, ConvexVerdict
 from .rectangle import InscribedRectangle, RectangleCertificate, RectangleVerdict
 from .robust import RobustCertificate, RobustEllipsoid, RobustVerdict
 from .surface import Surface, SurfaceCertificate, SurfaceVerdict
+from .triangle import InscribedTriangle, TriangleCertificate, TriangleVerdict
 from .triangulation import Triangulation, TriangulationCertificate, TriangulationVerdict
 
 AnyVerdict = (
@@ -28,6 +29,7 @@ AnyVerdict = (
     | EllipseVerdict
     | ConvexVerdict
     | RectangleVerdict
+    | TriangleVerdict
     | BodiesVerdict
     | RobustVerdict
     | CentersVerdict
@@ -94,6 +96,13 @@ KINDS = {
         InscribedRectangle,
         RectangleCertificate,
         RectangleVerdict,
+        "lies in",
+        ("answer.area", "certificate.gap"),
+    ),
+    "inscribed-triangle": Kind(
+        InscribedTriangle,
+        TriangleCertificate,
+        TriangleVerdict,
         "lies in",
         ("answer.area", "certificate.gap"),
     ),

@@ -13,8 +13,7 @@ use taut_points::{Monitor, PointSource};
 
 use super::{ConvexCertificate, ConvexPolygon, ConvexVerdict, ConvexViolation};
 use crate::arithmetic::{DoubleDouble, Field, Ring, U};
-use crate::ellipse::Units;
-use crate::polygon::{self, Polygon, orientation};
+use crate::polygon::{self, Polygon, Units, orientation};
 use crate::{Answer, CheckError, Violation};
 
 /// How much the gap claimed may fall short of the gap proved, relatively and absolutely.

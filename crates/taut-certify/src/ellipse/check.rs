@@ -8,17 +8,14 @@
 
 mod bounds;
 mod contact;
-mod levels;
 mod replay;
-pub(crate) mod units;
 
 use taut_points::{Monitor, PointSource};
 
 use self::contact::Ellipse;
-use self::units::Units;
 use super::{EllipseCertificate, EllipseVerdict, EllipseViolation, InscribedEllipse};
 use crate::arithmetic::U;
-use crate::polygon::{self, Polygon};
+use crate::polygon::{self, Polygon, Units};
 use crate::{CheckError, Violation};
 
 /// How much the gap claimed may fall short of the gap proved, relatively and absolutely.

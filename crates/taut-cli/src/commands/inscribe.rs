@@ -5,6 +5,7 @@ mod dops;
 mod ellipse;
 mod polygon;
 mod rectangle;
+mod triangle;
 
 use taut::certify::InscribedEllipsoid;
 use taut::{InscribedOptions, Monitor, Solution, inscribed_ellipsoid};
@@ -21,7 +22,9 @@ use crate::watch::Watch;
 #[command(after_help = "\
 Example: taut inscribe circle ring.csv -o circle.json --draw circle.svg
 See: taut inscribe circle --help, taut inscribe dops --help, taut inscribe ellipse --help, taut inscribe ellipsoid --help,
-     taut inscribe polygon --help, taut inscribe rectangle --help")]
+     taut inscribe polygon --help, taut inscribe rectangle --help,
+
+     taut inscribe triangle --help")]
 pub(crate) struct Args {
     #[command(subcommand)]
     body: Body,
@@ -35,6 +38,7 @@ enum Body {
     Ellipsoid(Ellipsoid),
     Polygon(polygon::Polygon),
     Rectangle(rectangle::Rectangle),
+    Triangle(triangle::Triangle),
 }
 
 /// Find the ellipsoid of largest volume inside a polytope, given by half-spaces.
@@ -73,6 +77,7 @@ impl Args {
             Body::Ellipsoid(args) => pipeline::run(args),
             Body::Polygon(args) => pipeline::run(args),
             Body::Rectangle(args) => pipeline::run(args),
+            Body::Triangle(args) => pipeline::run(args),
         }
     }
 }

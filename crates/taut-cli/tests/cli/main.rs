@@ -13,6 +13,7 @@ mod inscribe_dops;
 mod inscribe_ellipse;
 mod inscribe_polygon;
 mod inscribe_rectangle;
+mod inscribe_triangle;
 #[cfg(unix)]
 mod interrupt;
 mod limits;

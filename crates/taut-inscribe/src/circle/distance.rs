@@ -6,6 +6,7 @@ const PRODUCT_ERROR: f64 = f64::from_bits((1023 - 93) << 52);
 /// Unit roundoff.
 const U: f64 = f64::EPSILON / 2.0;
 
+use crate::pair::{Pair, cross, minus};
 use crate::polygon::Segment;
 
 /// The edges of a polygon, with coordinates scaled by a power of two.
@@ -111,36 +112,6 @@ impl Edges {
         let size = |p: [f64; 2], q: [f64; 2]| (p[0] - q[0]).abs() + (p[1] - q[1]).abs();
         PRODUCT_ERROR * (size(p, a) + size(b, a))
     }
-}
-
-/// A number as the sum of two: the second at most half a unit of the last place of the first.
-type Pair = (f64, f64);
-
-/// a − b, exactly.
-fn minus(a: f64, b: f64) -> Pair {
-    let difference = a - b;
-    let of_b = a - difference;
-    (difference, (a - (difference + of_b)) + (of_b - b))
-}
-
-/// a·b, exactly unless something underflows.
-fn product(a: f64, b: f64) -> Pair {
-    let split = |x: f64| {
-        let wide = ((1u32 << 27) + 1) as f64 * x;
-        let high = wide - (wide - x);
-        (high, x - high)
-    };
-    let (product, (ah, al), (bh, bl)) = (a * b, split(a), split(b));
-    (product, ((ah * bh - product) + ah * bl + al * bh) + al * bl)
-}
-
-/// The cross product of two vectors, with an error of about u² times their lengths.
-fn cross(d: [Pair; 2], e: [Pair; 2]) -> f64 {
-    let ((left, left_rest), (right, right_rest)) =
-        (product(d[0].0, e[1].0), product(d[1].0, e[0].0));
-    let (high, low) = minus(left, right);
-    let rest = (d[0].0 * e[1].1 + d[0].1 * e[1].0) - (d[1].0 * e[0].1 + d[1].1 * e[0].0);
-    high + (low + (left_rest - right_rest) + rest)
 }
 
 /// Two powers of two whose product brings `largest` to [1, 2).

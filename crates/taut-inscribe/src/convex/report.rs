@@ -2,8 +2,8 @@
 
 use taut_predicates::plane::orient;
 
-use crate::ellipse::units::Units;
 use crate::polygon::Segment;
+use crate::units::Units;
 
 use super::region::{Region, cross, minus};
 

@@ -8,9 +8,9 @@
 use taut_points::{Cancelled, Monitor};
 
 use crate::ellipse::local_optima;
-use crate::ellipse::units::Units;
 use crate::polygon::Segment;
 use crate::random::Random;
+use crate::units::Units;
 
 use super::carve::{Metric, carve};
 use super::pivot::best_side;

@@ -4,7 +4,7 @@ use taut_certify::{InscribedEllipse, Stop};
 
 use super::ascent::Ellipse;
 use super::shape::Shape;
-use super::units::Units;
+use crate::units::Units;
 
 /// What rounding of coordinates, axes and distances can change, relative to what they are made of: 2⁻⁴⁷.
 const ROUNDING: f64 = f64::from_bits((1023 - 47) << 52);

@@ -13,14 +13,15 @@ use taut_points::Cancelled;
 
 use super::ascent::Ellipse;
 use super::cell::{Axis, Cell, Frame, Width};
-use super::levels::Levels;
 use super::shape::{Nearest, Shape};
 use super::tree::{self, Log, Node, Reason};
-use super::units::Units;
 use super::view::View;
 use super::weights::{self, Column};
-use super::{EllipseOptions, report, starts};
+use super::{EllipseOptions, report, widths};
+use crate::inner_points::inner_points;
+use crate::levels::Levels;
 use crate::polygon::Segment;
+use crate::units::Units;
 
 /// Cells between two looks at the monitor.
 const CELLS_BETWEEN_LOOKS: u64 = 256;
@@ -131,12 +132,12 @@ struct Search<'a> {
 
 /// Finds the largest ellipse, in units, and the tree that proves it.
 pub(super) fn search(units: &Units, options: &EllipseOptions<'_>) -> Result<Found, Cancelled> {
-    let directions = starts::narrow_directions(&units.edges);
+    let directions = widths::narrow_directions(&units.edges);
     let all = [[1.0, 0.0], [0.0, 1.0]].into_iter().chain(directions.iter().copied());
     let mut search = Search {
         units,
         levels: Levels::of(&units.edges, units.extent[1]),
-        widths: all.map(|direction| starts::width(&units.edges, direction)).collect(),
+        widths: all.map(|direction| widths::width(&units.edges, direction)).collect(),
         best: None,
         rounded: 0.0,
         nodes: vec![],
@@ -377,7 +378,7 @@ impl Search<'_> {
 /// The largest of the circles around middles of lines, in descending order.
 pub(super) fn largest_circles(units: &Units, most: usize) -> Vec<Ellipse> {
     let circle = |center| Ellipse::of(Shape::new(0.0, 1.0), center, &units.edges);
-    let centers = starts::centers(&units.edges, units.extent);
+    let centers = inner_points(&units.edges, units.extent);
     let mut circles: Vec<Ellipse> = centers.into_iter().map(circle).collect();
     circles.sort_by(|one, other| other.size.total_cmp(&one.size));
     circles.truncate(most);

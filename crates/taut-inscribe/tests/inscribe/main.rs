@@ -13,3 +13,5 @@ mod polygons;
 mod rectangles;
 mod rings;
 mod sampling;
+mod triangle_mutations;
+mod triangles;

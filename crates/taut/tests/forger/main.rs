@@ -50,6 +50,11 @@ fn no_false_rectangle_is_accepted() {
 }
 
 #[test]
+fn no_false_triangle_in_a_polygon_is_accepted() {
+    attack("triangle-in-polygon", &cases::triangle::all()).report("triangle-in-polygon");
+}
+
+#[test]
 fn no_false_order_is_accepted() {
     attack("order", &cases::order::all()).report("order");
 }

@@ -12,8 +12,8 @@
 use std::cmp::Ordering;
 
 use super::super::InscribedEllipse;
-use super::units::Units;
 use crate::arithmetic::{DoubleDouble, Field, Integer, Ring, U, parts};
+use crate::polygon::Units;
 
 /// Errors of values, in relative errors of operations and sums of the sizes of terms.
 const ERRORS: f64 = 128.0;

@@ -10,9 +10,8 @@ use taut_points::{Cancelled, Monitor, ReadError};
 
 use super::super::{EllipseCertificate, EllipseViolation};
 use super::bounds::{Cell, EDGES_MAX, Frame, Part, Width};
-use super::levels::Levels;
-use super::units::{COORDINATE_ERROR, Units};
 use crate::arithmetic::{U, two_sum};
+use crate::polygon::{COORDINATE_ERROR, Levels, Units};
 use crate::{CheckError, Violation};
 
 /// Nodes between two looks at the monitor.

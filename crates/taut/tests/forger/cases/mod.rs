@@ -16,6 +16,7 @@ pub mod order;
 pub mod rectangle;
 pub mod robust;
 pub mod surface;
+pub mod triangle;
 pub mod triangulation;
 
 use serde_json::Value;

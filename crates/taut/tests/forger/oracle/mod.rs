@@ -27,6 +27,7 @@ pub mod rectangle;
 pub mod robust;
 pub mod shapes;
 pub mod surface;
+pub mod triangle;
 pub mod triangulation;
 
 use std::collections::BTreeMap;
@@ -47,6 +48,7 @@ use self::order::OrderOracle;
 use self::rectangle::RectangleOracle;
 use self::robust::RobustOracle;
 use self::surface::SurfaceOracle;
+use self::triangle::TriangleOracle;
 use self::triangulation::TriangulationOracle;
 
 use crate::cases::Input;
@@ -96,6 +98,7 @@ pub struct CaseOracle<'a> {
     rectangle: Option<RectangleOracle>,
     robust: Option<RobustOracle>,
     surface: Option<SurfaceOracle>,
+    triangle: Option<TriangleOracle>,
     triangulation: Option<TriangulationOracle>,
 }
 
@@ -127,6 +130,7 @@ impl<'a> CaseOracle<'a> {
             rectangle: None,
             robust: None,
             surface: None,
+            triangle: None,
             triangulation: None,
         }
     }
@@ -193,6 +197,11 @@ impl<'a> CaseOracle<'a> {
                     self.surface.get_or_insert_with(|| SurfaceOracle::new(values, *columns));
                 oracle.judge(found, verdict)
             }
+            (AnySolution::Triangle(found), AnyVerdict::Triangle(verdict)) => {
+                let oracle =
+                    self.triangle.get_or_insert_with(|| TriangleOracle::new(values, *columns));
+                oracle.judge(found, verdict)
+            }
             (AnySolution::Triangulation(found), AnyVerdict::Triangulation(verdict)) => {
                 let oracle = self
                     .triangulation
@@ -243,6 +252,10 @@ impl<'a> CaseOracle<'a> {
             }
             (AnySolution::Ellipse(_), AnyVerdict::Ellipse(verdict)) => {
                 let optimum = "the largest area inside".to_owned();
+                vec![Interval { optimum, lower: verdict.lower, upper: verdict.upper }]
+            }
+            (AnySolution::Triangle(_), AnyVerdict::Triangle(verdict)) => {
+                let optimum = "the largest area of a triangle inside".to_owned();
                 vec![Interval { optimum, lower: verdict.lower, upper: verdict.upper }]
             }
             (AnySolution::Ellipsoid(found), AnyVerdict::Ellipsoid(verdict)) => {

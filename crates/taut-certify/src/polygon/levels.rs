@@ -3,8 +3,8 @@
 //! *Idea.* A segment tree over heights: each edge is kept at the few nodes that together make up the heights that it spans. The edges
 //! that a horizontal line can cross are at the nodes above one leaf.
 
+use super::crosses_left_of;
 use super::units::Units;
-use crate::polygon::crosses_left_of;
 
 /// Most leaves of the tree.
 const LEAVES_MAX: usize = 1 << 12;
@@ -13,13 +13,13 @@ const LEAVES_MAX: usize = 1 << 12;
 const HEIGHT_MAX: f64 = 2.0;
 
 /// The edges by height.
-pub(super) struct Levels {
+pub(crate) struct Levels {
     /// The edges of each node; node 1 is the root, and node i has the children 2i and 2i + 1.
     nodes: Vec<Vec<u32>>,
 }
 
 impl Levels {
-    pub(super) fn of(units: &Units) -> Self {
+    pub(crate) fn of(units: &Units) -> Self {
         let leaves = units.len().next_power_of_two().min(LEAVES_MAX);
         let mut levels = Levels { nodes: vec![vec![]; 2 * leaves] };
         for edge in 0..units.len() {
@@ -49,7 +49,7 @@ impl Levels {
     }
 
     /// Whether an odd number of edges cross the line to the left of p, by exact signs.
-    pub(super) fn is_inside(&self, units: &Units, p: [f64; 2]) -> bool {
+    pub(crate) fn is_inside(&self, units: &Units, p: [f64; 2]) -> bool {
         let (mut node, mut crossed) = (self.leaf(p[1]), 0);
         while node > 0 {
             let edges = self.nodes[node].iter();

@@ -3,11 +3,20 @@
 //! *Guarantee.* With a factor that brings the largest coordinate of an axis to [1, 2), differences of coordinates are right to u of
 //! themselves, and at most 4. Where an extent is not 0 it is at least 2⁻⁵³, so that it is brought to [1, 2] by a power of two below
 //! 2⁵⁴. What underflows is below 2⁻¹⁰⁷⁴ before that. A coordinate in units is off by less than [`COORDINATE_ERROR`].
+//!
+//! *Skewed units* have the second coordinate y + m·x, |m| ≤ 4, shifted and scaled like the first ones. Before scaling it is at most 10
+//! in size. It is off by five times the error of a coordinate, and by three roundings: less than [`SKEW_ERROR`].
 
-use crate::polygon::Polygon;
+use super::Polygon;
 
 /// Bound of the errors of coordinates in units: 2⁻⁵¹.
 pub(crate) const COORDINATE_ERROR: f64 = f64::from_bits((1023 - 51) << 52);
+
+/// Bound of the errors of skewed coordinates before they are scaled: 2⁻⁴⁷.
+const SKEW_ERROR: f64 = f64::from_bits((1023 - 47) << 52);
+
+/// Largest power of two by which skewed coordinates are scaled, so that their errors stay below 2⁻²³: 2²⁴.
+const GROWTH_MAX: f64 = (1u64 << 24) as f64;
 
 /// The vertices in units.
 pub(crate) struct Units {
@@ -15,6 +24,10 @@ pub(crate) struct Units {
     /// For each edge the vertex at which it ends.
     ends: Vec<u32>,
     axes: [Axis; 2],
+    /// The power of two by which skewed coordinates are scaled; 1 without a skew.
+    stretch: f64,
+    /// No coordinate of a vertex is off by more.
+    error: f64,
 }
 
 /// The map of a coordinate.
@@ -35,7 +48,32 @@ impl Units {
         let units = |p: &[f64; 2]| [axes[0].units(p[0]), axes[1].units(p[1])];
         let points = given.iter().map(units).collect();
         let ends = (0..polygon.len()).map(|edge| polygon.end(edge)).collect();
-        Units { points, ends, axes }
+        Units { points, ends, axes, stretch: 1.0, error: COORDINATE_ERROR }
+    }
+
+    /// The units with the second coordinate y + m·x, for |m| ≤ 4.
+    pub(crate) fn skewed(mut self, skew: f64) -> Self {
+        if skew == 0.0 {
+            return self;
+        }
+        let at = |p: &[f64; 2]| p[1] + skew * p[0];
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for p in &self.points {
+            (low, high) = (low.min(at(p)), high.max(at(p)));
+        }
+        let [one, other] = power_pair((high - low).max(0.0));
+        let growth = (one * other).min(GROWTH_MAX);
+        for p in &mut self.points {
+            p[1] = (at(p) - low) * growth;
+        }
+        self.stretch = growth;
+        self.error = COORDINATE_ERROR.max(SKEW_ERROR * growth);
+        self
+    }
+
+    /// A bound of the errors of the coordinates of vertices.
+    pub(crate) fn error(&self) -> f64 {
+        self.error
     }
 
     /// Edges, which are as many as vertices.
@@ -63,13 +101,13 @@ impl Units {
 
     /// An area of coordinates scaled by the factors, in units.
     pub(crate) fn grown(&self, area: f64) -> f64 {
-        area * self.axes[0].growth * self.axes[1].growth
+        area * self.axes[0].growth * self.axes[1].growth * self.stretch
     }
 
     /// An area in units as one of the input.
     pub(crate) fn given_area(&self, area: f64) -> f64 {
         let [one, other] = self.axes;
-        let scaled = area / one.growth / other.growth;
+        let scaled = area / self.stretch / one.growth / other.growth;
         // Large factors first meet small ones, so that nothing overflows on the way to a number that does not.
         let [mut f, mut g] = [one.factors, other.factors];
         if one.factors[0] > 1.0 {

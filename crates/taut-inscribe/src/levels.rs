@@ -11,7 +11,7 @@ use crate::polygon::Segment;
 const LEAVES_MAX: usize = 1 << 12;
 
 /// The edges by height.
-pub(super) struct Levels {
+pub(crate) struct Levels {
     /// Of each node the edges that span all of its heights; node 1 is the root, and node i has the children 2i and 2i + 1.
     nodes: Vec<Vec<u32>>,
     /// Leaves per unit of height.
@@ -19,7 +19,7 @@ pub(super) struct Levels {
 }
 
 impl Levels {
-    pub(super) fn of(edges: &[Segment], height: f64) -> Self {
+    pub(crate) fn of(edges: &[Segment], height: f64) -> Self {
         let leaves = edges.len().next_power_of_two().min(LEAVES_MAX);
         let mut levels =
             Levels { nodes: vec![vec![]; 2 * leaves], density: leaves as f64 / height };
@@ -48,7 +48,7 @@ impl Levels {
     }
 
     /// Whether an odd number of edges cross the line to the left of p.
-    pub(super) fn is_inside(&self, edges: &[Segment], p: [f64; 2]) -> bool {
+    pub(crate) fn is_inside(&self, edges: &[Segment], p: [f64; 2]) -> bool {
         let mut node = self.nodes.len() / 2 + self.leaf(p[1]);
         let mut is_inside = false;
         while node > 0 {
@@ -61,7 +61,7 @@ impl Levels {
 }
 
 /// Whether an edge crosses the horizontal line through p to the left of it.
-fn is_left([a, b]: Segment, p: [f64; 2]) -> bool {
+pub(crate) fn is_left([a, b]: Segment, p: [f64; 2]) -> bool {
     if (a[1] <= p[1]) == (b[1] <= p[1]) {
         return false;
     }

@@ -1,9 +1,10 @@
 //! The polygon in units of its bounding box.
 //!
-//! *Idea.* Ellipses stay ellipses when an axis is scaled, and their areas keep their ratios. Each axis is shifted by the lower end
-//! of the bounding box and scaled by a power of two that brings its extent to [1, 2): needles along an axis and polygons far from
-//! the origin are then as good as any other.
+//! *Idea.* Ellipses and triangles stay what they are when an axis is scaled, and their areas keep their ratios. Each axis is shifted by
+//! the lower end of the bounding box and scaled by a power of two that brings its extent to [1, 2): needles along an axis and
+//! polygons far from the origin are then as good as any other.
 
+use crate::pair::{Pair, minus};
 use crate::polygon::Segment;
 
 /// The edges in units of the bounding box.
@@ -47,6 +48,13 @@ impl Units {
         })
     }
 
+    /// A difference of two coordinates of the input along an axis, in units.
+    pub(crate) fn difference(&self, axis: usize, a: f64, b: f64) -> Pair {
+        let Axis { factors: [one, other], growth, .. } = self.axes[axis];
+        let (high, low) = minus(a * one * other, b * one * other);
+        (high * growth, low * growth)
+    }
+
     /// A length along an axis, as in the input.
     pub(crate) fn given_length(&self, axis: usize, length: f64) -> f64 {
         let axis = self.axes[axis];
@@ -70,7 +78,7 @@ impl Axis {
 }
 
 /// Two powers of two whose product brings a number above 0 to [1, 2); both 1 for 0.
-fn factors_of(largest: f64) -> [f64; 2] {
+pub(crate) fn factors_of(largest: f64) -> [f64; 2] {
     let exponent = match largest {
         0.0 => 0,
         x if x >= f64::MIN_POSITIVE => (x.to_bits() >> 52) as i32 - 1023,

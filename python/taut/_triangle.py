@@ -1,0 +1,58 @@
+"""Largest triangles in polygons."""
+
+from __future__ import annotations
+
+from numpy.typing import ArrayLike
+
+from . import _native
+from ._arrays import as_rows
+from ._solution import Solution
+
+
+def inscribed_triangle(polygon: ArrayLike, *, epsilon: float = 1e-3, max_cells: int = 1_000_000) -> Solution:
+    """Triangle of largest area in a polygon, with a certificate.
+
+    Parameters
+    ----------
+    polygon : array_like of shape (n, 2) or (n, 3)
+        The vertices of one ring in order, or of several rings, with holes and parts, as rows (x, y, number of the ring): numbers
+        are 0, 1, and so on, and inside is what an odd number of rings wind around. The last vertex of a ring may repeat its first.
+        An array of float32 or float64 in C order is read where it lies; anything else is first converted by NumPy, as by `ball`.
+    epsilon : float in (0, 1), default 1e-3
+        Relative gap to prove, largest area <= (1 + epsilon) * area.
+    max_cells : int >= 1, default 1_000_000
+        Most cells of the certificate; where epsilon takes more, a larger gap is proved.
+
+    Returns
+    -------
+    Solution
+        ``answer`` is an `InscribedTriangle` with ``corners`` and ``area``; then ``certificate`` and ``trace``.
+
+    Raises
+    ------
+    ValueError
+        When rings cross or touch, with two edges; when a ring has fewer than 3 distinct vertices or a wrong number; when a number
+        is NaN or infinite, or an option is out of range.
+    KeyboardInterrupt
+        Ctrl-C stops the work.
+
+    See Also
+    --------
+    inscribed_circle : the largest circle in a polygon.
+    inscribed_ellipse : the ellipse of largest area in a polygon.
+
+    Examples
+    --------
+    Half of a square is best, and a hole in the way leaves less:
+
+    >>> import taut
+    >>> outer = [[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0]]
+    >>> round(taut.inscribed_triangle(outer).answer.area, 6)
+    8.0
+    >>> hole = [[1, 1, 1], [3, 1, 1], [3, 3, 1], [1, 3, 1]]
+    >>> found = taut.inscribed_triangle(outer + hole)
+    >>> found.answer.area < 4, found.check(outer + hole).gap <= 1.001e-3
+    (True, True)
+    """
+    rows = as_rows(polygon)
+    return Solution(_native.inscribed_triangle(rows, epsilon, max_cells), rows)
