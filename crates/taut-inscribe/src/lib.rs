@@ -4,7 +4,7 @@
 //! |---|---|---|---|
 //! | the largest circle in a polygon, with holes | [`inscribed_circle()`] | largest radius ≤ (1 + ε)·radius, proved | O(n log n) for most rings, and the cells of the search |
 //! | the largest ellipse in a polygon, with holes | [`inscribed_ellipse()`] | largest area ≤ (1 + ε)·area, proved | O(n log n), and the cells of the search |
-//! | convex bodies in a closed triangle mesh that cover much of it | [`inscribed_dops()`] | each lies inside, proved; how much they cover is an estimate | O(log n) for most events |
+//! | convex bodies in a triangle mesh that cover much of it | [`inscribed_bodies()`] | each lies inside, proved; how much they cover is an estimate | O(log n) for most events |
 //!
 //! ```
 //! use taut_inscribe::{CircleOptions, inscribed_circle};
@@ -18,17 +18,17 @@
 //! ```
 //!
 //! A polygon is one ring of points (x, y), or several rings of points (x, y, number of the ring): holes and parts, by the
-//! even-odd rule. Not for: rings that touch or cross each other or themselves, and meshes with a boundary.
+//! even-odd rule. Not for: rings that touch or cross each other or themselves.
 #![forbid(unsafe_code)]
 
+mod bodies;
 mod circle;
-mod dops;
 mod ellipse;
 mod error;
 mod polygon;
 mod simple;
 
+pub use bodies::{BodiesOptions, BodyShape, inscribed_bodies, triangle_rows};
 pub use circle::{CircleOptions, inscribed_circle};
-pub use dops::{DopsOptions, inscribed_dops, triangle_rows};
 pub use ellipse::{EllipseOptions, inscribed_ellipse};
 pub use error::Error;

@@ -29,7 +29,7 @@ pub(super) fn opposite(i: usize) -> usize {
     i ^ 1
 }
 
-const AXES: [[i64; 3]; 3] = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
+pub(super) const AXES: [[i64; 3]; 3] = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
 const EDGES: [[i64; 3]; 6] = [[1, 1, 0], [1, -1, 0], [1, 0, 1], [1, 0, -1], [0, 1, 1], [0, 1, -1]];
 const CORNERS: [[i64; 3]; 4] = [[1, 1, 1], [1, 1, -1], [1, -1, 1], [1, -1, -1]];
 
@@ -38,7 +38,14 @@ impl Directions {
     pub(super) fn of(kind: usize) -> Self {
         let edges: &[[i64; 3]] = if kind >= 18 { &EDGES } else { &[] };
         let corners: &[[i64; 3]] = if kind == 14 || kind == 26 { &CORNERS } else { &[] };
-        let pairs = AXES.iter().chain(edges).chain(corners);
+        let pairs: Vec<[i64; 3]> = edges.iter().chain(corners).copied().collect();
+        Self::with_axes_and(&pairs)
+    }
+
+    /// The directions of the axes and of other pairs: of each pair one direction is given, without common divisor. At most
+    /// [`DIRECTIONS_MAX`] directions, no two of them equal.
+    pub(super) fn with_axes_and(pairs: &[[i64; 3]]) -> Self {
+        let pairs = AXES.iter().chain(pairs);
         let normals: Vec<_> = pairs.flat_map(|u| [*u, u.map(|n| -n)]).collect();
         let combinations = (0..normals.len()).map(|i| combinations(&normals, i)).collect();
         Directions { normals, combinations }
@@ -63,6 +70,13 @@ impl Directions {
         };
         let least = self.combinations[i].iter().map(of_one).min();
         least.map_or(bound, |least| least.min(i64::from(bound)) as i32)
+    }
+
+    /// Moves redundant facets inward until they touch the body.
+    pub(super) fn tighten(&self, h: &mut Offsets) {
+        for i in 0..self.len() {
+            h[i] = self.redundant_at(i, h, h[i]).min(h[i]);
+        }
     }
 
     /// Whether a point of the grid is in the interior of a body.
