@@ -17,6 +17,7 @@
 
 mod caps;
 mod clip;
+mod cloud;
 mod coverage;
 mod directions;
 mod fitted;

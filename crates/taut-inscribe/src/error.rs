@@ -72,8 +72,8 @@ pub enum Error {
     NoInside,
     /// The holes of the mesh are so large that inside and outside cannot be told apart.
     #[error(
-        "inside is ambiguous: wherever a body fits, the triangles that close the holes of the mesh fill at least half of the \
-         view; close the mesh where it is meant to be closed"
+        "inside is ambiguous: wherever a body fits, the triangles that close the holes of the mesh fill at least a third of \
+         the view; close the mesh where it is meant to be closed"
     )]
     Ambiguous,
     /// No body contains one of the points given.

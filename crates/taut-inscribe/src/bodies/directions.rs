@@ -20,6 +20,8 @@ pub(super) struct Combination {
 /// The directions u₀, u₁, …, of which u₁ = −u₀, u₃ = −u₂ and so on. The first six are those of the axes.
 pub(super) struct Directions {
     pub(super) normals: Vec<[i64; 3]>,
+    /// The same in floating point.
+    pub(super) floats: Vec<[f64; 3]>,
     /// For each direction all ways to combine it from up to three others.
     pub(super) combinations: Vec<Vec<Combination>>,
 }
@@ -48,7 +50,8 @@ impl Directions {
         let pairs = AXES.iter().chain(pairs);
         let normals: Vec<_> = pairs.flat_map(|u| [*u, u.map(|n| -n)]).collect();
         let combinations = (0..normals.len()).map(|i| combinations(&normals, i)).collect();
-        Directions { normals, combinations }
+        let floats = normals.iter().map(|u| u.map(|n| n as f64)).collect();
+        Directions { normals, floats, combinations }
     }
 
     pub(super) fn len(&self) -> usize {

@@ -143,26 +143,29 @@ impl Family for Fitted<'_> {
         }
     }
 
+    fn variants(&mut self, body: &FittedBody) -> Result<Vec<FittedBody>, Error> {
+        let FittedBody::Free(free) = body else { return Ok(vec![body.clone()]) };
+        // From the same start, with more facets.
+        let mut full = free.clone();
+        self.full.grow(&mut full)?;
+        let directions = Arc::new(self.directions(&full));
+        self.turn(&directions);
+        let clearance = self.tree.squared_distance(free.anchor).sqrt();
+        let start = Start { point: free.anchor, clearance, is_given: free.is_given };
+        let mut dop = self.space.small(&start);
+        self.space.grow(&mut dop)?;
+        Ok(vec![body.clone(), FittedBody::Dop(directions, dop)])
+    }
+
     fn prepare(&mut self, body: &mut FittedBody) -> Result<(), Error> {
         match body {
             FittedBody::Dop(directions, _) => {
                 let directions = Arc::clone(directions);
                 self.turn(&directions);
+                Ok(())
             }
-            FittedBody::Free(free) => {
-                // From the same start, with more facets.
-                let mut full = free.clone();
-                self.full.grow(&mut full)?;
-                let directions = Arc::new(self.directions(&full));
-                self.turn(&directions);
-                let clearance = self.tree.squared_distance(free.anchor).sqrt();
-                let start = Start { point: free.anchor, clearance, is_given: free.is_given };
-                let mut dop = self.space.small(&start);
-                self.space.grow(&mut dop)?;
-                *body = FittedBody::Dop(directions, dop);
-            }
+            FittedBody::Free(free) => self.free.prepare(free),
         }
-        Ok(())
     }
 
     fn change(&mut self, body: &FittedBody) -> Result<FittedBody, Error> {

@@ -13,7 +13,8 @@ use std::sync::Arc;
 
 use taut_points::Monitor;
 
-use super::grow::GIVEN_MARGIN;
+use super::cloud::Cloud;
+use super::grow::ANCHOR_MARGIN;
 use super::pack::{Family, Start};
 use super::polytope::{self, Sides};
 use super::random::Random;
@@ -43,6 +44,8 @@ pub(super) struct FreeBody {
     pub(super) anchor: [i32; 3],
     /// Whether the body has to contain the point.
     pub(super) is_given: bool,
+    /// The points to cover in the body.
+    covered: Arc<Vec<[f64; 3]>>,
 }
 
 /// What bodies grow in, and the points to cover.
@@ -52,7 +55,7 @@ pub(super) struct Free<'a> {
     random: Random,
     /// Planes so far.
     events: u64,
-    points: Vec<[f64; 3]>,
+    points: Cloud,
     /// Facets of a body, at most.
     facets_max: usize,
     monitor: Monitor<'a>,
@@ -66,26 +69,26 @@ impl<'a> Free<'a> {
         monitor: Monitor<'a>,
     ) -> Self {
         let tree = Arc::clone(tree);
-        Free { tree, obstacles: vec![], random, events: 0, points: vec![], facets_max, monitor }
+        let points = Cloud::default();
+        Free { tree, obstacles: vec![], random, events: 0, points, facets_max, monitor }
     }
 
     /// The body with planes around the center of a metric; `None` where there is none.
     fn around(&mut self, metric: &Metric, body: &FreeBody) -> Option<FreeBody> {
         let blocks = Blocks { tree: &self.tree, obstacles: &self.obstacles };
         let point = body.anchor.map(f64::from);
-        let kept = Kept { point, margin: f64::from(GIVEN_MARGIN) };
+        let kept = Kept { point, margin: f64::from(ANCHOR_MARGIN) };
         let kept = body.is_given.then_some(kept);
         let sides = planes::around(&blocks, metric, kept, self.facets_max);
         self.events += sides.as_ref().map_or(1, |sides| sides.normals.len() as u64);
         let anchor =
             if body.is_given { body.anchor } else { metric.center.map(|x| x.round() as i32) };
         let sides = sides?;
-        sides.contains(anchor.map(f64::from)).then_some(FreeBody { sides, anchor, ..*body })
-    }
-
-    /// The points to cover in a body.
-    fn covered(&self, body: &FreeBody) -> Vec<[f64; 3]> {
-        self.points.iter().copied().filter(|&p| body.sides.contains(p)).collect()
+        if !sides.contains(anchor.map(f64::from)) {
+            return None;
+        }
+        let covered = Arc::new(self.points.inside(&sides));
+        Some(FreeBody { sides, anchor, is_given: body.is_given, covered })
     }
 
     /// A direction of length 1.
@@ -126,11 +129,12 @@ impl Family for Free<'_> {
         let offset = |u: &[f64; 3]| (dot(*u, point) + 0.57 * start.clearance).floor();
         let offsets = normals.iter().map(offset).collect();
         let sides = Sides { normals, offsets };
-        FreeBody { sides, anchor: start.point, is_given: start.is_given }
+        let covered = Arc::new(vec![]);
+        FreeBody { sides, anchor: start.point, is_given: start.is_given, covered }
     }
 
     fn aim(&mut self, points: Vec<[i32; 3]>) {
-        self.points = points.into_iter().map(|p| p.map(f64::from)).collect();
+        self.points = Cloud::of(&points);
     }
 
     fn set_obstacles(&mut self, bodies: &[&FreeBody]) {
@@ -146,28 +150,29 @@ impl Family for Free<'_> {
 
     fn grow(&mut self, body: &mut FreeBody) -> Result<(), Error> {
         self.monitor.check()?;
-        let mut score = self.score(body);
+        self.prepare(body)?;
         let mut metric = Metric::round(body.anchor.map(f64::from));
         for _ in 0..=ROUNDS {
             let Some(found) = self.around(&metric, body) else { break };
-            let covered = self.covered(&found);
-            if covered.len() as u64 >= score {
-                (*body, score) = (found, covered.len() as u64);
+            let next = Metric::of_inertia(&found.covered);
+            if found.covered.len() >= body.covered.len() {
+                *body = found;
             }
-            let Some(next) = Metric::of_inertia(covered.iter().copied()) else { break };
+            let Some(next) = next else { break };
             metric = next;
         }
         Ok(())
     }
 
-    fn prepare(&mut self, _body: &mut FreeBody) -> Result<(), Error> {
+    fn prepare(&mut self, body: &mut FreeBody) -> Result<(), Error> {
+        body.covered = Arc::new(self.points.inside(&body.sides));
         Ok(())
     }
 
     fn change(&mut self, body: &FreeBody) -> Result<FreeBody, Error> {
         self.monitor.check()?;
-        let covered = self.covered(body);
-        let metric = Metric::of_inertia(covered.iter().copied());
+        let covered = &body.covered;
+        let metric = Metric::of_inertia(covered);
         let mut metric = metric.unwrap_or_else(|| Metric::round(body.anchor.map(f64::from)));
         for _ in 0..STRETCHES {
             let axis = self.direction();
@@ -183,7 +188,7 @@ impl Family for Free<'_> {
     }
 
     fn score(&self, body: &FreeBody) -> u64 {
-        self.points.iter().filter(|&&p| body.sides.contains(p)).count() as u64
+        body.covered.len() as u64
     }
 
     fn contains(&self, body: &FreeBody, p: [i32; 3]) -> bool {

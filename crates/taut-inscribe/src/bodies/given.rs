@@ -7,7 +7,7 @@ use super::tree::Tree;
 use crate::Error;
 
 /// Units of the grid between a given point and the nearest triangle, at least: a cube in this ball has room for the margin that
-/// [`GIVEN_MARGIN`](super::grow::GIVEN_MARGIN) keeps.
+/// [`ANCHOR_MARGIN`](super::grow::ANCHOR_MARGIN) keeps.
 const GIVEN_CLEARANCE_MIN: f64 = 40.0;
 
 /// Returns the start of the body of each point. Refuses points around which there is no room.
@@ -30,7 +30,7 @@ pub(super) fn starts(
             return wrong("is outside of the mesh");
         }
         if !mesh.sees_mesh(point) {
-            return wrong("is before a hole: caps fill at least half of the view from there");
+            return wrong("is before a hole: caps fill at least a third of the view from there");
         }
         starts.push(Start { point, clearance, is_given: true });
     }

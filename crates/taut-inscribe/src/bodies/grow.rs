@@ -10,7 +10,7 @@ use super::pack::{Family, Start};
 use super::polytope::{self, Sides};
 use super::random::Random;
 use super::scores::Scores;
-use super::tree::Tree;
+use super::tree::{self, Tree};
 use crate::Error;
 
 /// The part of its width by which a body may grow at once in the first rounds of growth; afterwards there is no limit.
@@ -31,10 +31,10 @@ const RUINED_WIDTH_MAX: f64 = 0.5;
 /// Draws of a sample point to keep while facets are moved inward; without success the point of the last time is kept.
 const ANCHOR_DRAWS_MAX: usize = 16;
 
-/// Units of the grid between a given point and each facet, per unit of the sum |uᵢ|₁, at least: the proof moves facets inward by
-/// up to 4 units, for disjoint bodies by up to 4 more, and by |uᵢ|₁ where coordinates are rounded, and then the point as given,
-/// which may differ from its place on the grid by one unit in each coordinate, is still in the body.
-pub(super) const GIVEN_MARGIN: i32 = 12;
+/// Units of the grid between the point of a body and each facet that moves inward, per unit of the sum |uᵢ|₁, at least: the proof
+/// moves facets inward by up to 4 units, for disjoint bodies by up to 4 more, and by |uᵢ|₁ where coordinates are rounded. Then
+/// the point is still in the body, and so is a given one that differs from its place on the grid by a unit in each coordinate.
+pub(super) const ANCHOR_MARGIN: i32 = 12;
 
 /// A body that no triangle enters, and a point of the grid in its interior.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,22 +77,20 @@ impl Obstacle {
     /// The distance from a point to the body.
     pub(super) fn distance(&self, p: [i32; 3]) -> f64 {
         let p = p.map(f64::from);
-        let distances = self.triangles.iter().map(|t| super::tree::squared_distance(p, t));
+        let distances = self.triangles.iter().map(|t| tree::squared_distance(p, t));
         distances.fold(f64::INFINITY, f64::min).sqrt()
     }
 
     fn event(&self, i: usize, h: &Offsets, most: i32, directions: &Directions) -> i32 {
         let mut limits = *h;
         limits[i] = most;
-        let reaches = |heights: &Offsets, limits: &Offsets| {
-            heights[..directions.len()].iter().zip(limits).all(|(height, limit)| height < limit)
-        };
-        if !reaches(&self.all, &limits) {
+        let k = directions.len();
+        if !tree::reaches(&self.all[..k], &limits) {
             return most;
         }
         for (triangle, heights) in self.triangles.iter().zip(&self.heights) {
-            if reaches(heights, &limits)
-                && let Some(height) = clip::lowest(triangle, i, h, directions)
+            if tree::reaches(&heights[..k], &limits)
+                && let Some(height) = clip::lowest(triangle, heights, i, h, directions)
             {
                 limits[i] = limits[i].min((height + clip::TOUCH).floor() as i32);
             }
@@ -178,8 +176,7 @@ impl<'a> Space<'a> {
             let width = f64::from(changed.h[i] + changed.h[opposite(i)]);
             let inward = (RUINED_WIDTH_MAX * self.random.unit() * width) as i32;
             let sum: i64 = directions.normals[i].iter().map(|n| n.abs()).sum();
-            let margin = if dop.is_given { GIVEN_MARGIN * sum as i32 } else { 1 };
-            let least = directions.along(i, changed.anchor) as i32 + margin;
+            let least = directions.along(i, changed.anchor) as i32 + ANCHOR_MARGIN * sum as i32;
             changed.h[i] = (changed.h[i] - inward).max(least.min(changed.h[i]));
         }
         directions.tighten(&mut changed.h);

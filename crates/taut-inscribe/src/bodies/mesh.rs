@@ -17,6 +17,10 @@ const UNITS_MAX: f64 = (1u64 << 60) as f64;
 /// Most triangles, so that rows have 32-bit numbers.
 const TRIANGLES_MAX: u64 = u32::MAX as u64 / 4;
 
+/// The part of the view from an inner point that caps may fill. From near a flat cap it is a half; from the middle of half a ball it
+/// is 0.3, and a third is reached in bowls that are flatter.
+const CAPS_VIEW_MAX: f64 = 1.0 / 3.0;
+
 /// The corners of a triangle, as given.
 type Triangle = [[f64; 3]; 3];
 
@@ -118,11 +122,11 @@ impl GridMesh {
         Ok(GridMesh { exponent, origin, corners, caps, is_exact, points_hash })
     }
 
-    /// Whether caps fill less than half of the view from a point, so that the mesh itself and not its caps makes it an inner one.
+    /// Whether the mesh without its caps makes a point an inner one: caps fill less than a third of the view from there.
     pub(super) fn sees_mesh(&self, p: [i32; 3]) -> bool {
         let rows = self.corners.len() - self.caps.len();
-        let caps = &self.corners[rows..];
-        caps.iter().map(|cap| caps::solid_angle(cap, p)).sum::<f64>() < 2.0 * std::f64::consts::PI
+        let filled: f64 = self.corners[rows..].iter().map(|cap| caps::solid_angle(cap, p)).sum();
+        filled < CAPS_VIEW_MAX * 4.0 * std::f64::consts::PI
     }
 
     /// The place of a point on the grid, rounded; `None` beyond the bounding box of the mesh, or for what is no number.

@@ -53,6 +53,11 @@ pub(super) trait Family {
     /// Grows a small body.
     fn grow(&mut self, body: &mut Self::Body) -> Result<(), Error>;
 
+    /// Returns the bodies with which random changes begin instead of a body that has grown.
+    fn variants(&mut self, body: &Self::Body) -> Result<Vec<Self::Body>, Error> {
+        Ok(vec![body.clone()])
+    }
+
     /// Gets ready for changes of a body.
     fn prepare(&mut self, body: &mut Self::Body) -> Result<(), Error>;
 
@@ -173,11 +178,11 @@ impl<'a, F: Family> Packing<'a, F> {
             self.aim_around(body);
             let mut grown = self.bodies[body].clone();
             self.family.grow(&mut grown)?;
-            self.family.prepare(&mut grown)?;
             let until = until(self.family.events(), body);
-            self.recreate(&mut grown, until)?;
-            self.covers[body] = self.cover(&grown);
-            self.bodies[body] = grown;
+            if let Some((_, grown)) = self.best(vec![grown], until)? {
+                self.covers[body] = self.cover(&grown);
+                self.bodies[body] = grown;
+            }
         }
         for body in self.bodies.len()..count {
             if self.is_covered() {
@@ -203,15 +208,28 @@ impl<'a, F: Family> Packing<'a, F> {
         }
         grown.sort_by_key(|(score, _)| std::cmp::Reverse(*score));
         grown.truncate(IMPROVED_STARTS);
-        let left = until.saturating_sub(self.family.events()) / grown.len().max(1) as u64;
-        for (score, body) in &mut grown {
-            self.family.prepare(body)?;
-            let until = self.family.events() + left;
-            *score = self.recreate(body, until)?;
+        let best = self.best(grown.into_iter().map(|(_, body)| body).collect(), until)?;
+        Ok(best.filter(|(score, _)| *score > 0).map(|(_, body)| body))
+    }
+
+    /// Improves bodies that have grown and returns the best of them with its score.
+    fn best(&mut self, grown: Vec<F::Body>, until: u64) -> Result<Option<(u64, F::Body)>, Error> {
+        let mut variants = vec![];
+        for body in &grown {
+            variants.append(&mut self.family.variants(body)?);
         }
-        // Of equal ones the first.
-        grown.sort_by_key(|(score, _)| std::cmp::Reverse(*score));
-        Ok(grown.into_iter().next().filter(|(score, _)| *score > 0).map(|(_, body)| body))
+        let left = until.saturating_sub(self.family.events()) / variants.len().max(1) as u64;
+        let mut best: Option<(u64, F::Body)> = None;
+        for mut body in variants {
+            self.family.prepare(&mut body)?;
+            let until = self.family.events() + left;
+            let score = self.recreate(&mut body, until)?;
+            // Of equal ones the first.
+            if best.as_ref().is_none_or(|(least, _)| score > *least) {
+                best = Some((score, body));
+            }
+        }
+        Ok(best)
     }
 
     /// Points among those open that are far from all triangles, the farthest first, each outside the balls around the others.

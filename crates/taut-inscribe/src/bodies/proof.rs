@@ -80,15 +80,13 @@ pub(super) fn prove_dop(
         }
     }
     make_disjoint(directions, &mut h, others)?;
-    let inside = interior_point(directions, &h, dop.anchor)?;
-    if tree.is_inside(inside) != Some(true) || !mesh.sees_mesh(inside) {
-        return None;
-    }
+    let sides = Sides::of_dop(directions, &h);
+    let inside = inner_point(mesh, tree, &sides, &Sides::of_dop(directions, &dop.h), dop.anchor)?;
     let unit = 2f64.powi(mesh.exponent);
     let body = ConvexBody {
         normals: directions.normals.clone(),
         offsets: h[..directions.len()].iter().map(|&h| h.into()).collect(),
-        volume: polytope::volume(&Sides::of_dop(directions, &h), inside) * unit * unit * unit,
+        volume: polytope::volume(&sides, inside) * unit * unit * unit,
     };
     Some((h, body, BodyProof { inside: inside.map(i64::from), combined }))
 }
@@ -229,14 +227,24 @@ fn separation(directions: &Directions, one: &Offsets, other: &Offsets) -> Option
     None
 }
 
-/// A point of the grid in the interior, near the center of the corners of a body.
-fn interior_point(directions: &Directions, h: &Offsets, anchor: [i32; 3]) -> Option<[i32; 3]> {
-    if !directions.contains(h, anchor) {
-        return None;
-    }
-    let corners: Vec<[f64; 3]> =
-        polytope::facets(&Sides::of_dop(directions, h), anchor).into_iter().flatten().collect();
+/// Returns a point of the grid in the interior of a body after its facets moved inward, from which the mesh is seen, and not its
+/// caps alone; `None` for a body without such a point, or outside. The center of the corners before is tried first, then the
+/// anchor, which is in the interior before, then the middles between center and corners.
+pub(super) fn inner_point(
+    mesh: &GridMesh,
+    tree: &Tree,
+    after: &Sides,
+    before: &Sides,
+    anchor: [i32; 3],
+) -> Option<[i32; 3]> {
+    let corners: Vec<[f64; 3]> = polytope::facets(before, anchor).concat();
     let mean = |c: usize| corners.iter().map(|p| p[c]).sum::<f64>() / corners.len() as f64;
-    let center = [0, 1, 2].map(|c| mean(c).round() as i32);
-    Some(if directions.contains(h, center) { center } else { anchor })
+    let center = [0, 1, 2].map(mean);
+    let rounded = |p: [f64; 3]| p.map(|x| x.round() as i32);
+    let middle = |p: &[f64; 3]| rounded([0, 1, 2].map(|c| f64::midpoint(p[c], center[c])));
+    let found = [rounded(center), anchor]
+        .into_iter()
+        .chain(corners.iter().map(middle))
+        .find(|&p| after.contains(p.map(f64::from)) && mesh.sees_mesh(p))?;
+    (tree.is_inside(found) == Some(true)).then_some(found)
 }

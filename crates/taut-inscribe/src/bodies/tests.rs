@@ -39,9 +39,11 @@ fn by_weights(directions: &Directions, i: usize, h: &Offsets, most: i32, all: &[
 
 /// The event by all triangles, each clipped.
 fn by_clipping(directions: &Directions, i: usize, h: &Offsets, most: i32, all: &[Triangle]) -> i32 {
-    let clipped = all
-        .iter()
-        .filter_map(|corners| clip::lowest(&corners.map(|p| p.map(f64::from)), i, h, directions));
+    let clipped = all.iter().filter_map(|corners| {
+        let least = |j| corners.map(|p| directions.along(j, p) as i32).into_iter().min();
+        let heights: Vec<i32> = (0..directions.len()).filter_map(least).collect();
+        clip::lowest(&corners.map(|p| p.map(f64::from)), &heights, i, h, directions)
+    });
     clipped.map(|height| (height + TOUCH).floor() as i32).fold(most, i32::min).max(h[i])
 }
 

@@ -130,9 +130,6 @@ impl Tree {
         let k = self.directions.len();
         let mut limits = *h;
         limits[i] = most;
-        let reaches = |heights: &[i32], limits: &Offsets| {
-            heights.iter().zip(limits).all(|(height, limit)| height < limit)
-        };
         let mut stack = vec![0u32];
         while let Some(at) = stack.pop() {
             let at = at as usize;
@@ -148,9 +145,11 @@ impl Tree {
                 continue;
             }
             for t in node.first as usize..node.end as usize {
-                if reaches(&self.heights[t * k..][..k], &limits) {
+                let heights = &self.heights[t * k..][..k];
+                if reaches(heights, &limits) {
                     let corners = self.corners[t].map(|p| p.map(f64::from));
-                    if let Some(height) = clip::lowest(&corners, i, h, &self.directions) {
+                    let lowest = clip::lowest(&corners, heights, i, h, &self.directions);
+                    if let Some(height) = lowest {
                         limits[i] = limits[i].min((height + TOUCH).floor() as i32);
                     }
                 }
@@ -162,10 +161,9 @@ impl Tree {
     /// Calls a function for each triangle that no single facet separates from a body, until it returns false.
     pub(super) fn near(&self, h: &Offsets, mut each: impl FnMut(usize) -> bool) -> bool {
         let k = self.directions.len();
-        let reaches = |heights: &[i32]| heights.iter().zip(h).all(|(height, limit)| height < limit);
         self.walk(
-            |at| reaches(&self.node_heights[at * k..][..k]),
-            |t| !reaches(&self.heights[t * k..][..k]) || each(t),
+            |at| reaches(&self.node_heights[at * k..][..k], h),
+            |t| !reaches(&self.heights[t * k..][..k], h) || each(t),
         )
     }
 
@@ -273,6 +271,12 @@ impl Tree {
         }
         true
     }
+}
+
+/// Whether all heights are below their limits: no facet alone keeps the triangles out. Without a branch for each, as most of the
+/// comparisons go either way.
+pub(super) fn reaches(heights: &[i32], limits: &Offsets) -> bool {
+    heights.iter().zip(limits).fold(true, |all, (height, limit)| all & (height < limit))
 }
 
 /// Splits rows at the median along the axis in which their centers spread most, and appends the nodes.

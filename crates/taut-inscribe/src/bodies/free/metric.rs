@@ -3,7 +3,7 @@
 use super::super::vectors::{dot, minus, plus};
 
 /// The part of the mean variance that is added to all variances, so that flat sets of points have a metric.
-const VARIANCE_MIN: f64 = 1e-4;
+const VARIANCE_MIN: f64 = 1e-6;
 
 /// The length of x in the metric is that of `rows`·x.
 #[derive(Clone, Debug)]
@@ -20,9 +20,9 @@ impl Metric {
 
     /// The metric of the ellipsoid of inertia of some points, around their mean; `None` for fewer than 4 points, or for points
     /// that are all equal.
-    pub(super) fn of_inertia(points: impl Iterator<Item = [f64; 3]> + Clone) -> Option<Self> {
+    pub(super) fn of_inertia(points: &[[f64; 3]]) -> Option<Self> {
         let (mut count, mut sum) = (0.0, [0.0; 3]);
-        for p in points.clone() {
+        for &p in points {
             count += 1.0;
             sum = plus(sum, 1.0, p);
         }
@@ -32,7 +32,7 @@ impl Metric {
         let center = sum.map(|x| x / count);
         // The covariance: its diagonal, and the entries (0, 1), (0, 2), (1, 2).
         let (mut diagonal, mut other) = ([0.0; 3], [0.0; 3]);
-        for p in points {
+        for &p in points {
             let [x, y, z] = minus(p, center);
             diagonal = plus(diagonal, 1.0, [x * x, y * y, z * z]);
             other = plus(other, 1.0, [x * y, x * z, y * z]);
@@ -98,7 +98,7 @@ mod tests {
     #[test]
     fn the_ellipsoid_of_inertia_of_a_sheared_box_maps_it_to_a_cube() {
         let points = corners();
-        let metric = Metric::of_inertia(points.iter().copied()).unwrap();
+        let metric = Metric::of_inertia(&points).unwrap();
         assert!(dot(minus(metric.center, [5.0, 0.0, 1.0]), [1.0; 3]).abs() < 1e-12);
         let lengths = points.iter().map(|&p| metric.map(minus(p, metric.center)));
         let lengths: Vec<f64> = lengths.map(|y| dot(y, y)).collect();
@@ -109,14 +109,13 @@ mod tests {
         let determinant =
             |metric: &Metric| dot(metric.rows[0], cross(metric.rows[1], metric.rows[2]));
         assert!((determinant(&twice) / determinant(&metric) - 2.0).abs() < 1e-12);
-        assert!(Metric::of_inertia([[1.0; 3]; 9].into_iter()).is_none());
-        assert!(Metric::of_inertia([[1.0; 3]; 3].into_iter()).is_none());
+        assert!(Metric::of_inertia(&[[1.0; 3]; 9]).is_none());
+        assert!(Metric::of_inertia(&[[1.0; 3]; 3]).is_none());
     }
 
     #[test]
     fn boxes_are_at_least_as_far_as_told() {
-        let metric =
-            Metric::of_inertia(corners().into_iter()).unwrap().stretched([0.0, 1.0, 0.0], 3.0);
+        let metric = Metric::of_inertia(&corners()).unwrap().stretched([0.0, 1.0, 0.0], 3.0);
         for x in [-20.0, -3.0, 4.0, 30.0] {
             let (center, half) = ([x, 7.0, 0.5 * x], [2.0, 1.0, 3.0]);
             let bound = metric.to_box(center, half);

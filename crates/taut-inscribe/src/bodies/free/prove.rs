@@ -4,7 +4,7 @@ use taut_certify::{BodyProof, ConvexBody};
 
 use super::super::mesh::GridMesh;
 use super::super::polytope;
-use super::super::proof::{Proved, unproved};
+use super::super::proof::{Proved, inner_point, unproved};
 use super::super::tree::Tree;
 use super::FreeBody;
 use super::disjoint::{Shape, separation};
@@ -22,6 +22,7 @@ pub(in super::super) fn prove(
     let mut pairs: Vec<Vec<Vec<u64>>> = vec![];
     let mut proved = Proved::default();
     for (at, mut body) in bodies.into_iter().enumerate() {
+        let before = body.sides.clone();
         if !mesh.is_exact {
             // Floors and ceilings of coordinates differ by at most one unit from the rounded coordinates.
             for (u, offset) in body.sides.normals.iter().zip(&mut body.sides.offsets) {
@@ -33,11 +34,8 @@ pub(in super::super) fn prove(
             true => kept.iter().map(|other| separation(other, &mut shape)).collect(),
             false => Some(vec![]),
         };
-        let is_proved = with_others.is_some()
-            && shape.sides.contains(body.anchor.map(f64::from))
-            && tree.is_inside(body.anchor) == Some(true)
-            && mesh.sees_mesh(body.anchor);
-        let (Some(with_others), true) = (with_others, is_proved) else {
+        let inside = inner_point(mesh, tree, &shape.sides, &before, body.anchor);
+        let (Some(with_others), Some(inside)) = (with_others, inside) else {
             if body.is_given {
                 return Err(unproved(at));
             }
@@ -46,9 +44,9 @@ pub(in super::super) fn prove(
         proved.bodies.push(ConvexBody {
             normals: shape.sides.normals.iter().map(|u| u.map(|n| n as i64)).collect(),
             offsets: shape.sides.offsets.iter().map(|&h| h as i64).collect(),
-            volume: polytope::volume(&shape.sides, body.anchor) * unit * unit * unit,
+            volume: polytope::volume(&shape.sides, inside) * unit * unit * unit,
         });
-        let inside = body.anchor.map(i64::from);
+        let inside = inside.map(i64::from);
         proved.proofs.push(BodyProof { inside, combined: vec![] });
         kept.push(shape);
         pairs.push(with_others);

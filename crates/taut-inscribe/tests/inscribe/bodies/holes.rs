@@ -62,7 +62,7 @@ fn torn_tori_are_closed_and_no_body_leaves_them() {
 
 #[test]
 fn sheets_have_no_inside_to_speak_of() {
-    // A bowl: the cap over its opening fills at least half of the view from everywhere inside.
+    // A bowl: the cap over its opening fills at least a third of the view from everywhere inside.
     let bowl: Mesh = octahedron()
         .into_iter()
         .filter(|t| t.iter().all(|p| p[2] <= 0.0))
@@ -74,6 +74,6 @@ fn sheets_have_no_inside_to_speak_of() {
         assert!(matches!(error, Error::Ambiguous), "{error}");
         let error = solve(&bowl, &BodiesOptions { at: &[[0.0, 0.0, -0.1]], ..closing(free(256)) });
         let error = error.unwrap_err().to_string();
-        assert!(error.contains("caps fill at least half of the view"), "{error}");
+        assert!(error.contains("caps fill at least a third of the view"), "{error}");
     }
 }

@@ -156,7 +156,7 @@ fn tight_facets_of_free_bodies_moved_outward_are_refused() {
     assert!(2 * refusals > facets, "{refusals} of {facets}");
     let refused = |change: fn(&mut Bodies)| refused(&found, &mesh, change);
     for (change, expected) in [
-        ((|f| f.answer.at[0] = [2.0, 2.0, 0.1]) as fn(&mut Bodies), "to contain the point"),
+        ((|f| f.answer.at[0] = [-2.0, 0.0, 0.1]) as fn(&mut Bodies), "to contain the point"),
         (|f| f.answer.bodies.swap(0, 1), "body 0"),
         (|f| f.answer.bodies[0].normals[0][0] += 1, "body 0"),
         (|f| f.answer.bodies[0].normals[0] = [40, 80, 120], "common divisor"),
