@@ -6,8 +6,7 @@
 //! facet i, which is the least uᵢ·x over all triangles clipped by the other facets ([`clip`]). A tree that stores the least uⱼ·x
 //! of its triangles for each direction finds it ([`tree`]). Bodies grow by events from points deep inside, are ruined in a few
 //! facets and grown again ([`grow`]). Facets in any directions are planes around a center, through the nearest points of
-//! triangles in the metric of a smaller body ([`free`]); of the best ones few directions are made ([`fitted`]). Each new body is
-//! to cover points that no other body covers ([`pack`]).
+//! triangles in the metric of a smaller body ([`free`]). Each new body is to cover points that no other body covers ([`pack`]).
 //! *Guarantee.* Each body lies inside the mesh as given: weights of facets separate each triangle from it, in whole numbers
 //! ([`proof`]). Nothing is claimed about how large such bodies can be.
 //! *Trap.* A facet that slides as far as it can before the others makes needles: facets take turns with limited steps first. A
@@ -20,7 +19,6 @@ mod clip;
 mod cloud;
 mod coverage;
 mod directions;
-mod fitted;
 mod free;
 mod given;
 mod grow;
@@ -48,7 +46,6 @@ use taut_points::PointSource;
 use crate::Error;
 
 use self::directions::Directions;
-use self::fitted::Fitted;
 use self::free::Free;
 use self::mesh::GridMesh;
 use self::pack::{Family, Input, Packing};
@@ -136,32 +133,23 @@ struct Searched {
 /// Finds and proves bodies.
 fn search(input: &Input<'_>, tree: &Arc<Tree>) -> Result<(Proved, Searched), Error> {
     let options = input.options;
-    let random = Random::new(options.seed);
-    let facets = match options.shape {
+    match options.shape {
         BodyShape::Dop(_) => {
             let found = warm::pack(input, tree)?;
             let (bodies, events, covered) =
                 (found.bodies.len() as u64, found.events, found.covered);
             let proved = proof::prove(input.mesh, tree, found.bodies, options.disjoint)?;
-            return Ok((proved, Searched { bodies, events, covered }));
+            Ok((proved, Searched { bodies, events, covered }))
         }
-        BodyShape::Free(facets) => facets,
-    };
-    // Bodies with other directions each are separated by single facets, which those of events are not.
-    if facets > directions::DIRECTIONS_MAX || options.disjoint {
-        let mut packing = Packing::new(input, Free::new(tree, random, facets, options.monitor));
-        packing.fill(options.events)?;
-        let searched = searched(&packing);
-        Ok((free::prove(input.mesh, tree, packing.bodies, options.disjoint)?, searched))
-    } else {
-        let mut packing = Packing::new(input, Fitted::new(tree, random, facets, options.monitor));
-        packing.fill(options.events)?;
-        let searched = searched(&packing);
-        Ok((fitted::prove(input.mesh, tree, packing.bodies)?, searched))
+        BodyShape::Free(facets) => {
+            let random = Random::new(options.seed);
+            let family = Free::new(tree, random, facets, options.monitor);
+            let mut packing = Packing::new(input, family);
+            packing.fill(options.events)?;
+            let (events, covered) = (packing.family.events(), packing.covered());
+            let bodies = packing.bodies.len() as u64;
+            let proved = free::prove(input.mesh, tree, packing.bodies, options.disjoint)?;
+            Ok((proved, Searched { bodies, events, covered }))
+        }
     }
-}
-
-fn searched<F: Family>(packing: &Packing<'_, F>) -> Searched {
-    let (bodies, events) = (packing.bodies.len() as u64, packing.family.events());
-    Searched { bodies, events, covered: packing.covered() }
 }

@@ -21,15 +21,16 @@ pub(super) fn lowest(
 ) -> Option<f64> {
     let mut polygon = [[0.0; 3]; CORNERS_MAX];
     let mut clipped = [[0.0; 3]; CORNERS_MAX];
+    let mut beyond = [0.0; CORNERS_MAX];
     let mut size = 3;
     polygon[..3].copy_from_slice(corners);
     let is_cutting = |&j: &usize| j != i && -heights[opposite(j)] >= h[j];
     for j in (0..directions.len()).filter(is_cutting) {
-        let beyond = |p: &[f64; 3]| height(directions, j, p) - f64::from(h[j]);
         let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
-        for p in &polygon[..size] {
-            let at = beyond(p);
-            (least, most) = (least.min(at), most.max(at));
+        for (beyond, p) in beyond.iter_mut().zip(&polygon[..size]) {
+            *beyond = height(directions, j, p) - f64::from(h[j]);
+            least = if *beyond < least { *beyond } else { least };
+            most = if *beyond > most { *beyond } else { most };
         }
         if least >= -TOUCH {
             return None;
@@ -38,14 +39,12 @@ pub(super) fn lowest(
             continue;
         }
         let mut kept = 0;
-        let mut from = polygon[size - 1];
-        let mut before = beyond(&from);
-        for to in &polygon[..size] {
+        let (mut from, mut before) = (polygon[size - 1], beyond[size - 1]);
+        for (to, &after) in polygon[..size].iter().zip(&beyond) {
             if kept + 2 > CORNERS_MAX {
                 // The whole triangle is not higher than its part.
                 return Some(f64::from(heights[i]));
             }
-            let after = beyond(to);
             if (before > 0.0) != (after > 0.0) {
                 let share = before / (before - after);
                 clipped[kept] = [0, 1, 2].map(|c| from[c] + share * (to[c] - from[c]));

@@ -31,7 +31,7 @@ pub(super) fn opposite(i: usize) -> usize {
     i ^ 1
 }
 
-pub(super) const AXES: [[i64; 3]; 3] = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
+const AXES: [[i64; 3]; 3] = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
 const EDGES: [[i64; 3]; 6] = [[1, 1, 0], [1, -1, 0], [1, 0, 1], [1, 0, -1], [0, 1, 1], [0, 1, -1]];
 const CORNERS: [[i64; 3]; 4] = [[1, 1, 1], [1, 1, -1], [1, -1, 1], [1, -1, -1]];
 
@@ -40,14 +40,7 @@ impl Directions {
     pub(super) fn of(kind: usize) -> Self {
         let edges: &[[i64; 3]] = if kind >= 18 { &EDGES } else { &[] };
         let corners: &[[i64; 3]] = if kind == 14 || kind == 26 { &CORNERS } else { &[] };
-        let pairs: Vec<[i64; 3]> = edges.iter().chain(corners).copied().collect();
-        Self::with_axes_and(&pairs)
-    }
-
-    /// The directions of the axes and of other pairs: of each pair one direction is given, without common divisor. At most
-    /// [`DIRECTIONS_MAX`] directions, no two of them equal.
-    pub(super) fn with_axes_and(pairs: &[[i64; 3]]) -> Self {
-        let pairs = AXES.iter().chain(pairs);
+        let pairs = AXES.iter().chain(edges).chain(corners);
         let normals: Vec<_> = pairs.flat_map(|u| [*u, u.map(|n| -n)]).collect();
         let combinations = (0..normals.len()).map(|i| combinations(&normals, i)).collect();
         let floats = normals.iter().map(|u| u.map(|n| n as f64)).collect();

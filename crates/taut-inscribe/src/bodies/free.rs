@@ -44,6 +44,8 @@ pub(super) struct FreeBody {
     pub(super) anchor: [i32; 3],
     /// Whether the body has to contain the point.
     pub(super) is_given: bool,
+    /// Whether the body is still the cube around its start, which several facets together keep apart from some triangles.
+    is_cube: bool,
     /// The points to cover in the body.
     covered: Arc<Vec<[f64; 3]>>,
 }
@@ -53,7 +55,7 @@ pub(super) struct Free<'a> {
     tree: Arc<Tree>,
     obstacles: Vec<Obstacle>,
     random: Random,
-    /// Planes so far.
+    /// Planes that were placed or moved so far.
     events: u64,
     points: Cloud,
     /// Facets of a body, at most.
@@ -79,8 +81,8 @@ impl<'a> Free<'a> {
         let point = body.anchor.map(f64::from);
         let kept = Kept { point, margin: f64::from(ANCHOR_MARGIN) };
         let kept = body.is_given.then_some(kept);
-        let sides = planes::around(&blocks, metric, kept, self.facets_max);
-        self.events += sides.as_ref().map_or(1, |sides| sides.normals.len() as u64);
+        let (sides, events) = planes::around(&blocks, metric, kept, self.facets_max);
+        self.events += events;
         let anchor =
             if body.is_given { body.anchor } else { metric.center.map(|x| x.round() as i32) };
         let sides = sides?;
@@ -88,7 +90,7 @@ impl<'a> Free<'a> {
             return None;
         }
         let covered = Arc::new(self.points.inside(&sides));
-        Some(FreeBody { sides, anchor, is_given: body.is_given, covered })
+        Some(FreeBody { sides, anchor, is_given: body.is_given, is_cube: false, covered })
     }
 
     /// A direction of length 1.
@@ -122,15 +124,15 @@ impl Family for Free<'_> {
     }
 
     fn small(&self, start: &Start) -> FreeBody {
-        let axes = super::directions::Directions::of(6).normals;
-        let normals: Vec<[f64; 3]> = axes.iter().map(|u| u.map(|n| n as f64)).collect();
+        // The first six directions of any tree are those of the axes.
+        let normals = self.tree.directions.floats[..6].to_vec();
         let point = start.point.map(f64::from);
         // A cube in the ball of the clearance.
         let offset = |u: &[f64; 3]| (dot(*u, point) + 0.57 * start.clearance).floor();
         let offsets = normals.iter().map(offset).collect();
         let sides = Sides { normals, offsets };
         let covered = Arc::new(vec![]);
-        FreeBody { sides, anchor: start.point, is_given: start.is_given, covered }
+        FreeBody { sides, anchor: start.point, is_given: start.is_given, is_cube: true, covered }
     }
 
     fn aim(&mut self, points: Vec<[i32; 3]>) {
@@ -150,7 +152,7 @@ impl Family for Free<'_> {
 
     fn grow(&mut self, body: &mut FreeBody) -> Result<(), Error> {
         self.monitor.check()?;
-        self.prepare(body)?;
+        self.prepare(body);
         let mut metric = Metric::round(body.anchor.map(f64::from));
         for _ in 0..=ROUNDS {
             let Some(found) = self.around(&metric, body) else { break };
@@ -164,9 +166,8 @@ impl Family for Free<'_> {
         Ok(())
     }
 
-    fn prepare(&mut self, body: &mut FreeBody) -> Result<(), Error> {
+    fn prepare(&mut self, body: &mut FreeBody) {
         body.covered = Arc::new(self.points.inside(&body.sides));
-        Ok(())
     }
 
     fn change(&mut self, body: &FreeBody) -> Result<FreeBody, Error> {

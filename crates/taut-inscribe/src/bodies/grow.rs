@@ -228,9 +228,7 @@ impl Family for Space<'_> {
         Space::grow(self, dop)
     }
 
-    fn prepare(&mut self, _dop: &mut Dop) -> Result<(), Error> {
-        Ok(())
-    }
+    fn prepare(&mut self, _dop: &mut Dop) {}
 
     fn change(&mut self, dop: &Dop) -> Result<Dop, Error> {
         self.ruin_and_recreate(dop)

@@ -4,8 +4,8 @@ use taut_points::{InputError, Monitor};
 
 use super::directions::KINDS;
 
-/// The fewest facets of a body that are allowed: below 6 a body around a point in a narrow place may not exist.
-const FACETS_MIN: usize = 6;
+/// The fewest facets of a body that are allowed: with fewer the planes through the nearest points hardly ever bound a body.
+const FACETS_MIN: usize = 8;
 
 /// The most facets of a body that a certificate may have.
 const FACETS_MAX: usize = 256;
@@ -15,7 +15,7 @@ const FACETS_MAX: usize = 256;
 pub enum BodyShape {
     /// Facets in so many fixed directions (k-dops): 6, 14, 18 or 26.
     Dop(usize),
-    /// Facets in any directions, at most so many of each body: from 6 to 256. More facets cover more.
+    /// Facets in any directions, at most so many of each body: from 8 to 256. More facets cover more.
     Free(usize),
 }
 
@@ -71,7 +71,7 @@ impl BodiesOptions<'_> {
                 return wrong("directions", directions.to_string(), "6, 14, 18 or 26");
             }
             BodyShape::Free(facets) if !(FACETS_MIN..=FACETS_MAX).contains(&facets) => {
-                return wrong("facets", facets.to_string(), "from 6 to 256");
+                return wrong("facets", facets.to_string(), "from 8 to 256");
             }
             _ => {}
         }

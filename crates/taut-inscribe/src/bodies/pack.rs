@@ -53,13 +53,8 @@ pub(super) trait Family {
     /// Grows a small body.
     fn grow(&mut self, body: &mut Self::Body) -> Result<(), Error>;
 
-    /// Returns the bodies with which random changes begin instead of a body that has grown.
-    fn variants(&mut self, body: &Self::Body) -> Result<Vec<Self::Body>, Error> {
-        Ok(vec![body.clone()])
-    }
-
     /// Gets ready for changes of a body.
-    fn prepare(&mut self, body: &mut Self::Body) -> Result<(), Error>;
+    fn prepare(&mut self, body: &mut Self::Body);
 
     /// Returns a random change of the body that was prepared last.
     fn change(&mut self, body: &Self::Body) -> Result<Self::Body, Error>;
@@ -214,14 +209,10 @@ impl<'a, F: Family> Packing<'a, F> {
 
     /// Improves bodies that have grown and returns the best of them with its score.
     fn best(&mut self, grown: Vec<F::Body>, until: u64) -> Result<Option<(u64, F::Body)>, Error> {
-        let mut variants = vec![];
-        for body in &grown {
-            variants.append(&mut self.family.variants(body)?);
-        }
-        let left = until.saturating_sub(self.family.events()) / variants.len().max(1) as u64;
+        let left = until.saturating_sub(self.family.events()) / grown.len().max(1) as u64;
         let mut best: Option<(u64, F::Body)> = None;
-        for mut body in variants {
-            self.family.prepare(&mut body)?;
+        for mut body in grown {
+            self.family.prepare(&mut body);
             let until = self.family.events() + left;
             let score = self.recreate(&mut body, until)?;
             // Of equal ones the first.
@@ -284,7 +275,7 @@ impl<'a, F: Family> Packing<'a, F> {
             self.aim_around(body);
             let mut changed = self.bodies[body].clone();
             let until = self.family.events() + left;
-            self.family.prepare(&mut changed)?;
+            self.family.prepare(&mut changed);
             self.recreate(&mut changed, until)?;
             self.covers[body] = self.cover(&changed);
             self.bodies[body] = changed;

@@ -51,18 +51,6 @@ pub(super) fn volume(sides: &Sides, inside: [i32; 3]) -> f64 {
     around(sides, inside.map(f64::from)).into_iter().map(of_facet).sum()
 }
 
-/// The area of a polygon.
-pub(super) fn area(polygon: &[[f64; 3]]) -> f64 {
-    let Some(&apex) = polygon.first() else { return 0.0 };
-    let mut sum = [0.0; 3];
-    for edge in polygon.windows(2) {
-        let from = |p: [f64; 3]| [0, 1, 2].map(|c| p[c] - apex[c]);
-        let part = cross(from(edge[0]), from(edge[1]));
-        (0..3).for_each(|c| sum[c] += part[c]);
-    }
-    dot(sum, sum).sqrt() / 2.0
-}
-
 /// The facets as polygons seen from an interior point, so that a small body far from the origin loses no digits.
 fn around(sides: &Sides, inside: [f64; 3]) -> Vec<Vec<[f64; 3]>> {
     let offsets = sides.normals.iter().zip(&sides.offsets).map(|(u, h)| h - dot(*u, inside));

@@ -92,7 +92,7 @@ pub(super) fn prove_dop(
 }
 
 /// Moves a body inward until each triangle is separated from it; `None` where this fails.
-fn separated(tree: &Tree, dop: &Dop) -> Option<(Offsets, Vec<Vec<u64>>)> {
+pub(super) fn separated(tree: &Tree, dop: &Dop) -> Option<(Offsets, Vec<Vec<u64>>)> {
     let directions = &tree.directions;
     let mut h = dop.h;
     for _ in 0..=INWARD_UNITS_MAX {

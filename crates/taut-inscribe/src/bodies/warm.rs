@@ -12,11 +12,11 @@ use super::random::Random;
 use super::tree::Tree;
 use crate::Error;
 
-/// A search with 6 directions stops after this part of the events: its bodies have a third of the facets.
-const EVENTS_PART_OF_6: u64 = 4;
+/// A search with 6 directions stops after this part of the events: its bodies have few facets, and are a start at best.
+const EVENTS_PART_OF_6: u64 = 8;
 
 /// The part of the events that improves the bodies of a smaller set of directions.
-const EVENTS_PART_OF_WARM_START: u64 = 4;
+const EVENTS_PART_OF_WARM_START: u64 = 8;
 
 /// What a search found.
 pub(super) struct Packed<B> {

@@ -43,10 +43,10 @@ pub(super) struct Blocks<'a> {
     pub(super) obstacles: &'a [Obstacle],
 }
 
-/// What comes next.
+/// What comes next: a node, with the number of planes that do not keep it out, a triangle or an obstacle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Item {
-    Node(u32),
+    Node(u32, u16),
     Triangle(u32),
     Obstacle(u32),
 }
@@ -75,33 +75,42 @@ impl PartialEq for Entry {
 
 impl Eq for Entry {}
 
-/// Returns at most `most` planes around the center that no triangle and no obstacle enters; `None` where they do not exist, or
-/// would cut off the point to be kept.
+/// Returns at most `most` planes around the center that no triangle and no obstacle enters, and how often a plane was placed or
+/// moved; `None` where there are no such planes, or they would cut off the point to be kept.
 pub(super) fn around(
     blocks: &Blocks<'_>,
     metric: &Metric,
     kept: Option<Kept>,
     most: usize,
-) -> Option<Sides> {
-    let tree = blocks.tree;
-    let mut planes = Planes { sides: Sides::default(), first: vec![], last: 0, metric, kept, most };
-    let mut heap = BinaryHeap::from([Entry(0.0, Item::Node(0))]);
+) -> (Option<Sides>, u64) {
+    let (sides, first) = (Sides::default(), vec![]);
+    let mut planes = Planes { sides, first, last: 0, events: 0, metric, kept, most };
+    let found = place(blocks, &mut planes);
+    (found.map(|()| planes.sides), planes.events)
+}
+
+/// Places planes; `None` where this fails.
+fn place(blocks: &Blocks<'_>, planes: &mut Planes<'_>) -> Option<()> {
+    let (tree, metric) = (blocks.tree, planes.metric);
+    let mut heap = BinaryHeap::from([Entry(0.0, Item::Node(0, 0))]);
     for (at, obstacle) in blocks.obstacles.iter().enumerate() {
         heap.push(Entry(distance(metric, &obstacle.triangles), Item::Obstacle(at as u32)));
     }
     while let Some(Entry(_, item)) = heap.pop() {
         match item {
-            Item::Node(at) => {
+            Item::Node(at, tried) => {
                 let [center, half] = tree.bounds(at);
-                if planes.keep_box_out(center, half) {
+                if planes.new_ones_keep_box_out(usize::from(tried), center, half) {
                     continue;
                 }
+                let tried = planes.first.len() as u16;
                 match tree.parts(at) {
                     Parts::Nodes(nodes) => {
                         for node in nodes {
                             let [center, half] = tree.bounds(node);
                             if !planes.keep_box_out(center, half) {
-                                heap.push(Entry(metric.to_box(center, half), Item::Node(node)));
+                                let item = Item::Node(node, tried);
+                                heap.push(Entry(metric.to_box(center, half), item));
                             }
                         }
                     }
@@ -130,7 +139,7 @@ pub(super) fn around(
             }
         }
     }
-    Some(planes.sides)
+    Some(())
 }
 
 /// The squared distance from the center to the nearest of some triangles.
@@ -153,6 +162,8 @@ struct Planes<'a> {
     first: Vec<f64>,
     /// The plane that kept something out last: neighbors in the tree are mostly kept out by the same one.
     last: usize,
+    /// How often a plane was placed or moved.
+    events: u64,
     metric: &'a Metric,
     kept: Option<Kept>,
     most: usize,
@@ -161,10 +172,13 @@ struct Planes<'a> {
 impl Planes<'_> {
     /// Whether one plane keeps a box out.
     fn keep_box_out(&mut self, center: [f64; 3], half: [f64; 3]) -> bool {
-        self.find(|u, offset| {
-            let reach = u[0].abs() * half[0] + u[1].abs() * half[1] + u[2].abs() * half[2];
-            dot(u, center) - reach >= offset
-        })
+        self.find(|u, offset| is_beyond(u, offset, center, half))
+    }
+
+    /// Whether one of the planes after the first ones keeps a box out.
+    fn new_ones_keep_box_out(&self, first: usize, center: [f64; 3], half: [f64; 3]) -> bool {
+        let normals = self.sides.normals[first..].iter();
+        normals.zip(&self.sides.offsets[first..]).any(|(u, &h)| is_beyond(*u, h, center, half))
     }
 
     /// Whether one plane keeps the convex hull of some points out.
@@ -184,6 +198,7 @@ impl Planes<'_> {
 
     /// Keeps the hull of some points out that no plane keeps out: moves a plane inward, or adds one.
     fn add(&mut self, triangles: &[[[f64; 3]; 3]], points: &[[f64; 3]]) -> Option<()> {
+        self.events += 1;
         let least = |u: [f64; 3]| lowest(u, points);
         let center = self.metric.center;
         let inward = |j: usize| {
@@ -231,13 +246,19 @@ impl Planes<'_> {
     }
 }
 
+/// Whether a plane keeps a box out.
+fn is_beyond(u: [f64; 3], offset: f64, center: [f64; 3], half: [f64; 3]) -> bool {
+    let reach = u[0].abs() * half[0] + u[1].abs() * half[1] + u[2].abs() * half[2];
+    dot(u, center) - reach >= offset
+}
+
 /// The least value of a linear function on some points, rounded down to a whole number.
 fn lowest(u: [f64; 3], points: &[[f64; 3]]) -> f64 {
     points.iter().map(|&p| dot(u, p)).fold(f64::INFINITY, f64::min).floor()
 }
 
 /// A normal of whole numbers without common divisor in nearly the direction given; `None` for no direction.
-pub(super) fn whole(normal: [f64; 3]) -> Option<[f64; 3]> {
+fn whole(normal: [f64; 3]) -> Option<[f64; 3]> {
     let most = normal.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
     if !(most > 0.0 && most.is_finite()) {
         return None;

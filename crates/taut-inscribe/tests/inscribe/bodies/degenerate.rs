@@ -50,7 +50,7 @@ fn numbers_and_options_out_of_range_are_refused() {
     assert!(dim.to_string().contains("expected 9"), "{dim}");
     for (wrong, name) in [
         (BodiesOptions { shape: BodyShape::Dop(8), ..options(6) }, "directions"),
-        (BodiesOptions { shape: BodyShape::Free(5), ..options(6) }, "facets"),
+        (BodiesOptions { shape: BodyShape::Free(7), ..options(6) }, "facets"),
         (BodiesOptions { shape: BodyShape::Free(257), ..options(6) }, "facets"),
         (BodiesOptions { coverage: Some(0.0), ..options(6) }, "coverage"),
         (BodiesOptions { coverage: Some(f64::NAN), ..options(6) }, "coverage"),

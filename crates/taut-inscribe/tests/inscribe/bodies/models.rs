@@ -46,20 +46,8 @@ const PACKED: [(&str, usize, f64); 5] = [
 /// The part of the points that the search did not see that bodies cover, and what else there is to say.
 fn packed(name: &str, mesh: &Mesh, options: &BodiesOptions<'_>) -> f64 {
     let clock = std::time::Instant::now();
-    let cpu = || -> f64 {
-        std::fs::read_to_string("/proc/thread-self/schedstat")
-            .unwrap()
-            .split(' ')
-            .next()
-            .unwrap()
-            .parse::<f64>()
-            .unwrap()
-            * 1e-9
-    };
-    let c0 = cpu();
     let found = solve(mesh, options).unwrap_or_else(|error| panic!("{name}: {error}"));
     let solved = clock.elapsed();
-    eprintln!("CPU {:.2}", cpu() - c0);
     let verdict = found.check(&points(mesh)).unwrap_or_else(|error| panic!("{name}: {error}"));
     let checked = clock.elapsed() - solved;
     let counters = &found.trace.counters;
@@ -91,9 +79,6 @@ fn events(all: u64) -> u64 {
 #[test]
 fn free_bodies_cover_what_the_documentation_says() {
     for (name, count, least) in PACKED {
-        if std::env::var("ONLY").is_ok_and(|only| only != name) {
-            continue;
-        }
         let Some(mesh) = model(name) else { return };
         let base = BodiesOptions { close_holes: true, count, ..BodiesOptions::default() };
         let part = packed(name, &mesh, &BodiesOptions { events: events(base.events), ..base });
@@ -110,9 +95,6 @@ fn k_dops_cover_what_the_documentation_says() {
         ("bunny_res2", 45, [0.86, 0.76]),
         ("horse", 10, [0.67, 0.57]),
     ] {
-        if std::env::var("ONLY").is_ok_and(|only| only != name) {
-            continue;
-        }
         let Some(mesh) = model(name) else { return };
         for (is_disjoint, least) in [(false, overlapping), (true, disjoint)] {
             let options = BodiesOptions {

@@ -75,7 +75,7 @@ fn solve(input: &Input) -> Vec<Solved> {
         ("26, two", BodiesOptions { count: 2, ..dop(26) }),
         ("free, two disjoint", BodiesOptions { count: 2, disjoint: true, ..base.clone() }),
         ("free, around a point", BodiesOptions { count: 2, at: &at, ..base.clone() }),
-        ("7 facets", BodiesOptions { shape: BodyShape::Free(7), ..base.clone() }),
+        ("9 facets", BodiesOptions { shape: BodyShape::Free(9), ..base.clone() }),
         (
             "12 facets, around a point",
             BodiesOptions { shape: BodyShape::Free(12), at: &at, ..base },
