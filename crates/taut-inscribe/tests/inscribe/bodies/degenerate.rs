@@ -12,7 +12,7 @@ fn scaled(mesh: &Mesh, factor: f64, shift: f64) -> Mesh {
 #[test]
 fn meshes_without_inside_are_refused() {
     let k = options(18);
-    assert!(matches!(solve(&vec![], &k), Err(Error::NoInside)));
+    assert!(matches!(solve(&[], &k), Err(Error::NoInside)));
     let point = [[1.0; 3]; 3];
     assert!(matches!(solve(&[point], &k), Err(Error::NoInside)));
     let flat = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];

@@ -12,10 +12,10 @@ fn closing(options: BodiesOptions<'static>) -> BodiesOptions<'static> {
 fn flat_holes_are_closed_as_they_were() {
     // One face of a cube and one of an octahedron.
     for options in [options(14), free(256)].map(closing) {
-        let (found, verdict) = proved(&cuboid([0.0; 3], [1.0; 3])[2..].to_vec(), &options);
+        let (found, verdict) = proved(&cuboid([0.0; 3], [1.0; 3])[2..], &options);
         assert_eq!((verdict.caps, found.answer.caps.len()), (2, 2));
         assert!(verdict.largest > 0.98, "{verdict:?}");
-        let (found, verdict) = proved(&octahedron()[1..].to_vec(), &options);
+        let (found, verdict) = proved(&octahedron()[1..], &options);
         assert_eq!(verdict.caps, 1);
         assert!(verdict.largest > 0.98 * 4.0 / 3.0, "{verdict:?}");
         // The cap has the three corners of the face that was removed, by their first places in the rows.

@@ -113,14 +113,14 @@ fn k_dops_cover_what_the_documentation_says() {
 }
 
 #[test]
-fn few_facets_that_fit_are_worth_more_than_fixed_ones() {
+fn few_free_facets_are_worth_more_than_fixed_ones() {
     let Some(mesh) = model("bunny_res2") else { return };
     let base = BodiesOptions { close_holes: true, count: 15, ..BodiesOptions::default() };
     let base = BodiesOptions { events: events(base.events), ..base };
     let with = |shape| packed("bunny_res2", &mesh, &BodiesOptions { shape, ..base.clone() });
-    let [dop, fitted, many] =
+    let [dop, few, many] =
         [BodyShape::Dop(26), BodyShape::Free(26), BodyShape::Free(40)].map(with);
-    assert!(dop < fitted && fitted < many, "{dop} {fitted} {many}");
+    assert!(dop < few && few < many, "{dop} {few} {many}");
 }
 
 #[test]
