@@ -216,4 +216,5 @@ def _points(at: ArrayLike | None) -> list[list[float]]:
     places = np.empty((0, 3)) if at is None else np.asarray(at, dtype=np.float64)
     if places.ndim != 2 or places.shape[1] != 3:
         raise ValueError(f"`at` has shape {places.shape}: expected (p, 3)")
-    return places.tolist()
+    found: list[list[float]] = places.tolist()
+    return found
