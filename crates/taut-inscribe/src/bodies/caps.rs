@@ -170,7 +170,7 @@ mod tests {
         for m in [10u32, 24, 500] {
             let place = |k: u32| {
                 let turn = std::f64::consts::TAU * f64::from(k) / f64::from(m);
-                let radius = if k % 2 == 0 { 1.0 } else { 0.4 };
+                let radius = if k.is_multiple_of(2) { 1.0 } else { 0.4 };
                 [radius * turn.cos(), radius * turn.sin(), 0.25]
             };
             let edges: Vec<[u32; 2]> =

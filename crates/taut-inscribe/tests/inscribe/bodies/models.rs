@@ -118,8 +118,7 @@ fn few_free_facets_are_worth_more_than_fixed_ones() {
     let base = BodiesOptions { close_holes: true, count: 15, ..BodiesOptions::default() };
     let base = BodiesOptions { events: events(base.events), ..base };
     let with = |shape| packed("bunny_res2", &mesh, &BodiesOptions { shape, ..base.clone() });
-    let [dop, few, many] =
-        [BodyShape::Dop(26), BodyShape::Free(26), BodyShape::Free(40)].map(with);
+    let [dop, few, many] = [BodyShape::Dop(26), BodyShape::Free(26), BodyShape::Free(40)].map(with);
     assert!(dop < few && few < many, "{dop} {few} {many}");
 }
 
