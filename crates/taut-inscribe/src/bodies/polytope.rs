@@ -5,11 +5,11 @@ use super::vectors::{cross, dot};
 
 /// Half the side of the square from which the polygon of a facet is cut, in units: bodies and interior points have coordinates
 /// below 2²⁵.
-const REACH: f64 = (1u64 << 27) as f64;
+const SQUARE_HALF_SIDE: f64 = (1u64 << 27) as f64;
 
 /// How many times larger than a body the square may be before the polygons are cut once more from a smaller one, so that the
 /// corners of small bodies are not off by the rounding of large numbers.
-const REACH_RATIO_MAX: f64 = 64.0;
+const SQUARE_RATIO_MAX: f64 = 64.0;
 
 /// The half-spaces normal·x ≤ offset, in whole numbers.
 #[derive(Clone, Debug, Default)]
@@ -58,9 +58,9 @@ fn around(sides: &Sides, inside: [f64; 3]) -> Vec<Vec<[f64; 3]>> {
     let cut = |reach: f64| -> Vec<Vec<[f64; 3]>> {
         (0..offsets.len()).map(|i| facet(&sides.normals, &offsets, reach, i)).collect()
     };
-    let found = cut(REACH);
+    let found = cut(SQUARE_HALF_SIDE);
     let farthest = found.iter().flatten().map(|p| dot(*p, *p)).fold(0.0, f64::max).sqrt();
-    if farthest * REACH_RATIO_MAX < REACH { cut(4.0 * farthest) } else { found }
+    if farthest * SQUARE_RATIO_MAX < SQUARE_HALF_SIDE { cut(4.0 * farthest) } else { found }
 }
 
 fn facet(normals: &[[f64; 3]], offsets: &[f64], reach: f64, i: usize) -> Vec<[f64; 3]> {
