@@ -1,25 +1,33 @@
-//! `taut.inscribed_dops`, behind its Python signature.
+//! `taut.inscribed_bodies` and `taut.inscribed_dops`, behind their Python signatures.
 
 use pyo3::prelude::*;
 use taut::Items;
-use taut::inscribe::DopsOptions;
+use taut::inscribe::{BodiesOptions, BodyShape};
 
 use crate::found::{Found, solve};
 use crate::items::raise;
 use crate::numbers::whole;
 
-/// Convex bodies inside the closed mesh whose triangles are the rows of an array.
+/// Convex bodies inside the mesh whose triangles are the rows of an array. `facets` is the most facets of a body, if they are free,
+/// else the number of directions.
 #[pyfunction]
-pub(crate) fn inscribed_dops(
+pub(crate) fn inscribed_bodies(
     py: Python<'_>,
     rows: &Bound<'_, PyAny>,
-    directions: &Bound<'_, PyAny>,
+    is_free: bool,
+    facets: &Bound<'_, PyAny>,
     count: &Bound<'_, PyAny>,
     disjoint: bool,
+    at: Vec<[f64; 3]>,
+    coverage: Option<f64>,
+    close_holes: bool,
     events: &Bound<'_, PyAny>,
     seed: &Bound<'_, PyAny>,
 ) -> PyResult<Found> {
-    let directions = whole("directions", directions, "6, 14, 18 or 26")?;
+    let shape = match is_free {
+        true => BodyShape::Free(whole("facets", facets, "from 8 to 256")?),
+        false => BodyShape::Dop(whole("directions", facets, "6, 14, 18 or 26")?),
+    };
     let count = whole("count", count, "from 1 to 1000")?;
     let events = whole("events", events, "at least 1")?;
     let seed = whole("seed", seed, "from 0 to 2^64 - 1")?;
@@ -27,9 +35,18 @@ pub(crate) fn inscribed_dops(
         py,
         rows,
         |source, monitor| {
-            let options =
-                DopsOptions { directions, count, disjoint, events, seed, monitor: *monitor };
-            taut::inscribe::inscribed_dops(source, &options)
+            let options = BodiesOptions {
+                shape,
+                count,
+                disjoint,
+                at: &at,
+                coverage,
+                close_holes,
+                events,
+                seed,
+                monitor: *monitor,
+            };
+            taut::inscribe::inscribed_bodies(source, &options)
         },
         |error, columns| raise(error, Items::Points, columns),
     )

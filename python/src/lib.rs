@@ -41,7 +41,7 @@ mod _native {
     #[pymodule_export]
     use crate::ball::ball;
     #[pymodule_export]
-    use crate::bodies::inscribed_dops;
+    use crate::bodies::inscribed_bodies;
     #[pymodule_export]
     use crate::centers::centers;
     #[pymodule_export]

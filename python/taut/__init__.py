@@ -29,7 +29,7 @@ from ._answers.trace import PassBounds, Trace
 from ._answers.triangle import InscribedTriangle, TriangleCertificate, TriangleVerdict
 from ._answers.triangulation import Triangulation, TriangulationCertificate, TriangulationVerdict
 from ._ball import ball, ball_of_balls
-from ._bodies import inscribed_dops, triangle_rows
+from ._bodies import inscribed_bodies, inscribed_dops, triangle_rows
 from ._centers import centers, farthest_first, sphere_tree
 from ._circle import inscribed_circle
 from ._curve import curve
@@ -118,6 +118,7 @@ __all__ = [
     "farthest_first",
     "generate",
     "inscribed_circle",
+    "inscribed_bodies",
     "inscribed_dops",
     "inscribed_ellipse",
     "inscribed_ellipsoid",

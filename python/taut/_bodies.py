@@ -49,17 +49,20 @@ def triangle_rows(vertices: ArrayLike, triangles: ArrayLike) -> Rows:
     return as_rows(places[ids].reshape(-1, 9))
 
 
-def inscribed_dops(
+def inscribed_bodies(
     vertices: ArrayLike,
     triangles: ArrayLike,
     *,
-    directions: int = 18,
-    count: int = 1,
+    facets: int = 256,
+    count: int | None = None,
     disjoint: bool = False,
+    at: ArrayLike | None = None,
+    coverage: float | None = None,
+    close_holes: bool = False,
     events: int = 200_000,
     seed: int = 0,
 ) -> Solution:
-    """Large convex bodies with facets in fixed directions (k-dops) inside a closed triangle mesh, with a certificate.
+    """Large convex bodies inside a triangle mesh, with facets in any directions, with a certificate.
 
     The certificate proves that each body lies inside the mesh. Nothing is claimed about how much such bodies can cover.
 
@@ -68,15 +71,24 @@ def inscribed_dops(
     vertices : array_like of shape (n, 3)
         The vertices, finite real numbers. Vertices with equal coordinates are one.
     triangles : array_like of int, shape (m, 3)
-        The triangles, as numbers of vertices from 0. Each edge belongs to an even number of triangles.
-    directions : {6, 14, 18, 26}, default 18
-        Directions of the facets.
-    count : int from 1 to 1000, default 1
-        Most bodies to find; fewer are found where no more fit.
+        The triangles, as numbers of vertices from 0. Each edge belongs to an even number of triangles, unless
+        `close_holes` is set.
+    facets : int from 8 to 256, default 256
+        Most facets of a body; more facets cover more.
+    count : int from 1 to 1000, optional
+        Most bodies to find; fewer are found where no more fit. By default 1, or 1000 with `coverage`; as many as there are
+        points in `at`, if these are more.
     disjoint : bool, default False
         Whether no two bodies may overlap.
+    at : array_like of shape (p, 3), optional
+        Points that the first bodies contain, one each.
+    coverage : float, optional
+        The part of the inside to cover, above 0 and at most 1: no more bodies are added once they cover it, by the points
+        that the search counts.
+    close_holes : bool, default False
+        Whether the holes of a mesh that is not closed are closed by triangles, the ``caps`` of the answer.
     events : int >= 1, default 200_000
-        How many facet events one search may compute; more events cover more.
+        How many facets one search may move or place; more of these events cover more.
     seed : int >= 0, default 0
         Where the random choices begin.
 
@@ -90,8 +102,87 @@ def inscribed_dops(
     Raises
     ------
     ValueError
-        When the mesh is not closed, with an edge; when it has no inside; when a number is NaN or infinite, or an option is
-        out of range.
+        When the mesh is not closed, with an edge; when it has no inside, or holes that leave open what is inside; when no
+        body contains a point of `at`, with the reason; when a number is NaN or infinite, or an option is out of range.
+    KeyboardInterrupt
+        Ctrl-C stops the work.
+
+    Examples
+    --------
+    >>> import taut
+    >>> vertices = [[0, 0, 0], [7, 1, 0], [1, 8, 0.5], [2, 3, 9]]
+    >>> triangles = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]
+    >>> found = taut.inscribed_bodies(vertices, triangles, at=[[2, 2, 1]], events=1000)
+    >>> len(found.answer.bodies), len(found.answer.bodies[0].offsets)
+    (1, 4)
+    >>> found.check(taut.triangle_rows(vertices, triangles)).at
+    1
+    """
+    rows = triangle_rows(vertices, triangles)
+    return Solution(
+        _native.inscribed_bodies(
+            rows, True, facets, _count(count, coverage), disjoint, _points(at), coverage, close_holes, events, seed
+        ),
+        rows,
+    )
+
+
+def inscribed_dops(
+    vertices: ArrayLike,
+    triangles: ArrayLike,
+    *,
+    directions: int = 18,
+    count: int | None = None,
+    disjoint: bool = False,
+    at: ArrayLike | None = None,
+    coverage: float | None = None,
+    close_holes: bool = False,
+    events: int = 200_000,
+    seed: int = 0,
+) -> Solution:
+    """Large convex bodies with facets in fixed directions (k-dops) inside a triangle mesh, with a certificate.
+
+    The certificate proves that each body lies inside the mesh. Nothing is claimed about how much such bodies can cover.
+    Bodies with facets in any directions cover more: `inscribed_bodies`.
+
+    Parameters
+    ----------
+    vertices : array_like of shape (n, 3)
+        The vertices, finite real numbers. Vertices with equal coordinates are one.
+    triangles : array_like of int, shape (m, 3)
+        The triangles, as numbers of vertices from 0. Each edge belongs to an even number of triangles, unless
+        `close_holes` is set.
+    directions : {6, 14, 18, 26}, default 18
+        Directions of the facets.
+    count : int from 1 to 1000, optional
+        Most bodies to find; fewer are found where no more fit. By default 1, or 1000 with `coverage`; as many as there are
+        points in `at`, if these are more.
+    disjoint : bool, default False
+        Whether no two bodies may overlap.
+    at : array_like of shape (p, 3), optional
+        Points that the first bodies contain, one each.
+    coverage : float, optional
+        The part of the inside to cover, above 0 and at most 1: no more bodies are added once they cover it, by the points
+        that the search counts.
+    close_holes : bool, default False
+        Whether the holes of a mesh that is not closed are closed by triangles, the ``caps`` of the answer.
+    events : int >= 1, default 200_000
+        How many facets one search may move or place; more of these events cover more.
+    seed : int >= 0, default 0
+        Where the random choices begin.
+
+    Returns
+    -------
+    Solution
+        ``answer`` is an `InscribedBodies`; then ``certificate`` and ``trace``. Its `check` takes the rows that
+        `triangle_rows` makes. ``trace.counters`` has ``covered`` of ``sample_points`` points inside that the search did
+        not see.
+
+    Raises
+    ------
+    ValueError
+        When the mesh is not closed, with an edge; when it has no inside, or holes that leave open what is inside; when no
+        body contains a point of `at`, with the reason; when a number is NaN or infinite, or an option is out of range.
     KeyboardInterrupt
         Ctrl-C stops the work.
 
@@ -107,4 +198,23 @@ def inscribed_dops(
     1
     """
     rows = triangle_rows(vertices, triangles)
-    return Solution(_native.inscribed_dops(rows, directions, count, disjoint, events, seed), rows)
+    return Solution(
+        _native.inscribed_bodies(
+            rows, False, directions, _count(count, coverage), disjoint, _points(at), coverage, close_holes, events, seed
+        ),
+        rows,
+    )
+
+
+def _count(count: int | None, coverage: float | None) -> int:
+    """The most bodies, by default as many as a coverage needs."""
+    return count if count is not None else 1 if coverage is None else 1000
+
+
+def _points(at: ArrayLike | None) -> list[list[float]]:
+    """The points that bodies are to contain."""
+    places = np.empty((0, 3)) if at is None else np.asarray(at, dtype=np.float64)
+    if places.ndim != 2 or places.shape[1] != 3:
+        raise ValueError(f"`at` has shape {places.shape}: expected (p, 3)")
+    found: list[list[float]] = places.tolist()
+    return found

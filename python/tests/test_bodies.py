@@ -48,3 +48,47 @@ def test_meshes_that_are_not_closed_are_refused():
 
 def test_a_notebook_shows_the_bodies():
     assert "<svg" in taut.inscribed_dops(OCTAHEDRON, FACES, events=500)._repr_html_()
+
+
+def test_free_bodies_contain_their_points_and_holes_are_closed():
+    rows = ROWS[1:]
+    options = {"at": [[0.1, 0.2, 0.3], [-0.5, 0, 0]], "close_holes": True, "events": 2000}
+    found = taut.inscribed_bodies(OCTAHEDRON, FACES[1:], **options)
+    verdict = found.check(rows)
+    assert (verdict.at, verdict.caps, verdict.bodies) == (2, 1, 2)
+    assert found.answer.caps.shape == (1, 3) and np.array_equal(found.answer.at, options["at"])
+    # The cap has the corners of the face that was left out.
+    corners = rows.reshape(-1, 3)[found.answer.caps[0]]
+    assert {tuple(p) for p in corners} == {tuple(p) for p in OCTAHEDRON[FACES[0]]}
+    for body, point in enumerate(options["at"]):
+        normals, offsets = found.answer.half_spaces(body)
+        assert np.all(normals @ point <= offsets)
+        assert len(found.answer.vertices(body)) >= 6
+    again = taut.Solution.from_json(found.to_json())
+    assert again == found
+    few = taut.inscribed_bodies(OCTAHEDRON, FACES, facets=9, coverage=0.95, events=2000)
+    assert all(len(body.offsets) <= 9 for body in few.answer.bodies) and len(few.answer.bodies) > 1
+
+
+def test_vertices_are_those_of_all_triples_of_planes():
+    found = taut.inscribed_bodies(OCTAHEDRON, FACES, events=2000)
+    body = found.answer.bodies[0]
+    vertices = found.answer.vertices(0)
+    # Each corner of the octahedron is near a vertex: planes are moved inward by at most 1/256.
+    assert all(np.min(np.linalg.norm(vertices - corner, axis=1)) < 0.02 for corner in OCTAHEDRON)
+    normals, offsets = found.answer.half_spaces(0)
+    beyond = vertices @ normals.T - offsets
+    scale = np.abs(normals).max() * 1e-9
+    assert beyond.max() <= scale and np.all((np.abs(beyond) <= scale).sum(axis=1) >= 3)
+    assert len(body.offsets) >= 8
+
+
+def test_points_without_room_and_shapes_without_inside_are_refused():
+    with pytest.raises(ValueError, match="point 0 of those .* is outside of the mesh"):
+        taut.inscribed_bodies(OCTAHEDRON, FACES, at=[[2, 0, 0]])
+    with pytest.raises(ValueError, match=r"expected \(p, 3\)"):
+        taut.inscribed_bodies(OCTAHEDRON, FACES, at=[0, 0, 0])
+    with pytest.raises(ValueError, match="`coverage` is"):
+        taut.inscribed_bodies(OCTAHEDRON, FACES, coverage=2.0)
+    with pytest.raises(ValueError, match="`facets` is 257"):
+        taut.inscribed_bodies(OCTAHEDRON, FACES, facets=257)

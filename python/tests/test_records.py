@@ -44,6 +44,11 @@ SOLVED = {
     "convex polygon": (taut.inscribed_polygon(RINGS[:60], rounds=5), (RINGS[:60],), {}),
     "triangle": (taut.inscribed_triangle(RINGS[:60]), (RINGS[:60],), {}),
     "bodies": (taut.inscribed_dops(SIMPLEX, SIDES, count=2, disjoint=True, events=500), (SIMPLEX_ROWS,), {}),
+    "free bodies": (
+        taut.inscribed_bodies(SIMPLEX, SIDES[1:], at=[[0.2, 0.2, 0.2]], close_holes=True, events=500),
+        (taut.triangle_rows(SIMPLEX, SIDES[1:]),),
+        {},
+    ),
     "mcd": (taut.robust_ellipsoid(PLANE), (PLANE,), {}),
     "mve": (taut.robust_ellipsoid(PLANE, method="mve"), (PLANE,), {}),
     "trim": (taut.robust_ellipsoid(PLANE, method="trim"), (PLANE,), {}),

@@ -1,4 +1,4 @@
-//! Convex bodies inside a closed triangle mesh, and their certificate.
+//! Convex bodies inside a triangle mesh, and their certificate.
 
 mod check;
 mod violation;
@@ -11,16 +11,16 @@ use crate::{Answer, CheckError};
 
 pub use violation::BodiesViolation;
 
-/// Convex bodies inside a closed triangle mesh.
+/// Convex bodies inside a triangle mesh.
 ///
 /// The rows of the source are the triangles of the mesh, of dimension 9: the coordinates of the first corner, the second and
-/// the third. Corners with equal coordinates are one vertex. The mesh is closed: each edge belongs to an even number of
-/// triangles. A point is inside when a ray from it crosses an odd number of triangles (even-odd rule), however the triangles
+/// the third. Corners with equal coordinates are one vertex. With the caps, which close its holes, the mesh is closed: each edge
+/// belongs to an even number of triangles and caps. A point is inside when a ray from it crosses an odd number of triangles (even-odd rule), however the triangles
 /// are turned.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(
     deny_unknown_fields,
-    expecting = "inscribed bodies: an object with exponent, origin, disjoint and bodies"
+    expecting = "inscribed bodies: an object with exponent, origin, disjoint, caps, at and bodies"
 )]
 pub struct InscribedBodies {
     /// The unit of the grid is 2^`exponent`, from −300 to 310.
@@ -29,6 +29,10 @@ pub struct InscribedBodies {
     pub origin: [i64; 3],
     /// Whether no two bodies have an interior point in common.
     pub disjoint: bool,
+    /// The triangles that close the mesh, if it has holes: each corner is one of the mesh, with number 3·row + corner.
+    pub caps: Vec<[u64; 3]>,
+    /// Points that the first bodies contain, one each, in the coordinates of the mesh.
+    pub at: Vec<[f64; 3]>,
     /// The bodies, in the order in which they were found.
     pub bodies: Vec<ConvexBody>,
 }
@@ -76,11 +80,11 @@ pub struct BodyProof {
     /// A point of the grid in the interior of the body, which is inside the mesh.
     pub inside: [i64; 3],
     /// Weights for each triangle that no facet alone separates from the body, by ascending rows: `[row, j₀, λ₀, j₁, λ₁, …]`
-    /// with at most 4 facets and weights of 1 to 2⁵⁷.
+    /// with at most 4 facets and weights of 1 to 2⁵⁷. Caps count on from the rows.
     pub combined: Vec<Vec<u64>>,
 }
 
-/// What was proved of inscribed bodies: each lies inside the mesh, by the even-odd rule.
+/// What was proved of inscribed bodies: each lies inside the mesh with its caps, by the even-odd rule.
 ///
 /// Nothing is claimed about how large such bodies can be.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -89,6 +93,10 @@ pub struct BodiesVerdict {
     pub bodies: u64,
     /// Whether they are disjoint, which then was proved.
     pub disjoint: bool,
+    /// How many caps close the mesh.
+    pub caps: u64,
+    /// How many points given are in a body, the first in the first body and so on.
+    pub at: u64,
     /// The sum of the volumes of the bodies is at least this.
     pub volume_lower: f64,
     /// The sum of the volumes of the bodies is at most this.
@@ -104,7 +112,8 @@ impl InscribedBodies {
     /// ```
     /// use taut_certify::{ConvexBody, InscribedBodies};
     /// let body = ConvexBody { normals: vec![[1, 0, 0]], offsets: vec![3], volume: 0.0 };
-    /// let answer = InscribedBodies { exponent: -1, origin: [5, 0, 0], disjoint: false, bodies: vec![body] };
+    /// let answer = InscribedBodies { exponent: -1, origin: [5, 0, 0], disjoint: false, caps: vec![], at: vec![],
+    ///     bodies: vec![body] };
     /// assert_eq!(answer.half_spaces(&answer.bodies[0]), [([1.0, 0.0, 0.0], 4.0)]);
     /// ```
     pub fn half_spaces(&self, body: &ConvexBody) -> Vec<([f64; 3], f64)> {

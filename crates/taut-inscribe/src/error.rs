@@ -52,7 +52,7 @@ pub enum Error {
     /// The mesh has a boundary: some edge belongs to an odd number of triangles.
     #[error(
         "the mesh is not closed: {edges} of its edges belong to an odd number of triangles, the first of them the edge from \
-         {from:?} to {to:?} of triangle {row}; close the holes of the mesh"
+         {from:?} to {to:?} of triangle {row}; close the holes of the mesh, or let them be closed by triangles"
     )]
     Open {
         /// How many such edges there are.
@@ -70,6 +70,20 @@ pub enum Error {
          its longest side"
     )]
     NoInside,
+    /// The holes of the mesh are so large that inside and outside cannot be told apart.
+    #[error(
+        "inside is ambiguous: wherever a body fits, the triangles that close the holes of the mesh fill at least a third of \
+         the view; close the mesh where it is meant to be closed"
+    )]
+    Ambiguous,
+    /// No body contains one of the points given.
+    #[error("point {at} of those that bodies are to contain (from 0) {problem}")]
+    At {
+        /// Its position, from 0.
+        at: usize,
+        /// What is wrong with it.
+        problem: &'static str,
+    },
     /// The grid cannot hold the mesh.
     #[error(
         "the longest side of the mesh is {side:?}: expected from 1e-80 to 1e90, and no coordinate beyond 10^10 times that side; \

@@ -7,7 +7,7 @@
 //! | a large convex polygon in a polygon, with holes | [`inscribed_polygon()`] | inside, proved; largest area ≤ (1 + gap)·area, proved with a gap of up to 65 % | the ellipse, and O(n) for each turn of a side |
 //! | the largest rectangle along the axes in a polygon, with holes | [`inscribed_rectangle()`] | largest area ≤ (1 + ε)·area, proved | the cells of the search |
 //! | the largest triangle in a polygon, with holes | [`inscribed_triangle()`] | largest area ≤ (1 + ε)·area, proved | O(n log n), and the cells of the search |
-//! | convex bodies in a closed triangle mesh that cover much of it | [`inscribed_dops()`] | each lies inside, proved; how much they cover is an estimate | O(log n) for most events |
+//! | convex bodies in a triangle mesh that cover much of it | [`inscribed_bodies()`] | each lies inside, proved; how much they cover is an estimate | O(log n) for most events |
 //!
 //! ```
 //! use taut_inscribe::{CircleOptions, inscribed_circle};
@@ -21,12 +21,12 @@
 //! ```
 //!
 //! A polygon is one ring of points (x, y), or several rings of points (x, y, number of the ring): holes and parts, by the
-//! even-odd rule. Not for: rings that touch or cross each other or themselves, and meshes with a boundary.
+//! even-odd rule. Not for: rings that touch or cross each other or themselves.
 #![forbid(unsafe_code)]
 
+mod bodies;
 mod circle;
 mod convex;
-mod dops;
 mod ellipse;
 mod error;
 mod inner_points;
@@ -39,9 +39,9 @@ mod simple;
 mod triangle;
 mod units;
 
+pub use bodies::{BodiesOptions, BodyShape, inscribed_bodies, triangle_rows};
 pub use circle::{CircleOptions, inscribed_circle};
 pub use convex::{ConvexOptions, inscribed_polygon};
-pub use dops::{DopsOptions, inscribed_dops, triangle_rows};
 pub use ellipse::{EllipseOptions, inscribed_ellipse};
 pub use error::Error;
 pub use rectangle::{RectangleOptions, inscribed_rectangle};

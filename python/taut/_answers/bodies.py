@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .._record import ROW, Floats, Record, RowNumbers, column, each, record, table, value
+from .._record import FLOAT, ROW, Floats, Record, RowNumbers, column, each, record, table, value
 
 
 def _lists(found: Iterable[Iterable[int]]) -> tuple[tuple[int, ...], ...]:
@@ -38,7 +38,7 @@ class ConvexBody(Record):
 
 @record("bodies", "disjoint")
 class InscribedBodies(Record):
-    """Convex bodies inside a closed triangle mesh.
+    """Convex bodies inside a triangle mesh.
 
     A body is the set of all points ``(origin + y) * 2**exponent`` with ``normals @ y <= offsets``.
 
@@ -50,6 +50,10 @@ class InscribedBodies(Record):
         The origin of the grid, in units. Read-only.
     disjoint : bool
         Whether no two bodies have an interior point in common.
+    caps : ndarray of int64, shape (m, 3)
+        The triangles that close the mesh, if it has holes: corner c of row r has number ``3 * r + c``. Read-only.
+    at : ndarray of float64, shape (p, 3)
+        Points that the first bodies contain, one each. Read-only.
     bodies : tuple of ConvexBody
         The bodies, in the order in which they were found.
     """
@@ -57,6 +61,8 @@ class InscribedBodies(Record):
     exponent: int
     origin: RowNumbers = column(ROW)
     disjoint: bool
+    caps: RowNumbers = table(ROW, 3)
+    at: Floats = table(FLOAT, 3)
     bodies: tuple[ConvexBody, ...] = each(ConvexBody)
 
     def half_spaces(self, body: int) -> tuple[Floats, Floats]:
@@ -98,10 +104,11 @@ class InscribedBodies(Record):
         ndarray of float64, shape (v, 3)
         """
         found = self.bodies[body]
-        # Cramer's rule in Python's whole numbers, which have any size.
+        # Plain arithmetic leaves few triples of planes; of these Cramer's rule in Python's whole numbers, which have any size,
+        # makes the vertices.
         normals = found.normals.astype(object)
         offsets = found.offsets.astype(object)
-        i, j, k = np.array(list(itertools.combinations(range(len(offsets)), 3))).T
+        i, j, k = _candidates(found.normals.astype(np.float64), found.offsets.astype(np.float64))
         u, v, w = normals[i], normals[j], normals[k]
         vw, wu, uv = _cross(v, w), _cross(w, u), _cross(u, v)
         divisor = (u * vw).sum(axis=1)
@@ -115,6 +122,35 @@ class InscribedBodies(Record):
             for row, d in zip(at[is_vertex].tolist(), divisor[is_vertex].tolist(), strict=True)
         }
         return np.array(sorted(places)).reshape(-1, 3) * math.ldexp(1.0, self.exponent)
+
+
+# Triples of planes that are looked at together.
+_TRIPLES_AT_ONCE = 20_000
+
+# The distance from a vertex to a plane that rounding may add, as a part of the largest coordinate: far above 2**-53.
+_ROUNDING = 1e-9
+
+
+def _candidates(normals: Floats, offsets: Floats) -> tuple[NDArray[np.int64], ...]:
+    """The triples of planes that meet in all half-spaces, or so near that rounding may hide it."""
+    lengths = np.linalg.norm(normals, axis=1)
+    units, distances = normals / lengths[:, None], offsets / lengths
+    triples = itertools.combinations(range(len(offsets)), 3)
+    kept = [np.empty((0, 3), dtype=np.int64)]
+    while some := list(itertools.islice(triples, _TRIPLES_AT_ONCE)):
+        rows = np.array(some)
+        i, j, k = rows.T
+        vw, wu, uv = (np.cross(units[a], units[b]) for a, b in ((j, k), (k, i), (i, j)))
+        divisor = (units[i] * vw).sum(axis=1)
+        at = distances[i][:, None] * vw + distances[j][:, None] * wu + distances[k][:, None] * uv
+        # Planes that are nearly parallel have no place in plain arithmetic, and stay.
+        is_flat = np.abs(divisor) < 1e-6
+        at /= np.where(is_flat, 1.0, divisor)[:, None]
+        slack = _ROUNDING * (1.0 + np.abs(distances).max() + np.abs(at).max(axis=1))
+        is_near = np.all(at @ units.T <= distances + slack[:, None], axis=1)
+        kept.append(rows[is_near | (is_flat & (divisor != 0))])
+    i, j, k = np.concatenate(kept).T
+    return i, j, k
 
 
 def _cross(a: NDArray[Any], b: NDArray[Any]) -> NDArray[Any]:
@@ -163,7 +199,7 @@ class BodiesCertificate(Record):
 
 @record("bodies", "disjoint", "volume_lower", "volume_upper")
 class BodiesVerdict(Record):
-    """What the checker proved of inscribed bodies: each lies inside the mesh, by the even-odd rule.
+    """What the checker proved of inscribed bodies: each lies inside the mesh with its caps, by the even-odd rule.
 
     Attributes
     ----------
@@ -171,6 +207,10 @@ class BodiesVerdict(Record):
         How many bodies there are.
     disjoint : bool
         Whether they are disjoint, which then was proved.
+    caps : int
+        How many caps close the mesh.
+    at : int
+        How many points given are in a body, the first in the first body and so on.
     volume_lower, volume_upper : float
         Bounds of the sum of the volumes.
     largest : float
@@ -179,6 +219,8 @@ class BodiesVerdict(Record):
 
     bodies: int
     disjoint: bool
+    caps: int
+    at: int
     volume_lower: float
     volume_upper: float
     largest: float

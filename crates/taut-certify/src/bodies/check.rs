@@ -1,11 +1,13 @@
 //! The checker of inscribed bodies, in whole numbers.
 //!
 //! *Grid.* Each coordinate lies between two whole numbers of units, its floor and its ceiling, which are found exactly: [`grid`].
-//! *Closed.* Each edge of the mesh belongs to an even number of triangles, by the coordinates as given: [`closed`].
+//! *Closed.* Each edge of the mesh belongs to an even number of triangles and caps, by the coordinates as given. Caps have corners
+//! of the mesh, and are no more than triangulations of its holes need: [`closed`]. From here on caps are triangles of the mesh.
 //! *Empty.* No triangle meets the interior of a body, wherever its corners lie between floor and ceiling: [`empty`].
 //! *Inside.* One point of each body is inside the mesh whose corners are the floors, by the parity of exact crossings: [`parity`].
 //! Moved from the coordinates as given to their floors, triangles never meet the body, so the point is inside the mesh as given.
 //! A body is convex, no triangle meets it, and one point is inside: so all of it is inside, and it is bounded.
+//! *At.* The points given are in the first bodies, wherever they lie between floor and ceiling.
 //! *Volume.* The volume of each body comes from its exact vertices, with bounded rounding: [`volume`].
 //! *Cost.* O(n log n) for n triangles, and O(n) for most bodies.
 
@@ -18,10 +20,13 @@ pub(super) mod volume;
 
 use taut_points::{Monitor, PointSource};
 
-use self::grid::Boxes;
+use self::grid::{Boxes, Grid};
 use super::{BodiesCertificate, BodiesVerdict, BodiesViolation, ConvexBody, InscribedBodies};
 use crate::hashed_pass::{WantedRows, all_finite, hashed_pass};
 use crate::{CheckError, Violation};
+
+/// The corners of a triangle, as given.
+type Triangle = [[f64; 3]; 3];
 
 /// Entries of a normal are at most this, so that all sums and products fit into 128 bits.
 const NORMAL_MAX: i64 = 1 << 16;
@@ -48,14 +53,19 @@ pub(super) fn check(
         return Err(BodiesViolation::Triangles { dim: source.dim() }.into());
     }
     monitor.pass(1, source.len());
-    let triangles = read(source, certificate, monitor)?;
+    let mut triangles = read(source, certificate, monitor)?;
+    let rows = triangles.len();
     lengths(answer, certificate)?;
-    closed::is_closed(&triangles)?;
-    let boxes = Boxes::of(&triangles, answer.exponent, answer.origin)?;
+    triangles.extend(caps(&triangles, &answer.caps)?);
+    closed::is_closed(&triangles, rows)?;
+    let grid = Grid::of(answer.exponent, answer.origin)?;
+    let boxes = Boxes::of(&triangles, rows, &grid)?;
     let unit = grid::power_of_two(answer.exponent);
     let mut verdict = BodiesVerdict {
         bodies: answer.bodies.len() as u64,
         disjoint: answer.disjoint,
+        caps: answer.caps.len() as u64,
+        at: answer.at.len() as u64,
         volume_lower: 0.0,
         volume_upper: 0.0,
         largest: 0.0,
@@ -67,6 +77,9 @@ pub(super) fn check(
         contains(at, body, proof.inside)?;
         if !parity::is_inside(proof.inside, &boxes) {
             return Err(BodiesViolation::Outside { body: at }.into());
+        }
+        if let Some(&point) = answer.at.get(at) {
+            reaches(at, body, grid.around(point)?)?;
         }
         let [lower, upper] = volume::bounds(body, proof.inside).map(|v| v * unit * unit * unit);
         let is_right = body.volume >= lower * (1.0 - VOLUME_SLACK)
@@ -90,7 +103,7 @@ fn read(
     source: &dyn PointSource,
     certificate: &BodiesCertificate,
     monitor: &Monitor<'_>,
-) -> Result<Vec<[[f64; 3]; 3]>, CheckError> {
+) -> Result<Vec<Triangle>, CheckError> {
     let claimed = certificate.points_hash;
     let (blocks, _) = hashed_pass(source, claimed, WantedRows::none(), monitor, |first, rows| {
         all_finite(first, rows)?;
@@ -113,7 +126,34 @@ fn lengths(answer: &InscribedBodies, certificate: &BodiesCertificate) -> Result<
     };
     agree("the list of proofs", certificate.proofs.len(), bodies)?;
     let pairs = if answer.disjoint { bodies * bodies.saturating_sub(1) / 2 } else { 0 };
-    agree("the list of pairs", certificate.pairs.len(), pairs)
+    agree("the list of pairs", certificate.pairs.len(), pairs)?;
+    // Each point needs a body; there may be more bodies.
+    agree("the list of points given", answer.at.len(), answer.at.len().min(bodies))
+}
+
+/// The caps as triangles.
+fn caps(triangles: &[Triangle], caps: &[[u64; 3]]) -> Result<Vec<Triangle>, BodiesViolation> {
+    let corners = triangles.as_flattened();
+    let place = |corner: u64| usize::try_from(corner).ok().and_then(|at| corners.get(at).copied());
+    let closing: Option<Vec<Triangle>> =
+        caps.iter().map(|&[a, b, c]| Some([place(a)?, place(b)?, place(c)?])).collect();
+    closing.ok_or(BodiesViolation::Caps { problem: "name a corner that the mesh does not have" })
+}
+
+/// Checks that a body contains a point, wherever it is in its box.
+fn reaches(
+    body: usize,
+    found: &ConvexBody,
+    [low, high]: [[i64; 3]; 2],
+) -> Result<(), BodiesViolation> {
+    let is_below = |(normal, &offset): (&[i64; 3], &i64)| {
+        let ends = |c: usize| if normal[c] > 0 { high[c] } else { low[c] };
+        (0..3).map(|c| normal[c] * ends(c)).sum::<i64>() <= offset
+    };
+    match found.normals.iter().zip(&found.offsets).all(is_below) {
+        true => Ok(()),
+        false => Err(BodiesViolation::At { body }),
+    }
 }
 
 /// Checks the half-spaces of a body one by one.

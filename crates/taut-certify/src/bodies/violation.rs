@@ -12,17 +12,23 @@ pub enum BodiesViolation {
         /// Numbers of a row.
         dim: usize,
     },
-    /// The mesh has a boundary: an edge belongs to an odd number of triangles.
+    /// The mesh with its caps has a boundary: an edge belongs to an odd number of triangles.
     #[error(
         "the mesh is not closed: the edge from {from:?} to {to:?} of triangle {row} belongs to an odd number of triangles"
     )]
     Open {
-        /// A triangle with this edge, from 0.
+        /// A triangle with this edge, from 0; caps count on from the rows.
         row: u64,
         /// One end of the edge.
         from: [f64; 3],
         /// The other end.
         to: [f64; 3],
+    },
+    /// The caps are not those of holes.
+    #[error("the caps {problem}")]
+    Caps {
+        /// What is wrong with them.
+        problem: &'static str,
     },
     /// The grid is out of range, or too far from a triangle.
     #[error("the grid does not fit the mesh: {problem}")]
@@ -63,6 +69,20 @@ pub enum BodiesViolation {
     Reaches {
         /// The triangle, from 0.
         row: u64,
+        /// Position of the body, from 0.
+        body: usize,
+    },
+    /// A cap may reach into a body.
+    #[error("cap {cap} is not proved to stay out of body {body}")]
+    CapReaches {
+        /// The cap, from 0.
+        cap: u64,
+        /// Position of the body, from 0.
+        body: usize,
+    },
+    /// A body does not contain the point given for it.
+    #[error("body {body} is not proved to contain the point given for it")]
+    At {
         /// Position of the body, from 0.
         body: usize,
     },

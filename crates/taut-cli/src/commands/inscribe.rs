@@ -1,5 +1,6 @@
 //! `taut inscribe`: large shapes inside another; here the ellipsoid inside a polytope.
 
+mod bodies;
 mod circle;
 mod dops;
 mod ellipse;
@@ -21,9 +22,8 @@ use crate::watch::Watch;
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Example: taut inscribe circle ring.csv -o circle.json --draw circle.svg
-See: taut inscribe circle --help, taut inscribe dops --help, taut inscribe ellipse --help, taut inscribe ellipsoid --help,
-     taut inscribe polygon --help, taut inscribe rectangle --help,
-
+See: taut inscribe bodies --help, taut inscribe circle --help, taut inscribe dops --help, taut inscribe ellipse --help,
+     taut inscribe ellipsoid --help, taut inscribe polygon --help, taut inscribe rectangle --help,
      taut inscribe triangle --help")]
 pub(crate) struct Args {
     #[command(subcommand)]
@@ -32,6 +32,7 @@ pub(crate) struct Args {
 
 #[derive(Debug, clap::Subcommand)]
 enum Body {
+    Bodies(bodies::Bodies),
     Circle(circle::Circle),
     Dops(dops::Dops),
     Ellipse(ellipse::Ellipse),
@@ -71,6 +72,7 @@ struct Ellipsoid {
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
         match &self.body {
+            Body::Bodies(args) => pipeline::run(args),
             Body::Circle(args) => pipeline::run(args),
             Body::Dops(args) => pipeline::run(args),
             Body::Ellipse(args) => pipeline::run(args),

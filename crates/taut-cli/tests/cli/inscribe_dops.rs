@@ -22,7 +22,7 @@ fn an_octahedron_is_filled_and_proved() {
         "1.33333",
         "an estimate",
         "yes; each body lies inside the mesh, by the even-odd rule",
-        "facets in 14 directions",
+        "14; the sum over all bodies",
     ]);
     let found: serde_json::Value = serde_json::from_str(&folder.text("bodies.json")).unwrap();
     assert_eq!(found["kind"], "inscribed-bodies");
@@ -30,7 +30,7 @@ fn an_octahedron_is_filled_and_proved() {
     assert!(picture.contains("Convex bodies in a mesh of 8 triangles"));
     folder.taut("verify bodies.json mesh.off").ends(0).stdout_has(&[
         "Verified: 1 convex body in a mesh of 8 triangles\n",
-        "each body lies inside the mesh; proved",
+        "each body lies inside the mesh, by the even-odd rule; proved",
         "≤ sum of the volumes ≤",
     ]);
     folder.taut("draw bodies.json mesh.off -o again.svg").ends(0);

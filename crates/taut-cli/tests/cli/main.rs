@@ -8,6 +8,7 @@ mod delaunay;
 mod ellipsoid;
 mod generate;
 mod inscribe;
+mod inscribe_bodies;
 mod inscribe_circle;
 mod inscribe_dops;
 mod inscribe_ellipse;

@@ -28,7 +28,10 @@ pub(super) fn is_empty(
             None if separates(&last) => {}
             None => {
                 let Some(facet) = (0..found.normals.len()).find(separates) else {
-                    return Err(BodiesViolation::Reaches { row: row as u64, body });
+                    return Err(match row.checked_sub(boxes.rows) {
+                        None => BodiesViolation::Reaches { row: row as u64, body },
+                        Some(cap) => BodiesViolation::CapReaches { cap: cap as u64, body },
+                    });
                 };
                 last = facet;
             }

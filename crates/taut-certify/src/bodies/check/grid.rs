@@ -11,8 +11,10 @@ const EXPONENTS: std::ops::RangeInclusive<i32> = -300..=310;
 /// Coordinates in units are below this, so that whole numbers hold them.
 const UNITS_MAX: f64 = (1u64 << 61) as f64;
 
-/// For each corner of each triangle the floors and the ceilings of its coordinates, in units from the origin.
+/// For each corner of each triangle and then of each cap the floors and the ceilings of its coordinates, in units from the origin.
 pub(super) struct Boxes {
+    /// How many triangles are those of the mesh.
+    pub(super) rows: usize,
     pub(super) floors: Vec<[[i64; 3]; 3]>,
     pub(super) ceilings: Vec<[[i64; 3]; 3]>,
 }
@@ -23,34 +25,53 @@ pub(super) fn power_of_two(exponent: i32) -> f64 {
 }
 
 impl Boxes {
+    /// The boxes of the triangles of a mesh, of which the first `rows` are not caps.
     pub(super) fn of(
         triangles: &[[[f64; 3]; 3]],
-        exponent: i32,
-        origin: [i64; 3],
+        rows: usize,
+        grid: &Grid,
     ) -> Result<Self, BodiesViolation> {
-        let wrong = |problem| BodiesViolation::Grid { problem };
-        if !EXPONENTS.contains(&exponent) {
-            return Err(wrong("the exponent is not from -300 to 310"));
-        }
-        let per_unit = power_of_two(-exponent);
         let (mut floors, mut ceilings) = (vec![], vec![]);
         for triangle in triangles {
             let (mut low, mut high) = ([[0; 3]; 3], [[0; 3]; 3]);
             for corner in 0..3 {
-                for c in 0..3 {
-                    let range = whole(triangle[corner][c], per_unit)
-                        .map(|range| range.map(|y| y.saturating_sub(origin[c])))
-                        .filter(|[low, high]| *low >= -COORDINATE_MAX && *high <= COORDINATE_MAX);
-                    let Some([floor, ceiling]) = range else {
-                        return Err(wrong("a coordinate is more than 2^30 units from the origin"));
-                    };
-                    (low[corner][c], high[corner][c]) = (floor, ceiling);
-                }
+                [low[corner], high[corner]] = grid.around(triangle[corner])?;
             }
             floors.push(low);
             ceilings.push(high);
         }
-        Ok(Boxes { floors, ceilings })
+        Ok(Boxes { rows, floors, ceilings })
+    }
+}
+
+/// A grid: y stands for (`origin` + y)/`per_unit`.
+pub(super) struct Grid {
+    per_unit: f64,
+    origin: [i64; 3],
+}
+
+impl Grid {
+    pub(super) fn of(exponent: i32, origin: [i64; 3]) -> Result<Self, BodiesViolation> {
+        if !EXPONENTS.contains(&exponent) {
+            return Err(BodiesViolation::Grid { problem: "the exponent is not from -300 to 310" });
+        }
+        Ok(Grid { per_unit: power_of_two(-exponent), origin })
+    }
+
+    /// The floors and the ceilings of the coordinates of a point.
+    pub(super) fn around(&self, point: [f64; 3]) -> Result<[[i64; 3]; 2], BodiesViolation> {
+        let (mut low, mut high) = ([0; 3], [0; 3]);
+        for c in 0..3 {
+            let range = whole(point[c], self.per_unit)
+                .map(|range| range.map(|y| y.saturating_sub(self.origin[c])))
+                .filter(|[low, high]| *low >= -COORDINATE_MAX && *high <= COORDINATE_MAX);
+            let Some([floor, ceiling]) = range else {
+                let problem = "a coordinate is more than 2^30 units from the origin";
+                return Err(BodiesViolation::Grid { problem });
+            };
+            (low[c], high[c]) = (floor, ceiling);
+        }
+        Ok([low, high])
     }
 }
 

@@ -63,7 +63,8 @@ mod tests {
     use super::*;
 
     fn inside(point: [i64; 3], floors: &[[[i64; 3]; 3]]) -> bool {
-        is_inside(point, &Boxes { floors: floors.to_vec(), ceilings: floors.to_vec() })
+        let rows = floors.len();
+        is_inside(point, &Boxes { rows, floors: floors.to_vec(), ceilings: floors.to_vec() })
     }
 
     #[test]

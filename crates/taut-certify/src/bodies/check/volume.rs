@@ -1,7 +1,7 @@
 //! The volume of a convex body with whole half-spaces.
 //!
-//! *Idea.* The vertices are the points of three facets that all half-spaces hold, in fractions. An edge joins the two vertices
-//! that two facets have in common. A tetrahedron spans an interior point, a vertex of a facet and an edge of that facet; these
+//! *Idea.* The line in which the planes of two facets meet is cut by all other half-spaces, in fractions; its ends are vertices. For
+//! most pairs nothing is left after a few cuts. An edge joins the two vertices that two facets have in common. A tetrahedron spans an interior point, a vertex of a facet and an edge of that facet; these
 //! tetrahedra fill the body, so that the volume is a sum of positive terms.
 //! *Guarantee.* Vertices are exact; each is rounded once, and the rounding of all terms and of the sum is bounded.
 
@@ -107,39 +107,83 @@ fn around(body: &ConvexBody, from: [i64; 3]) -> BTreeMap<Facets, [f64; 3]> {
     let from = from.map(i128::from);
     let offset = |(u, &h): (&[i128; 3], &i64)| i128::from(h) - dot(*u, from);
     let offsets: Vec<i128> = normals.iter().zip(&body.offsets).map(offset).collect();
-    let facets = normals.len();
+    let planes = Planes { normals, offsets };
+    let facets = planes.normals.len();
     let mut vertices = BTreeMap::new();
     for i in 0..facets {
         for j in i + 1..facets {
-            let crossed = cross(normals[i], normals[j]);
-            if crossed == [0; 3] {
-                continue;
-            }
-            for k in j + 1..facets {
-                let divisor = dot(crossed, normals[k]);
-                if divisor == 0 {
-                    continue;
-                }
-                // Cramer's rule, with a positive divisor.
-                let (jk, ki) = (cross(normals[j], normals[k]), cross(normals[k], normals[i]));
-                let sign = divisor.signum();
-                let at = [0, 1, 2].map(|c| {
-                    sign * (offsets[i] * jk[c] + offsets[j] * ki[c] + offsets[k] * crossed[c])
-                });
-                let divisor = divisor.abs();
-                let mut on = [0u64; 4];
-                let is_vertex = (0..facets).all(|facet| {
-                    let beyond = dot(normals[facet], at) - offsets[facet] * divisor;
-                    on[facet / 64] |= u64::from(beyond == 0) << (facet % 64);
-                    beyond <= 0
-                });
-                if is_vertex {
-                    vertices.insert(on, at.map(|x| x as f64 / divisor as f64));
+            for point in planes.ends(i, j).into_iter().flatten() {
+                if let Some(on) = planes.holding(&point) {
+                    let [x, y, z, divisor] = point.map(|x| x as f64);
+                    vertices.insert(on, [x / divisor, y / divisor, z / divisor]);
                 }
             }
         }
     }
     vertices
+}
+
+/// A point (x, y, z)/divisor with a positive divisor.
+type Fraction = [i128; 4];
+
+/// Half-spaces normal·x ≤ offset.
+struct Planes {
+    normals: Vec<[i128; 3]>,
+    offsets: Vec<i128>,
+}
+
+impl Planes {
+    /// How far a point is beyond a plane, times its divisor and the length of the normal.
+    fn beyond(&self, facet: usize, &[x, y, z, divisor]: &Fraction) -> i128 {
+        dot(self.normals[facet], [x, y, z]) - self.offsets[facet] * divisor
+    }
+
+    /// The ends of the part that all other half-spaces leave of the line in which two planes meet; none if nothing is left or
+    /// the planes are parallel. Planes parallel to the line are left out.
+    fn ends(&self, i: usize, j: usize) -> [Option<Fraction>; 2] {
+        let line = cross(self.normals[i], self.normals[j]);
+        if line == [0; 3] {
+            return [None; 2];
+        }
+        let mut ends = [None; 2];
+        for k in (0..self.normals.len()).filter(|&k| k != i && k != j) {
+            let slope = dot(line, self.normals[k]);
+            let (own, other) = match slope.signum() {
+                0 => continue,
+                1 => (1, 0),
+                _ => (0, 1),
+            };
+            if ends[other].is_some_and(|end| self.beyond(k, &end) > 0) {
+                return [None; 2];
+            }
+            if ends[own].is_none_or(|end| self.beyond(k, &end) > 0) {
+                ends[own] = Some(self.meeting([i, j, k], line, slope));
+            }
+        }
+        ends
+    }
+
+    /// The point in which three planes meet, by Cramer's rule.
+    fn meeting(&self, [i, j, k]: [usize; 3], line: [i128; 3], slope: i128) -> Fraction {
+        let (jk, ki) =
+            (cross(self.normals[j], self.normals[k]), cross(self.normals[k], self.normals[i]));
+        let [a, b, c] = [i, j, k].map(|facet| self.offsets[facet] * slope.signum());
+        let [x, y, z] = [0, 1, 2].map(|at| a * jk[at] + b * ki[at] + c * line[at]);
+        [x, y, z, slope.abs()]
+    }
+
+    /// The facets that hold a point; `None` for a point that is not in all half-spaces.
+    fn holding(&self, point: &Fraction) -> Option<Facets> {
+        let mut on = [0u64; 4];
+        for facet in 0..self.normals.len() {
+            let beyond = self.beyond(facet, point);
+            if beyond > 0 {
+                return None;
+            }
+            on[facet / 64] |= u64::from(beyond == 0) << (facet % 64);
+        }
+        Some(on)
+    }
 }
 
 fn dot(a: [i128; 3], b: [i128; 3]) -> i128 {
@@ -170,6 +214,58 @@ mod tests {
         let [lower, upper] = bounds(&body, [1, 1, 1]);
         assert!(lower <= upper && upper - lower <= 1e-13 * upper, "{lower} {upper}");
         f64::midpoint(lower, upper)
+    }
+
+    /// The vertices by all triples of planes.
+    fn by_triples(body: &ConvexBody) -> BTreeSet<Facets> {
+        let normals: Vec<[i128; 3]> = body.normals.iter().map(|u| u.map(i128::from)).collect();
+        let offsets = body.offsets.iter().map(|&h| i128::from(h)).collect();
+        let planes = Planes { normals, offsets };
+        let mut found = BTreeSet::new();
+        for i in 0..planes.normals.len() {
+            for j in i + 1..planes.normals.len() {
+                let line = cross(planes.normals[i], planes.normals[j]);
+                for k in j + 1..planes.normals.len() {
+                    let slope = dot(line, planes.normals[k]);
+                    if slope != 0 {
+                        found.extend(planes.holding(&planes.meeting([i, j, k], line, slope)));
+                    }
+                }
+            }
+        }
+        found
+    }
+
+    #[test]
+    fn vertices_are_those_of_all_triples_of_planes() {
+        let mut state = 1u64;
+        let mut next = |end: u64| {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            ((state >> 33) % end) as i64
+        };
+        let mut all = 0;
+        for round in 0..60 {
+            let mut normals: Vec<[i64; 3]> = vec![];
+            while normals.len() < 4 + round % 17 {
+                // Small entries make many planes meet in one point, and many lines parallel to planes.
+                let end = if round % 3 == 0 { 3 } else { 9 };
+                let u = [0; 3].map(|_: i32| next(end) - end as i64 / 2);
+                if u != [0; 3] && !normals.contains(&u) {
+                    normals.push(u);
+                }
+            }
+            let offsets = normals
+                .iter()
+                .map(|u| 1 + u.iter().map(|n| n.abs()).sum::<i64>() * (1 + next(2)))
+                .collect();
+            let body = ConvexBody { normals, offsets, volume: 0.0 };
+            let found: BTreeSet<Facets> = around(&body, [0; 3]).into_keys().collect();
+            assert_eq!(found, by_triples(&body), "{body:?}");
+            all += found.len();
+        }
+        assert!(all > 300, "{all}");
     }
 
     #[test]

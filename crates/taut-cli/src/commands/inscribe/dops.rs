@@ -1,53 +1,31 @@
-//! `taut inscribe dops`: convex bodies with facets in fixed directions inside a closed triangle mesh.
+//! `taut inscribe dops`: convex bodies with facets in fixed directions inside a triangle mesh.
 
-mod report;
-
-use std::path::PathBuf;
-
+use taut::Solution;
 use taut::certify::InscribedBodies;
-use taut::inscribe::{DopsOptions, inscribed_dops};
-use taut::{Monitor, Solution};
+use taut::inscribe::BodyShape;
 
-use crate::effort::Effort;
+use super::bodies::Search;
 use crate::exit::Outcome;
-use crate::input::reading::{Opened, Reading};
-use crate::pipeline::{Find, Input, Output, OutputOptions};
+use crate::input::reading::Opened;
+use crate::pipeline::{Find, Input, Output};
 use crate::watch::Watch;
 
-/// Find large convex bodies with facets in k directions (k-dops) inside a closed triangle mesh.
+/// Find large convex bodies inside a triangle mesh, with facets in k fixed directions (k-dops).
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-Each edge of the mesh must belong to an even number of triangles; if not, the message names one. Inside is decided by the
-even-odd rule, however triangles are turned. That each body lies inside is proved. How much of the inside the bodies cover is
-an estimate, and nothing is claimed about how much such bodies can cover.
+Each edge of the mesh must belong to an even number of triangles; if not, the message names one, and --close-holes closes the
+mesh by triangles that the answer names. Inside is decided by the even-odd rule, however triangles are turned. That each body
+lies inside is proved. How much of the inside the bodies cover is an estimate, and nothing is claimed about how much such bodies
+can cover. Bodies with facets in any directions cover more: taut inscribe bodies.
 Exit: 0 found · 1 the check failed · 2 bad input or usage, nothing written
 Example: taut inscribe dops horse.off --count 10 -o bodies.json --draw bodies.html &&
          taut verify bodies.json horse.off")]
 pub(super) struct Dops {
-    /// The mesh: .off, .obj, .ply or .stl, or points with 9 coordinates, the corners of a triangle in each row
-    #[arg(value_name = "MESH")]
-    path: PathBuf,
     /// Directions of the facets: 6, 14, 18 or 26
-    #[arg(short = 'k', long, value_name = "K", default_value_t = DopsOptions::default().directions)]
+    #[arg(short = 'k', long, value_name = "K", default_value_t = 18)]
     directions: usize,
-    /// Most bodies to find, from 1 to 1000
-    #[arg(short = 'n', long, value_name = "N", default_value_t = DopsOptions::default().count)]
-    count: usize,
-    /// Find bodies that do not overlap
-    #[arg(long)]
-    disjoint: bool,
-    /// How many facet events one search may compute, at least 1; more events cover more
-    #[arg(long, value_name = "N", default_value_t = DopsOptions::default().events)]
-    events: u64,
-    /// Where the random choices begin
-    #[arg(long, value_name = "S", default_value_t = DopsOptions::default().seed)]
-    seed: u64,
     #[command(flatten)]
-    output: OutputOptions,
-    #[command(flatten)]
-    reading: Reading,
-    #[command(flatten)]
-    effort: Effort,
+    search: Search,
 }
 
 impl Find for Dops {
@@ -55,15 +33,15 @@ impl Find for Dops {
     type Extra = ();
 
     fn input(&self) -> Input<'_> {
-        Input { path: &self.path, reading: &self.reading, effort: &self.effort }
+        self.search.input()
     }
 
     fn output(&self) -> Output<'_> {
-        self.output.output()
+        self.search.output()
     }
 
     fn open(&self) -> anyhow::Result<Opened> {
-        self.reading.open_triangles(&self.path)
+        self.search.open()
     }
 
     fn solve(
@@ -71,42 +49,10 @@ impl Find for Dops {
         mesh: &Opened,
         watch: &Watch,
     ) -> anyhow::Result<(Solution<InscribedBodies>, ())> {
-        let solve = |monitor: &Monitor<'_>| {
-            let options = DopsOptions { monitor: *monitor, ..self.options() };
-            inscribed_dops(mesh.source(), &options)
-        };
-        let found = watch.during("solving", solve).map_err(|error| mesh.explain(error))?;
-        Ok((found, ()))
+        self.search.solve(BodyShape::Dop(self.directions), mesh, watch)
     }
 
     fn outcome(&self, _found: &Solution<InscribedBodies>) -> Outcome {
         Outcome::Done
-    }
-}
-
-impl Dops {
-    fn options(&self) -> DopsOptions<'static> {
-        DopsOptions {
-            directions: self.directions,
-            count: self.count,
-            disjoint: self.disjoint,
-            events: self.events,
-            seed: self.seed,
-            ..DopsOptions::default()
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use clap::{Args as _, FromArgMatches};
-    use taut::inscribe::DopsOptions;
-
-    #[test]
-    fn the_defaults_are_those_of_the_library() {
-        let command = super::Dops::augment_args(clap::Command::new("dops"));
-        let matches = command.get_matches_from(["dops", "mesh.off"]);
-        let found = super::Dops::from_arg_matches(&matches).unwrap();
-        assert_eq!(found.options(), DopsOptions::default());
     }
 }

@@ -1,6 +1,6 @@
 //! Shapes whose largest bodies are known.
 
-use taut_inscribe::DopsOptions;
+use taut_inscribe::BodiesOptions;
 
 use super::shapes::{
     Mesh, cuboid, directions, hull, l_shape, octahedron, options, permutations, proved,
@@ -56,15 +56,15 @@ fn an_l_is_covered_by_two_boxes() {
     let (found, verdict) = proved(&mesh, &options(6));
     assert!((verdict.largest - 2.0).abs() < 1e-5, "{verdict:?}");
     assert_eq!(found.answer.bodies.len(), 1);
-    let two = DopsOptions { count: 2, ..options(6) };
+    let two = BodiesOptions { count: 2, ..options(6) };
     let (found, verdict) = proved(&mesh, &two);
     assert!((verdict.volume_lower - 4.0).abs() < 1e-5, "{verdict:?}");
     assert_eq!(found.trace.counters["covered"], found.trace.counters["sample_points"]);
-    let (found, verdict) = proved(&mesh, &DopsOptions { disjoint: true, ..two });
+    let (found, verdict) = proved(&mesh, &BodiesOptions { disjoint: true, ..two });
     assert!((verdict.volume_lower - 3.0).abs() < 1e-5 && verdict.disjoint, "{verdict:?}");
     assert_eq!(found.certificate.pairs.len(), 1);
     // Nothing is left for a third body.
-    let three = DopsOptions { count: 3, disjoint: true, ..options(6) };
+    let three = BodiesOptions { count: 3, disjoint: true, ..options(6) };
     assert_eq!(proved(&mesh, &three).0.answer.bodies.len(), 2);
 }
 

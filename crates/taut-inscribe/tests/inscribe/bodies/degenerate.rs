@@ -1,6 +1,6 @@
 //! Meshes without inside, with holes, or with numbers at the ends of the range.
 
-use taut_inscribe::{DopsOptions, Error, inscribed_dops, triangle_rows};
+use taut_inscribe::{BodiesOptions, BodyShape, Error, inscribed_bodies, triangle_rows};
 use taut_points::{InputError, Points};
 
 use super::shapes::{Mesh, cuboid, octahedron, options, proved, solve};
@@ -46,12 +46,17 @@ fn numbers_and_options_out_of_range_are_refused() {
         let error = solve(&scaled(&cube, factor, shift), &options(6)).unwrap_err();
         assert!(matches!(error, Error::Grid { .. }), "{factor} {shift}: {error}");
     }
-    let dim = inscribed_dops(&Points::new(&[0.0; 6], 3).unwrap(), &options(6)).unwrap_err();
+    let dim = inscribed_bodies(&Points::new(&[0.0; 6], 3).unwrap(), &options(6)).unwrap_err();
     assert!(dim.to_string().contains("expected 9"), "{dim}");
     for (wrong, name) in [
-        (DopsOptions { directions: 8, ..options(6) }, "directions"),
-        (DopsOptions { count: 0, ..options(6) }, "count"),
-        (DopsOptions { events: 0, ..options(6) }, "events"),
+        (BodiesOptions { shape: BodyShape::Dop(8), ..options(6) }, "directions"),
+        (BodiesOptions { shape: BodyShape::Free(7), ..options(6) }, "facets"),
+        (BodiesOptions { shape: BodyShape::Free(257), ..options(6) }, "facets"),
+        (BodiesOptions { coverage: Some(0.0), ..options(6) }, "coverage"),
+        (BodiesOptions { coverage: Some(f64::NAN), ..options(6) }, "coverage"),
+        (BodiesOptions { at: &[[0.5; 3]; 1001], ..options(6) }, "at"),
+        (BodiesOptions { count: 0, ..options(6) }, "count"),
+        (BodiesOptions { events: 0, ..options(6) }, "events"),
     ] {
         let error = solve(&cube, &wrong).unwrap_err();
         assert!(error.to_string().contains(name), "{error}");

@@ -2,6 +2,9 @@
 
 mod closed_forms;
 mod degenerate;
+mod free;
+mod given;
+mod holes;
 mod laws;
 mod models;
 mod mutations;

@@ -1,10 +1,11 @@
 //! Doctored answers and certificates, each of which the checker has to refuse.
 
 use taut_certify::{InscribedBodies, Solution};
-use taut_inscribe::DopsOptions;
+use taut_inscribe::BodiesOptions;
 
 use super::shapes::{
-    Mesh, cuboid, directions, hull, l_shape, octahedron, options, permutations, points, proved,
+    Mesh, cuboid, directions, free, hull, l_shape, octahedron, options, permutations, points,
+    proved, wavy,
 };
 
 type Bodies = Solution<InscribedBodies>;
@@ -66,7 +67,7 @@ fn bodies_that_leave_the_mesh_are_refused() {
 #[test]
 fn each_field_is_checked() {
     let mesh = octahedron();
-    let two = DopsOptions { count: 2, disjoint: true, ..options(18) };
+    let two = BodiesOptions { count: 2, disjoint: true, ..options(18) };
     let (found, _) = proved(&mesh, &two);
     let refused = |change: fn(&mut Bodies)| refused(&found, &mesh, change);
     let combined = &found.certificate.proofs[0].combined;
@@ -78,6 +79,13 @@ fn each_field_is_checked() {
         (|f| f.answer.origin[1] += 3, "body 0"),
         (|f| f.answer.origin[1] = i64::MIN, "more than 2^30 units"),
         (|f| f.answer.disjoint = false, "the list of pairs has 1"),
+        (|f| f.answer.caps.push([0, 1, 2]), "belongs to an odd number of triangles"),
+        (|f| f.answer.caps.extend([[0, 1, 2]; 2]), "more than the holes of the mesh need"),
+        (|f| f.answer.caps.push([0, 1, 24]), "a corner that the mesh does not have"),
+        (|f| f.answer.caps.push([0, 1, u64::MAX]), "a corner that the mesh does not have"),
+        (|f| f.answer.at.push([0.9; 3]), "body 0 is not proved to contain the point"),
+        (|f| f.answer.at.push([f64::NAN; 3]), "more than 2^30 units"),
+        (|f| f.answer.at.extend([[0.0; 3]; 3]), "the list of points given has 3"),
         (|f| drop(f.answer.bodies.pop()), "the list of proofs has 2"),
         (|f| f.answer.bodies[0].offsets.truncate(17), "another number of offsets"),
         (|f| f.answer.bodies[0].normals.truncate(3), "another number of offsets"),
@@ -114,4 +122,47 @@ fn each_field_is_checked() {
     other[0].rotate_left(1);
     let error = found.check(&points(&other)).unwrap_err().to_string();
     assert!(error.contains("the data changed"), "{error}");
+}
+
+#[test]
+fn tight_facets_of_free_bodies_moved_outward_are_refused() {
+    let mesh = wavy(20, Some(1.0 / 64.0));
+    let at = [[2.0, 0.0, 0.1]];
+    let (found, _) = proved(&mesh, &BodiesOptions { count: 3, at: &at, ..free(256) });
+    let mut refusals = 0;
+    for body in 0..found.answer.bodies.len() {
+        for facet in 0..found.answer.bodies[body].normals.len() {
+            let normal = found.answer.bodies[body].normals[facet];
+            // By two units of the grid along the normal.
+            let outward = 2 * normal.iter().map(|n| n.abs()).sum::<i64>();
+            let mut changed = found.clone();
+            changed.answer.bodies[body].offsets[facet] += outward;
+            match changed.check(&points(&mesh)) {
+                Err(error) => {
+                    let error = error.to_string();
+                    let expected = "is not proved to stay out of body";
+                    let is_expected = error.contains(expected) || error.contains("the volume of");
+                    assert!(is_expected, "{error}");
+                    refusals += usize::from(error.contains(expected));
+                }
+                // A facet that only others need: the volume stays.
+                Ok(verdict) => assert_eq!(verdict.bodies, 3),
+            }
+        }
+    }
+    let facets: usize = found.answer.bodies.iter().map(|body| body.normals.len()).sum();
+    println!("{refusals} of {facets} facets are tight");
+    // Each plane touches a triangle that no plane before it kept out, though a later one may.
+    assert!(2 * refusals > facets, "{refusals} of {facets}");
+    let refused = |change: fn(&mut Bodies)| refused(&found, &mesh, change);
+    for (change, expected) in [
+        ((|f| f.answer.at[0] = [-2.0, 0.0, 0.1]) as fn(&mut Bodies), "to contain the point"),
+        (|f| f.answer.bodies.swap(0, 1), "body 0"),
+        (|f| f.answer.bodies[0].normals[0][0] += 1, "body 0"),
+        (|f| f.answer.bodies[0].normals[0] = [40, 80, 120], "common divisor"),
+        (|f| f.certificate.proofs[0].inside = f.certificate.proofs[1].inside, "body 0"),
+    ] {
+        let error = refused(change);
+        assert!(error.contains(expected), "expected {expected:?}: {error}");
+    }
 }

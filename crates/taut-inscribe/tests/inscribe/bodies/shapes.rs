@@ -1,7 +1,7 @@
 //! Meshes to test with, and what every answer has to satisfy.
 
 use taut_certify::{BodiesVerdict, InscribedBodies, Solution};
-use taut_inscribe::{DopsOptions, Error, inscribed_dops, triangle_rows};
+use taut_inscribe::{BodiesOptions, BodyShape, Error, inscribed_bodies, triangle_rows};
 use taut_points::Points;
 
 /// Triangles by their corners.
@@ -13,15 +13,15 @@ pub(crate) fn points(mesh: &[[[f64; 3]; 3]]) -> Points<'_, f64> {
 
 pub(crate) fn solve(
     mesh: &[[[f64; 3]; 3]],
-    options: &DopsOptions<'_>,
+    options: &BodiesOptions<'_>,
 ) -> Result<Solution<InscribedBodies>, Error> {
-    inscribed_dops(&points(mesh), options)
+    inscribed_bodies(&points(mesh), options)
 }
 
 /// Bodies that the checker accepts.
 pub(crate) fn proved(
     mesh: &[[[f64; 3]; 3]],
-    options: &DopsOptions<'_>,
+    options: &BodiesOptions<'_>,
 ) -> (Solution<InscribedBodies>, BodiesVerdict) {
     let found = solve(mesh, options).unwrap();
     let verdict = found.check(&points(mesh));
@@ -30,8 +30,12 @@ pub(crate) fn proved(
     (found, verdict)
 }
 
-pub(crate) fn options(directions: usize) -> DopsOptions<'static> {
-    DopsOptions { directions, events: 3000, ..DopsOptions::default() }
+pub(crate) fn options(directions: usize) -> BodiesOptions<'static> {
+    BodiesOptions { shape: BodyShape::Dop(directions), events: 3000, ..BodiesOptions::default() }
+}
+
+pub(crate) fn free(facets: usize) -> BodiesOptions<'static> {
+    BodiesOptions { shape: BodyShape::Free(facets), events: 3000, ..BodiesOptions::default() }
 }
 
 /// The faces of the convex hull in some directions as fans of triangles.

@@ -1,6 +1,6 @@
 //! Convex bodies in triangle meshes.
 
-use taut::inscribe::{DopsOptions, inscribed_dops};
+use taut::inscribe::{BodiesOptions, BodyShape, inscribed_bodies};
 
 use super::{Case, Input, Solved, cases, document};
 
@@ -9,7 +9,7 @@ pub fn all() -> Vec<Case> {
     cases(meshes(), solve)
 }
 
-/// Returns small closed meshes, some of them far from 0, large, small, or with corners that are not on the grid.
+/// Returns small meshes, two of them with a hole, some of them far from 0, large, small, or with corners that are not on the grid.
 fn meshes() -> Vec<Input> {
     let octahedron = || {
         let end = |k: usize, sign: f64| {
@@ -42,6 +42,9 @@ fn meshes() -> Vec<Input> {
     let tetrahedron = tetrahedron.into_iter().flatten().flat_map(|k: usize| corners[k]).collect();
     let nested = [cuboid([0.0; 3], [8.0; 3]), cuboid([2.0, 2.0, 3.0], [6.0, 5.0, 6.0])].concat();
     let two = [cuboid([0.0; 3], [1.0; 3]), cuboid([3.0, 0.5, 0.5], [4.0, 2.0, 1.5])].concat();
+    // Without its last triangle, and without two that share an edge.
+    let open_octahedron = octahedron()[..63].to_vec();
+    let open_cube = cuboid([0.0; 3], [1.0; 3])[18..].to_vec();
     let found = [
         ("a tetrahedron", tetrahedron),
         ("a cube", cuboid([0.0; 3], [1.0; 3])),
@@ -52,21 +55,35 @@ fn meshes() -> Vec<Input> {
         ("an octahedron of 1e80", moved(octahedron(), 1e80, 0.0)),
         ("a cube with a cavity", nested),
         ("two boxes", two),
+        ("an octahedron with a hole", open_octahedron),
+        ("a cube with a hole", open_cube),
     ];
     found.into_iter().map(|(name, values)| Input::new(name, values, 9)).collect()
 }
 
 fn solve(input: &Input) -> Vec<Solved> {
-    let base = DopsOptions { events: 400, ..DopsOptions::default() };
+    let base = BodiesOptions { events: 400, close_holes: true, ..BodiesOptions::default() };
+    let dop = |directions| BodiesOptions { shape: BodyShape::Dop(directions), ..base.clone() };
+    // A point in a third of the way from the first corner of the mesh to the mean of all corners.
+    let corners = input.values.as_chunks::<3>().0;
+    let mean = |c: usize| corners.iter().map(|p| p[c] / corners.len() as f64).sum::<f64>();
+    let at = [[0, 1, 2].map(|c| corners[0][c] + (mean(c) - corners[0][c]) / 3.0)];
     let ways = [
-        ("6", DopsOptions { directions: 6, ..base.clone() }),
-        ("14", DopsOptions { directions: 14, ..base.clone() }),
-        ("18, two disjoint", DopsOptions { count: 2, disjoint: true, ..base.clone() }),
-        ("26, two", DopsOptions { directions: 26, count: 2, ..base }),
+        ("6", dop(6)),
+        ("14", dop(14)),
+        ("18, two disjoint", BodiesOptions { count: 2, disjoint: true, ..dop(18) }),
+        ("26, two", BodiesOptions { count: 2, ..dop(26) }),
+        ("free, two disjoint", BodiesOptions { count: 2, disjoint: true, ..base.clone() }),
+        ("free, around a point", BodiesOptions { count: 2, at: &at, ..base.clone() }),
+        ("9 facets", BodiesOptions { shape: BodyShape::Free(9), ..base.clone() }),
+        (
+            "12 facets, around a point",
+            BodiesOptions { shape: BodyShape::Free(12), at: &at, ..base },
+        ),
     ];
     ways.into_iter()
         .map(|(way, options)| {
-            let found = input.with(|source| inscribed_dops(source, &options));
+            let found = input.with(|source| inscribed_bodies(source, &options));
             (way.to_owned(), found.ok().map(|found| document(&found)))
         })
         .collect()

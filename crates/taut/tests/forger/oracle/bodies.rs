@@ -1,7 +1,7 @@
 //! Convex bodies in a mesh, in fractions.
 //!
-//! *Decided, all of it exactly.* No triangle has a point in the interior of a body: the triangle is clipped by all half-spaces.
-//! One point of the body is inside by the even-odd rule. The volume is the sum of pyramids over clipped facets. Bodies are
+//! *Decided, all of it exactly.* The mesh with its caps is closed. No triangle and no cap has a point in the interior of a body:
+//! it is clipped by all half-spaces. One point of the body is inside by the even-odd rule. The points given are in the bodies. The volume is the sum of pyramids over clipped facets. Bodies are
 //! disjoint if the mean of the corners of their intersection is in the border of one of them.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -20,10 +20,11 @@ type HalfSpace = (Point, BigRational);
 
 /// Knows the truth about the bodies in one mesh.
 pub struct BodiesOracle {
+    /// The triangles as given.
+    rows: Vec<[[f64; 3]; 3]>,
     triangles: Vec<[Point; 3]>,
     /// Twice the largest coordinate: no body inside reaches so far.
     reach: BigRational,
-    is_closed: bool,
     /// What was said of answers before.
     judged: BTreeMap<String, Truth>,
 }
@@ -75,24 +76,14 @@ fn clipped(polygon: &[Point], (u, b): &HalfSpace) -> Vec<Point> {
 impl BodiesOracle {
     /// Prepares to judge bodies in the mesh of these rows.
     pub fn new(values: &[f64], columns: usize) -> Self {
-        let mut odd: BTreeSet<[[u64; 3]; 2]> = BTreeSet::new();
-        let mut triangles = vec![];
-        let rows = if columns == 9 { values.chunks_exact(9) } else { [].chunks_exact(9) };
-        for row in rows {
-            let corners = [0, 3, 6].map(|k| [row[k], row[k + 1], row[k + 2]]);
-            for k in 0..3 {
-                let bits = |p: [f64; 3]| p.map(|x| (x + 0.0).to_bits());
-                let mut edge = [bits(corners[k]), bits(corners[(k + 1) % 3])];
-                edge.sort_unstable();
-                if edge[0] != edge[1] && !odd.remove(&edge) {
-                    odd.insert(edge);
-                }
-            }
-            triangles.push(corners.map(|p| p.map(exact)));
-        }
+        let chunks = if columns == 9 { values.chunks_exact(9) } else { [].chunks_exact(9) };
+        let corners = |row: &[f64]| [0, 3, 6].map(|k| [row[k], row[k + 1], row[k + 2]]);
+        let rows: Vec<[[f64; 3]; 3]> = chunks.map(corners).collect();
+        let triangles: Vec<[Point; 3]> =
+            rows.iter().map(|corners| corners.map(|p| p.map(exact))).collect();
         let coordinates = triangles.as_flattened().as_flattened().iter().map(|x| x.abs());
         let reach = coordinates.max().unwrap_or_else(BigRational::zero) * whole(2);
-        BodiesOracle { triangles, reach, is_closed: odd.is_empty(), judged: BTreeMap::new() }
+        BodiesOracle { rows, triangles, reach, judged: BTreeMap::new() }
     }
 
     /// Judges every claim of an answer that the checker let pass.
@@ -110,19 +101,30 @@ impl BodiesOracle {
         let numbers = [verdict.volume_lower, verdict.volume_upper, verdict.largest];
         let agrees = numbers.iter().all(|x| x.is_finite() && *x >= 0.0)
             && verdict.bodies == answer.bodies.len() as u64
-            && verdict.disjoint == answer.disjoint;
-        if !agrees || !self.is_closed {
-            return Truth::False(format!("{verdict:?} does not fit the answer or the mesh"));
+            && verdict.disjoint == answer.disjoint
+            && verdict.caps == answer.caps.len() as u64
+            && verdict.at == answer.at.len() as u64;
+        if !agrees {
+            return Truth::False(format!("{verdict:?} does not fit the answer"));
         }
+        let Some(triangles) = self.closed(&answer.caps) else {
+            return Truth::False("the mesh with its caps is not closed".into());
+        };
         let [lower, upper, least] = numbers.map(exact);
         let (mut sum, mut largest) = (BigRational::zero(), BigRational::zero());
         let bodies: Vec<Vec<HalfSpace>> =
             answer.bodies.iter().map(|body| half_spaces(answer, body)).collect();
         for (at, body) in bodies.iter().enumerate() {
-            let volume = match self.volume(body) {
+            let volume = match self.volume(body, &triangles) {
                 Ok(volume) => volume,
                 Err(reason) => return Truth::False(format!("body {at} {reason}")),
             };
+            if let Some(point) = answer.at.get(at) {
+                let point = point.map(exact);
+                if body.iter().any(|(u, b)| dot(u, &point) > *b) {
+                    return Truth::False(format!("body {at} does not contain its point"));
+                }
+            }
             let claimed = exact(answer.bodies[at].volume);
             if (&claimed - &volume).abs() > exact(1.1e-9) * &volume {
                 return Truth::False(format!("body {at} has not the volume {claimed}"));
@@ -146,8 +148,39 @@ impl BodiesOracle {
         })
     }
 
-    /// The volume of a body that lies inside the mesh; why not, for one that does not.
-    fn volume(&self, body: &[HalfSpace]) -> Result<BigRational, &'static str> {
+    /// The triangles and the caps; `None` if they are not closed, or if there are caps in a closed mesh.
+    fn closed(&self, caps: &[[u64; 3]]) -> Option<Vec<[Point; 3]>> {
+        let is_closed = |triangles: &[[[f64; 3]; 3]]| {
+            let mut odd: BTreeSet<[[u64; 3]; 2]> = BTreeSet::new();
+            for corners in triangles {
+                for k in 0..3 {
+                    let bits = |p: [f64; 3]| p.map(|x| (x + 0.0).to_bits());
+                    let mut edge = [bits(corners[k]), bits(corners[(k + 1) % 3])];
+                    edge.sort_unstable();
+                    if edge[0] != edge[1] && !odd.remove(&edge) {
+                        odd.insert(edge);
+                    }
+                }
+            }
+            odd.is_empty()
+        };
+        let (mut rows, mut triangles) = (self.rows.clone(), self.triangles.clone());
+        for cap in caps {
+            let corner = |k: u64| self.rows.as_flattened().get(k as usize).copied();
+            let [a, b, c] = [corner(cap[0])?, corner(cap[1])?, corner(cap[2])?];
+            rows.push([a, b, c]);
+            triangles.push([a, b, c].map(|p| p.map(exact)));
+        }
+        let is_needed = caps.is_empty() || !is_closed(&self.rows);
+        (is_needed && is_closed(&rows)).then_some(triangles)
+    }
+
+    /// The volume of a body that lies inside a closed mesh; why not, for one that does not.
+    fn volume(
+        &self,
+        body: &[HalfSpace],
+        triangles: &[[Point; 3]],
+    ) -> Result<BigRational, &'static str> {
         let facets = self.facets(body);
         let corners = facets.concat();
         if corners.is_empty() {
@@ -160,13 +193,13 @@ impl BodiesOracle {
         if corners.as_flattened().iter().any(|x| x.abs() >= self.reach) {
             return Err("reaches far beyond the mesh");
         }
-        for triangle in &self.triangles {
+        for triangle in triangles {
             let part = body.iter().fold(triangle.to_vec(), |part, side| clipped(&part, side));
             if !part.is_empty() && is_inside(body, &mean(&part)) {
                 return Err("is entered by a triangle");
             }
         }
-        if !self.contains(&center) {
+        if !contains(triangles, &center) {
             return Err("is outside");
         }
         let mut six = BigRational::zero();
@@ -206,39 +239,38 @@ impl BodiesOracle {
         };
         (0..sides.len()).map(facet).collect()
     }
+}
 
-    /// The even-odd rule for a point that is on no triangle, along a line that meets no edge.
-    fn contains(&self, p: &Point) -> bool {
-        let tried = (1i64..).map(|k| [whole(1009), whole(7 * k), whole(k * k + 13)]);
-        let found = tried.map(|way| self.crossings(p, &way)).find_map(|count| count);
-        found.expect("some line meets no edge") % 2 == 1
-    }
+/// The even-odd rule for a point that is on no triangle, along a line that meets no edge.
+fn contains(triangles: &[[Point; 3]], p: &Point) -> bool {
+    let tried = (1i64..).map(|k| [whole(1009), whole(7 * k), whole(k * k + 13)]);
+    let found = tried.map(|way| crossings(triangles, p, &way)).find_map(|count| count);
+    found.expect("some line meets no edge") % 2 == 1
+}
 
-    fn crossings(&self, p: &Point, way: &Point) -> Option<usize> {
-        let mut count = 0;
-        for triangle in &self.triangles {
-            let [a, b, c] = triangle.each_ref().map(|corner| minus(corner, p));
-            let sides =
-                [dot(way, &cross(&a, &b)), dot(way, &cross(&b, &c)), dot(way, &cross(&c, &a))];
-            let positive = sides.iter().filter(|x| x.is_positive()).count();
-            let zero = sides.iter().filter(|x| x.is_zero()).count();
-            if zero > 0 {
-                // A triangle without area, or one that the line does not touch, decides nothing.
-                let normal = cross(&minus(&b, &a), &minus(&c, &a));
-                let is_off = positive > 0 && positive + zero < 3;
-                if is_off || normal.iter().all(Zero::is_zero) {
-                    continue;
-                }
-                return None;
+fn crossings(triangles: &[[Point; 3]], p: &Point, way: &Point) -> Option<usize> {
+    let mut count = 0;
+    for triangle in triangles {
+        let [a, b, c] = triangle.each_ref().map(|corner| minus(corner, p));
+        let sides = [dot(way, &cross(&a, &b)), dot(way, &cross(&b, &c)), dot(way, &cross(&c, &a))];
+        let positive = sides.iter().filter(|x| x.is_positive()).count();
+        let zero = sides.iter().filter(|x| x.is_zero()).count();
+        if zero > 0 {
+            // A triangle without area, or one that the line does not touch, decides nothing.
+            let normal = cross(&minus(&b, &a), &minus(&c, &a));
+            let is_off = positive > 0 && positive + zero < 3;
+            if is_off || normal.iter().all(Zero::is_zero) {
+                continue;
             }
-            if positive == 0 || positive == 3 {
-                let normal = cross(&minus(&b, &a), &minus(&c, &a));
-                let along = dot(&normal, &a) / dot(&normal, way);
-                count += usize::from(along.is_positive());
-            }
+            return None;
         }
-        Some(count)
+        if positive == 0 || positive == 3 {
+            let normal = cross(&minus(&b, &a), &minus(&c, &a));
+            let along = dot(&normal, &a) / dot(&normal, way);
+            count += usize::from(along.is_positive());
+        }
     }
+    Some(count)
 }
 
 /// The half-spaces of a body in the coordinates of the mesh.

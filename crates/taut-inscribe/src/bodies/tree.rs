@@ -1,7 +1,11 @@
 //! A tree of triangles that stores, for each direction, the least height of the triangles below each node.
 
+use std::ops::Range;
+use std::sync::Arc;
+
 use super::clip::{self, TOUCH};
 use super::directions::{Directions, Offsets, opposite};
+use super::vectors::{dot, minus, nearest};
 
 /// Triangles of a leaf, at most. With the cost of a clipped triangle at about ten times that of a node, 2 to 8 differ little.
 const LEAF_TRIANGLES_MAX: usize = 4;
@@ -15,21 +19,27 @@ struct Node {
 }
 
 /// Triangles in an order in which neighbors are near each other.
-pub(super) struct Tree<'a> {
-    directions: &'a Directions,
-    nodes: Vec<Node>,
+pub(super) struct Tree {
+    pub(super) directions: Arc<Directions>,
+    nodes: Arc<Vec<Node>>,
     /// For each node the least uⱼ·x of its triangles, direction by direction.
     node_heights: Vec<i32>,
     /// For each triangle the least uⱼ·x.
     heights: Vec<i32>,
-    pub(super) corners: Vec<[[i32; 3]; 3]>,
+    pub(super) corners: Arc<Vec<[[i32; 3]; 3]>>,
     /// The row of each triangle.
-    pub(super) rows: Vec<u32>,
+    pub(super) rows: Arc<Vec<u32>>,
 }
 
-impl<'a> Tree<'a> {
+/// The parts of a node.
+pub(super) enum Parts {
+    Nodes([u32; 2]),
+    Triangles(Range<usize>),
+}
+
+impl Tree {
     /// Builds the tree of the triangles, of which there is at least one.
-    pub(super) fn new(triangles: &[[[i32; 3]; 3]], directions: &'a Directions) -> Self {
+    pub(super) fn new(triangles: &[[[i32; 3]; 3]], directions: &Arc<Directions>) -> Self {
         let mut rows: Vec<u32> = (0..triangles.len() as u32).collect();
         let center = |row: u32| {
             let [a, b, c] = triangles[row as usize];
@@ -38,10 +48,35 @@ impl<'a> Tree<'a> {
         let mut nodes = vec![];
         split(&mut nodes, &mut rows, 0, &center);
         let corners: Vec<_> = rows.iter().map(|&row| triangles[row as usize]).collect();
+        Self::with_heights(
+            Arc::clone(directions),
+            Arc::new(nodes),
+            Arc::new(corners),
+            Arc::new(rows),
+        )
+    }
+
+    /// Builds the tree of the same triangles for other directions.
+    pub(super) fn turned(&self, directions: &Arc<Directions>) -> Self {
+        let (nodes, corners, rows) = (&self.nodes, &self.corners, &self.rows);
+        Self::with_heights(
+            Arc::clone(directions),
+            Arc::clone(nodes),
+            Arc::clone(corners),
+            Arc::clone(rows),
+        )
+    }
+
+    fn with_heights(
+        directions: Arc<Directions>,
+        nodes: Arc<Vec<Node>>,
+        corners: Arc<Vec<[[i32; 3]; 3]>>,
+        rows: Arc<Vec<u32>>,
+    ) -> Self {
         let k = directions.len();
         let of_triangle = |corners: &[[i32; 3]; 3]| {
             let [a, b, c] = *corners;
-            let least = move |j| {
+            let least = |j| {
                 let heights = [a, b, c].map(|p| directions.along(j, p) as i32);
                 heights[0].min(heights[1]).min(heights[2])
             };
@@ -67,6 +102,24 @@ impl<'a> Tree<'a> {
         Tree { directions, nodes, node_heights, heights, corners, rows }
     }
 
+    /// The parts of a node; the root is node 0.
+    pub(super) fn parts(&self, at: u32) -> Parts {
+        let node = &self.nodes[at as usize];
+        match node.other {
+            0 => Parts::Triangles(node.first as usize..node.end as usize),
+            other => Parts::Nodes([at + 1, other]),
+        }
+    }
+
+    /// The center and the half sides of the box of a node.
+    pub(super) fn bounds(&self, at: u32) -> [[f64; 3]; 2] {
+        let heights = &self.node_heights[at as usize * self.directions.len()..][..6];
+        let (low, high) =
+            (|c: usize| f64::from(heights[2 * c]), |c: usize| -f64::from(heights[2 * c + 1]));
+        let along = |part: fn(f64, f64) -> f64| [0, 1, 2].map(|c| part(low(c), high(c)));
+        [along(|low, high| (low + high) / 2.0), along(|low, high| (high - low) / 2.0)]
+    }
+
     /// The largest uᵢ·x of all triangles.
     pub(super) fn extent(&self, i: usize) -> i32 {
         -self.node_heights[opposite(i)]
@@ -77,9 +130,6 @@ impl<'a> Tree<'a> {
         let k = self.directions.len();
         let mut limits = *h;
         limits[i] = most;
-        let reaches = |heights: &[i32], limits: &Offsets| {
-            heights.iter().zip(limits).all(|(height, limit)| height < limit)
-        };
         let mut stack = vec![0u32];
         while let Some(at) = stack.pop() {
             let at = at as usize;
@@ -95,9 +145,11 @@ impl<'a> Tree<'a> {
                 continue;
             }
             for t in node.first as usize..node.end as usize {
-                if reaches(&self.heights[t * k..][..k], &limits) {
+                let heights = &self.heights[t * k..][..k];
+                if reaches(heights, &limits) {
                     let corners = self.corners[t].map(|p| p.map(f64::from));
-                    if let Some(height) = clip::lowest(&corners, i, h, self.directions) {
+                    let lowest = clip::lowest(&corners, heights, i, h, &self.directions);
+                    if let Some(height) = lowest {
                         limits[i] = limits[i].min((height + TOUCH).floor() as i32);
                     }
                 }
@@ -109,10 +161,9 @@ impl<'a> Tree<'a> {
     /// Calls a function for each triangle that no single facet separates from a body, until it returns false.
     pub(super) fn near(&self, h: &Offsets, mut each: impl FnMut(usize) -> bool) -> bool {
         let k = self.directions.len();
-        let reaches = |heights: &[i32]| heights.iter().zip(h).all(|(height, limit)| height < limit);
         self.walk(
-            |at| reaches(&self.node_heights[at * k..][..k]),
-            |t| !reaches(&self.heights[t * k..][..k]) || each(t),
+            |at| reaches(&self.node_heights[at * k..][..k], h),
+            |t| !reaches(&self.heights[t * k..][..k], h) || each(t),
         )
     }
 
@@ -222,6 +273,12 @@ impl<'a> Tree<'a> {
     }
 }
 
+/// Whether all heights are below their limits: no facet alone keeps the triangles out. Without a branch for each, as most of the
+/// comparisons go either way.
+pub(super) fn reaches(heights: &[i32], limits: &Offsets) -> bool {
+    heights.iter().zip(limits).fold(true, |all, (height, limit)| all & (height < limit))
+}
+
 /// Splits rows at the median along the axis in which their centers spread most, and appends the nodes.
 fn split(nodes: &mut Vec<Node>, rows: &mut [u32], first: u32, center: &dyn Fn(u32) -> [i32; 3]) {
     let at = nodes.len();
@@ -266,26 +323,6 @@ fn cross(a: [i128; 3], b: [i128; 3]) -> [i128; 3] {
 
 /// The squared distance from a point to a triangle.
 pub(super) fn squared_distance(p: [f64; 3], corners: &[[f64; 3]; 3]) -> f64 {
-    let minus = |p: [f64; 3], q: [f64; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
-    let dot = |p: [f64; 3], q: [f64; 3]| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
-    let [a, b, c] = *corners;
-    let (u, v, w) = (minus(b, a), minus(c, a), minus(p, a));
-    // Above the triangle the plane is nearest, else an edge.
-    let (uu, uv, vv) = (dot(u, u), dot(u, v), dot(v, v));
-    let (wu, wv) = (dot(w, u), dot(w, v));
-    let area = uu * vv - uv * uv;
-    let (s, t) = (vv * wu - uv * wv, uu * wv - uv * wu);
-    if area > 0.0 && s >= 0.0 && t >= 0.0 && s + t <= area {
-        let (s, t) = (s / area, t / area);
-        let off = [0, 1, 2].map(|k| w[k] - s * u[k] - t * v[k]);
-        return dot(off, off);
-    }
-    let to_edge = |[a, b]: [[f64; 3]; 2]| {
-        let (d, e) = (minus(p, a), minus(b, a));
-        let share = dot(d, e) / dot(e, e);
-        let share = if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.0 };
-        let off = [0, 1, 2].map(|k| d[k] - share * e[k]);
-        dot(off, off)
-    };
-    [[a, b], [b, c], [c, a]].map(to_edge).into_iter().fold(f64::INFINITY, f64::min)
+    let off = nearest(corners.map(|corner| minus(corner, p)));
+    dot(off, off)
 }

@@ -1,11 +1,13 @@
 //! Events beside brute force in whole numbers.
 
+use std::sync::Arc;
+
 use super::clip::{self, TOUCH};
 use super::directions::{Directions, KINDS, Offsets, opposite};
 use super::mesh::GridMesh;
 use super::proof;
 use super::tree::Tree;
-use super::{DopsOptions, inscribed_dops};
+use super::{BodiesOptions, BodyShape, inscribed_bodies};
 use crate::random::Random;
 
 type Triangle = [[i32; 3]; 3];
@@ -37,9 +39,11 @@ fn by_weights(directions: &Directions, i: usize, h: &Offsets, most: i32, all: &[
 
 /// The event by all triangles, each clipped.
 fn by_clipping(directions: &Directions, i: usize, h: &Offsets, most: i32, all: &[Triangle]) -> i32 {
-    let clipped = all
-        .iter()
-        .filter_map(|corners| clip::lowest(&corners.map(|p| p.map(f64::from)), i, h, directions));
+    let clipped = all.iter().filter_map(|corners| {
+        let least = |j| corners.map(|p| directions.along(j, p) as i32).into_iter().min();
+        let heights: Vec<i32> = (0..directions.len()).filter_map(least).collect();
+        clip::lowest(&corners.map(|p| p.map(f64::from)), &heights, i, h, directions)
+    });
     clipped.map(|height| (height + TOUCH).floor() as i32).fold(most, i32::min).max(h[i])
 }
 
@@ -77,7 +81,7 @@ fn events_equal_brute_force_and_do_not_see_subdivision() {
     let mut random = Random::new(1);
     let (mut events, mut stopped) = (0, 0);
     for kind in KINDS {
-        let directions = Directions::of(kind);
+        let directions = Arc::new(Directions::of(kind));
         for (count, side) in [(1, 6), (60, 8), (200, 30), (300, 200), (100, 4000)] {
             for _ in 0..16 {
                 let all = soup(&mut random, count, side);
@@ -163,11 +167,15 @@ fn tight_facets_moved_outward_by_two_units_are_always_refused() {
         triangles.as_flattened().as_flattened().iter().map(|&x| f64::from(x)).collect();
     let points = taut_points::Points::new(&rows, 9).unwrap();
     for kind in KINDS {
-        let options =
-            DopsOptions { directions: kind, count: 3, events: 3000, ..Default::default() };
-        let found = inscribed_dops(&points, &options).unwrap();
+        let options = BodiesOptions {
+            shape: BodyShape::Dop(kind),
+            count: 3,
+            events: 3000,
+            ..Default::default()
+        };
+        let found = inscribed_bodies(&points, &options).unwrap();
         assert_eq!(found.check(&points).unwrap().bodies, 3);
-        let mesh = GridMesh::read(&points, &options.monitor).unwrap();
+        let mesh = GridMesh::read(&points, false, &options.monitor).unwrap();
         assert!(mesh.is_exact);
         let directions = Directions::of(kind);
         let mut tight = 0;

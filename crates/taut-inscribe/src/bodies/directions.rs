@@ -20,6 +20,8 @@ pub(super) struct Combination {
 /// The directions u₀, u₁, …, of which u₁ = −u₀, u₃ = −u₂ and so on. The first six are those of the axes.
 pub(super) struct Directions {
     pub(super) normals: Vec<[i64; 3]>,
+    /// The same in floating point.
+    pub(super) floats: Vec<[f64; 3]>,
     /// For each direction all ways to combine it from up to three others.
     pub(super) combinations: Vec<Vec<Combination>>,
 }
@@ -41,7 +43,8 @@ impl Directions {
         let pairs = AXES.iter().chain(edges).chain(corners);
         let normals: Vec<_> = pairs.flat_map(|u| [*u, u.map(|n| -n)]).collect();
         let combinations = (0..normals.len()).map(|i| combinations(&normals, i)).collect();
-        Directions { normals, combinations }
+        let floats = normals.iter().map(|u| u.map(|n| n as f64)).collect();
+        Directions { normals, floats, combinations }
     }
 
     pub(super) fn len(&self) -> usize {
@@ -63,6 +66,13 @@ impl Directions {
         };
         let least = self.combinations[i].iter().map(of_one).min();
         least.map_or(bound, |least| least.min(i64::from(bound)) as i32)
+    }
+
+    /// Moves redundant facets inward until they touch the body.
+    pub(super) fn tighten(&self, h: &mut Offsets) {
+        for i in 0..self.len() {
+            h[i] = self.redundant_at(i, h, h[i]).min(h[i]);
+        }
     }
 
     /// Whether a point of the grid is in the interior of a body.

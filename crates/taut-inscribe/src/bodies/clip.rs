@@ -1,6 +1,6 @@
 //! The part of a triangle that other facets leave, and its lowest point.
 
-use super::directions::{Directions, Offsets};
+use super::directions::{Directions, Offsets, opposite};
 
 /// Depth in units of the grid up to which a triangle only touches a body. Far above the rounding of a clipped corner, 2⁻²⁵, and far
 /// below the unit; the proof in whole numbers takes a unit back where it matters.
@@ -10,22 +10,27 @@ pub(super) const TOUCH: f64 = 1e-6;
 const CORNERS_MAX: usize = 40;
 
 /// The least uᵢ·x over the triangle in the open body {uⱼ·x < hⱼ for all j ≠ i}; `None` where the triangle does not enter it.
+///
+/// `heights` has the least uⱼ·x of the triangle, rounded down, for all j. A plane that all of the triangle is below cuts nothing.
 pub(super) fn lowest(
     corners: &[[f64; 3]; 3],
+    heights: &[i32],
     i: usize,
     h: &Offsets,
     directions: &Directions,
 ) -> Option<f64> {
     let mut polygon = [[0.0; 3]; CORNERS_MAX];
     let mut clipped = [[0.0; 3]; CORNERS_MAX];
+    let mut beyond = [0.0; CORNERS_MAX];
     let mut size = 3;
     polygon[..3].copy_from_slice(corners);
-    for j in (0..directions.len()).filter(|&j| j != i) {
-        let beyond = |p: &[f64; 3]| height(directions, j, p) - f64::from(h[j]);
+    let is_cutting = |&j: &usize| j != i && -heights[opposite(j)] >= h[j];
+    for j in (0..directions.len()).filter(is_cutting) {
         let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
-        for p in &polygon[..size] {
-            let at = beyond(p);
-            (least, most) = (least.min(at), most.max(at));
+        for (beyond, p) in beyond.iter_mut().zip(&polygon[..size]) {
+            *beyond = height(directions, j, p) - f64::from(h[j]);
+            least = if *beyond < least { *beyond } else { least };
+            most = if *beyond > most { *beyond } else { most };
         }
         if least >= -TOUCH {
             return None;
@@ -34,18 +39,12 @@ pub(super) fn lowest(
             continue;
         }
         let mut kept = 0;
-        let mut from = polygon[size - 1];
-        let mut before = beyond(&from);
-        for to in &polygon[..size] {
+        let (mut from, mut before) = (polygon[size - 1], beyond[size - 1]);
+        for (to, &after) in polygon[..size].iter().zip(&beyond) {
             if kept + 2 > CORNERS_MAX {
                 // The whole triangle is not higher than its part.
-                return Some(
-                    corners
-                        .iter()
-                        .fold(f64::INFINITY, |least, p| least.min(height(directions, i, p))),
-                );
+                return Some(f64::from(heights[i]));
             }
-            let after = beyond(to);
             if (before > 0.0) != (after > 0.0) {
                 let share = before / (before - after);
                 clipped[kept] = [0, 1, 2].map(|c| from[c] + share * (to[c] - from[c]));
@@ -61,7 +60,7 @@ pub(super) fn lowest(
         size = kept;
     }
     // Clipping by later facets may have left a part that lies in the plane of an earlier one.
-    let enters = (0..directions.len()).filter(|&j| j != i).all(|j| {
+    let enters = (0..directions.len()).filter(is_cutting).all(|j| {
         let most = f64::from(h[j]) - TOUCH;
         polygon[..size].iter().any(|p| height(directions, j, p) < most)
     });
@@ -70,6 +69,6 @@ pub(super) fn lowest(
 }
 
 fn height(directions: &Directions, j: usize, p: &[f64; 3]) -> f64 {
-    let u = directions.normals[j];
-    u[0] as f64 * p[0] + u[1] as f64 * p[1] + u[2] as f64 * p[2]
+    let u = directions.floats[j];
+    u[0] * p[0] + u[1] * p[1] + u[2] * p[2]
 }

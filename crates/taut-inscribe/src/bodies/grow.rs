@@ -1,11 +1,15 @@
 //! One body: growth by events, ruin and recreate.
 
+use std::sync::Arc;
+
 use taut_points::Monitor;
 
 use super::clip;
 use super::directions::{Directions, Offsets, opposite};
-use super::polytope;
-use super::tree::Tree;
+use super::pack::{Family, Start};
+use super::polytope::{self, Sides};
+use super::scores::Scores;
+use super::tree::{self, Tree};
 use crate::Error;
 use crate::random::Random;
 
@@ -27,11 +31,18 @@ const RUINED_WIDTH_MAX: f64 = 0.5;
 /// Draws of a sample point to keep while facets are moved inward; without success the point of the last time is kept.
 const ANCHOR_DRAWS_MAX: usize = 16;
 
+/// Units of the grid between the point of a body and each facet that moves inward, per unit of the sum |uᵢ|₁, at least: the proof
+/// moves facets inward by up to 4 units, for disjoint bodies by up to 4 more, and by |uᵢ|₁ where coordinates are rounded. Then
+/// the point is still in the body, and so is a given one that differs from its place on the grid by a unit in each coordinate.
+pub(super) const ANCHOR_MARGIN: i32 = 12;
+
 /// A body that no triangle enters, and a point of the grid in its interior.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Dop {
     pub(super) h: Offsets,
     pub(super) anchor: [i32; 3],
+    /// Whether the body has to contain the point.
+    pub(super) is_given: bool,
 }
 
 /// A body that may not be entered: its facets as triangles.
@@ -43,13 +54,12 @@ pub(super) struct Obstacle {
 }
 
 impl Obstacle {
-    pub(super) fn of(directions: &Directions, dop: &Dop) -> Self {
-        let polygons = polytope::facets(directions, &dop.h, dop.anchor);
-        let fan = |p: Vec<[f64; 3]>| {
-            let triangles = (2..p.len()).map(move |k| [p[0], p[k - 1], p[k]]);
-            triangles.collect::<Vec<_>>()
+    /// The obstacle of a body with these facets, for bodies that grow in some directions.
+    pub(super) fn of(directions: &Directions, facets: &[Vec<[f64; 3]>]) -> Self {
+        let fan = |p: &Vec<[f64; 3]>| {
+            (2..p.len()).map(|k| [p[0], p[k - 1], p[k]]).collect::<Vec<[[f64; 3]; 3]>>()
         };
-        let triangles: Vec<[[f64; 3]; 3]> = polygons.into_iter().flat_map(fan).collect();
+        let triangles: Vec<[[f64; 3]; 3]> = facets.iter().flat_map(fan).collect();
         let least = |triangle: &[[f64; 3]; 3]| {
             let mut heights = [0; _];
             for (j, u) in directions.normals.iter().enumerate() {
@@ -65,24 +75,22 @@ impl Obstacle {
     }
 
     /// The distance from a point to the body.
-    fn distance(&self, p: [i32; 3]) -> f64 {
+    pub(super) fn distance(&self, p: [i32; 3]) -> f64 {
         let p = p.map(f64::from);
-        let distances = self.triangles.iter().map(|t| super::tree::squared_distance(p, t));
+        let distances = self.triangles.iter().map(|t| tree::squared_distance(p, t));
         distances.fold(f64::INFINITY, f64::min).sqrt()
     }
 
     fn event(&self, i: usize, h: &Offsets, most: i32, directions: &Directions) -> i32 {
         let mut limits = *h;
         limits[i] = most;
-        let reaches = |heights: &Offsets, limits: &Offsets| {
-            heights[..directions.len()].iter().zip(limits).all(|(height, limit)| height < limit)
-        };
-        if !reaches(&self.all, &limits) {
+        let k = directions.len();
+        if !tree::reaches(&self.all[..k], &limits) {
             return most;
         }
         for (triangle, heights) in self.triangles.iter().zip(&self.heights) {
-            if reaches(heights, &limits)
-                && let Some(height) = clip::lowest(triangle, i, h, directions)
+            if tree::reaches(&heights[..k], &limits)
+                && let Some(height) = clip::lowest(triangle, heights, i, h, directions)
             {
                 limits[i] = limits[i].min((height + clip::TOUCH).floor() as i32);
             }
@@ -93,36 +101,27 @@ impl Obstacle {
 
 /// What bodies grow in: a mesh, and bodies that may not be entered.
 pub(super) struct Space<'a> {
-    pub(super) directions: &'a Directions,
-    pub(super) tree: &'a Tree<'a>,
+    pub(super) tree: Arc<Tree>,
     pub(super) obstacles: Vec<Obstacle>,
     pub(super) random: Random,
     /// Events so far.
     pub(super) events: u64,
-    pub(super) monitor: Monitor<'a>,
+    /// The points to cover.
+    pub(super) scores: Scores,
+    monitor: Monitor<'a>,
 }
 
-impl Space<'_> {
-    /// The distance from a point to the nearest triangle or obstacle, at most `distance`.
-    pub(super) fn clearance(&self, p: [i32; 3], distance: f64) -> f64 {
-        self.obstacles.iter().map(|obstacle| obstacle.distance(p)).fold(distance, f64::min)
-    }
-
-    /// A small body around a point inside with this distance from all triangles and obstacles.
-    pub(super) fn start(&self, p: [i32; 3], clearance: f64) -> Dop {
-        let mut h = [0; _];
-        for (j, u) in self.directions.normals.iter().enumerate() {
-            // A cube around a ball of radius r lies in a ball of radius √3·r, and so do bodies with more directions.
-            let length = (u.iter().map(|n| n * n).sum::<i64>() as f64).sqrt();
-            h[j] = (self.directions.along(j, p) as f64 + 0.57 * clearance * length) as i32;
-        }
-        Dop { h, anchor: p }
+impl<'a> Space<'a> {
+    pub(super) fn new(tree: &Arc<Tree>, random: Random, monitor: Monitor<'a>) -> Self {
+        let tree = Arc::clone(tree);
+        Space { tree, obstacles: vec![], random, events: 0, scores: Scores::default(), monitor }
     }
 
     /// Moves facets outward in random order until each meets a triangle or is redundant.
     pub(super) fn grow(&mut self, dop: &mut Dop) -> Result<(), Error> {
         self.monitor.check()?;
-        let mut order: Vec<usize> = (0..self.directions.len()).collect();
+        let directions = Arc::clone(&self.tree.directions);
+        let mut order: Vec<usize> = (0..directions.len()).collect();
         for round in 0..ROUNDS_MAX {
             self.random.shuffle(&mut order);
             let mut changed = false;
@@ -130,7 +129,7 @@ impl Space<'_> {
                 let h = &dop.h;
                 let mut most = self.tree.extent(i);
                 if round < BALANCED_ROUNDS {
-                    most = self.directions.redundant_at(i, h, most);
+                    most = directions.redundant_at(i, h, most);
                 }
                 if let Some(part) = FIRST_STEPS.get(round) {
                     let width = f64::from(h[i] + h[opposite(i)]);
@@ -146,48 +145,100 @@ impl Space<'_> {
                 break;
             }
         }
-        self.tighten(&mut dop.h);
+        directions.tighten(&mut dop.h);
         Ok(())
     }
 
     fn event(&mut self, i: usize, h: &Offsets, most: i32) -> i32 {
         self.events += 1;
         let most = self.tree.event(i, h, most);
-        let of_one = |most: i32, obstacle: &Obstacle| obstacle.event(i, h, most, self.directions);
+        let directions = &self.tree.directions;
+        let of_one = |most: i32, obstacle: &Obstacle| obstacle.event(i, h, most, directions);
         self.obstacles.iter().fold(most, of_one)
     }
 
     /// Moves some facets inward, but not beyond a point, and grows the body again.
-    pub(super) fn ruin_and_recreate(
-        &mut self,
-        dop: &Dop,
-        points: &[[i32; 3]],
-    ) -> Result<Dop, Error> {
+    fn ruin_and_recreate(&mut self, dop: &Dop) -> Result<Dop, Error> {
+        let directions = Arc::clone(&self.tree.directions);
         let mut changed = dop.clone();
-        for _ in 0..ANCHOR_DRAWS_MAX.min(points.len()) {
+        let points = &self.scores.points;
+        let draws = if dop.is_given { 0 } else { ANCHOR_DRAWS_MAX.min(points.len()) };
+        for _ in 0..draws {
             let p = points[self.random.below(points.len())];
-            if self.directions.contains(&dop.h, p) {
+            if directions.contains(&dop.h, p) {
                 changed.anchor = p;
                 break;
             }
         }
         let facets = 1 + self.random.below(RUINED_FACETS_MAX);
         for _ in 0..facets {
-            let i = self.random.below(self.directions.len());
+            let i = self.random.below(directions.len());
             let width = f64::from(changed.h[i] + changed.h[opposite(i)]);
             let inward = (RUINED_WIDTH_MAX * self.random.unit() * width) as i32;
-            let least = self.directions.along(i, changed.anchor) as i32 + 1;
-            changed.h[i] = (changed.h[i] - inward).max(least);
+            let sum: i64 = directions.normals[i].iter().map(|n| n.abs()).sum();
+            let least = directions.along(i, changed.anchor) as i32 + ANCHOR_MARGIN * sum as i32;
+            changed.h[i] = (changed.h[i] - inward).max(least.min(changed.h[i]));
         }
-        self.tighten(&mut changed.h);
+        directions.tighten(&mut changed.h);
         self.grow(&mut changed)?;
         Ok(changed)
     }
+}
 
-    /// Moves redundant facets inward until they touch the body.
-    pub(super) fn tighten(&self, h: &mut Offsets) {
-        for i in 0..self.directions.len() {
-            h[i] = self.directions.redundant_at(i, h, h[i]).min(h[i]);
+impl Family for Space<'_> {
+    type Body = Dop;
+
+    fn events(&self) -> u64 {
+        self.events
+    }
+
+    fn count_event(&mut self) {
+        self.events += 1;
+    }
+
+    fn clearance(&self, p: [i32; 3], distance: f64) -> f64 {
+        self.obstacles.iter().map(|obstacle| obstacle.distance(p)).fold(distance, f64::min)
+    }
+
+    fn small(&self, start: &Start) -> Dop {
+        let mut h = [0; _];
+        for (j, u) in self.tree.directions.normals.iter().enumerate() {
+            // A cube around a ball of radius r lies in a ball of radius √3·r, and so do bodies with more directions.
+            let length = (u.iter().map(|n| n * n).sum::<i64>() as f64).sqrt();
+            let reach = 0.57 * start.clearance * length;
+            h[j] = (self.tree.directions.along(j, start.point) as f64 + reach) as i32;
         }
+        Dop { h, anchor: start.point, is_given: start.is_given }
+    }
+
+    fn aim(&mut self, points: Vec<[i32; 3]>) {
+        self.scores = Scores::of(&self.tree.directions, points);
+    }
+
+    fn set_obstacles(&mut self, bodies: &[&Dop]) {
+        let directions = &self.tree.directions;
+        let obstacle = |dop: &&Dop| {
+            let sides = Sides::of_dop(directions, &dop.h);
+            Obstacle::of(directions, &polytope::facets(&sides, dop.anchor))
+        };
+        self.obstacles = bodies.iter().map(obstacle).collect();
+    }
+
+    fn grow(&mut self, dop: &mut Dop) -> Result<(), Error> {
+        Space::grow(self, dop)
+    }
+
+    fn prepare(&mut self, _dop: &mut Dop) {}
+
+    fn change(&mut self, dop: &Dop) -> Result<Dop, Error> {
+        self.ruin_and_recreate(dop)
+    }
+
+    fn score(&self, dop: &Dop) -> u64 {
+        self.scores.count(&dop.h)
+    }
+
+    fn contains(&self, dop: &Dop, p: [i32; 3]) -> bool {
+        self.tree.directions.contains(&dop.h, p)
     }
 }

@@ -10,7 +10,7 @@ use crate::random::Random;
 const FIRST_LINES: f64 = 40.0;
 
 /// About as many points inside as wanted; fewer where the grid has not so many, none where the mesh has no inside.
-pub(super) fn points(tree: &Tree<'_>, wanted: usize, random: &mut Random) -> Vec<[i32; 3]> {
+pub(super) fn points(tree: &Tree, wanted: usize, random: &mut Random) -> Vec<[i32; 3]> {
     let extent = |c: usize| f64::from(tree.extent(2 * c)) + f64::from(tree.extent(2 * c + 1));
     let side = extent(0).max(extent(1)).max(extent(2));
     let first = (side / FIRST_LINES).max(1.0);
@@ -19,7 +19,7 @@ pub(super) fn points(tree: &Tree<'_>, wanted: usize, random: &mut Random) -> Vec
     spread(tree, distance.max(1.0), random)
 }
 
-fn spread(tree: &Tree<'_>, distance: f64, random: &mut Random) -> Vec<[i32; 3]> {
+fn spread(tree: &Tree, distance: f64, random: &mut Random) -> Vec<[i32; 3]> {
     let low = [0, 1].map(|c| -f64::from(tree.extent(2 * c + 1)));
     let high = [0, 1].map(|c| f64::from(tree.extent(2 * c)));
     let mut points = vec![];

@@ -24,11 +24,10 @@ impl Summary for InscribedBodies {
         let points = counter("sample_points");
         let share = 100.0 * counter("covered") as f64 / points.max(1) as f64;
         let verified = match report.verdict {
-            Some(_) => Field::new("verified", "yes")
-                .remark("each body lies inside the mesh, by the even-odd rule"),
+            Some(_) => Field::new("verified", "yes").remark(inside(answer.caps.len() as u64)),
             None => Field::new("verified", "not checked"),
         };
-        vec![
+        let mut fields = vec![
             Field::new("volume", exact(volume)).remark("the sum over all bodies"),
             Field::new("largest", exact(largest)),
             Field::new("coverage", format!("{share:.1} %")).remark(format!(
@@ -36,13 +35,20 @@ impl Summary for InscribedBodies {
                 counted(points, "point")
             )),
             Field::new("disjoint", if answer.disjoint { "yes" } else { "no" }),
+            Field::new("facets", count(counter("facets"))).remark("the sum over all bodies"),
             verified,
-            Field::new("method", &*trace.method)
-                .remark(format!("facets in {} directions", counter("facets"))),
+            Field::new("method", &*trace.method),
             Field::new("events", count(trace.iterations)),
             Field::new("grid", exact(2f64.powi(answer.exponent)))
                 .remark("the unit to which coordinates are rounded; the proof allows for it"),
-        ]
+        ];
+        if !answer.caps.is_empty() {
+            let caps = count(answer.caps.len() as u64);
+            fields.push(
+                Field::new("caps", caps).remark("triangles that close the holes of the mesh"),
+            );
+        }
+        fields
     }
 
     fn dim(_report: &Report<'_, Self>) -> usize {
@@ -57,16 +63,29 @@ impl Summary for InscribedBodies {
         let (bodies, triangles) = (bodies(verdict.bodies), counted(source.len(), "triangle"));
         let (lower, upper) = (exact(verdict.volume_lower), exact(verdict.volume_upper));
         let mut fields = vec![
-            Field::proved("inside", "each body lies inside the mesh")
-                .remark("by the even-odd rule, in whole numbers, for the coordinates as given"),
+            Field::proved("inside", inside(verdict.caps))
+                .remark("in whole numbers, for the coordinates as given"),
             Field::proved("volume", format!("{lower} ≤ sum of the volumes ≤ {upper}")),
             Field::proved("largest", format!("a body of volume ≥ {}", exact(verdict.largest))),
         ];
+        if verdict.at > 0 {
+            let points = counted(verdict.at, "given point");
+            fields.push(Field::proved("at", format!("{points} in as many bodies, in their order")));
+        }
         if verdict.disjoint {
             fields.push(Field::proved("disjoint", "no two bodies overlap"));
         }
         Claims { what: format!("{bodies} in a mesh of {triangles}"), gap: None, fields }
     }
+}
+
+/// Says what each body lies inside of.
+fn inside(caps: u64) -> String {
+    let closed = match caps {
+        0 => String::new(),
+        caps => format!(" closed by {}", counted(caps, "cap")),
+    };
+    format!("each body lies inside the mesh{closed}, by the even-odd rule")
 }
 
 fn bodies(number: u64) -> String {

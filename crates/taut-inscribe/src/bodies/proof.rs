@@ -11,12 +11,15 @@ use taut_certify::{BodyProof, ConvexBody};
 use super::directions::{Directions, Offsets, gcd, opposite};
 use super::grow::Dop;
 use super::mesh::GridMesh;
-use super::polytope;
+use super::polytope::{self, Sides};
 use super::tree::Tree;
 use crate::Error;
 
 /// Units by which all facets are moved inward until a proof is found, at most: rounding in the search is far below one.
 const INWARD_UNITS_MAX: usize = 4;
+
+/// Bits of a weight, at most: a certificate allows weights up to 2⁵⁷.
+const WEIGHT_BITS: u32 = 57;
 
 /// Bodies with their proofs.
 #[derive(Default)]
@@ -26,39 +29,32 @@ pub(super) struct Proved {
     pub(super) pairs: Vec<Vec<u64>>,
 }
 
+/// The error of a body around a given point that cannot be proved.
+pub(super) fn unproved(at: usize) -> Error {
+    Error::At { at, problem: "has too little room around it: no body could be proved" }
+}
+
 /// Proves bodies one by one and leaves out those without proof, which rounding may cause for bodies of a few units.
 pub(super) fn prove(
     mesh: &GridMesh,
-    directions: &Directions,
-    tree: &Tree<'_>,
+    tree: &Tree,
     dops: Vec<Dop>,
     disjoint: bool,
 ) -> Result<Proved, Error> {
-    let unit = 2f64.powi(mesh.exponent);
+    let directions = &tree.directions;
     let mut kept: Vec<Offsets> = vec![];
     let mut proved = Proved::default();
-    for dop in dops {
-        let Some((mut h, combined)) = separated(directions, tree, &dop) else { continue };
-        if !mesh.is_exact {
-            for (j, u) in directions.normals.iter().enumerate() {
-                h[j] -= u.iter().map(|n| n.abs() as i32).sum::<i32>();
+    for (at, dop) in dops.into_iter().enumerate() {
+        let found = prove_dop(mesh, tree, &dop, if disjoint { &kept } else { &[] });
+        match found {
+            Some((h, body, proof)) => {
+                kept.push(h);
+                proved.bodies.push(body);
+                proved.proofs.push(proof);
             }
+            None if dop.is_given => return Err(unproved(at)),
+            None => {}
         }
-        if disjoint && !make_disjoint(directions, &mut h, &kept) {
-            continue;
-        }
-        let Some(inside) = interior_point(directions, &h, dop.anchor) else { continue };
-        if tree.is_inside(inside) != Some(true) {
-            continue;
-        }
-        let volume = polytope::volume(directions, &h, inside) * unit * unit * unit;
-        kept.push(h);
-        proved.bodies.push(ConvexBody {
-            normals: directions.normals.clone(),
-            offsets: h[..directions.len()].iter().map(|&h| h.into()).collect(),
-            volume,
-        });
-        proved.proofs.push(BodyProof { inside: inside.map(i64::from), combined });
     }
     if disjoint {
         for (i, one) in kept.iter().enumerate() {
@@ -69,12 +65,35 @@ pub(super) fn prove(
     Ok(proved)
 }
 
-/// Moves a body inward until each triangle is separated from it; `None` where this fails.
-fn separated(
-    directions: &Directions,
-    tree: &Tree<'_>,
+/// Proves that one body is inside, and disjoint from others with the same directions.
+pub(super) fn prove_dop(
+    mesh: &GridMesh,
+    tree: &Tree,
     dop: &Dop,
-) -> Option<(Offsets, Vec<Vec<u64>>)> {
+    others: &[Offsets],
+) -> Option<(Offsets, ConvexBody, BodyProof)> {
+    let directions = &tree.directions;
+    let (mut h, combined) = separated(tree, dop)?;
+    if !mesh.is_exact {
+        for (j, u) in directions.normals.iter().enumerate() {
+            h[j] -= u.iter().map(|n| n.abs() as i32).sum::<i32>();
+        }
+    }
+    make_disjoint(directions, &mut h, others)?;
+    let sides = Sides::of_dop(directions, &h);
+    let inside = inner_point(mesh, tree, &sides, &Sides::of_dop(directions, &dop.h), dop.anchor)?;
+    let unit = 2f64.powi(mesh.exponent);
+    let body = ConvexBody {
+        normals: directions.normals.clone(),
+        offsets: h[..directions.len()].iter().map(|&h| h.into()).collect(),
+        volume: polytope::volume(&sides, inside) * unit * unit * unit,
+    };
+    Some((h, body, BodyProof { inside: inside.map(i64::from), combined }))
+}
+
+/// Moves a body inward until each triangle is separated from it; `None` where this fails.
+pub(super) fn separated(tree: &Tree, dop: &Dop) -> Option<(Offsets, Vec<Vec<u64>>)> {
+    let directions = &tree.directions;
     let mut h = dop.h;
     for _ in 0..=INWARD_UNITS_MAX {
         let mut combined: Vec<Vec<u64>> = vec![];
@@ -151,16 +170,21 @@ fn of_two(a: [i64; 3], b: [i64; 3]) -> Option<[i64; 2]> {
     (!is_empty && low.0 > 0).then_some([low.1, low.0])
 }
 
-/// Weights of three columns, none negative, whose sum is the same in each row, and not negative.
+/// Weights of three columns, none negative, whose sum is the same in each row, and not negative; of large numbers nearly the same.
 fn of_three(a: [i64; 3], b: [i64; 3], c: [i64; 3]) -> Option<[i64; 3]> {
-    let row = |k: usize| [a[k], b[k], c[k]];
-    let minus = |p: [i64; 3], q: [i64; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
+    let row = |k: usize| [a[k], b[k], c[k]].map(i128::from);
+    let minus = |p: [i128; 3], q: [i128; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
     let (u, v) = (minus(row(0), row(1)), minus(row(0), row(2)));
     let weights = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
-    let sign = weights.iter().sum::<i64>().signum();
-    let weights = weights.map(|weight| weight * sign);
-    let value: i128 = (0..3).map(|k| i128::from(weights[k]) * i128::from(row(0)[k])).sum();
-    (sign != 0 && weights.iter().all(|&weight| weight >= 0) && value >= 0).then_some(weights)
+    let sign = weights.iter().sum::<i128>().signum();
+    if sign == 0 || weights.iter().any(|weight| weight * sign < 0) {
+        return None;
+    }
+    let most = weights.iter().fold(0, |most: i128, weight| most.max(weight.abs()));
+    let bits = i128::BITS - most.leading_zeros();
+    let weights = weights.map(|weight| (weight * sign) >> bits.saturating_sub(WEIGHT_BITS));
+    let sum = |k: usize| -> i128 { weights.iter().zip(row(k)).map(|(weight, a)| weight * a).sum() };
+    (0..3).all(|k| sum(k) >= 0).then_some(weights.map(|weight| weight as i64))
 }
 
 /// The weights without common divisor.
@@ -169,15 +193,15 @@ fn reduced(terms: Vec<(usize, i64)>) -> Vec<(usize, i64)> {
     terms.into_iter().map(|(j, weight)| (j, weight / divisor)).collect()
 }
 
-/// Moves a body inward until it is separated from all others; false where this fails.
-fn make_disjoint(directions: &Directions, h: &mut Offsets, others: &[Offsets]) -> bool {
+/// Moves a body inward until it is separated from all others; `None` where this fails.
+fn make_disjoint(directions: &Directions, h: &mut Offsets, others: &[Offsets]) -> Option<()> {
     for _ in 0..=INWARD_UNITS_MAX {
         if others.iter().all(|other| separation(directions, other, h).is_some()) {
-            return true;
+            return Some(());
         }
         h[..directions.len()].iter_mut().for_each(|h| *h -= 1);
     }
-    false
+    None
 }
 
 /// Facets of two bodies with weights such that their normals add up to 0 and their offsets to at most 0.
@@ -203,14 +227,24 @@ fn separation(directions: &Directions, one: &Offsets, other: &Offsets) -> Option
     None
 }
 
-/// A point of the grid in the interior, near the center of the corners of a body.
-fn interior_point(directions: &Directions, h: &Offsets, anchor: [i32; 3]) -> Option<[i32; 3]> {
-    if !directions.contains(h, anchor) {
-        return None;
-    }
-    let corners: Vec<[f64; 3]> =
-        polytope::facets(directions, h, anchor).into_iter().flatten().collect();
+/// Returns a point of the grid in the interior of a body after its facets moved inward, from which the mesh is seen, and not its
+/// caps alone; `None` for a body without such a point, or outside. The center of the corners before is tried first, then the
+/// anchor, which is in the interior before, then the middles between center and corners.
+pub(super) fn inner_point(
+    mesh: &GridMesh,
+    tree: &Tree,
+    after: &Sides,
+    before: &Sides,
+    anchor: [i32; 3],
+) -> Option<[i32; 3]> {
+    let corners: Vec<[f64; 3]> = polytope::facets(before, anchor).concat();
     let mean = |c: usize| corners.iter().map(|p| p[c]).sum::<f64>() / corners.len() as f64;
-    let center = [0, 1, 2].map(|c| mean(c).round() as i32);
-    Some(if directions.contains(h, center) { center } else { anchor })
+    let center = [0, 1, 2].map(mean);
+    let rounded = |p: [f64; 3]| p.map(|x| x.round() as i32);
+    let middle = |p: &[f64; 3]| rounded([0, 1, 2].map(|c| f64::midpoint(p[c], center[c])));
+    let found = [rounded(center), anchor]
+        .into_iter()
+        .chain(corners.iter().map(middle))
+        .find(|&p| after.contains(p.map(f64::from)) && mesh.sees_mesh(p))?;
+    (tree.is_inside(found) == Some(true)).then_some(found)
 }

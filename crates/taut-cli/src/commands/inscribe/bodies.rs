@@ -1,0 +1,182 @@
+//! `taut inscribe bodies`: convex bodies inside a triangle mesh; and what all searches for such bodies share.
+
+mod report;
+
+use std::path::PathBuf;
+
+use taut::certify::InscribedBodies;
+use taut::inscribe::{BodiesOptions, BodyShape, inscribed_bodies};
+use taut::{Monitor, Solution};
+
+use crate::effort::Effort;
+use crate::exit::Outcome;
+use crate::input::reading::{Opened, Reading};
+use crate::pipeline::{Find, Input, Output, OutputOptions};
+use crate::watch::Watch;
+
+/// The most bodies where a coverage decides how many there are.
+const COUNT_MAX: usize = 1000;
+
+/// Find large convex bodies inside a triangle mesh, with facets in any directions.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Each edge of the mesh must belong to an even number of triangles; if not, the message names one, and --close-holes closes the
+mesh by triangles that the answer names. Inside is decided by the even-odd rule, however triangles are turned. That each body
+lies inside is proved. How much of the inside the bodies cover is an estimate, and nothing is claimed about how much such bodies
+can cover.
+Exit: 0 found · 1 the check failed · 2 bad input or usage, nothing written
+Example: taut inscribe bodies horse.off --count 10 -o bodies.json --draw bodies.html &&
+         taut verify bodies.json horse.off
+         taut inscribe bodies bunny.off --close-holes --coverage 0.9 --facets 26")]
+pub(super) struct Bodies {
+    /// Most facets of a body, from 8 to 256; more facets cover more
+    #[arg(long, value_name = "F", default_value_t = 256)]
+    facets: usize,
+    #[command(flatten)]
+    search: Search,
+}
+
+/// What a search for bodies in a mesh needs, whatever their facets.
+#[derive(Debug, clap::Args)]
+pub(super) struct Search {
+    /// The mesh: .off, .obj, .ply or .stl, or points with 9 coordinates, the corners of a triangle in each row
+    #[arg(value_name = "MESH")]
+    path: PathBuf,
+    /// Most bodies to find, from 1 to 1000; by default 1, or 1000 with --coverage, or as many as there are points with --at
+    #[arg(short = 'n', long, value_name = "N")]
+    count: Option<usize>,
+    /// Find bodies that do not overlap
+    #[arg(long)]
+    disjoint: bool,
+    /// A point that a body has to contain; the first body contains the first one, and so on
+    #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
+    at: Vec<[f64; 3]>,
+    /// Stop once this part of the inside is covered, above 0 and at most 1, by the points that the search counts
+    #[arg(long, value_name = "PART", allow_hyphen_values = true)]
+    coverage: Option<f64>,
+    /// Close the holes of a mesh that is not closed by triangles, which the answer names
+    #[arg(long)]
+    close_holes: bool,
+    /// How many facets one search may move or place, at least 1; more of these events cover more
+    #[arg(long, value_name = "N", default_value_t = BodiesOptions::default().events)]
+    events: u64,
+    /// Where the random choices begin
+    #[arg(long, value_name = "S", default_value_t = BodiesOptions::default().seed)]
+    seed: u64,
+    #[command(flatten)]
+    output: OutputOptions,
+    #[command(flatten)]
+    reading: Reading,
+    #[command(flatten)]
+    effort: Effort,
+}
+
+/// Reads three numbers between commas.
+fn point(text: &str) -> Result<[f64; 3], String> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
+    let found = numbers.ok().and_then(|numbers| <[f64; 3]>::try_from(numbers).ok());
+    found.ok_or_else(|| "expected three numbers between commas, as 0.5,-1,2".to_owned())
+}
+
+impl Search {
+    pub(super) fn input(&self) -> Input<'_> {
+        Input { path: &self.path, reading: &self.reading, effort: &self.effort }
+    }
+
+    pub(super) fn output(&self) -> Output<'_> {
+        self.output.output()
+    }
+
+    pub(super) fn open(&self) -> anyhow::Result<Opened> {
+        self.reading.open_triangles(&self.path)
+    }
+
+    pub(super) fn solve(
+        &self,
+        shape: BodyShape,
+        mesh: &Opened,
+        watch: &Watch,
+    ) -> anyhow::Result<(Solution<InscribedBodies>, ())> {
+        let solve = |monitor: &Monitor<'_>| {
+            let options = BodiesOptions { monitor: *monitor, ..self.options(shape) };
+            inscribed_bodies(mesh.source(), &options)
+        };
+        let found = watch.during("solving", solve).map_err(|error| mesh.explain(error))?;
+        Ok((found, ()))
+    }
+
+    pub(super) fn options(&self, shape: BodyShape) -> BodiesOptions<'_> {
+        let many = if self.coverage.is_some() { COUNT_MAX } else { BodiesOptions::default().count };
+        BodiesOptions {
+            shape,
+            count: self.count.unwrap_or(many),
+            disjoint: self.disjoint,
+            at: &self.at,
+            coverage: self.coverage,
+            close_holes: self.close_holes,
+            events: self.events,
+            seed: self.seed,
+            ..BodiesOptions::default()
+        }
+    }
+}
+
+impl Find for Bodies {
+    type Answer = InscribedBodies;
+    type Extra = ();
+
+    fn input(&self) -> Input<'_> {
+        self.search.input()
+    }
+
+    fn output(&self) -> Output<'_> {
+        self.search.output()
+    }
+
+    fn open(&self) -> anyhow::Result<Opened> {
+        self.search.open()
+    }
+
+    fn solve(
+        &self,
+        mesh: &Opened,
+        watch: &Watch,
+    ) -> anyhow::Result<(Solution<InscribedBodies>, ())> {
+        self.search.solve(BodyShape::Free(self.facets), mesh, watch)
+    }
+
+    fn outcome(&self, _found: &Solution<InscribedBodies>) -> Outcome {
+        Outcome::Done
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::{Args as _, FromArgMatches};
+    use taut::inscribe::{BodiesOptions, BodyShape};
+
+    fn options(line: &str) -> super::Bodies {
+        let command = super::Bodies::augment_args(clap::Command::new("bodies"));
+        let matches = command.get_matches_from(line.split_whitespace());
+        super::Bodies::from_arg_matches(&matches).unwrap()
+    }
+
+    #[test]
+    fn the_defaults_are_those_of_the_library() {
+        let found = options("bodies mesh.off");
+        let shape = BodyShape::Free(found.facets);
+        assert_eq!(found.search.options(shape), BodiesOptions::default());
+        let found = options("bodies mesh.off --coverage 0.5 --at=1,-2,.5 --at -1e3,0,0");
+        let found = found.search.options(shape);
+        assert_eq!((found.count, found.coverage), (1000, Some(0.5)));
+        assert_eq!(found.at, [[1.0, -2.0, 0.5], [-1e3, 0.0, 0.0]]);
+    }
+
+    #[test]
+    fn a_point_has_three_numbers() {
+        for wrong in ["", "1,2", "1,2,3,4", "1,2,x", "1 2 3"] {
+            assert!(super::point(wrong).is_err(), "{wrong}");
+        }
+        assert_eq!(super::point("1, 2, 3"), Ok([1.0, 2.0, 3.0]));
+    }
+}

@@ -1,0 +1,85 @@
+//! `taut inscribe bodies`: free facets, given points, holes that are closed, and a coverage.
+
+use crate::test_folder::TestFolder;
+
+/// A tetrahedron of which no face is in a direction of k-dops.
+const TETRAHEDRON: &str =
+    "OFF\n4 4 0\n0 0 0\n7 1 0\n1 8 0.5\n2 3 9\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+
+fn folder() -> TestFolder {
+    let folder = TestFolder::new();
+    folder.put("mesh.off", TETRAHEDRON);
+    folder.put("open.off", TETRAHEDRON.replace("4 4 0", "4 3 0").replace("3 2 0 3\n", ""));
+    folder
+}
+
+#[test]
+fn a_tetrahedron_is_filled_and_proved() {
+    let folder = folder();
+    let command = "inscribe bodies mesh.off --events 1000 -o bodies.json --draw bodies.svg";
+    folder.taut(command).ends(0).stdout_has(&[
+        "1 convex body in a mesh of 4 triangles\n",
+        "4; the sum over all bodies",
+        "yes; each body lies inside the mesh, by the even-odd rule",
+        "free",
+    ]);
+    folder.taut("verify bodies.json mesh.off").ends(0).stdout_has(&["Verified: 1 convex body"]);
+    let all = folder.text("bodies.json");
+    folder.taut("inscribe bodies mesh.off --events 1000 --threads 1 -o bodies.json").ends(0);
+    assert_eq!(folder.text("bodies.json"), all);
+    let found: serde_json::Value = serde_json::from_str(&all).unwrap();
+    let volume = found["answer"]["bodies"][0]["volume"].as_f64().unwrap();
+    // A sixth of the determinant of the edges.
+    let whole = (7.0 * (8.0 * 9.0 - 0.5 * 3.0) - (9.0 - 0.5 * 2.0)) / 6.0;
+    assert!((0.985..=1.0).contains(&(volume / whole)), "{volume} of {whole}");
+}
+
+#[test]
+fn given_points_are_in_the_bodies_or_refused_with_the_reason() {
+    let folder = folder();
+    folder
+        .taut("inscribe bodies mesh.off --at 2,2,1 --at=1,1,0.5 --events 1000 -o bodies.json")
+        .ends(0)
+        .stdout_has(&["2 convex bodies"]);
+    let claims = ["2 given points in as many bodies, in their order; proved"];
+    folder.taut("verify bodies.json mesh.off").ends(0).stdout_has(&claims);
+    let mut found: serde_json::Value = serde_json::from_str(&folder.text("bodies.json")).unwrap();
+    found["answer"]["at"][1] = serde_json::json!([9, 9, 9]);
+    folder.put("forged.json", found.to_string());
+    let reason = ["body 1 is not proved to contain the point given for it"];
+    folder.taut("verify forged.json mesh.off").ends(1).stdout_has(&reason);
+    folder.taut("inscribe dops mesh.off --at -2,2,1").ends(2).stderr_has(&["point 0", "outside"]);
+    folder.taut("inscribe bodies mesh.off --at 2,2").ends(2);
+}
+
+#[test]
+fn holes_are_closed_if_asked_for() {
+    let folder = folder();
+    folder.taut("inscribe bodies open.off").ends(2).stderr_has(&["3 of its edges", "closed"]);
+    folder
+        .taut("inscribe bodies open.off --close-holes --events 1000 -o bodies.json")
+        .ends(0)
+        .stdout_has(&["each body lies inside the mesh closed by 1 cap", "caps"]);
+    folder.taut("verify bodies.json open.off").ends(0).stdout_has(&[
+        "each body lies inside the mesh closed by 1 cap, by the even-odd rule; proved",
+    ]);
+    let mut found: serde_json::Value = serde_json::from_str(&folder.text("bodies.json")).unwrap();
+    found["answer"]["caps"] = serde_json::json!([]);
+    folder.put("forged.json", found.to_string());
+    folder.taut("verify forged.json open.off").ends(1).stdout_has(&["is not closed"]);
+}
+
+#[test]
+fn bodies_are_added_until_the_coverage_is_reached() {
+    let folder = folder();
+    let command = "inscribe dops mesh.off -k 6 --coverage 0.6 --events 3000 -o bodies.json";
+    folder.taut(command).ends(0);
+    let found: serde_json::Value = serde_json::from_str(&folder.text("bodies.json")).unwrap();
+    let counters = &found["trace"]["counters"];
+    let part = counters["searched_covered"].as_f64().unwrap()
+        / counters["searched_points"].as_f64().unwrap();
+    let bodies = found["answer"]["bodies"].as_array().unwrap().len();
+    assert!(part >= 0.6 && (2..100).contains(&bodies), "{bodies} bodies cover {part}");
+    folder.taut("inscribe dops mesh.off --coverage 1.5").ends(2).stderr_has(&["--coverage", "1.5"]);
+    folder.taut("inscribe bodies mesh.off --facets 5").ends(2).stderr_has(&["--facets", "is 5"]);
+}

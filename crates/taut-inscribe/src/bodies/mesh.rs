@@ -1,0 +1,225 @@
+//! A triangle mesh that is closed, if need be by caps, with corners on a grid.
+
+use taut_points::{InputError, Monitor, PointSource, PointsHash, hash_block, map_blocks};
+
+use super::caps;
+use crate::Error;
+
+/// The longest side has from 2²³ to 2²⁴ units of the grid.
+const SIDE_BITS: i32 = 24;
+
+/// Units for which neither they nor their cubes leave the range of normal numbers.
+const EXPONENTS: std::ops::RangeInclusive<i32> = -300..=310;
+
+/// Coordinates in units are below this: farther from the origin a mesh has no digits left.
+const UNITS_MAX: f64 = (1u64 << 60) as f64;
+
+/// Most triangles, so that rows have 32-bit numbers.
+const TRIANGLES_MAX: u64 = u32::MAX as u64 / 4;
+
+/// The part of the view from an inner point that caps may fill. From near a flat cap it is a half; from the middle of half a ball it
+/// is 0.3, and a third is reached in bowls that are flatter.
+const CAPS_VIEW_MAX: f64 = 1.0 / 3.0;
+
+/// The corners of a triangle, as given.
+type Triangle = [[f64; 3]; 3];
+
+/// A closed mesh on the grid: corner y stands for (`origin` + y)·2^`exponent`.
+pub(super) struct GridMesh {
+    pub(super) exponent: i32,
+    pub(super) origin: [i64; 3],
+    /// The corners of each row and then of each cap, rounded to the nearest point of the grid. Coordinates are from 0 to 2²⁴ + 1.
+    pub(super) corners: Vec<[[i32; 3]; 3]>,
+    /// The triangles that close the mesh: corner c of row r is number 3·r + c.
+    pub(super) caps: Vec<[u64; 3]>,
+    /// Whether all coordinates are on the grid.
+    pub(super) is_exact: bool,
+    pub(super) points_hash: PointsHash,
+}
+
+/// The rows of a mesh, as [`inscribed_bodies`](crate::inscribed_bodies) reads them: for each triangle the coordinates of its corners.
+///
+/// ```
+/// let vertices = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+/// let rows = taut_inscribe::triangle_rows(&vertices, &[[0, 2, 1]])?;
+/// assert_eq!(rows, [0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0]);
+/// # Ok::<(), taut_inscribe::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::NoVertex`] for a triangle that names a vertex that does not exist.
+pub fn triangle_rows(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<Vec<f64>, Error> {
+    let mut rows = Vec::with_capacity(9 * triangles.len());
+    for (row, triangle) in triangles.iter().enumerate() {
+        for &vertex in triangle {
+            let Some(place) = vertices.get(vertex as usize) else {
+                let vertices = vertices.len();
+                return Err(Error::NoVertex { row: row as u64, vertex, vertices });
+            };
+            rows.extend(place);
+        }
+    }
+    Ok(rows)
+}
+
+impl GridMesh {
+    /// Reads the rows and closes holes, if this is asked for. Refuses other meshes that are not closed, and those that do not fit
+    /// the grid.
+    pub(super) fn read(
+        source: &dyn PointSource,
+        close_holes: bool,
+        monitor: &Monitor<'_>,
+    ) -> Result<Self, Error> {
+        if source.dim() != 9 {
+            let (dim, expected) = (source.dim(), "9, those of the three corners of a triangle");
+            return Err(InputError::Dimension { dim, expected }.into());
+        }
+        let points = source.len();
+        if points > TRIANGLES_MAX {
+            return Err(InputError::TooManyPoints { points, most: TRIANGLES_MAX }.into());
+        }
+        let (mut triangles, points_hash) = rows(source, monitor)?;
+        let boundary = Boundary::of(&triangles);
+        let caps = match (close_holes, boundary.open_edge(&triangles)) {
+            (false, Some(error)) => return Err(error),
+            (true, Some(_)) => boundary.caps(&triangles, monitor)?,
+            (_, None) => vec![],
+        };
+        let all = triangles.as_flattened();
+        let closing: Vec<Triangle> =
+            caps.iter().map(|cap| cap.map(|corner| all[corner as usize])).collect();
+        triangles.extend(closing);
+        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        for corner in triangles.as_flattened() {
+            for c in 0..3 {
+                (low[c], high[c]) = (low[c].min(corner[c]), high[c].max(corner[c]));
+            }
+        }
+        let side = (0..3).map(|c| high[c] - low[c]).fold(0.0, f64::max);
+        if side == 0.0 {
+            return Err(Error::NoInside);
+        }
+        let exponent = exponent_of(side) - (SIDE_BITS - 1);
+        if !EXPONENTS.contains(&exponent) {
+            return Err(Error::Grid { side });
+        }
+        let per_unit = 2f64.powi(-exponent);
+        if low.iter().chain(&high).any(|x| (x * per_unit).abs() >= UNITS_MAX) {
+            return Err(Error::Grid { side });
+        }
+        let origin = low.map(|x| (x * per_unit).floor() as i64);
+        let mut is_exact = true;
+        let corners = triangles.iter().map(|triangle| {
+            triangle.map(|corner| {
+                [0, 1, 2].map(|c| {
+                    let units = corner[c] * per_unit;
+                    is_exact &= units == units.round() && units / per_unit == corner[c];
+                    (units.round() as i64 - origin[c]) as i32
+                })
+            })
+        });
+        let corners = corners.collect();
+        Ok(GridMesh { exponent, origin, corners, caps, is_exact, points_hash })
+    }
+
+    /// Whether the mesh without its caps makes a point an inner one: caps fill less than a third of the view from there.
+    pub(super) fn sees_mesh(&self, p: [i32; 3]) -> bool {
+        let rows = self.corners.len() - self.caps.len();
+        let filled: f64 = self.corners[rows..].iter().map(|cap| caps::solid_angle(cap, p)).sum();
+        filled < CAPS_VIEW_MAX * 4.0 * std::f64::consts::PI
+    }
+
+    /// The place of a point on the grid, rounded; `None` beyond the bounding box of the mesh, or for what is no number.
+    pub(super) fn place(&self, point: [f64; 3]) -> Option<[i32; 3]> {
+        let per_unit = 2f64.powi(-self.exponent);
+        let place = [0, 1, 2].map(|c| (point[c] * per_unit).round() - self.origin[c] as f64);
+        let most = f64::from(1 << SIDE_BITS);
+        place.iter().all(|x| (0.0..=most).contains(x)).then(|| place.map(|x| x as i32))
+    }
+}
+
+/// The exponent e of a positive number with 2^e ≤ x < 2^(e + 1); less for subnormal numbers, more for what is not finite.
+fn exponent_of(x: f64) -> i32 {
+    (x.to_bits() >> 52) as i32 - 1023
+}
+
+/// All rows, which must be finite, and their hash.
+fn rows(
+    source: &dyn PointSource,
+    monitor: &Monitor<'_>,
+) -> Result<(Vec<Triangle>, PointsHash), Error> {
+    monitor.pass(1, source.len());
+    let blocks = map_blocks(source, monitor, |first, rows| {
+        if let Some((row, column, value)) = rows.first_non_finite() {
+            let row = first + row as u64;
+            return Err(Error::Input(InputError::NonFinite { row, column, value }));
+        }
+        let mut row = [0.0; 9];
+        let triangles = (0..rows.len()).map(|k| {
+            rows.copy_row(k, &mut row);
+            [[row[0], row[1], row[2]], [row[3], row[4], row[5]], [row[6], row[7], row[8]]]
+        });
+        Ok((hash_block(&rows), triangles.collect::<Vec<_>>()))
+    })?;
+    let hashes = blocks.iter().map(|block| block.0);
+    let hash = PointsHash::of_blocks(source.len(), source.dim(), hashes);
+    Ok((blocks.into_iter().flat_map(|block| block.1).collect(), hash))
+}
+
+/// The edges of a mesh that belong to an odd number of triangles.
+struct Boundary {
+    /// The vertex of each corner: those with equal coordinates are one.
+    vertex: Vec<u32>,
+    /// The ends of each such edge, and a triangle with it.
+    edges: Vec<([u32; 2], u32)>,
+}
+
+impl Boundary {
+    fn of(triangles: &[Triangle]) -> Self {
+        let mut corners: Vec<(usize, [f64; 3])> =
+            triangles.as_flattened().iter().copied().enumerate().collect();
+        // Equal numbers compare as equal here, 0 and −0 among them; none is NaN.
+        let order =
+            |a: &[f64; 3], b: &[f64; 3]| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal);
+        corners.sort_by(|a, b| order(&a.1, &b.1));
+        let mut vertex = vec![0u32; corners.len()];
+        for (number, same) in corners.chunk_by(|a, b| a.1 == b.1).enumerate() {
+            same.iter().for_each(|&(corner, _)| vertex[corner] = number as u32);
+        }
+        let mut edges: Vec<([u32; 2], u32)> = vec![];
+        for (row, triangle) in vertex.as_chunks::<3>().0.iter().enumerate() {
+            let [a, b, c] = *triangle;
+            let sides = [[a, b], [b, c], [c, a]].into_iter().filter(|[from, to]| from != to);
+            edges.extend(sides.map(|[from, to]| ([from.min(to), from.max(to)], row as u32)));
+        }
+        edges.sort_unstable();
+        let same = edges.chunk_by(|one, other| one.0 == other.0);
+        let edges = same.filter(|same| same.len() % 2 == 1).map(|same| same[0]).collect();
+        Boundary { vertex, edges }
+    }
+
+    /// The error of an open mesh.
+    fn open_edge(&self, triangles: &[Triangle]) -> Option<Error> {
+        let &(ends, row) = self.edges.first()?;
+        let place = |number: u32| {
+            let corner = (0..3).find(|&corner| self.vertex[3 * row as usize + corner] == number);
+            triangles[row as usize][corner.unwrap_or(0)]
+        };
+        let [from, to] = ends.map(place);
+        Some(Error::Open { edges: self.edges.len() as u64, row: row.into(), from, to })
+    }
+
+    /// Triangles that close the mesh, by the numbers of corners.
+    fn caps(&self, triangles: &[Triangle], monitor: &Monitor<'_>) -> Result<Vec<[u64; 3]>, Error> {
+        let vertices = self.vertex.iter().max().map_or(0, |&last| last as usize + 1);
+        // Of each vertex the first corner.
+        let mut corner = vec![0usize; vertices];
+        for (at, &vertex) in self.vertex.iter().enumerate().rev() {
+            corner[vertex as usize] = at;
+        }
+        let edges: Vec<[u32; 2]> = self.edges.iter().map(|edge| edge.0).collect();
+        let place = |vertex: u32| triangles.as_flattened()[corner[vertex as usize]];
+        let caps = caps::caps(&edges, &place, monitor)?;
+        Ok(caps.into_iter().map(|cap| cap.map(|vertex| corner[vertex as usize] as u64)).collect())
+    }
+}
