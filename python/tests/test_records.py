@@ -41,6 +41,8 @@ SOLVED = {
     "circle": (taut.inscribed_circle(RINGS[:60]), (RINGS[:60],), {}),
     "ellipse": (taut.inscribed_ellipse(RINGS[:60]), (RINGS[:60],), {}),
     "bodies": (taut.inscribed_dops(SIMPLEX, SIDES, count=2, disjoint=True, events=500), (SIMPLEX_ROWS,), {}),
+    "dop": (taut.bounding_dop(SPACE), (SPACE,), {}),
+    "flat dop": (taut.bounding_dop(SPACE * [1, 1, 0], directions=6), (SPACE * [1, 1, 0],), {}),
     "mcd": (taut.robust_ellipsoid(PLANE), (PLANE,), {}),
     "mve": (taut.robust_ellipsoid(PLANE, method="mve"), (PLANE,), {}),
     "trim": (taut.robust_ellipsoid(PLANE, method="trim"), (PLANE,), {}),

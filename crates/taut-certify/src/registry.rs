@@ -8,10 +8,10 @@ use taut_points::{Monitor, PointSource};
 
 use crate::json::{kind_of, parse_document, without_mark};
 use crate::{
-    Answer, Ball, Centers, CheckError, Curve, DrawnSample, Ellipsoid, FileAnswer, FileCheckError,
-    FileSolution, FileVerdict, Files, InscribedBodies, InscribedCircle, InscribedEllipse,
-    InscribedEllipsoid, JsonError, Order, RobustEllipsoid, Solution, SortedFile, Surface,
-    TransposedFile, Triangulation,
+    Answer, Ball, BoundingDop, Centers, CheckError, Curve, DrawnSample, Ellipsoid, FileAnswer,
+    FileCheckError, FileSolution, FileVerdict, Files, InscribedBodies, InscribedCircle,
+    InscribedEllipse, InscribedEllipsoid, JsonError, Order, RobustEllipsoid, Solution, SortedFile,
+    Surface, TransposedFile, Triangulation,
 };
 
 /// Hands the answers about points to a macro, each with the name of its variant.
@@ -33,6 +33,8 @@ macro_rules! answers_about_points {
             Ellipse(InscribedEllipse),
             /// Convex bodies in a triangle mesh.
             Bodies(InscribedBodies),
+            /// A bounding k-dop.
+            Dop(BoundingDop),
             /// k centers.
             Centers(Centers),
             /// Curves of the plane.

@@ -4,8 +4,8 @@ use serde::Serialize;
 use taut_points::ReadError;
 
 use crate::{
-    BodiesViolation, CentersViolation, CircleViolation, CurveViolation, EllipseViolation,
-    MeshViolation, OrderViolation, PolygonViolation, SurfaceViolation,
+    BodiesViolation, CentersViolation, CircleViolation, CurveViolation, DopViolation,
+    EllipseViolation, MeshViolation, OrderViolation, PolygonViolation, SurfaceViolation,
 };
 
 /// The proved facts about an enclosing shape.
@@ -368,6 +368,9 @@ pub enum Violation {
     /// Something is wrong with an inscribed circle.
     #[error(transparent)]
     Circle(#[from] CircleViolation),
+    /// Something is wrong with a bounding dop.
+    #[error(transparent)]
+    Dop(#[from] DopViolation),
     /// Something is wrong with an inscribed ellipse.
     #[error(transparent)]
     Ellipse(#[from] EllipseViolation),
@@ -433,6 +436,7 @@ impl Violation {
             },
             Violation::Bodies(ref violation) => violation.fault(),
             Violation::Circle(ref violation) => violation.fault(),
+            Violation::Dop(ref violation) => violation.fault(rows),
             Violation::Ellipse(ref violation) => violation.fault(),
             Violation::Polygon(ref violation) => violation.fault(),
             Violation::Curve(ref violation) => match *violation {
@@ -492,6 +496,12 @@ impl From<CentersViolation> for CheckError {
 
 impl From<CircleViolation> for CheckError {
     fn from(violation: CircleViolation) -> Self {
+        CheckError::Rejected(violation.into())
+    }
+}
+
+impl From<DopViolation> for CheckError {
+    fn from(violation: DopViolation) -> Self {
         CheckError::Rejected(violation.into())
     }
 }

@@ -1,8 +1,8 @@
 //! The kinds of picture, so that renderers are written once, and the answers that have some.
 
 use taut_certify::{
-    Answer, Ball, Centers, Curve, Ellipsoid, InscribedBodies, InscribedCircle, InscribedEllipse,
-    InscribedEllipsoid, Order, RobustEllipsoid, Solution, Surface, Triangulation,
+    Answer, Ball, BoundingDop, Centers, Curve, Ellipsoid, InscribedBodies, InscribedCircle,
+    InscribedEllipse, InscribedEllipsoid, Order, RobustEllipsoid, Solution, Surface, Triangulation,
 };
 use taut_points::PointSource;
 
@@ -52,6 +52,7 @@ drawn_by! {
     InscribedCircle: crate::circle_figures;
     InscribedEllipse: crate::ellipse_figures;
     InscribedBodies: crate::bodies_figures;
+    BoundingDop: crate::dop_figures;
     RobustEllipsoid: crate::robust_figures;
     Centers: crate::centers_figures;
     Curve: crate::curve_figures;

@@ -11,6 +11,7 @@
 //! | a circle in a polygon, and the rings | [`circle_figures`] | a scene of the plane, with the edges that are touched |
 //! | an ellipse in a polygon, and the rings | [`ellipse_figures`] | the same |
 //! | convex bodies in a mesh, and its triangles | [`bodies_figures`] | a scene of space, with the mesh translucent |
+//! | a bounding dop and its points | [`dop_figures`] | a scene of space, with the facets translucent |
 //! | a triangulation and its points | [`delaunay_figures`] | scenes of the plane or of space, and the Voronoi diagram |
 //! | curves and their points | [`curve_figures`] | scenes of the plane, with the band of noise, outliers and ends |
 //! | a surface and its points, or bare triangles | [`surface_figures`], [`surface_scene`] | a scene to turn, with fronts, backs, boundary and unused points, and fixed views |
@@ -46,6 +47,7 @@ mod centers;
 mod circle;
 mod curve;
 mod delaunay;
+mod dop;
 mod ellipse;
 mod ellipsoid;
 mod error;
@@ -77,6 +79,7 @@ pub use centers::{ElbowStep, centers_figures, elbow_figure};
 pub use circle::circle_figures;
 pub use curve::curve_figures;
 pub use delaunay::delaunay_figures;
+pub use dop::dop_figures;
 pub use ellipse::ellipse_figures;
 pub use ellipsoid::{ellipsoid_figures, robust_figures};
 pub use error::Error;

@@ -21,7 +21,7 @@ mod mesh;
 mod pack;
 mod polytope;
 mod proof;
-mod random;
+pub(crate) mod random;
 mod samples;
 mod tree;
 

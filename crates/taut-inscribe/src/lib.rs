@@ -5,6 +5,7 @@
 //! | the largest circle in a polygon, with holes | [`inscribed_circle()`] | largest radius ≤ (1 + ε)·radius, proved | O(n log n) for most rings, and the cells of the search |
 //! | the largest ellipse in a polygon, with holes | [`inscribed_ellipse()`] | largest area ≤ (1 + ε)·area, proved | O(n log n), and the cells of the search |
 //! | convex bodies in a closed triangle mesh that cover much of it | [`inscribed_dops()`] | each lies inside, proved; how much they cover is an estimate | O(log n) for most events |
+//! | how much of the mesh they hide | [`occlusion()`] | an estimate with its standard error | O(n) for each view |
 //!
 //! ```
 //! use taut_inscribe::{CircleOptions, inscribed_circle};
@@ -25,6 +26,7 @@ mod circle;
 mod dops;
 mod ellipse;
 mod error;
+mod occlusion;
 mod polygon;
 mod simple;
 
@@ -32,3 +34,4 @@ pub use circle::{CircleOptions, inscribed_circle};
 pub use dops::{DopsOptions, inscribed_dops, triangle_rows};
 pub use ellipse::{EllipseOptions, inscribed_ellipse};
 pub use error::Error;
+pub use occlusion::{Occlusion, OcclusionOptions, occlusion};

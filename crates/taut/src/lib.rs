@@ -12,6 +12,7 @@
 //! | the ellipsoid of largest volume in a polytope | [`inscribed_ellipsoid()`] | optimum ≤ log-volume + ε, proved | [`enclose`] |
 //! | the largest circle in a polygon, with holes | [`inscribed_circle()`] | largest radius ≤ (1 + ε)·radius, proved | [`inscribe`] |
 //! | the largest ellipse in a polygon, with holes | [`inscribe::inscribed_ellipse()`] | largest area ≤ (1 + ε)·area, proved | [`inscribe`] |
+//! | the bounding k-dop of points of space, such as those of a mesh | [`enclose::bounding_dop()`] | the smallest with its normals, proved | [`enclose`] |
 //! | center and scatter of most points, and the outliers | [`robust_ellipsoid()`] | all but the choice of points proved; that choice a local optimum | [`enclose`] |
 //! | convex bodies inside a closed triangle mesh | [`inscribe::inscribed_dops()`] | each lies inside, proved; coverage estimated | [`inscribe`] |
 //! | the Delaunay triangulation of points in the plane or in space | [`delaunay()`] | exact, a function of the point set alone, proved | [mod@delaunay] |
@@ -163,6 +164,8 @@ mod pages {
     struct Curve;
     #[doc = include_str!("../../../docs/delaunay.md")]
     struct Delaunay;
+    #[doc = include_str!("../../../docs/dop.md")]
+    struct Dop;
     #[doc = include_str!("../../../docs/ellipse.md")]
     struct Ellipse;
     #[doc = include_str!("../../../docs/ellipsoid.md")]

@@ -5,12 +5,14 @@ mod ball;
 mod centers;
 mod curve;
 mod delaunay;
+mod dop;
 mod ellipsoid;
 mod generate;
 mod inscribe;
 mod inscribe_circle;
 mod inscribe_dops;
 mod inscribe_ellipse;
+mod inscribe_exports;
 #[cfg(unix)]
 mod interrupt;
 mod limits;

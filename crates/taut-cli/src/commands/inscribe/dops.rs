@@ -1,17 +1,20 @@
 //! `taut inscribe dops`: convex bodies with facets in fixed directions inside a closed triangle mesh.
 
+mod exports;
 mod report;
 
 use std::path::PathBuf;
 
 use taut::certify::InscribedBodies;
-use taut::inscribe::{DopsOptions, inscribed_dops};
+use taut::inscribe::{DopsOptions, Occlusion, OcclusionOptions, inscribed_dops, occlusion};
 use taut::{Monitor, Solution};
 
 use crate::effort::Effort;
 use crate::exit::Outcome;
 use crate::input::reading::{Opened, Reading};
-use crate::pipeline::{Find, Input, Output, OutputOptions};
+use crate::output::writing::Outputs;
+use crate::pipeline::{Find, Input, Output};
+use crate::reports::Field;
 use crate::watch::Watch;
 
 /// Find large convex bodies with facets in k directions (k-dops) inside a closed triangle mesh.
@@ -22,7 +25,8 @@ even-odd rule, however triangles are turned. That each body lies inside is prove
 an estimate, and nothing is claimed about how much such bodies can cover.
 Exit: 0 found · 1 the check failed · 2 bad input or usage, nothing written
 Example: taut inscribe dops horse.off --count 10 -o bodies.json --draw bodies.html &&
-         taut verify bodies.json horse.off")]
+         taut verify bodies.json horse.off
+         taut inscribe dops horse.off --count 10 -o bodies.glb --parts collision")]
 pub(super) struct Dops {
     /// The mesh: .off, .obj, .ply or .stl, or points with 9 coordinates, the corners of a triangle in each row
     #[arg(value_name = "MESH")]
@@ -42,8 +46,11 @@ pub(super) struct Dops {
     /// Where the random choices begin
     #[arg(long, value_name = "S", default_value_t = DopsOptions::default().seed)]
     seed: u64,
+    /// Estimate how much of the mesh the bodies hide, by about this many random lines, from 1000 to 10⁹
+    #[arg(long, value_name = "LINES")]
+    occlusion: Option<u64>,
     #[command(flatten)]
-    output: OutputOptions,
+    exports: exports::Exports,
     #[command(flatten)]
     reading: Reading,
     #[command(flatten)]
@@ -52,14 +59,18 @@ pub(super) struct Dops {
 
 impl Find for Dops {
     type Answer = InscribedBodies;
-    type Extra = ();
+    type Extra = Option<Occlusion>;
 
     fn input(&self) -> Input<'_> {
         Input { path: &self.path, reading: &self.reading, effort: &self.effort }
     }
 
     fn output(&self) -> Output<'_> {
-        self.output.output()
+        self.exports.output()
+    }
+
+    fn check_options(&self) -> anyhow::Result<()> {
+        self.exports.check(&self.path)
     }
 
     fn open(&self) -> anyhow::Result<Opened> {
@@ -70,13 +81,36 @@ impl Find for Dops {
         &self,
         mesh: &Opened,
         watch: &Watch,
-    ) -> anyhow::Result<(Solution<InscribedBodies>, ())> {
+    ) -> anyhow::Result<(Solution<InscribedBodies>, Option<Occlusion>)> {
         let solve = |monitor: &Monitor<'_>| {
             let options = DopsOptions { monitor: *monitor, ..self.options() };
             inscribed_dops(mesh.source(), &options)
         };
         let found = watch.during("solving", solve).map_err(|error| mesh.explain(error))?;
-        Ok((found, ()))
+        let hide = |monitor: &Monitor<'_>| {
+            let of_lines = |lines| {
+                let options = OcclusionOptions { lines, seed: self.seed, monitor: *monitor };
+                occlusion(mesh.source(), &found.answer, &options)
+            };
+            self.occlusion.map(of_lines).transpose()
+        };
+        let hidden = watch.during("drawing lines", hide).map_err(|error| mesh.explain(error))?;
+        Ok((found, hidden))
+    }
+
+    fn side_fields(&self, hidden: &Option<Occlusion>) -> Vec<Field> {
+        hidden.iter().map(report::occlusion).collect()
+    }
+
+    fn write(
+        &self,
+        found: &mut Solution<InscribedBodies>,
+        _: &Option<Occlusion>,
+        _: &Opened,
+        outputs: &mut Outputs,
+        monitor: &Monitor<'_>,
+    ) -> anyhow::Result<()> {
+        self.exports.write(found, outputs, monitor)
     }
 
     fn outcome(&self, _found: &Solution<InscribedBodies>) -> Outcome {

@@ -5,4 +5,5 @@ mod degenerate;
 mod laws;
 mod models;
 mod mutations;
+mod occlusion;
 mod shapes;

@@ -6,6 +6,7 @@ pub mod centers;
 pub mod circle;
 pub mod clouds;
 pub mod curve;
+pub mod dop;
 pub mod ellipse;
 pub mod ellipsoid;
 pub mod files;

@@ -7,6 +7,7 @@ pub mod centers;
 pub mod circle;
 mod claims;
 pub mod curve;
+pub mod dop;
 pub mod dyadic;
 pub mod ellipse;
 pub mod ellipsoid;
@@ -37,6 +38,7 @@ use self::bodies::BodiesOracle;
 use self::centers::CentersOracle;
 use self::circle::CircleOracle;
 use self::curve::CurveOracle;
+use self::dop::DopOracle;
 use self::ellipse::EllipseOracle;
 use self::ellipsoid::EllipsoidOracle;
 use self::inscribed::InscribedOracle;
@@ -84,6 +86,7 @@ pub struct CaseOracle<'a> {
     centers: Option<CentersOracle>,
     circle: Option<CircleOracle>,
     curve: Option<CurveOracle>,
+    dop: Option<DopOracle>,
     ellipse: Option<EllipseOracle>,
     ellipsoids: BTreeMap<u8, EllipsoidOracle>,
     inscribed: Option<InscribedOracle>,
@@ -113,6 +116,7 @@ impl<'a> CaseOracle<'a> {
             centers: None,
             circle: None,
             curve: None,
+            dop: None,
             ellipse: None,
             ellipsoids: BTreeMap::new(),
             inscribed: None,
@@ -150,6 +154,10 @@ impl<'a> CaseOracle<'a> {
             }
             (AnySolution::Curve(found), AnyVerdict::Curve(verdict)) => {
                 let oracle = self.curve.get_or_insert_with(|| CurveOracle::new(values, *columns));
+                oracle.judge(found, verdict)
+            }
+            (AnySolution::Dop(found), AnyVerdict::Dop(verdict)) => {
+                let oracle = self.dop.get_or_insert_with(|| DopOracle::new(values, *columns));
                 oracle.judge(found, verdict)
             }
             (AnySolution::Ellipse(found), AnyVerdict::Ellipse(verdict)) => {
