@@ -4,6 +4,9 @@ use numpy::{Element, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use taut::certify::{ConvexBody, InscribedBodies};
 
+/// Vertices, and triangles by their numbers.
+type MeshArrays<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<u32>>);
+
 /// The vertices and triangles of a body on a grid.
 #[pyfunction]
 pub(crate) fn body_mesh<'py>(
@@ -12,7 +15,7 @@ pub(crate) fn body_mesh<'py>(
     origin: [i64; 3],
     normals: Vec<[i64; 3]>,
     offsets: Vec<i64>,
-) -> PyResult<(Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<u32>>)> {
+) -> PyResult<MeshArrays<'py>> {
     let body = ConvexBody { normals, offsets, volume: 0.0 };
     let answer = InscribedBodies { exponent, origin, disjoint: false, bodies: vec![] };
     let (vertices, triangles) = answer.mesh(&body);

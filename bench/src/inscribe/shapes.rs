@@ -9,8 +9,11 @@ use super::*;
 pub(super) const COUNTRIES_110M: &str = "inscribe/countries_110m.json.xz";
 pub(super) const COUNTRIES_10M: &str = "inscribe/countries_10m.json.xz";
 
-/// The rings of a file by name; `None`, after saying so, where it is missing.
-pub(super) fn countries(file: &str) -> Result<Option<Vec<(String, Vec<f64>)>>> {
+/// The name of a country, and one of its rings.
+type Named = (String, Vec<f64>);
+
+/// The rings of a file; `None`, after saying so, where it is missing.
+pub(super) fn countries(file: &str) -> Result<Option<Vec<Named>>> {
     let Some(text) = data::read_xz(file)? else { return Ok(None) };
     let mut found = vec![];
     collect(&serde_json::from_str(&text)?, "", &mut found);
@@ -18,7 +21,7 @@ pub(super) fn countries(file: &str) -> Result<Option<Vec<(String, Vec<f64>)>>> {
 }
 
 /// Lists of points at any depth, each under the name of what holds it.
-fn collect(value: &Value, name: &str, found: &mut Vec<(String, Vec<f64>)>) {
+fn collect(value: &Value, name: &str, found: &mut Vec<Named>) {
     let point = |value: &Value| Some([value.get(0)?.as_f64()?, value.get(1)?.as_f64()?]);
     match value {
         Value::Object(fields) => fields.iter().for_each(|(key, value)| collect(value, key, found)),
