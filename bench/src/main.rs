@@ -1,7 +1,7 @@
 //! taut beside its peers: the same inputs, one run, every answer checked.
 //!
 //! Each area is a command with its sections: minimum enclosing balls, Delaunay triangulations, ellipsoids, k centers,
-//! curves, surfaces and the memory hierarchy; `thesis` reruns the figures and the table of the thesis.
+//! curves, surfaces, shapes inside others and the memory hierarchy; `thesis` reruns the figures and the table of the thesis.
 //! The peers are installed by `bench/setup`; one that is missing is named, never skipped in silence.
 #![forbid(unsafe_code)]
 
@@ -15,6 +15,7 @@ mod delaunay;
 mod ellipsoid;
 mod goals;
 mod input;
+mod inscribe;
 mod job;
 mod judge;
 mod machine;
@@ -60,6 +61,8 @@ enum Command {
     Curve(Options),
     /// Surfaces: topology, distances, times and memory of reconstructions beside CGAL's.
     Surface(Options),
+    /// Shapes inside polygons and meshes: times, coverage, proofs, beside shapely, drake, V-HACD and CoACD.
+    Inscribe(Options),
     /// The memory hierarchy: searching, sorting, transposing, files, sets, trees and more beside peers.
     Oblivious(Options),
     /// The figures and the table of the thesis, rerun as CSV and SVG; without names it lists them.
@@ -88,6 +91,7 @@ fn main() -> anyhow::Result<()> {
         Command::Centers(options) => centers::AREA.run_all(&options),
         Command::Curve(options) => curve::AREA.run_all(&options),
         Command::Surface(options) => surface::AREA.run_all(&options),
+        Command::Inscribe(options) => inscribe::AREA.run_all(&options),
         Command::Oblivious(options) => oblivious::run(&options),
         Command::Thesis(arguments) => thesis::run(&arguments),
         Command::Job { job } => job::Job::perform(&job),

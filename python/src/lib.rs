@@ -7,11 +7,13 @@
 
 mod ball;
 mod bodies;
+mod body_mesh;
 mod centers;
 mod choice;
 mod circle;
 mod curve;
 mod delaunay;
+mod dop;
 mod ellipse;
 mod ellipsoid;
 mod farthest_first;
@@ -43,6 +45,8 @@ mod _native {
     #[pymodule_export]
     use crate::bodies::inscribed_bodies;
     #[pymodule_export]
+    use crate::body_mesh::body_mesh;
+    #[pymodule_export]
     use crate::centers::centers;
     #[pymodule_export]
     use crate::circle::inscribed_circle;
@@ -50,6 +54,8 @@ mod _native {
     use crate::curve::curve;
     #[pymodule_export]
     use crate::delaunay::{delaunay, spatial_order};
+    #[pymodule_export]
+    use crate::dop::bounding_dop;
     #[pymodule_export]
     use crate::ellipse::inscribed_ellipse;
     #[pymodule_export]

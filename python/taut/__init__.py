@@ -16,6 +16,7 @@ from ._answers.bodies import BodiesCertificate, BodiesVerdict, BodyProof, Convex
 from ._answers.centers import Centers, CentersCertificate, CentersVerdict, FarthestFirst, SphereTree
 from ._answers.circle import CircleCertificate, CircleVerdict, InscribedCircle
 from ._answers.curve import Curve, CurveCertificate, CurveComponent, CurveVerdict
+from ._answers.dop import BoundingDop, DopCertificate, DopVerdict
 from ._answers.ellipse import EllipseCertificate, EllipseVerdict, InscribedEllipse
 from ._answers.ellipsoid import Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Hull
 from ._answers.file import FileVerdict
@@ -34,6 +35,7 @@ from ._centers import centers, farthest_first, sphere_tree
 from ._circle import inscribed_circle
 from ._curve import curve
 from ._delaunay import delaunay
+from ._dop import bounding_dop
 from ._ellipse import inscribed_ellipse
 from ._ellipsoid import ellipsoid, ellipsoids, inscribed_ellipsoid
 from ._file_solution import FileSolution
@@ -54,6 +56,7 @@ __all__ = [
     "BodiesCertificate",
     "BodiesVerdict",
     "BodyProof",
+    "BoundingDop",
     "Centers",
     "CentersCertificate",
     "CentersVerdict",
@@ -67,6 +70,8 @@ __all__ = [
     "CurveCertificate",
     "CurveComponent",
     "CurveVerdict",
+    "DopCertificate",
+    "DopVerdict",
     "EllipseCertificate",
     "EllipseVerdict",
     "Ellipsoid",
@@ -110,6 +115,7 @@ __all__ = [
     "__version__",
     "ball",
     "ball_of_balls",
+    "bounding_dop",
     "centers",
     "curve",
     "delaunay",

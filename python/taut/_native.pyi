@@ -12,6 +12,8 @@ __all__ = [
     "Violation",
     "__version__",
     "ball",
+    "body_mesh",
+    "bounding_dop",
     "centers",
     "curve",
     "delaunay",
@@ -66,6 +68,10 @@ def ball(
     rows: Rows, items: str, epsilon: float, method: str, batch: int | None, max_passes: int, threads: int | None,
     seed: int,
 ) -> Found: ...
+def body_mesh(
+    exponent: int, origin: list[int], normals: list[list[int]], offsets: list[int],
+) -> tuple[NDArray[np.float64], NDArray[np.uint32]]: ...
+def bounding_dop(rows: Rows, directions: int) -> Found: ...
 def centers(
     rows: Rows, k: int, items: str, weights: bool, epsilon: float, method: str, discrete: bool, outliers: int,
     max_nodes: int, assignment: bool, threads: int | None,

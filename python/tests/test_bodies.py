@@ -26,6 +26,20 @@ def test_an_octahedron_is_a_body_with_14_directions():
         assert any(name in repr(part) for part in parts)
 
 
+def test_bodies_are_closed_meshes_that_face_outward():
+    found = taut.inscribed_dops(OCTAHEDRON, FACES, count=3, events=3000)
+    for number, body in enumerate(found.answer.bodies):
+        vertices, faces = found.answer.mesh(number)
+        assert np.array_equal(vertices, found.answer.vertices(number))
+        assert np.array_equal(faces, found.answer.faces(number))
+        assert vertices.dtype == np.float64 and faces.dtype == np.uint32
+        edges = {tuple(face[[k, (k + 1) % 3]].tolist()) for face in faces for k in range(3)}
+        assert len(edges) == 3 * len(faces) and all((b, a) in edges for a, b in edges)
+        # Six tetrahedra from the origin to each triangle; positive as triangles are counter-clockwise from outside.
+        volume = np.linalg.det(vertices[faces]).sum() / 6
+        assert abs(volume - body.volume) < 1e-9
+
+
 def test_disjoint_bodies_travel_as_json():
     found = taut.inscribed_dops(OCTAHEDRON, FACES, count=3, disjoint=True, events=3000)
     again = taut.Solution.from_json(found.to_json())

@@ -49,6 +49,8 @@ SOLVED = {
         (taut.triangle_rows(SIMPLEX, SIDES[1:]),),
         {},
     ),
+    "dop": (taut.bounding_dop(SPACE), (SPACE,), {}),
+    "flat dop": (taut.bounding_dop(SPACE * [1, 1, 0], directions=6), (SPACE * [1, 1, 0],), {}),
     "mcd": (taut.robust_ellipsoid(PLANE), (PLANE,), {}),
     "mve": (taut.robust_ellipsoid(PLANE, method="mve"), (PLANE,), {}),
     "trim": (taut.robust_ellipsoid(PLANE, method="trim"), (PLANE,), {}),

@@ -9,6 +9,7 @@ use taut_points::{Monitor, PointSource, PointsHash};
 use crate::json::{hash_from_hex, hash_to_hex};
 use crate::{Answer, CheckError};
 
+pub(crate) use check::volume;
 pub use violation::BodiesViolation;
 
 /// Convex bodies inside a triangle mesh.

@@ -13,6 +13,7 @@
 //! | [`InscribedTriangle`] | [`TriangleCertificate`] | it lies in the polygon; no triangle in the polygon has an area above (1 + gap) times its own |
 //! | [`Centers`] | [`CentersCertificate`] | every item that counts is within the radius of a center; no k equal balls much smaller hold the core-set |
 //! | [`InscribedBodies`] | [`BodiesCertificate`] | each body lies inside the mesh, by whole numbers alone; its volume; nothing about larger bodies |
+//! | [`BoundingDop`] | [`DopCertificate`] | every point is inside; each facet touches one; its vertices and its volume |
 //! | [`Curve`] | [`CurveCertificate`] | it meets neither itself nor others; every point but the outliers is within the band; whether sampling was dense enough |
 //! | [`Surface`] | [`SurfaceCertificate`] | which rows it uses and why not the others; its topology; it meets itself nowhere; each triangle has an empty ball; it faces outwards |
 //! | [`Order`] | [`OrderCertificate`] | each row once; it is *the* order of the points along its curve |
@@ -56,10 +57,12 @@
 mod arithmetic;
 mod ball;
 mod bodies;
+mod body_mesh;
 mod centers;
 mod circle;
 mod convex;
 mod curve;
+mod dop;
 mod ellipse;
 mod ellipsoid;
 mod files;
@@ -91,6 +94,7 @@ pub use curve::{
     Curve, CurveCertificate, CurveComponent, CurveDoubt, CurveEvidence, CurveVerdict,
     CurveViolation, Place, TourBound, curve_evidence, tour_bound, tour_length,
 };
+pub use dop::{BoundingDop, DopCertificate, DopVerdict, DopViolation};
 pub use ellipse::{EllipseCertificate, EllipseVerdict, EllipseViolation, InscribedEllipse};
 pub use ellipsoid::{
     EllipseSupport, Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Hull, ellipse_support,

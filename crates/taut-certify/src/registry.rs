@@ -8,8 +8,8 @@ use taut_points::{Monitor, PointSource};
 
 use crate::json::{kind_of, parse_document, without_mark};
 use crate::{
-    Answer, Ball, Centers, CheckError, ConvexPolygon, Curve, DrawnSample, Ellipsoid, FileAnswer,
-    FileCheckError, FileSolution, FileVerdict, Files, InscribedBodies, InscribedCircle,
+    Answer, Ball, BoundingDop, Centers, CheckError, ConvexPolygon, Curve, DrawnSample, Ellipsoid,
+    FileAnswer, FileCheckError, FileSolution, FileVerdict, Files, InscribedBodies, InscribedCircle,
     InscribedEllipse, InscribedEllipsoid, InscribedRectangle, InscribedTriangle, JsonError, Order,
     RobustEllipsoid, Solution, SortedFile, Surface, TransposedFile, Triangulation,
 };
@@ -39,6 +39,8 @@ macro_rules! answers_about_points {
             Triangle(InscribedTriangle),
             /// Convex bodies in a triangle mesh.
             Bodies(InscribedBodies),
+            /// A bounding k-dop.
+            Dop(BoundingDop),
             /// k centers.
             Centers(Centers),
             /// Curves of the plane.

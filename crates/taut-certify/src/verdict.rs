@@ -5,8 +5,8 @@ use taut_points::ReadError;
 
 use crate::{
     BodiesViolation, CentersViolation, CircleViolation, ConvexViolation, CurveViolation,
-    EllipseViolation, MeshViolation, OrderViolation, PolygonViolation, RectangleViolation,
-    SurfaceViolation, TriangleViolation,
+    DopViolation, EllipseViolation, MeshViolation, OrderViolation, PolygonViolation,
+    RectangleViolation, SurfaceViolation, TriangleViolation,
 };
 
 /// The proved facts about an enclosing shape.
@@ -372,6 +372,9 @@ pub enum Violation {
     /// Something is wrong with a convex polygon.
     #[error(transparent)]
     Convex(#[from] ConvexViolation),
+    /// Something is wrong with a bounding dop.
+    #[error(transparent)]
+    Dop(#[from] DopViolation),
     /// Something is wrong with an inscribed ellipse.
     #[error(transparent)]
     Ellipse(#[from] EllipseViolation),
@@ -445,6 +448,7 @@ impl Violation {
             Violation::Circle(ref violation) => violation.fault(),
             Violation::Convex(ref violation) => violation.fault(),
             Violation::Rectangle(ref violation) => violation.fault(),
+            Violation::Dop(ref violation) => violation.fault(rows),
             Violation::Ellipse(ref violation) => violation.fault(),
             Violation::Triangle(ref violation) => violation.fault(),
             Violation::Polygon(ref violation) => violation.fault(),
@@ -517,6 +521,12 @@ impl From<ConvexViolation> for CheckError {
 
 impl From<RectangleViolation> for CheckError {
     fn from(violation: RectangleViolation) -> Self {
+        CheckError::Rejected(violation.into())
+    }
+}
+
+impl From<DopViolation> for CheckError {
+    fn from(violation: DopViolation) -> Self {
         CheckError::Rejected(violation.into())
     }
 }

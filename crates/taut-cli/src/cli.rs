@@ -3,8 +3,8 @@
 use clap::{Parser, Subcommand};
 
 use crate::commands::{
-    ball, centers, completions, curve, delaunay, draw, ellipsoid, formats, generate, inscribe, man,
-    memory, surface, tour, verify,
+    ball, centers, completions, curve, delaunay, dop, draw, ellipsoid, formats, generate, inscribe,
+    man, memory, surface, tour, verify,
 };
 use crate::exit::Outcome;
 
@@ -25,6 +25,7 @@ pub(crate) struct Cli {
 enum Command {
     Ball(ball::Args),
     Ellipsoid(ellipsoid::Args),
+    Dop(dop::Args),
     Centers(centers::Args),
     Delaunay(delaunay::Args),
     Curve(curve::Args),
@@ -45,6 +46,7 @@ impl Cli {
         match &self.command {
             Command::Ball(args) => args.run(),
             Command::Ellipsoid(args) => args.run(),
+            Command::Dop(args) => args.run(),
             Command::Centers(args) => args.run(),
             Command::Delaunay(args) => args.run(),
             Command::Curve(args) => args.run(),

@@ -5,6 +5,7 @@ pub(crate) mod centers;
 pub(crate) mod completions;
 pub(crate) mod curve;
 pub(crate) mod delaunay;
+pub(crate) mod dop;
 pub(crate) mod draw;
 mod elbow;
 pub(crate) mod ellipsoid;

@@ -3,6 +3,7 @@
 pub(crate) mod ball;
 pub(crate) mod centers;
 pub(crate) mod curve;
+pub(crate) mod dop;
 pub(crate) mod ellipsoid;
 pub(crate) mod inscribed;
 pub(crate) mod order;

@@ -1,9 +1,9 @@
 //! The kinds of picture, so that renderers are written once, and the answers that have some.
 
 use taut_certify::{
-    Answer, Ball, Centers, ConvexPolygon, Curve, Ellipsoid, InscribedBodies, InscribedCircle,
-    InscribedEllipse, InscribedEllipsoid, InscribedRectangle, InscribedTriangle, Order,
-    RobustEllipsoid, Solution, Surface, Triangulation,
+    Answer, Ball, BoundingDop, Centers, ConvexPolygon, Curve, Ellipsoid, InscribedBodies,
+    InscribedCircle, InscribedEllipse, InscribedEllipsoid, InscribedRectangle, InscribedTriangle,
+    Order, RobustEllipsoid, Solution, Surface, Triangulation,
 };
 use taut_points::PointSource;
 
@@ -56,6 +56,7 @@ drawn_by! {
     InscribedRectangle: crate::rectangle_figures;
     InscribedTriangle: crate::triangle_figures;
     InscribedBodies: crate::bodies_figures;
+    BoundingDop: crate::dop_figures;
     RobustEllipsoid: crate::robust_figures;
     Centers: crate::centers_figures;
     Curve: crate::curve_figures;

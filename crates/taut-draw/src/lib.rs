@@ -14,6 +14,7 @@
 //! | a rectangle in a polygon, and the rings | [`rectangle_figures`] | the same |
 //! | an ellipse or a triangle in a polygon, and the rings | [`ellipse_figures`], [`triangle_figures`] | the same |
 //! | convex bodies in a mesh, and its triangles | [`bodies_figures`] | a scene of space, with the mesh translucent |
+//! | a bounding dop and its points | [`dop_figures`] | a scene of space, with the facets translucent |
 //! | a triangulation and its points | [`delaunay_figures`] | scenes of the plane or of space, and the Voronoi diagram |
 //! | curves and their points | [`curve_figures`] | scenes of the plane, with the band of noise, outliers and ends |
 //! | a surface and its points, or bare triangles | [`surface_figures`], [`surface_scene`] | a scene to turn, with fronts, backs, boundary and unused points, and fixed views |
@@ -50,6 +51,7 @@ mod circle;
 mod convex;
 mod curve;
 mod delaunay;
+mod dop;
 mod ellipse;
 mod ellipsoid;
 mod error;
@@ -85,6 +87,7 @@ pub use circle::circle_figures;
 pub use convex::convex_figures;
 pub use curve::curve_figures;
 pub use delaunay::delaunay_figures;
+pub use dop::dop_figures;
 pub use ellipse::ellipse_figures;
 pub use ellipsoid::{ellipsoid_figures, robust_figures};
 pub use error::Error;

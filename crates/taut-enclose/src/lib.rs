@@ -10,6 +10,7 @@
 //! | one for each of many point sets | [`ellipsoids()`] | the same | that of the sets, shared by all threads |
 //! | ellipsoid of largest volume in a polytope | `inscribed_ellipsoid` (feature `conic`) | optimum ≤ log-volume + ε, proved | some fifty steps of O(nd⁴ + d⁶) |
 //! | center, scatter and outliers | [`robust_ellipsoid()`] | all proved but that no other points kept would do better | some ten to thirty passes of O(nd²) |
+//! | bounding k-dop of points of space | [`bounding_dop()`] | the smallest with its normals, proved | one pass of O(kn) |
 //! | 2-approximate centers for every k at once | [`farthest_first()`] | radius ≤ 2·lower bound for each k | O(nkd) at worst, a small part of it as a rule |
 //! | k centers of a stream | [`StreamingCenters`], or [`centers()`] with [`CentersMethod::Stream`] | radius ≤ 2.96·lower bound, or another factor | O(mkd) for each point, m = 8 guesses; one pass, and one to measure |
 //! | k centers of points in many places | [`CoreSetSummary`] | radius ≤ 4 times the optimum, less with larger summaries | one pass in each place, and one to measure |
@@ -32,6 +33,7 @@
 
 mod ball;
 mod centers;
+mod dop;
 mod ellipsoid;
 mod error;
 mod farthest_first;
@@ -49,6 +51,7 @@ mod top;
 
 pub use ball::{BallMethod, BallOptions, ball};
 pub use centers::{CentersMethod, CentersOptions, centers};
+pub use dop::{DopOptions, bounding_dop};
 pub use ellipsoid::{EllipsoidMethod, EllipsoidOptions, ellipsoid, ellipsoids};
 pub use error::Error;
 pub use farthest_first::{FarthestFirst, FarthestFirstOptions, farthest_first};

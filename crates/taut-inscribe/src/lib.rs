@@ -8,6 +8,7 @@
 //! | the largest rectangle along the axes in a polygon, with holes | [`inscribed_rectangle()`] | largest area ≤ (1 + ε)·area, proved | the cells of the search |
 //! | the largest triangle in a polygon, with holes | [`inscribed_triangle()`] | largest area ≤ (1 + ε)·area, proved | O(n log n), and the cells of the search |
 //! | convex bodies in a triangle mesh that cover much of it | [`inscribed_bodies()`] | each lies inside, proved; how much they cover is an estimate | O(log n) for most events |
+//! | how much of the mesh they hide | [`occlusion()`] | an estimate with its standard error | O(n) for each view |
 //!
 //! ```
 //! use taut_inscribe::{CircleOptions, inscribed_circle};
@@ -31,6 +32,7 @@ mod ellipse;
 mod error;
 mod inner_points;
 mod levels;
+mod occlusion;
 mod pair;
 mod polygon;
 mod random;
@@ -44,5 +46,6 @@ pub use circle::{CircleOptions, inscribed_circle};
 pub use convex::{ConvexOptions, inscribed_polygon};
 pub use ellipse::{EllipseOptions, inscribed_ellipse};
 pub use error::Error;
+pub use occlusion::{Occlusion, OcclusionOptions, occlusion};
 pub use rectangle::{RectangleOptions, inscribed_rectangle};
 pub use triangle::{TriangleOptions, inscribed_triangle};

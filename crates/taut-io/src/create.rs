@@ -7,6 +7,7 @@
 //! *Trap.* Renaming onto a device would replace it: what exists and is no regular file is written in place.
 
 mod draft;
+mod folder;
 
 use std::fs::{self, File, Permissions};
 use std::io::{self, BufWriter, Stdout, Write};
@@ -18,6 +19,7 @@ use crate::Error;
 use crate::error::shown_path;
 
 pub use draft::remove_unfinished;
+pub use folder::{AtomicFolder, check_folder, create_folder};
 
 /// A file in the making; see [`create`]. Dropped without [`commit`](Self::commit), it leaves no trace.
 #[derive(Debug)]

@@ -32,6 +32,23 @@ pub enum Error {
         /// The folder.
         path: String,
     },
+    /// A file stands where a folder was expected.
+    #[error("{path} is a file: name a folder")]
+    NoFolder {
+        /// The file.
+        path: String,
+    },
+    /// An earlier folder holds something that its replacement would remove.
+    #[error(
+        "{path} holds `{}`, which would be removed: name a new or an empty folder",
+        Printable(name)
+    )]
+    OtherFolder {
+        /// The folder.
+        path: String,
+        /// The name of a file or folder in it.
+        name: String,
+    },
     /// A device stands where a file was expected, and may never end.
     #[error("{path} is a device, which may never end: name a file or a pipe")]
     Device {
@@ -404,6 +421,25 @@ pub enum Error {
         path: String,
         /// The line, from 1.
         line: u64,
+    },
+    /// The feature that was chosen is not there, or several could be meant.
+    #[error("{path}: {problem}")]
+    Feature {
+        /// The file.
+        path: String,
+        /// The problem with its features.
+        problem: String,
+    },
+    /// A feature was chosen, but files of this format have none.
+    #[error(
+        "{path}: {format} files have no features to choose from: leave out --select, which is for {}",
+        names(|f| f.has_features())
+    )]
+    NoFeatures {
+        /// The file.
+        path: String,
+        /// The format.
+        format: Format,
     },
     /// The file holds another number of values or rows than it says.
     #[error(

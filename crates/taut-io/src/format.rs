@@ -94,6 +94,8 @@ pub enum Format {
     GeoJson,
     /// One path of SVG.
     Svg,
+    /// Well-known text of geometries.
+    Wkt,
 }
 
 impl Format {
@@ -159,6 +161,11 @@ impl Format {
 
     pub(crate) fn is_written(self) -> bool {
         self.entry().uses.iter().any(|(_, access, _)| *access != Access::Read)
+    }
+
+    /// Returns true if its points can be those of one feature among several.
+    pub(crate) fn has_features(self) -> bool {
+        matches!(self, Format::GeoJson | Format::Svg | Format::Wkt)
     }
 
     /// Returns true if a mesh in it can have simplices of so many vertices; a format of surfaces alone has triangles.

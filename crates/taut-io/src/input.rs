@@ -234,6 +234,9 @@ fn open_medium(
         .or_else(|| read::format_of_magic(&head))
         .or(name.is_none().then_some(Format::Csv))
         .ok_or_else(unknown)?;
+    if options.feature.is_some() && !format.has_features() {
+        return Err(Error::NoFeatures { path: display.to_owned(), format });
+    }
     let job = Job { path: display, format, options };
     let Decoded { source, columns, numbers } = read::read(&job, medium)?;
     Ok(Input { source, columns, format, path: display.to_owned(), numbers })

@@ -5,6 +5,7 @@
 //! | points of a file or of standard input | [`open`] | every point or an error that names file, row, column and value |
 //! | points of bytes in memory | [`open_bytes`] | the same |
 //! | a file | [`create`] | the earlier file stays as it was until [`AtomicFile::commit`] |
+//! | a folder of files | [`create_folder`] | the earlier folder stays as it was until [`AtomicFolder::commit`] |
 //! | points as a file | [`write_points`] | block by block, so the points may be larger than memory |
 //! | curves of the plane as a file | [`write_polylines`] | loops within loops are holes where a format knows them |
 //! | a mesh as a file: simplices on points, or a surface | [`write_mesh`] | every bit, where the format has room |
@@ -56,7 +57,10 @@ mod write;
 
 pub use array::NpyArray;
 pub use columns::Columns;
-pub use create::{AtomicFile, check_writable, create, remove_unfinished};
+pub use create::{
+    AtomicFile, AtomicFolder, check_folder, check_writable, create, create_folder,
+    remove_unfinished,
+};
 pub use device::refuse_device;
 pub use error::{Error, FilePlace, Place};
 pub use format::{Compression, Content, Format};
@@ -66,7 +70,7 @@ pub use mesh::{
     Encoding, Mesh, MeshOptions, MeshView, mesh_file, open_mesh, open_mesh_bytes, open_triangles,
     write_mesh,
 };
-pub use options::{Header, RawLayout, ReadOptions};
+pub use options::{Feature, Header, RawLayout, ReadOptions};
 pub use polylines::{polylines_file, write_polylines};
 pub use taut_mesh::Polyline;
 pub use write::write_points;

@@ -23,10 +23,36 @@ pub struct ReadOptions {
     /// text or a point of an array of more than an eighth of this memory, vertices and triangles of a mesh of more than half,
     /// a message of arrow or an array in Fortran order of more than all of it. All but the last may have 1 MiB in any case.
     pub memory: Option<u64>,
+    /// The feature of a GeoJSON, WKT or SVG file whose positions are read; by default the only one.
+    pub feature: Option<Feature>,
     /// Shape and type of raw values, which no raw file tells itself. Needed for [`Format::Raw`] only.
     pub raw: Option<RawLayout>,
     /// Folder of temporary files. Default: that of the system.
     pub temp_dir: Option<PathBuf>,
+}
+
+/// One feature of a file that has several.
+///
+/// ```
+/// use taut_io::Feature;
+/// assert_eq!("3".parse(), Ok(Feature::Number(3)));
+/// assert_eq!("Kenya".parse(), Ok(Feature::Name("Kenya".to_owned())));
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Feature {
+    /// The number of a feature of GeoJSON, a geometry of WKT or a path of SVG, from 0.
+    Number(u64),
+    /// The property `name` (in either case) of a feature of GeoJSON, or the `id` of a path of SVG.
+    Name(String),
+}
+
+impl std::str::FromStr for Feature {
+    type Err = std::convert::Infallible;
+
+    /// Reads digits as a number, and any other text as a name.
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        Ok(text.parse().map_or_else(|_| Feature::Name(text.to_owned()), Feature::Number))
+    }
 }
 
 /// States whether the first row of a text file holds the names of the columns.

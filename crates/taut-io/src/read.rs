@@ -2,6 +2,7 @@
 
 #[cfg(feature = "arrow")]
 mod arrow;
+mod chains;
 #[cfg(feature = "arrow")]
 mod columnar;
 mod delimited;
@@ -15,9 +16,11 @@ mod parquet;
 pub(crate) mod quiet;
 mod raw;
 mod rows;
+mod svg;
 #[cfg(feature = "arrow")]
 pub(crate) mod thrift;
 mod tsplib;
+mod wkt;
 mod xyz;
 
 #[cfg(feature = "arrow")]
@@ -69,6 +72,8 @@ pub(crate) fn read(job: &Job<'_>, medium: Medium) -> Result<Decoded, Error> {
         Format::Xyz => xyz::read(job, medium.stream()),
         Format::Ply | Format::Obj | Format::Off | Format::Stl => meshes::read(job, medium),
         Format::GeoJson => geojson::read(job, medium.stream()),
+        Format::Wkt => wkt::read(job, medium.stream()),
+        Format::Svg => svg::read(job, medium.stream()),
         Format::Npy => read_npy(job, medium),
         Format::Raw => read_raw(job, medium),
         #[cfg(feature = "arrow")]

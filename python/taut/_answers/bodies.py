@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Iterable
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from .._record import FLOAT, ROW, Floats, Record, RowNumbers, column, each, record, table, value
+from .. import _native
+from .._record import FLOAT, ROW, Floats, Ids, Record, RowNumbers, column, each, record, table, value
 
 
 def _lists(found: Iterable[Iterable[int]]) -> tuple[tuple[int, ...], ...]:
@@ -91,8 +89,26 @@ class InscribedBodies(Record):
             offsets.append(math.ldexp(rounded, self.exponent))
         return found.normals.astype(np.float64), np.array(offsets)
 
+    def mesh(self, body: int) -> tuple[Floats, Ids]:
+        """The border of a body in the coordinates of the mesh: a closed mesh that faces outward.
+
+        Parameters
+        ----------
+        body : int
+            Number of the body, from 0.
+
+        Returns
+        -------
+        vertices : ndarray of float64, shape (v, 3)
+            The exact vertices, each rounded to the nearest numbers; their convex hull is the body.
+        faces : ndarray of uint32, shape (f, 3)
+            Triangles on the vertices, counter-clockwise from outside: ``trimesh.Trimesh(*answer.mesh(0))``.
+        """
+        found = self.bodies[body]
+        return _native.body_mesh(self.exponent, self.origin.tolist(), found.normals.tolist(), found.offsets.tolist())
+
     def vertices(self, body: int) -> Floats:
-        """The vertices of a body in the coordinates of the mesh, rounded; their convex hull is the body.
+        """The vertices of a body in the coordinates of the mesh, as `mesh` has them.
 
         Parameters
         ----------
@@ -103,62 +119,21 @@ class InscribedBodies(Record):
         -------
         ndarray of float64, shape (v, 3)
         """
-        found = self.bodies[body]
-        # Plain arithmetic leaves few triples of planes; of these Cramer's rule in Python's whole numbers, which have any size,
-        # makes the vertices.
-        normals = found.normals.astype(object)
-        offsets = found.offsets.astype(object)
-        i, j, k = _candidates(found.normals.astype(np.float64), found.offsets.astype(np.float64))
-        u, v, w = normals[i], normals[j], normals[k]
-        vw, wu, uv = _cross(v, w), _cross(w, u), _cross(u, v)
-        divisor = (u * vw).sum(axis=1)
-        at = offsets[i][:, None] * vw + offsets[j][:, None] * wu + offsets[k][:, None] * uv
-        at, divisor = at[divisor != 0], divisor[divisor != 0]
-        sign = np.where(divisor > 0, 1, -1)
-        at, divisor = at * sign[:, None], divisor * sign
-        is_vertex = np.all(at @ normals.T <= divisor[:, None] * offsets, axis=1)
-        places = {
-            tuple((o + x / d) for o, x in zip(self.origin.tolist(), row, strict=True))
-            for row, d in zip(at[is_vertex].tolist(), divisor[is_vertex].tolist(), strict=True)
-        }
-        return np.array(sorted(places)).reshape(-1, 3) * math.ldexp(1.0, self.exponent)
+        return self.mesh(body)[0]
 
+    def faces(self, body: int) -> Ids:
+        """The facets of a body as triangles on its vertices, as `mesh` has them.
 
-# Triples of planes that are looked at together.
-_TRIPLES_AT_ONCE = 20_000
+        Parameters
+        ----------
+        body : int
+            Number of the body, from 0.
 
-# The distance from a vertex to a plane that rounding may add, as a part of the largest coordinate: far above 2**-53.
-_ROUNDING = 1e-9
-
-
-def _candidates(normals: Floats, offsets: Floats) -> tuple[NDArray[np.int64], ...]:
-    """The triples of planes that meet in all half-spaces, or so near that rounding may hide it."""
-    lengths = np.linalg.norm(normals, axis=1)
-    units, distances = normals / lengths[:, None], offsets / lengths
-    triples = itertools.combinations(range(len(offsets)), 3)
-    kept = [np.empty((0, 3), dtype=np.int64)]
-    while some := list(itertools.islice(triples, _TRIPLES_AT_ONCE)):
-        rows = np.array(some)
-        i, j, k = rows.T
-        vw, wu, uv = (np.cross(units[a], units[b]) for a, b in ((j, k), (k, i), (i, j)))
-        divisor = (units[i] * vw).sum(axis=1)
-        at = distances[i][:, None] * vw + distances[j][:, None] * wu + distances[k][:, None] * uv
-        # Planes that are nearly parallel have no place in plain arithmetic, and stay.
-        is_flat = np.abs(divisor) < 1e-6
-        at /= np.where(is_flat, 1.0, divisor)[:, None]
-        slack = _ROUNDING * (1.0 + np.abs(distances).max() + np.abs(at).max(axis=1))
-        is_near = np.all(at @ units.T <= distances + slack[:, None], axis=1)
-        kept.append(rows[is_near | (is_flat & (divisor != 0))])
-    i, j, k = np.concatenate(kept).T
-    return i, j, k
-
-
-def _cross(a: NDArray[Any], b: NDArray[Any]) -> NDArray[Any]:
-    """Cross products of rows of whole numbers of any size."""
-    x = a[:, 1] * b[:, 2] - a[:, 2] * b[:, 1]
-    y = a[:, 2] * b[:, 0] - a[:, 0] * b[:, 2]
-    z = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
-    return np.stack([x, y, z], axis=1)
+        Returns
+        -------
+        ndarray of uint32, shape (f, 3)
+        """
+        return self.mesh(body)[1]
 
 
 @record("combined")

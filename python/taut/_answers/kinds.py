@@ -10,6 +10,7 @@ from .bodies import BodiesCertificate, BodiesVerdict, InscribedBodies
 from .centers import Centers, CentersCertificate, CentersVerdict
 from .circle import CircleCertificate, CircleVerdict, InscribedCircle
 from .curve import Curve, CurveCertificate, CurveVerdict
+from .dop import BoundingDop, DopCertificate, DopVerdict
 from .ellipse import EllipseCertificate, EllipseVerdict, InscribedEllipse
 from .ellipsoid import Ellipsoid, EllipsoidCertificate, EllipsoidVerdict
 from .inscribed import InscribedCertificate, InscribedEllipsoid, InscribedVerdict
@@ -31,6 +32,7 @@ AnyVerdict = (
     | RectangleVerdict
     | TriangleVerdict
     | BodiesVerdict
+    | DopVerdict
     | RobustVerdict
     | CentersVerdict
     | CurveVerdict
@@ -112,6 +114,13 @@ KINDS = {
         BodiesVerdict,
         "lies in",
         ("answer.bodies", "answer.disjoint"),
+    ),
+    "bounding-dop": Kind(
+        BoundingDop,
+        DopCertificate,
+        DopVerdict,
+        "encloses",
+        ("answer.volume", "answer.normals"),
     ),
     "robust-ellipsoid": Kind(
         RobustEllipsoid,

@@ -16,7 +16,7 @@ mod disjoint;
 mod empty;
 mod grid;
 mod parity;
-pub(super) mod volume;
+pub(crate) mod volume;
 
 use taut_points::{Monitor, PointSource};
 

@@ -14,7 +14,7 @@ use crate::effort::Effort;
 use crate::exit::Outcome;
 use crate::input::choice::choice;
 use crate::input::reading::{Opened, Points, Reading};
-use crate::output::picture::Picture;
+use crate::output::meshes::mesh_format;
 use crate::output::writing::{self, Outputs};
 use crate::pipeline::{self, Find, Input, Output};
 use crate::watch::Watch;
@@ -113,7 +113,7 @@ impl Find for Args {
 
     fn check_options(&self) -> anyhow::Result<()> {
         self.check_method_options()?;
-        self.mesh_format().map(drop)
+        mesh_format(self.out.as_deref()).map(drop)
     }
 
     fn solve(&self, points: &Opened, watch: &Watch) -> anyhow::Result<(Solution<Surface>, ())> {
@@ -132,7 +132,7 @@ impl Find for Args {
         outputs: &mut Outputs,
         _: &Monitor<'_>,
     ) -> anyhow::Result<()> {
-        match (&self.out, self.mesh_format()?) {
+        match (&self.out, mesh_format(self.out.as_deref())?) {
             (Some(out), Some(format)) => outputs.hold(self.mesh(found, points, out, format)?),
             (Some(out), None) => outputs.add_json(out, found)?,
             (None, _) => {}
@@ -167,26 +167,6 @@ impl Args {
             }
         }
         Ok(())
-    }
-
-    /// The format of the mesh that goes to `--out`; none where JSON does.
-    fn mesh_format(&self) -> anyhow::Result<Option<Format>> {
-        let Some(out) = &self.out else { return Ok(None) };
-        let json = out.extension().is_none_or(|extension| extension.eq_ignore_ascii_case("json"));
-        let shown = out.display();
-        match Format::of_path_for(out, Content::Surface) {
-            Some(format) if format.writes(Content::Surface) => Ok(Some(format)),
-            None if json => Ok(None),
-            None if Picture::of_path(out).is_ok() => {
-                bail!("{shown}: -o writes JSON or the mesh; draw with --draw {shown}")
-            }
-            _ => {
-                let formats = Format::all().filter(|format| format.writes(Content::Surface));
-                let names: Vec<String> =
-                    formats.map(|format| format!(".{}", format.extensions()[0])).collect();
-                bail!("{shown}: -o writes .json, {}; name one of these", names.join(", "))
-            }
-        }
     }
 
     /// The file of the mesh, with what the file of the points says of them.

@@ -1,5 +1,6 @@
 //! `taut tour`: every tool on a sample of its own, checked, on one page with pictures.
 
+mod inside;
 mod memory;
 mod stations;
 
@@ -132,6 +133,8 @@ fn visit(station: &Station, watch: &Watch) -> anyhow::Result<Stop> {
         Tool::Ellipsoid => ellipsoid(station, &points, watch),
         Tool::Robust => robust(station, &points, watch),
         Tool::Inscribed => inscribed(station, &points, watch),
+        Tool::Ellipse => inside::ellipse(station, &points, watch),
+        Tool::Bodies(bodies) => inside::bodies(station, bodies, &points, watch),
         Tool::Centers(k) => centers(station, k, &points, watch),
         Tool::Delaunay => triangulation(station, &points, watch),
         Tool::Curve => curves(station, &points, watch),

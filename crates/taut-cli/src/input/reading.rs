@@ -10,7 +10,7 @@ use taut::certify::Violation;
 use taut::enclose::Error as SolveError;
 use taut::points::{InputError, ReadError, ScalarKind, shown_number};
 use taut::{AnySolution, PointSource};
-use taut_io::{Columns, Content, Format, Header, Input, RawLayout, ReadOptions};
+use taut_io::{Columns, Content, Feature, Format, Header, Input, RawLayout, ReadOptions};
 
 use crate::input::size;
 use crate::output::numbers::coordinates;
@@ -25,6 +25,10 @@ pub(crate) struct Reading {
     /// Columns that are coordinates, by name, number from 0 or range: x,y,z or 0-2,5 or 1- [default: all]
     #[arg(long, value_name = "LIST")]
     columns: Option<Columns>,
+    /// Of a GeoJSON, WKT or SVG file the feature to read, by its number from 0 or its name: in GeoJSON the property `name`, in SVG
+    /// the id of a path [default: the only one]
+    #[arg(long, value_name = "NAME|NUMBER")]
+    select: Option<Feature>,
     /// States whether the first row of a text file holds names
     #[arg(long, value_name = "WHEN", default_value = "auto", value_parser = header())]
     header: Header,
@@ -80,6 +84,7 @@ impl Reading {
             columns: self.columns.clone(),
             header: self.header,
             memory: self.memory,
+            feature: self.select.clone(),
             raw,
             temp_dir: None,
         })

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{anyhow, bail};
 use taut::Solution;
 use taut::certify::Answer;
-use taut_io::{AtomicFile, Error};
+use taut_io::{AtomicFile, AtomicFolder, Error};
 
 use crate::watch::interrupted;
 
@@ -73,6 +73,7 @@ fn same_file(output: &Path, input: &Path) -> bool {
 #[derive(Default)]
 pub(crate) struct Outputs {
     files: Vec<AtomicFile>,
+    folders: Vec<AtomicFolder>,
     words: Vec<u8>,
 }
 
@@ -122,9 +123,14 @@ impl Outputs {
         self.files.push(file);
     }
 
+    /// Keeps a folder that is complete, until all outputs are.
+    pub(crate) fn hold_folder(&mut self, folder: AtomicFolder) {
+        self.folders.push(folder);
+    }
+
     /// Returns true if no file is prepared.
     pub(crate) fn is_empty(&self) -> bool {
-        self.files.is_empty()
+        self.files.is_empty() && self.folders.is_empty()
     }
 
     /// Words for standard output.
@@ -148,6 +154,7 @@ impl Outputs {
         first()?;
         print(&self.words)?;
         self.files.into_iter().try_for_each(AtomicFile::commit)?;
+        self.folders.into_iter().try_for_each(AtomicFolder::commit)?;
         Ok(())
     }
 }

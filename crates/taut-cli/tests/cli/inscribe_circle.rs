@@ -41,6 +41,49 @@ fn the_largest_circle_in_an_l_touches_its_corner() {
 }
 
 #[test]
+fn one_of_many_features_is_chosen_and_verified() {
+    let folder = TestFolder::new();
+    let feature = |name: &str, x: u32| {
+        let ring = format!("[[{x},0],[{},0],[{x},2]]", x + 2);
+        format!(
+            "{{\"type\": \"Feature\", \"properties\": {{\"name\": \"{name}\"}}, \"geometry\": {{\"type\": \"Polygon\", \"coordinates\": [{ring}]}}}}"
+        )
+    };
+    let all = [feature("Kenya", 0), feature("Chile", 7)].join(",");
+    folder.put(
+        "world.geojson",
+        format!("{{\"type\": \"FeatureCollection\", \"features\": [{all}]}}"),
+    );
+    folder.put("world.wkt", "POLYGON((0 0,2 0,0 2,0 0))\nPOLYGON((7 0,9 0,7 2,7 0))\n");
+    folder.put(
+        "world.svg",
+        "<svg><path id='a' d='M0 0h2L0 2z'/><path id='b' d='M7 0h2L7 2z'/></svg>",
+    );
+    for (file, select) in
+        [("world.geojson", "Chile"), ("world.geojson", "1"), ("world.wkt", "1"), ("world.svg", "b")]
+    {
+        let command = format!("inscribe circle {file} --select {select} -o circle.json");
+        folder
+            .taut(&command)
+            .ends(0)
+            .stdout_has(&["  radius         0.58578643762", "(7.58578644"]);
+        folder.taut(&format!("verify circle.json {file} --select {select}")).ends(0);
+        folder.taut(&format!("verify circle.json {file} --select 0")).ends(1);
+        folder.taut(&format!("draw circle.json {file} --select {select} -o circle.svg")).ends(0);
+    }
+    folder
+        .taut("inscribe circle world.geojson --select Peru")
+        .ends(2)
+        .stderr_has(&["\"Kenya\", \"Chile\""]);
+    folder.taut("inscribe circle world.geojson").ends(2).stderr_has(&["--select"]);
+    folder.put("ring.csv", "0,0\n2,0\n0,2\n");
+    folder
+        .taut("inscribe circle ring.csv --select 0")
+        .ends(2)
+        .stderr_has(&["csv files have no features"]);
+}
+
+#[test]
 fn geojson_and_other_points_are_read_alike() {
     let folder = folder();
     let ring = "[[0,0],[3,0],[3,2],[2,2],[2,3],[0,3],[0,0]]";

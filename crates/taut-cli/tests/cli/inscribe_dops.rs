@@ -41,6 +41,38 @@ fn an_octahedron_is_filled_and_proved() {
 }
 
 #[test]
+fn the_share_of_hidden_lines_is_evidence_and_the_same_for_all_threads() {
+    let folder = folder();
+    let command = "inscribe dops mesh.off -k 6 --events 1000 --occlusion 100000";
+    let run = folder.taut(command).ends(0).stdout_has(&[
+        "  occlusion",
+        " % of ",
+        " lines through the mesh; evidence: standard error 0.",
+        "%; in the worst of 80 views ",
+    ]);
+    let line = |out: &str| out.lines().find(|line| line.contains("occlusion")).map(str::to_owned);
+    for threads in [1, 3] {
+        let again = folder.taut(&format!("{command} --threads {threads}")).ends(0);
+        assert_eq!(line(&again.out), line(&run.out));
+    }
+    // The largest box in an octahedron has 4/9 of its volume, and hides half or so of it.
+    let share: f64 = run
+        .out
+        .split("occlusion")
+        .nth(1)
+        .unwrap()
+        .trim()
+        .split(' ')
+        .next()
+        .unwrap()
+        .parse()
+        .unwrap();
+    assert!((30.0..80.0).contains(&share), "{share}");
+    let refused = "inscribe dops mesh.off --events 500 --occlusion 3";
+    folder.taut(refused).ends(2).stderr_has(&["option `--occlusion` is 3: expected from 1000"]);
+}
+
+#[test]
 fn disjoint_bodies_are_proved_and_forgeries_refused() {
     let folder = folder();
     folder.taut("inscribe dops mesh.off --count 3 --disjoint --events 3000 -o bodies.json").ends(0);

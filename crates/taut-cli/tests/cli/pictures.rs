@@ -73,7 +73,7 @@ fn the_tour_shows_and_verifies_every_tool() {
     let run =
         folder.taut("tour --samples samples").ends(0).stdout_has(&["verified yes", "tour.html"]);
     let stations = run.out.lines().filter(|line| line.contains(" verified yes ")).count();
-    assert_eq!(stations, 15, "{}", run.out);
+    assert_eq!(stations, 17, "{}", run.out);
     assert_eq!(folder.files(), ["samples", "tour.html"]);
     let page = folder.text("tour.html");
     for part in [
@@ -98,6 +98,10 @@ fn the_tour_shows_and_verifies_every_tool() {
         "From within: a polytope",
         "a millionth longer",
         "is crossed by",
+        "an ellipse in a lake",
+        "a thousandth longer",
+        "bodies in a mesh",
+        "a body grown",
         "Through the points",
         "Voronoi diagram of 432 points",
         "an edge turned",
@@ -108,9 +112,18 @@ fn the_tour_shows_and_verifies_every_tool() {
     ] {
         assert!(page.contains(part), "no {part}");
     }
-    assert_eq!(page.matches("verified</th><td>yes</td>").count(), 14);
+    assert_eq!(page.matches("verified</th><td>yes</td>").count(), 16);
     // Each command of the page does what it says.
-    for tool in ["ball", "ellipsoid", "centers", "inscribe ellipsoid", "delaunay", "surface"] {
+    for tool in [
+        "ball",
+        "ellipsoid",
+        "centers",
+        "inscribe ellipsoid",
+        "inscribe ellipse",
+        "inscribe dops",
+        "delaunay",
+        "surface",
+    ] {
         for line in page.lines().filter_map(|line| line.split(&format!("taut {tool} ")).nth(1)) {
             let words = line.split('<').next().unwrap().trim();
             folder.taut(&format!("{tool} samples/{words} --quiet")).ends(0);

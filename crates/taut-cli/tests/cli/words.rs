@@ -2,10 +2,11 @@
 
 use crate::test_folder::TestFolder;
 
-const COMMANDS: [&str; 15] = [
+const COMMANDS: [&str; 16] = [
     "ball",
     "ellipsoid",
     "centers",
+    "dop",
     "delaunay",
     "curve",
     "surface",
@@ -53,7 +54,7 @@ fn formats_lists_what_is_read_and_written() {
         assert_eq!(words[1..3], ["yes", if format == "tsplib" { "no" } else { "yes" }], "{format}");
     }
     assert!(run.out.contains("gz, xz, zst"));
-    for format in ["ply", "obj", "off", "vtu", "geojson", "svg"] {
+    for format in ["ply", "obj", "off", "vtu", "geojson", "svg", "wkt"] {
         assert!(run.out.contains(&format!("\n{format} ")), "{format}");
     }
 }

@@ -14,7 +14,7 @@ use std::sync::Mutex;
 use tempfile::NamedTempFile;
 
 /// The beginning of the names of temporary files.
-const PREFIX: &str = ".taut-tmp-";
+pub(super) const PREFIX: &str = ".taut-tmp-";
 
 /// The number of times that a new file may be taken away before its lock, by one process after the other.
 const ATTEMPTS_MAX: usize = 8;

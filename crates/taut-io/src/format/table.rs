@@ -35,7 +35,7 @@ const fn entry(
 }
 
 /// Every format, in the order of [`Format`].
-pub(super) const TABLE: [Entry; 21] = [
+pub(super) const TABLE: [Entry; 22] = [
     entry(
         Format::Csv,
         "csv",
@@ -189,7 +189,7 @@ pub(super) const TABLE: [Entry; 21] = [
         "geojson",
         &["geojson"],
         &[
-            (Points, Read, "positions, or the ring of one polygon without holes"),
+            (Points, Read, "positions, or the rings of one polygon; --select chooses it"),
             (
                 Curves,
                 Write,
@@ -201,7 +201,16 @@ pub(super) const TABLE: [Entry; 21] = [
         Format::Svg,
         "svg",
         &["svg"],
-        &[(Curves, Write, "all curves as one path, in coordinates of the input")],
+        &[
+            (Points, Read, "the subpaths of one path as rings, curves as chords"),
+            (Curves, Write, "all curves as one path, in coordinates of the input"),
+        ],
+    ),
+    entry(
+        Format::Wkt,
+        "wkt",
+        &["wkt"],
+        &[(Points, Read, "well-known text: positions, or the rings of one polygon")],
     ),
 ];
 

@@ -18,6 +18,9 @@ pub fn open_triangles(path: &Path, options: &ReadOptions) -> Result<Input, Error
     let Some(format) = format.filter(|format| format.reads(Content::Surface)) else {
         return open(path, options);
     };
+    if options.feature.is_some() {
+        return Err(Error::NoFeatures { path: crate::error::shown_path(path), format });
+    }
     let mesh = open_mesh(path, Content::Surface, Some(format))?;
     let vertices = mesh.triangles().as_flattened();
     let corners = vertices.iter().flat_map(|&vertex| mesh.vertices[vertex as usize]);

@@ -3,22 +3,23 @@
 //! *Read.* Point, MultiPoint, LineString, Polygon and MultiPolygon, alone, as a Feature or as the Features of a FeatureCollection.
 //! Several Points are points in their order; of all other geometries there can be one. One ring has the columns x and y; where
 //! there are more, a third column has the number of the ring, from 0, holes after the ring that they are in.
-//! *Refused.* Several geometries, with their places.
+//! *Chosen.* One feature of several, by its number or by its property `name`.
+//! *Refused.* Several geometries where none is chosen, with their places.
 //! *Trap.* Positions are longitude and latitude in degrees. They are taken as points of the plane as they stand; a third number,
 //! the height, is left out.
 //! *Reference.* RFC 7946.
 
 mod json;
 
-use std::io::{BufRead, Read};
+use std::io::BufRead;
 
 use self::json::{Refusal, Value};
 use super::Decoded;
+use super::chains::{decode, held_text};
 use crate::input::Job;
-use crate::sink::Sink;
-use crate::{Error, Format, limits};
+use crate::{Error, Feature, Format, limits};
 
-pub(super) fn read(job: &Job<'_>, mut stream: Box<dyn BufRead>) -> Result<Decoded, Error> {
+pub(super) fn read(job: &Job<'_>, stream: Box<dyn BufRead>) -> Result<Decoded, Error> {
     // The text is held whole, and then its values: each may take half of the memory.
     let most = limits::most_held(job.options.memory) / 2;
     let too_large = |bytes| Error::TooLarge {
@@ -28,15 +29,7 @@ pub(super) fn read(job: &Job<'_>, mut stream: Box<dyn BufRead>) -> Result<Decode
         memory: most,
         remedy: "allow more memory, or write the positions as csv: x, y and the number of the ring",
     };
-    let mut text = vec![];
-    stream
-        .by_ref()
-        .take(most.saturating_add(1))
-        .read_to_end(&mut text)
-        .map_err(|source| Error::reading(job.path, source))?;
-    if text.len() as u64 > most {
-        return Err(too_large(text.len() as u64));
-    }
+    let text = held_text(job, stream, most, too_large)?;
     let damaged = |problem| Error::Damaged {
         path: job.path.to_owned(),
         format: Format::GeoJson,
@@ -48,25 +41,22 @@ pub(super) fn read(job: &Job<'_>, mut stream: Box<dyn BufRead>) -> Result<Decode
         Refusal::TooLarge(bytes) => too_large(bytes),
     })?;
     drop(text);
-    let chains = document_chains(&document).map_err(damaged)?;
-    let width = if chains.len() > 1 { 3 } else { 2 };
-    let names = ["x", "y", "ring"].map(str::to_owned);
-    let numbers = match &job.options.columns {
-        Some(columns) => columns.resolve(job.path, &names[..width], width)?,
-        None => (0..width).collect(),
-    };
-    let mut sink = Sink::new(job, numbers.len());
-    let mut row = Vec::with_capacity(numbers.len());
-    for (ring, positions) in chains.into_iter().enumerate() {
-        for [x, y] in positions {
-            let all = [x, y, ring as f64];
-            row.clear();
-            row.extend(numbers.iter().map(|&number| all[number]));
-            sink.push(&row)?;
+    let features = features(&document).map_err(damaged)?;
+    let chosen = match &job.options.feature {
+        None => 0..features.len(),
+        Some(wanted) => {
+            let number = choose(features, wanted)
+                .map_err(|problem| Error::Feature { path: job.path.to_owned(), problem })?;
+            number..number + 1
         }
-    }
-    let columns = numbers.iter().map(|&number| names[number].clone()).collect();
-    Ok(Decoded { source: sink.finish()?, columns, numbers: Some(numbers) })
+    };
+    let chains = chains(&features[chosen.clone()], chosen.start).map_err(damaged)?;
+    decode(job, chains.len() > 1, |put| {
+        for (ring, positions) in chains.into_iter().enumerate() {
+            positions.into_iter().try_for_each(|at| put(ring, at))?;
+        }
+        Ok(())
+    })
 }
 
 /// The problem, as the end of a sentence about the file.
@@ -75,15 +65,64 @@ type Problem = String;
 /// Positions that follow each other: points, a line or a ring.
 type Chain = Vec<[f64; 2]>;
 
-/// The rings of the document, or all its other positions as one chain.
-fn document_chains(document: &Value) -> Result<Vec<Chain>, Problem> {
-    let features = match kind(document, "the document")? {
-        "FeatureCollection" => array(field(document, "features", "the document")?, "`features`")?,
-        _ => std::slice::from_ref(document),
+/// The features of the document, or the document itself where it is one.
+fn features(document: &Value) -> Result<&[Value], Problem> {
+    match kind(document, "the document")? {
+        "FeatureCollection" => array(field(document, "features", "the document")?, "`features`"),
+        _ => Ok(std::slice::from_ref(document)),
+    }
+}
+
+/// The number of the feature that is wanted.
+fn choose(features: &[Value], wanted: &Feature) -> Result<usize, Problem> {
+    /// Names in a message, at most.
+    const NAMES_SHOWN_MAX: usize = 8;
+    let wanted = match wanted {
+        Feature::Number(number) => {
+            let found = usize::try_from(*number).ok().filter(|&number| number < features.len());
+            let count = features.len();
+            return found.ok_or_else(|| {
+                format!("there is no feature {number}: it has {count}, counted from 0")
+            });
+        }
+        Feature::Name(name) => name,
     };
+    let named: Vec<usize> =
+        (0..features.len()).filter(|&k| name(&features[k]) == Some(wanted.as_str())).collect();
+    match named[..] {
+        [number] => Ok(number),
+        [one, other, ..] => Err(format!(
+            "feature {one} and feature {other} (from 0) both have the name {wanted:?}: choose one by its number"
+        )),
+        [] => {
+            let mut names: Vec<&str> = features.iter().filter_map(name).collect();
+            let more = if names.len() > NAMES_SHOWN_MAX { ", …" } else { "" };
+            names.truncate(NAMES_SHOWN_MAX);
+            let known = match names[..] {
+                [] => "no feature has a property `name`".to_owned(),
+                _ => format!("there are {names:?}{more}"),
+            };
+            Err(format!("no feature has the name {wanted:?}; {known}"))
+        }
+    }
+}
+
+/// The property `name` of a feature, in either case.
+fn name(feature: &Value) -> Option<&str> {
+    let Value::Object(fields) = feature else { return None };
+    let (_, properties) = fields.iter().find(|field| field.0 == "properties")?;
+    let Value::Object(properties) = properties else { return None };
+    properties.iter().find_map(|(key, value)| match value {
+        Value::Text(name) if key.eq_ignore_ascii_case("name") => Some(name.as_str()),
+        _ => None,
+    })
+}
+
+/// The rings of features, or all their other positions as one chain; `before` features come before them.
+fn chains(features: &[Value], before: usize) -> Result<Vec<Chain>, Problem> {
     let (mut found, mut points): (Vec<Chain>, Chain) = (vec![], vec![]);
     let mut first: Option<(usize, bool)> = None;
-    for (number, feature) in features.iter().enumerate() {
+    for (number, feature) in (before..).zip(features) {
         let place = format!("feature {number} (from 0)");
         let geometry = match kind(feature, &place)? {
             "Feature" => field(feature, "geometry", &place)?,
@@ -97,7 +136,7 @@ fn document_chains(document: &Value) -> Result<Vec<Chain>, Problem> {
             Some((other, all_points)) if !(all_points && is_point) => {
                 return Err(format!(
                     "feature {other} and feature {number} (from 0) are both geometries, and one is read unless all are Points: \
-                     keep one of them"
+                     keep one of them, or choose one by its number or name with --select"
                 ));
             }
             _ => first = first.or(Some((number, is_point))),

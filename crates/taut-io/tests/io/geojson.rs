@@ -1,7 +1,7 @@
 //! GeoJSON as points.
 
 use super::{message, text, text_with, values};
-use taut_io::{Format, ReadOptions};
+use taut_io::{Feature, Format, ReadOptions};
 
 const SQUARE: &str = "[[0,0],[4,0],[4,4],[0,4],[0,0]]";
 const POINTS: [f64; 10] = [0.0, 0.0, 4.0, 0.0, 4.0, 4.0, 0.0, 4.0, 0.0, 0.0];
@@ -68,6 +68,58 @@ fn points_and_lines_are_read() {
     let options = ReadOptions { columns: Some("y".parse().unwrap()), ..Default::default() };
     let input = text_with("a.geojson", &polygon(SQUARE), &options).unwrap();
     assert_eq!(values(&input), [0.0, 0.0, 4.0, 4.0, 0.0]);
+}
+
+/// Two polygons with names, one of them twice, and points.
+fn world() -> String {
+    let named = |name: &str, x: u32| {
+        let ring = format!("[[{x},0],[{x}.5,0],[{x},1]]");
+        let geometry = polygon(&ring);
+        format!(
+            "{{\"type\": \"Feature\", \"properties\": {{\"pop\": 3, \"NAME\": {name}}}, \"geometry\": {geometry}}}"
+        )
+    };
+    let all =
+        [("\"C\\u00f4te\"", 1), ("\"Kenya\"", 2), ("\"7\"", 3), ("\"Kenya\"", 4), ("null", 5)];
+    collection(&all.map(|(name, x)| named(name, x)))
+}
+
+fn of_feature(text: &str) -> ReadOptions {
+    ReadOptions { feature: Some(text.parse().unwrap()), ..Default::default() }
+}
+
+#[test]
+fn one_feature_of_many_is_chosen_by_number_or_name() {
+    for (feature, x) in [("0", 1.0), ("1", 2.0), ("4", 5.0), ("C\u{f4}te", 1.0)] {
+        let input = text_with("world.geojson", &world(), &of_feature(feature)).unwrap();
+        assert_eq!(values(&input), [x, 0.0, x + 0.5, 0.0, x, 1.0], "{feature}");
+    }
+    // Digits are a number, so that a name of digits is chosen by the library alone.
+    let name = ReadOptions { feature: Some(Feature::Name("7".to_owned())), ..Default::default() };
+    assert_eq!(values(&text_with("world.geojson", &world(), &name).unwrap())[0], 3.0);
+    let bare = text_with("a.geojson", &polygon(SQUARE), &of_feature("0")).unwrap();
+    assert_eq!(values(&bare), POINTS);
+    for (feature, words) in [
+        ("5", "there is no feature 5: it has 5, counted from 0"),
+        ("18446744073709551615", "there is no feature 18446744073709551615"),
+        ("Kenya", "feature 1 and feature 3 (from 0) both have the name \"Kenya\""),
+        (
+            "kenya",
+            "no feature has the name \"kenya\"; there are [\"C\u{f4}te\", \"Kenya\", \"7\", \"Kenya\"]",
+        ),
+    ] {
+        let said = message(text_with("world.geojson", &world(), &of_feature(feature)));
+        assert!(said.contains(words) && said.contains("world.geojson"), "{said}");
+    }
+    let said = message(text("world.geojson", &world()));
+    assert!(said.contains("choose one by its number or name with --select"), "{said}");
+    let said = message(text_with("a.geojson", &polygon(SQUARE), &of_feature("a")));
+    assert!(said.contains("no feature has a property `name`"), "{said}");
+    let said = message(text_with("a.csv", "1,2\n", &of_feature("0")));
+    assert!(
+        said.contains("csv files have no features") && said.contains("geojson, svg, wkt"),
+        "{said}"
+    );
 }
 
 #[test]

@@ -17,7 +17,9 @@ mod parsers;
 mod polylines;
 mod round_trip;
 mod shape;
+mod svg;
 mod text;
+mod wkt;
 
 use std::path::Path;
 

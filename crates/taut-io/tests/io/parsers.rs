@@ -4,14 +4,14 @@
 //! same bytes that differ.
 
 use taut_io::{
-    Content, Format, Header, Input, RawLayout, ReadOptions, open_bytes, open_mesh_bytes,
+    Content, Feature, Format, Header, Input, RawLayout, ReadOptions, open_bytes, open_mesh_bytes,
 };
 use taut_points::{Monitor, ScalarKind, Scratch, hash_points};
 
 type Parser = (&'static str, fn(&[u8]));
 
 /// Every parser by the name of its fuzz target.
-pub(crate) const ALL: [Parser; 19] = [
+pub(crate) const ALL: [Parser; 21] = [
     ("csv", csv),
     ("npy", npy),
     ("parquet", parquet),
@@ -21,6 +21,8 @@ pub(crate) const ALL: [Parser; 19] = [
     ("raw", raw),
     ("json", json),
     ("geojson", geojson),
+    ("wkt", wkt),
+    ("svg", svg),
     ("ply", ply),
     ("obj", obj),
     ("off", off),
@@ -92,13 +94,32 @@ pub(crate) fn json(bytes: &[u8]) {
     assert_eq!(AnySolution::from_json(&again).expect("written by us"), found);
 }
 
-/// With all columns and with some, and where little memory is allowed.
 pub(crate) fn geojson(bytes: &[u8]) {
-    let all = read(bytes, Format::GeoJson, ReadOptions::default());
+    features(bytes, Format::GeoJson);
+}
+
+pub(crate) fn wkt(bytes: &[u8]) {
+    features(bytes, Format::Wkt);
+}
+
+pub(crate) fn svg(bytes: &[u8]) {
+    features(bytes, Format::Svg);
+}
+
+/// With all columns and with some, where little memory is allowed, and feature by feature.
+fn features(bytes: &[u8], format: Format) {
+    let all = read(bytes, format, ReadOptions::default()).map(|input| input.source.len());
     let columns = Some("1,0".parse().expect("numbers"));
-    let turned = read(bytes, Format::GeoJson, ReadOptions { columns, ..Default::default() });
-    assert_eq!(all.map(|input| input.source.len()), turned.map(|input| input.source.len()));
-    read(bytes, Format::GeoJson, ReadOptions { memory: Some(1 << 20), ..Default::default() });
+    let turned = read(bytes, format, ReadOptions { columns, ..Default::default() });
+    assert_eq!(all, turned.map(|input| input.source.len()));
+    read(bytes, format, ReadOptions { memory: Some(1 << 20), ..Default::default() });
+    for feature in [Feature::Number(0), Feature::Number(1), Feature::Name("a".to_owned())] {
+        let one = read(bytes, format, ReadOptions { feature: Some(feature), ..Default::default() });
+        // What is read as a whole is one feature, or the points of several.
+        if let (Some(all), Some(one)) = (all, one) {
+            assert!(one.source.len() <= all);
+        }
+    }
 }
 
 pub(crate) fn ply(bytes: &[u8]) {

@@ -35,6 +35,11 @@ fn no_false_circle_is_accepted() {
 }
 
 #[test]
+fn no_false_dop_is_accepted() {
+    attack("dop", &cases::dop::all()).report("dop");
+}
+
+#[test]
 fn no_false_ellipse_in_a_polygon_is_accepted() {
     attack("ellipse-in-polygon", &cases::ellipse::all()).report("ellipse-in-polygon");
 }

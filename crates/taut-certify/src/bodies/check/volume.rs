@@ -24,7 +24,7 @@ fn holds(facets: &Facets, facet: usize) -> bool {
 }
 
 /// Bounds of the volume in cubes of the unit, for a bounded body with this point in its interior.
-pub(super) fn bounds(body: &ConvexBody, inside: [i64; 3]) -> [f64; 2] {
+pub(crate) fn bounds(body: &ConvexBody, inside: [i64; 3]) -> [f64; 2] {
     let vertices = around(body, inside);
     let (mut lower, mut upper, mut terms) = (0.0, 0.0, 0.0);
     for facet in 0..body.normals.len() {
@@ -60,7 +60,7 @@ fn border(
 
 /// The facets as polygons in units from the origin of the grid, rounded, each facet counter-clockwise from outside; empty where a
 /// facet is redundant. No facets where numbers are out of range.
-pub(in crate::bodies) fn polygons(body: &ConvexBody) -> Vec<Vec<[f64; 3]>> {
+pub(crate) fn polygons(body: &ConvexBody) -> Vec<Vec<[f64; 3]>> {
     if super::facets(0, body).is_err() {
         return vec![];
     }
@@ -94,7 +94,7 @@ pub(in crate::bodies) fn polygons(body: &ConvexBody) -> Vec<Vec<[f64; 3]>> {
 }
 
 /// The vertices in units from the origin of the grid, rounded; none where numbers are out of range.
-pub(in crate::bodies) fn vertices(body: &ConvexBody) -> Vec<[f64; 3]> {
+pub(crate) fn vertices(body: &ConvexBody) -> Vec<[f64; 3]> {
     match super::facets(0, body) {
         Ok(()) => around(body, [0; 3]).into_values().collect(),
         Err(_) => vec![],

@@ -1,17 +1,22 @@
 //! `taut inscribe bodies`: convex bodies inside a triangle mesh; and what all searches for such bodies share.
 
-mod report;
+mod exports;
+pub(super) mod report;
 
 use std::path::PathBuf;
 
 use taut::certify::InscribedBodies;
-use taut::inscribe::{BodiesOptions, BodyShape, inscribed_bodies};
+use taut::inscribe::{
+    BodiesOptions, BodyShape, Occlusion, OcclusionOptions, inscribed_bodies, occlusion,
+};
 use taut::{Monitor, Solution};
 
 use crate::effort::Effort;
 use crate::exit::Outcome;
 use crate::input::reading::{Opened, Reading};
-use crate::pipeline::{Find, Input, Output, OutputOptions};
+use crate::output::writing::Outputs;
+use crate::pipeline::{Find, Input, Output};
+use crate::reports::Field;
 use crate::watch::Watch;
 
 /// The most bodies where a coverage decides how many there are.
@@ -27,7 +32,7 @@ can cover.
 Exit: 0 found · 1 the check failed · 2 bad input or usage, nothing written
 Example: taut inscribe bodies horse.off --count 10 -o bodies.json --draw bodies.html &&
          taut verify bodies.json horse.off
-         taut inscribe bodies bunny.off --close-holes --coverage 0.9 --facets 26")]
+         taut inscribe bodies bunny.off --close-holes --coverage 0.9 --facets 26 -o bodies.glb")]
 pub(super) struct Bodies {
     /// Most facets of a body, from 8 to 256; more facets cover more
     #[arg(long, value_name = "F", default_value_t = 256)]
@@ -63,8 +68,11 @@ pub(super) struct Search {
     /// Where the random choices begin
     #[arg(long, value_name = "S", default_value_t = BodiesOptions::default().seed)]
     seed: u64,
+    /// Estimate how much of the mesh the bodies hide, by about this many random lines, from 1000 to 10⁹
+    #[arg(long, value_name = "LINES")]
+    occlusion: Option<u64>,
     #[command(flatten)]
-    output: OutputOptions,
+    exports: exports::Exports,
     #[command(flatten)]
     reading: Reading,
     #[command(flatten)]
@@ -84,7 +92,21 @@ impl Search {
     }
 
     pub(super) fn output(&self) -> Output<'_> {
-        self.output.output()
+        self.exports.output()
+    }
+
+    pub(super) fn check_options(&self) -> anyhow::Result<()> {
+        self.output().refuse_pictures_as_json()?;
+        self.exports.check(&self.path)
+    }
+
+    pub(super) fn write(
+        &self,
+        found: &Solution<InscribedBodies>,
+        outputs: &mut Outputs,
+        monitor: &Monitor<'_>,
+    ) -> anyhow::Result<()> {
+        self.exports.write(found, outputs, monitor)
     }
 
     pub(super) fn open(&self) -> anyhow::Result<Opened> {
@@ -96,13 +118,21 @@ impl Search {
         shape: BodyShape,
         mesh: &Opened,
         watch: &Watch,
-    ) -> anyhow::Result<(Solution<InscribedBodies>, ())> {
+    ) -> anyhow::Result<(Solution<InscribedBodies>, Option<Occlusion>)> {
         let solve = |monitor: &Monitor<'_>| {
             let options = BodiesOptions { monitor: *monitor, ..self.options(shape) };
             inscribed_bodies(mesh.source(), &options)
         };
         let found = watch.during("solving", solve).map_err(|error| mesh.explain(error))?;
-        Ok((found, ()))
+        let hide = |monitor: &Monitor<'_>| {
+            let of_lines = |lines| {
+                let options = OcclusionOptions { lines, seed: self.seed, monitor: *monitor };
+                occlusion(mesh.source(), &found.answer, &options)
+            };
+            self.occlusion.map(of_lines).transpose()
+        };
+        let hidden = watch.during("drawing lines", hide).map_err(|error| mesh.explain(error))?;
+        Ok((found, hidden))
     }
 
     pub(super) fn options(&self, shape: BodyShape) -> BodiesOptions<'_> {
@@ -123,7 +153,7 @@ impl Search {
 
 impl Find for Bodies {
     type Answer = InscribedBodies;
-    type Extra = ();
+    type Extra = Option<Occlusion>;
 
     fn input(&self) -> Input<'_> {
         self.search.input()
@@ -131,6 +161,10 @@ impl Find for Bodies {
 
     fn output(&self) -> Output<'_> {
         self.search.output()
+    }
+
+    fn check_options(&self) -> anyhow::Result<()> {
+        self.search.check_options()
     }
 
     fn open(&self) -> anyhow::Result<Opened> {
@@ -141,8 +175,23 @@ impl Find for Bodies {
         &self,
         mesh: &Opened,
         watch: &Watch,
-    ) -> anyhow::Result<(Solution<InscribedBodies>, ())> {
+    ) -> anyhow::Result<(Solution<InscribedBodies>, Option<Occlusion>)> {
         self.search.solve(BodyShape::Free(self.facets), mesh, watch)
+    }
+
+    fn side_fields(&self, hidden: &Option<Occlusion>) -> Vec<Field> {
+        hidden.iter().map(report::occlusion).collect()
+    }
+
+    fn write(
+        &self,
+        found: &mut Solution<InscribedBodies>,
+        _: &Option<Occlusion>,
+        _: &Opened,
+        outputs: &mut Outputs,
+        monitor: &Monitor<'_>,
+    ) -> anyhow::Result<()> {
+        self.search.write(found, outputs, monitor)
     }
 
     fn outcome(&self, _found: &Solution<InscribedBodies>) -> Outcome {

@@ -13,6 +13,10 @@ pub(super) enum Tool {
     Robust,
     /// The ellipsoid of largest volume in a polytope.
     Inscribed,
+    /// The largest ellipse in a polygon.
+    Ellipse,
+    /// So many convex bodies in a mesh.
+    Bodies(usize),
     /// So many centers.
     Centers(usize),
     /// The Delaunay triangulation.
@@ -147,6 +151,29 @@ pub(super) const STATIONS: &[Station] = &[
         bytes: include_bytes!("../../../samples/gem.csv"),
         tool: Tool::Inscribed,
         command: "taut inscribe ellipsoid gem.csv --draw gem.html",
+        doctored: true,
+    },
+    Station {
+        heading: "From within: an ellipse in a lake",
+        text: "The shore of a lake with an island, made up for this page. The largest ellipse of open water: no other one in the lake \
+               has an area larger by more than a thousandth.\n\n\
+               The certificate divides all shapes and centers into cells, and bounds each. Shown an ellipse that is a \
+               thousandth longer, the checker names an edge that enters it.",
+        file: "lake.csv",
+        bytes: include_bytes!("../../../samples/lake.csv"),
+        tool: Tool::Ellipse,
+        command: "taut inscribe ellipse lake.csv --draw lake.html",
+        doctored: true,
+    },
+    Station {
+        heading: "From within: bodies in a mesh",
+        text: "A pawn of 416 triangles, and four convex bodies with facets in 18 directions that fill much of it, as games and robots \
+               use them instead of the mesh. Each lies inside, which whole numbers prove; how much they cover is an estimate.\n\n\
+               Shown the first body a little larger, the checker names a triangle that may reach into it.",
+        file: "pawn.csv",
+        bytes: include_bytes!("../../../samples/pawn.csv"),
+        tool: Tool::Bodies(4),
+        command: "taut inscribe dops pawn.csv --count 4 --events 20000 --draw pawn.html",
         doctored: true,
     },
     Station {

@@ -8,4 +8,5 @@ mod holes;
 mod laws;
 mod models;
 mod mutations;
+mod occlusion;
 mod shapes;

@@ -170,7 +170,7 @@ impl Parser<'_> {
         Ok(value)
     }
 
-    /// Text between quotes. Of escapes that name a character by its number the number is not looked up: no name of GeoJSON has one.
+    /// Text between quotes.
     fn text(&mut self) -> Parsed<String> {
         self.at += 1;
         let mut bytes = vec![];
@@ -183,17 +183,52 @@ impl Parser<'_> {
                 b'\\' => {
                     let escaped = self.peek().ok_or("a text does not end")?;
                     self.at += 1;
-                    bytes.push(match escaped {
-                        b'n' => b'\n',
-                        b't' => b'\t',
-                        b'u' => b'?',
-                        other => other,
-                    });
+                    let character = match escaped {
+                        b'b' => '\u{8}',
+                        b'f' => '\u{c}',
+                        b'n' => '\n',
+                        b'r' => '\r',
+                        b't' => '\t',
+                        b'u' => self.numbered()?,
+                        b'"' | b'\\' | b'/' => char::from(escaped),
+                        _ => return Err("a backslash before a character that needs none"),
+                    };
+                    bytes.extend_from_slice(character.encode_utf8(&mut [0; 4]).as_bytes());
                 }
                 other => bytes.push(other),
             }
         }
         String::from_utf8(bytes).map_err(|_| "a text is not UTF-8")
+    }
+}
+
+impl Parser<'_> {
+    /// A character by its number, or by those of the two halves that UTF-16 has for it.
+    fn numbered(&mut self) -> Parsed<char> {
+        let high = self.unit()?;
+        let number = match high {
+            0xd800..0xdc00 => {
+                let begins = self.text[self.at..].starts_with(b"\\u");
+                self.at += if begins { 2 } else { 0 };
+                match begins.then(|| self.unit()).transpose()? {
+                    Some(low @ 0xdc00..0xe000) => {
+                        0x10000 + ((high - 0xd800) << 10) + (low - 0xdc00)
+                    }
+                    _ => return Err("half a character"),
+                }
+            }
+            whole => whole,
+        };
+        char::from_u32(number).ok_or("half a character")
+    }
+
+    /// The four hexadecimal digits of a unit of UTF-16.
+    fn unit(&mut self) -> Parsed<u32> {
+        let digits = self.text.get(self.at..self.at + 4).unwrap_or_default();
+        let value = |value: u32, digit: &u8| Some(16 * value + char::from(*digit).to_digit(16)?);
+        let unit = digits.iter().try_fold(0, value).filter(|_| digits.len() == 4);
+        self.at += digits.len();
+        unit.ok_or("expected four hexadecimal digits after \\u")
     }
 }
 
@@ -213,6 +248,12 @@ mod tests {
     }
 
     #[test]
+    fn escapes_are_characters() {
+        let found = parse(br#""\u00f4\uD83D\ude00\/\"\\\n""#, u64::MAX);
+        assert_eq!(found, Ok(Value::Text("\u{f4}\u{1f600}/\"\\\n".to_owned())));
+    }
+
+    #[test]
     fn what_is_no_json_is_refused_by_line() {
         for (text, problem) in [
             ("", "line 1: the text ends too early"),
@@ -223,6 +264,11 @@ mod tests {
             ("{} x", "line 1: text after the end of the document"),
             ("\"abc", "line 1: a text does not end"),
             ("[--1]", "line 1: this is no number"),
+            ("\"\\x\"", "line 1: a backslash before a character that needs none"),
+            ("\"\\u00g0\"", "line 1: expected four hexadecimal digits after \\u"),
+            ("\"\\u00", "line 1: expected four hexadecimal digits after \\u"),
+            ("\"\\ud83d\"", "line 1: half a character"),
+            ("\"\\ude00\"", "line 1: half a character"),
         ] {
             let refusal = Refusal::NotJson(problem.to_owned());
             assert_eq!(parse(text.as_bytes(), u64::MAX), Err(refusal), "{text}");

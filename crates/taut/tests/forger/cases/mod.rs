@@ -7,6 +7,7 @@ pub mod circle;
 pub mod clouds;
 pub mod convex;
 pub mod curve;
+pub mod dop;
 pub mod ellipse;
 pub mod ellipsoid;
 pub mod files;

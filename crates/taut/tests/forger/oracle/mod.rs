@@ -8,6 +8,7 @@ pub mod circle;
 mod claims;
 pub mod convex;
 pub mod curve;
+pub mod dop;
 pub mod dyadic;
 pub mod ellipse;
 pub mod ellipsoid;
@@ -41,6 +42,7 @@ use self::centers::CentersOracle;
 use self::circle::CircleOracle;
 use self::convex::ConvexOracle;
 use self::curve::CurveOracle;
+use self::dop::DopOracle;
 use self::ellipse::EllipseOracle;
 use self::ellipsoid::EllipsoidOracle;
 use self::inscribed::InscribedOracle;
@@ -91,6 +93,7 @@ pub struct CaseOracle<'a> {
     circle: Option<CircleOracle>,
     convex: Option<ConvexOracle>,
     curve: Option<CurveOracle>,
+    dop: Option<DopOracle>,
     ellipse: Option<EllipseOracle>,
     ellipsoids: BTreeMap<u8, EllipsoidOracle>,
     inscribed: Option<InscribedOracle>,
@@ -123,6 +126,7 @@ impl<'a> CaseOracle<'a> {
             circle: None,
             convex: None,
             curve: None,
+            dop: None,
             ellipse: None,
             ellipsoids: BTreeMap::new(),
             inscribed: None,
@@ -166,6 +170,10 @@ impl<'a> CaseOracle<'a> {
             }
             (AnySolution::Curve(found), AnyVerdict::Curve(verdict)) => {
                 let oracle = self.curve.get_or_insert_with(|| CurveOracle::new(values, *columns));
+                oracle.judge(found, verdict)
+            }
+            (AnySolution::Dop(found), AnyVerdict::Dop(verdict)) => {
+                let oracle = self.dop.get_or_insert_with(|| DopOracle::new(values, *columns));
                 oracle.judge(found, verdict)
             }
             (AnySolution::Ellipse(found), AnyVerdict::Ellipse(verdict)) => {

@@ -2,6 +2,7 @@
 
 use taut::Solution;
 use taut::certify::InscribedBodies;
+use taut::inscribe::Occlusion;
 use taut::points::PointSource;
 
 use crate::output::numbers::{count, counted, exact};
@@ -86,6 +87,21 @@ fn inside(caps: u64) -> String {
         caps => format!(" closed by {}", counted(caps, "cap")),
     };
     format!("each body lies inside the mesh{closed}, by the even-odd rule")
+}
+
+/// What is said about the share of lines that bodies hide.
+pub(super) fn occlusion(found: &Occlusion) -> Field {
+    let percent = |share: f64| format!("{:.1}", 100.0 * share);
+    let (share, error) = (percent(found.share), 100.0 * found.standard_error);
+    Field::evidence(
+        "occlusion",
+        format!("{share} % of {} through the mesh", counted(found.lines, "line")),
+    )
+    .remark(format!(
+        "standard error {error:.2} %; in the worst of {} {} %",
+        counted(found.views, "view"),
+        percent(found.least_view)
+    ))
 }
 
 fn bodies(number: u64) -> String {

@@ -1,0 +1,32 @@
+//! Shapes inside polygons and meshes: beside shapely and polylabel in the plane, drake, V-HACD and CoACD in space.
+
+mod bodies;
+mod planar;
+mod shapes;
+
+use taut_certify::{InscribedBodies, Solution};
+use taut_inscribe::{BodiesOptions, BodyShape, OcclusionOptions, inscribed_bodies, occlusion};
+use taut_inscribe::{CircleOptions, EllipseOptions, inscribed_circle, inscribed_ellipse};
+
+use crate::prelude::*;
+use shapes::{COUNTRIES_10M, COUNTRIES_110M, Mesh, Model, countries, model};
+
+/// All sections. Searches have one thread, so that times by the clock are those of one core.
+pub(crate) const AREA: Area<Run> = Area {
+    name: "inscribe",
+    sections: &[
+        runs("ellipse", planar::ellipses)
+            .about("The largest ellipse in outlines of countries, searched and proved."),
+        runs("circle", planar::circles)
+            .about("The largest circle in outlines of countries, beside shapely and polylabel."),
+        runs("packing", bodies::packing)
+            .about("18-dops, overlapping and disjoint: coverage, time, certificates, occlusion."),
+        runs("peers", bodies::peers).about(
+            "One dop beside drake's Iris; packings beside V-HACD and CoACD, with what lies outside.",
+        ),
+    ],
+    runs: 3,
+    threads: &[1],
+    limit: 300,
+    peer_budget: 300,
+};

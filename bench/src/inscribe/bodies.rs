@@ -1,0 +1,127 @@
+//! Convex bodies in meshes.
+
+use super::*;
+
+/// Bounds that must be reached and are the aim are those of the issue.
+const MODELS: [Model; 4] = [
+    model("beethoven", 15, [[0.78, 0.82], [0.69, 0.74], [0.86, 0.90]], 0.0411),
+    model("porsche", 10, [[0.78, 0.82], [0.71, 0.76], [0.79, 0.84]], 0.0245),
+    model("bunny_res2", 45, [[0.86, 0.89], [0.76, 0.81], [0.78, 0.83]], 0.0922),
+    model("horse", 10, [[0.67, 0.72], [0.57, 0.62], [0.0, 0.0]], 0.0),
+];
+
+/// Bodies with what they cost.
+struct Packed {
+    found: Solution<InscribedBodies>,
+    seconds: f64,
+    check: f64,
+    /// The share of points inside, which the search did not see, that bodies cover.
+    coverage: f64,
+}
+
+fn pack(context: &Context, mesh: &Mesh, options: &BodiesOptions<'_>) -> Result<Packed> {
+    let points = Points::new(mesh.as_flattened().as_flattened(), 9)?;
+    let pool = context.pool()?;
+    let start = Instant::now();
+    let found = pool.install(|| inscribed_bodies(&points, options))?;
+    let seconds = start.elapsed().as_secs_f64();
+    let start = Instant::now();
+    pool.install(|| found.check(&points))?;
+    let check = start.elapsed().as_secs_f64();
+    let counter = |name: &str| found.trace.counters.get(name).copied().unwrap_or(0) as f64;
+    let coverage = counter("covered") / counter("sample_points");
+    Ok(Packed { found, seconds, check, coverage })
+}
+
+/// Coverage, times, sizes of certificates, the largest single body, and the lines that ten bodies hide.
+pub(super) fn packing(context: &Context, out: &mut Outcome) -> Result<()> {
+    let mut table = Table::new(
+        "model | triangles | what | bodies | covered:% | s:s | check of a body:s | bytes of a body \
+         | lines | hidden:% | standard error:% | worst view:%",
+    );
+    for &Model { name, count, overlapping, disjoint, hidden, largest } in &MODELS {
+        let Some(mesh) = shapes::read(name)? else { return out.left_out() };
+        let base = BodiesOptions {
+            shape: BodyShape::Dop(18),
+            events: context.size(200_000, 20_000),
+            ..Default::default()
+        };
+        let packings =
+            [("one", 1, None), ("ten", 10, None), ("overlapping", count, Some(overlapping))];
+        for (what, count, bounds) in
+            packings.into_iter().chain([("disjoint", count, Some(disjoint))])
+        {
+            let options = BodiesOptions { count, disjoint: what == "disjoint", ..base.clone() };
+            let packed = pack(context, &mesh, &options)?;
+            let answer = &packed.found.answer;
+            let bodies = answer.bodies.len();
+            let check = packed.check / bodies as f64;
+            let mut row = json!({
+                "model": name, "triangles": mesh.len(), "what": what, "bodies": bodies, "covered": packed.coverage,
+                "s": packed.seconds, "check of a body": check, "bytes of a body": packed.found.to_json().len() / bodies,
+            });
+            let of = |quantity: &str| format!("{name}, {what}: {quantity}");
+            if what == "one" && largest > 0.0 {
+                let ratio = answer.bodies[0].volume / largest;
+                out.at_least(of("volume over the best known"), ratio, [1.0, 1.1], Unit::Times);
+                out.at_most(of("time"), packed.seconds, 1.0, Unit::Seconds);
+            }
+            if what == "ten" {
+                let points = Points::new(mesh.as_flattened().as_flattened(), 9)?;
+                let options = OcclusionOptions { lines: 1_000_000, ..Default::default() };
+                let found = occlusion(&points, answer, &options)?;
+                row["lines"] = json!(found.lines);
+                row["hidden"] = json!(found.share);
+                row["standard error"] = json!(found.standard_error);
+                row["worst view"] = json!(found.least_view);
+                out.at_least(of("lines hidden"), found.share, hidden, Unit::Percent);
+            }
+            if let Some(bounds) = bounds {
+                out.at_least(of("covered"), packed.coverage, bounds, Unit::Percent);
+                out.at_most(of("time"), packed.seconds, 2.0, Unit::Seconds);
+                out.at_most(of("check of a body"), check, 3e-3, Unit::Seconds);
+            }
+            table.push(row);
+        }
+    }
+    out.table("k = 18; coverage by 60,000 points that the search does not see", table);
+    Ok(())
+}
+
+/// What a peer makes of a mesh: drake's one region, or the parts of a decomposition, which may reach outside.
+pub(super) fn peers(context: &Context, out: &mut Outcome) -> Result<()> {
+    const COLUMNS: &str =
+        "model | program | parts | s:s | covered:% | outside, of the solid:% | largest:4 | why";
+    let mut table = Table::new(COLUMNS);
+    for model in &MODELS[..3] {
+        let Some(mesh) = shapes::read(model.name)? else { return out.left_out() };
+        let options = BodiesOptions { count: model.count, ..Default::default() };
+        let Packed { found, seconds, coverage, .. } = pack(context, &mesh, &options)?;
+        let bodies = found.answer.bodies;
+        let largest = bodies.iter().map(|body| body.volume).fold(0.0, f64::max);
+        table.push(json!([model.name, "taut", bodies.len(), seconds, coverage, 0.0, largest]));
+        for peer in ["solid-iris", "solid-vhacd", "solid-coacd"] {
+            let theirs = match peer::ask(context, peer, (mesh.as_flattened().as_flattened(), 9))? {
+                Ok(theirs) => theirs,
+                Err(why) => {
+                    table.push(json!({ "model": model.name, "program": peer, "why": why }));
+                    continue;
+                }
+            };
+            // What is found goes to the file: covered, outside, volume of the largest part.
+            ensure!(theirs.center.len() == 3, "{peer}: three numbers expected");
+            let row = json!([model.name, peer, theirs.support, theirs.seconds]);
+            let row: Vec<Value> = row.as_array().into_iter().flatten().cloned().collect();
+            table.push([row, theirs.center.iter().map(|x| json!(x)).collect()].concat());
+            if peer == "solid-iris" {
+                let what = format!("{}: drake's time for one region over ours for all", model.name);
+                out.at_least(what, theirs.seconds / seconds, [1.0, 100.0], Unit::Times);
+            }
+        }
+    }
+    out.table(
+        "Parts of V-HACD and CoACD reach outside: none of theirs is proved to be inside.",
+        table,
+    );
+    Ok(())
+}
