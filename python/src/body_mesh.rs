@@ -17,7 +17,14 @@ pub(crate) fn body_mesh<'py>(
     offsets: Vec<i64>,
 ) -> PyResult<MeshArrays<'py>> {
     let body = ConvexBody { normals, offsets, volume: 0.0 };
-    let answer = InscribedBodies { exponent, origin, disjoint: false, bodies: vec![] };
+    let answer = InscribedBodies {
+        exponent,
+        origin,
+        disjoint: false,
+        caps: vec![],
+        at: vec![],
+        bodies: vec![],
+    };
     let (vertices, triangles) = answer.mesh(&body);
     Ok((rows(py, vertices)?, rows(py, triangles)?))
 }

@@ -1,7 +1,7 @@
 //! `taut inscribe bodies`: convex bodies inside a triangle mesh; and what all searches for such bodies share.
 
 mod exports;
-pub(super) mod report;
+mod report;
 
 use std::path::PathBuf;
 
@@ -109,6 +109,10 @@ impl Search {
         self.exports.write(found, outputs, monitor)
     }
 
+    pub(super) fn side_fields(hidden: &Option<Occlusion>) -> Vec<Field> {
+        hidden.iter().map(report::occlusion).collect()
+    }
+
     pub(super) fn open(&self) -> anyhow::Result<Opened> {
         self.reading.open_triangles(&self.path)
     }
@@ -180,7 +184,7 @@ impl Find for Bodies {
     }
 
     fn side_fields(&self, hidden: &Option<Occlusion>) -> Vec<Field> {
-        hidden.iter().map(report::occlusion).collect()
+        Search::side_fields(hidden)
     }
 
     fn write(

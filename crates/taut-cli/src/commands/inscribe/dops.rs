@@ -60,7 +60,7 @@ impl Find for Dops {
     }
 
     fn side_fields(&self, hidden: &Option<Occlusion>) -> Vec<Field> {
-        hidden.iter().map(super::bodies::report::occlusion).collect()
+        Search::side_fields(hidden)
     }
 
     fn write(
