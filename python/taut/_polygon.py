@@ -20,7 +20,7 @@ def inscribed_polygon(
         The vertices of one ring in order, or of several rings, with holes and parts, as rows (x, y, number of the ring), as by
         `inscribed_ellipse`.
     rounds : int >= 0, default 200
-        Rounds in which sides are taken out and the room is carved anew.
+        Rounds in which sides are taken out and the room is carved again.
     starts : int >= 1, default 32
         Local ellipses to start from.
     seed : int >= 0, default 1

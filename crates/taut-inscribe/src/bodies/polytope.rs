@@ -70,8 +70,8 @@ fn facet(normals: &[[f64; 3]], offsets: &[f64], reach: f64, i: usize) -> Vec<[f6
     let along = cross(u, axis);
     let along = along.map(|x| x * reach / dot(along, along).sqrt());
     let across = cross(u, along).map(|x| x / dot(u, u).sqrt());
-    let foot = u.map(|x| x * offsets[i] / dot(u, u));
-    let corner = |s: f64, t: f64| [0, 1, 2].map(|c| foot[c] + s * along[c] + t * across[c]);
+    let nearest = u.map(|x| x * offsets[i] / dot(u, u));
+    let corner = |s: f64, t: f64| [0, 1, 2].map(|c| nearest[c] + s * along[c] + t * across[c]);
     let mut polygon =
         vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
     for j in (0..normals.len()).filter(|&j| j != i) {

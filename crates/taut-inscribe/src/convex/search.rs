@@ -2,7 +2,7 @@
 //!
 //! *Idea.* From each start the nearest edges carve a first body ([`carve`](super::carve)). Then each side in turn gives way to the
 //! best one in its place ([`pivot`](super::pivot)), until none gains. In rounds, one to three neighbors of the best body's sides are
-//! taken out, the room that opens is carved anew from a random point of the body, and what is larger is kept.
+//! taken out, the room that opens is carved again from a random point of the body, and what is larger is kept.
 //! *Guarantee.* No edge reaches deeper into a body than [`DEPTH`]; the rest is evidence, as the bound is proved apart.
 
 use taut_points::{Cancelled, Monitor};
@@ -159,7 +159,7 @@ impl Search<'_> {
             .collect()
     }
 
-    /// A larger body, if taking out some neighboring sides and carving the room anew leads to one.
+    /// A larger body, if taking out some neighboring sides and carving the room again leads to one.
     fn recreated(&self, body: &Body, random: &mut Random) -> Option<Body> {
         let own = body.sides.len() - BOX_SIDES;
         if own == 0 {

@@ -17,7 +17,7 @@ const TRUST: (f64, f64) = (0.1, 0.4);
 const GAIN_MIN: f64 = 1e-11;
 
 /// How many times as far as the nearest edge others are looked at, and how far a climb goes before it looks again.
-const NEAR: f64 = 3.0;
+const NEAR_SIZES: f64 = 3.0;
 
 /// Climbs, each with the edges that are near then.
 const CLIMBS_MAX: usize = 20;
@@ -45,7 +45,7 @@ impl Ellipse {
     pub(super) fn climbed(self, edges: &[Segment]) -> Self {
         let mut best = self;
         for _ in 0..CLIMBS_MAX {
-            let far = NEAR * best.size;
+            let far = NEAR_SIZES * best.size;
             let is_near = |&&edge: &&Segment| best.shape.nearest(best.center, edge).length <= far;
             let near: Vec<Segment> = edges.iter().filter(is_near).copied().collect();
             let next = best.climbed_among(&near, far);

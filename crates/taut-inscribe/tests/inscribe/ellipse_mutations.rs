@@ -227,7 +227,7 @@ fn other_polygons_are_rejected() {
 }
 
 #[test]
-fn an_edge_in_the_ellipse_is_blamed_on_its_row() {
+fn an_edge_in_the_ellipse_is_reported_by_its_row() {
     let rings = [square(0.0, 0.0, 2.0)];
     let mut found = proved(&rings);
     found.answer.center[0] = 1.5;

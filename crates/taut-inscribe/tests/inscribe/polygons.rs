@@ -12,7 +12,7 @@ use taut_points::Points;
 mod test_length;
 
 /// Edges of convex polygons may reach this far out of the ring, in the search to compare with.
-const SLACK: f64 = 1e-9;
+const REACH_SLACK: f64 = 1e-9;
 
 fn solve_with(
     rings: &[Ring],
@@ -197,7 +197,7 @@ fn sees(ring: &[[f64; 2]], p: [f64; 2], q: [f64; 2]) -> bool {
     for i in 0..n {
         let (a, b) = (ring[i], ring[(i + 1) % n]);
         let crosses = |one: f64, other: f64| {
-            (one > SLACK && other < -SLACK) || (one < -SLACK && other > SLACK)
+            (one > REACH_SLACK && other < -REACH_SLACK) || (one < -REACH_SLACK && other > REACH_SLACK)
         };
         if crosses(turn(p, q, a), turn(p, q, b)) && crosses(turn(a, b, p), turn(a, b, q)) {
             return false;
@@ -207,7 +207,7 @@ fn sees(ring: &[[f64; 2]], p: [f64; 2], q: [f64; 2]) -> bool {
     let mut touched: Vec<f64> = vec![0.0, 1.0];
     let square = (q[0] - p[0]).powi(2) + (q[1] - p[1]).powi(2);
     for &a in ring {
-        if turn(p, q, a).abs() <= SLACK {
+        if turn(p, q, a).abs() <= REACH_SLACK {
             touched.push(((a[0] - p[0]) * (q[0] - p[0]) + (a[1] - p[1]) * (q[1] - p[1])) / square);
         }
     }
@@ -216,7 +216,7 @@ fn sees(ring: &[[f64; 2]], p: [f64; 2], q: [f64; 2]) -> bool {
     touched.windows(2).filter(|pair| pair[1] - pair[0] > 1e-6).all(|pair| {
         let share = 0.5 * (pair[0] + pair[1]);
         let middle = [0, 1].map(|k| p[k] + share * (q[k] - p[k]));
-        is_inside(middle, ring) || super::common::clearance(middle, ring) <= SLACK
+        is_inside(middle, ring) || super::common::clearance(middle, ring) <= REACH_SLACK
     })
 }
 

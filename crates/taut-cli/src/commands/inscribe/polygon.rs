@@ -28,7 +28,7 @@ pub(super) struct Polygon {
     /// Rings of vertices in order, in any format of `taut formats`, such as CSV or GeoJSON; - is standard input
     #[arg(value_name = "RING")]
     path: PathBuf,
-    /// Rounds in which sides are taken out and the room is carved anew
+    /// Rounds in which sides are taken out and the room is carved again
     #[arg(long, value_name = "N", default_value_t = ConvexOptions::default().rounds)]
     rounds: u64,
     /// Local ellipses to start from, at least 1

@@ -227,11 +227,11 @@ impl BodiesOracle {
             let axis = if u[0].is_zero() { [1, 0, 0] } else { [0, 1, 3] }.map(whole);
             let along = cross(u, &axis);
             let across = cross(u, &along);
-            // All points of the plane in the cube are nearer to its foot than 4·reach.
+            // All points of the plane in the cube are nearer to its point next to the origin than 4·reach.
             let size = &self.reach * whole(4);
-            let foot = u.clone().map(|x| x * b / dot(u, u));
+            let nearest = u.clone().map(|x| x * b / dot(u, u));
             let corner = |s: i64, t: i64| {
-                [0, 1, 2].map(|k| &foot[k] + &size * (whole(s) * &along[k] + whole(t) * &across[k]))
+                [0, 1, 2].map(|k| &nearest[k] + &size * (whole(s) * &along[k] + whole(t) * &across[k]))
             };
             let square = vec![corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)];
             let others = (0..sides.len()).filter(|&other| other != at);

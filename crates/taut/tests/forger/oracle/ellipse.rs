@@ -17,7 +17,7 @@ use crate::random::Random;
 const STARTS: usize = 40;
 
 /// Changes of each start.
-const STEPS: usize = 300;
+const STEPS_PER_START: usize = 300;
 
 /// How much the ellipses of the search are shrunk, so that plain arithmetic does not let edges into them.
 const SHRUNK: f64 = 1.0 - 1e-9;
@@ -161,7 +161,7 @@ fn candidates(edges: &[[[f64; 2]; 2]]) -> Vec<([f64; 2], [[f64; 2]; 2])> {
     for _ in 0..STARTS {
         let mut here = [random.unit(), random.unit(), 0.0, 1.0];
         let (mut size, mut step) = (size_of(here, &unit), 0.5);
-        for _ in 0..STEPS {
+        for _ in 0..STEPS_PER_START {
             let mut change = || step * random.signed();
             let next = [
                 here[0] + change(),
