@@ -197,7 +197,8 @@ fn sees(ring: &[[f64; 2]], p: [f64; 2], q: [f64; 2]) -> bool {
     for i in 0..n {
         let (a, b) = (ring[i], ring[(i + 1) % n]);
         let crosses = |one: f64, other: f64| {
-            (one > REACH_SLACK && other < -REACH_SLACK) || (one < -REACH_SLACK && other > REACH_SLACK)
+            (one > REACH_SLACK && other < -REACH_SLACK)
+                || (one < -REACH_SLACK && other > REACH_SLACK)
         };
         if crosses(turn(p, q, a), turn(p, q, b)) && crosses(turn(a, b, p), turn(a, b, q)) {
             return false;

@@ -231,7 +231,8 @@ impl BodiesOracle {
             let size = &self.reach * whole(4);
             let nearest = u.clone().map(|x| x * b / dot(u, u));
             let corner = |s: i64, t: i64| {
-                [0, 1, 2].map(|k| &nearest[k] + &size * (whole(s) * &along[k] + whole(t) * &across[k]))
+                [0, 1, 2]
+                    .map(|k| &nearest[k] + &size * (whole(s) * &along[k] + whole(t) * &across[k]))
             };
             let square = vec![corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)];
             let others = (0..sides.len()).filter(|&other| other != at);
