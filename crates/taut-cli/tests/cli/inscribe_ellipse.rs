@@ -51,7 +51,7 @@ fn changed_ellipses_and_bad_polygons_are_refused() {
     folder.taut("inscribe ellipse frame.csv -o ellipse.json").ends(0);
     let text = folder.text("ellipse.json");
     let mut found: serde_json::Value = serde_json::from_str(&text).unwrap();
-    found["answer"]["center"][0] = 2.0.into();
+    found["answer"]["center"] = [1.0, 1.0].as_slice().into();
     folder.put("moved.json", found.to_string());
     folder.taut("verify moved.json frame.csv").ends(1).stdout_has(&["Rejected: "]);
     folder.put("bad.csv", FRAME.replace("1,1,1", "1,1,2"));
