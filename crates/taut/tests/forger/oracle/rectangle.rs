@@ -13,7 +13,7 @@ use super::circle::{Point, crosses_above, edges, exact};
 use crate::random::Random;
 
 /// Rectangles of the random search, and changes of each.
-const TRIED: (usize, usize) = (60, 200);
+const TRIED: (usize, usize) = (30, 150);
 
 /// Knows the truth about the rectangles in one polygon.
 pub struct RectangleOracle {
@@ -57,10 +57,14 @@ impl RectangleOracle {
         let of_edge = |edge: &[[f64; 2]; 2]| edge.map(|p| p.map(exact));
         let edges: Vec<[Point; 2]> = plain.iter().map(of_edge).collect();
         let mut oracle = RectangleOracle { edges, best: BigRational::zero() };
-        for [low, high] in candidates(&plain) {
+        let mut tried = candidates(&plain);
+        let size = |r: &[[f64; 2]; 2]| (r[1][0] - r[0][0]) * (r[1][1] - r[0][1]);
+        tried.sort_by(|one, other| size(other).total_cmp(&size(one)));
+        for [low, high] in tried {
             let (low, high) = (low.map(exact), high.map(exact));
             if (0..2).all(|k| low[k] < high[k]) && oracle.holds(&low, &high) {
-                oracle.best = area(&low, &high).max(oracle.best);
+                oracle.best = area(&low, &high);
+                break;
             }
         }
         oracle
