@@ -106,7 +106,8 @@ fn k_dops_cover_what_the_documentation_says() {
             };
             let part =
                 packed(name, &mesh, &BodiesOptions { events: events(options.events), ..options });
-            let slack = if cfg!(debug_assertions) { 0.15 } else { 0.0 };
+            // A tenth of the events leaves many bodies of a large count where they began.
+            let slack = if cfg!(debug_assertions) { 0.25 } else { 0.0 };
             assert!(part >= least - slack, "{name}: {part}");
         }
     }
