@@ -53,4 +53,4 @@ def inscribed_polygon(
     3.0
     """
     rows = as_rows(polygon)
-    return Solution(_native.inscribed_polygon(rows, rounds, starts, seed, epsilon), rows)
+    return Solution(_native.inscribed_polygon(rows, epsilon, rounds, starts, seed), rows)

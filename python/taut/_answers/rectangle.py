@@ -24,7 +24,7 @@ class InscribedRectangle(Record):
     area: float
 
 
-@record("gap", "tree")
+@record("gap", "edges")
 class RectangleCertificate(Record):
     """A subdivision of all pairs of corners: the proof that no rectangle along the axes is much larger.
 
