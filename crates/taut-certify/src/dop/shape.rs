@@ -245,7 +245,7 @@ mod tests {
     #[test]
     fn malformed_half_spaces_are_refused() {
         let six = BoundingDop::directions(6);
-        let offsets = vec![1.0; 6];
+        let offsets = [1.0; 6];
         let refused = |normals: &[[i64; 3]], offsets: &[f64]| {
             BoundingDop::of_half_spaces(normals.to_vec(), offsets.to_vec()).unwrap_err().to_string()
         };
