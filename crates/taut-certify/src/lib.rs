@@ -3,6 +3,7 @@
 //! | answer | certificate | what the checker proves from the input alone |
 //! |---|---|---|
 //! | [`Ball`] | [`BallCertificate`] | every point is inside; no smaller ball than r/(1 + gap) holds them all |
+//! | [`KernelBall`] | [`KernelBallCertificate`] | every point is inside, or the soft objective; no ball of the feature space has an objective below 1/(1 + gap) of it |
 //! | [`Ellipsoid`] | [`EllipsoidCertificate`] | every point is inside; no ellipsoid of a log-volume less by more than the gap holds them all |
 //! | [`RobustEllipsoid`] | [`RobustCertificate`] | center, scatter, factors and flags are those of the points kept; by `mcd`, no C-step leads on from them; by `mve` and `trim`, no much smaller ellipsoid holds them |
 //! | [`InscribedEllipsoid`] | [`InscribedCertificate`] | it lies in every half-space; no ellipsoid in the polytope has a log-volume larger by more than the gap |
@@ -70,6 +71,7 @@ mod hashed_pass;
 mod inscribed;
 mod items;
 mod json;
+mod kernel_ball;
 mod order;
 mod polygon;
 mod rectangle;
@@ -107,6 +109,9 @@ pub use files::{
 pub use inscribed::{InscribedCertificate, InscribedEllipsoid, InscribedVerdict};
 pub use items::Items;
 pub use json::{JsonError, SCHEMA};
+pub use kernel_ball::{
+    Kernel, KernelBall, KernelBallCertificate, KernelBallVerdict, KernelBallViolation,
+};
 pub use order::{Order, OrderCertificate, OrderCurve, OrderVerdict, OrderViolation};
 pub use polygon::PolygonViolation;
 pub use rectangle::{

@@ -10,8 +10,9 @@ use crate::json::{kind_of, parse_document, without_mark};
 use crate::{
     Answer, Ball, BoundingDop, Centers, CheckError, ConvexPolygon, Curve, DrawnSample, Ellipsoid,
     FileAnswer, FileCheckError, FileSolution, FileVerdict, Files, InscribedBodies, InscribedCircle,
-    InscribedEllipse, InscribedEllipsoid, InscribedRectangle, InscribedTriangle, JsonError, Order,
-    RobustEllipsoid, Solution, SortedFile, Surface, TransposedFile, Triangulation,
+    InscribedEllipse, InscribedEllipsoid, InscribedRectangle, InscribedTriangle, JsonError,
+    KernelBall, Order, RobustEllipsoid, Solution, SortedFile, Surface, TransposedFile,
+    Triangulation,
 };
 
 /// Hands the answers about points to a macro, each with the name of its variant.
@@ -21,6 +22,8 @@ macro_rules! answers_about_points {
             $($more)*
             /// A minimum enclosing ball.
             Ball(Ball),
+            /// A minimum enclosing ball in the feature space of a kernel.
+            KernelBall(KernelBall),
             /// A minimum volume enclosing ellipsoid.
             Ellipsoid(Ellipsoid),
             /// A maximum volume inscribed ellipsoid.

@@ -35,6 +35,7 @@ mod ellipsoid_thin;
 mod ellipsoids;
 mod farthest_first;
 mod inscribed_ellipsoid;
+mod kernel_ball;
 mod robust;
 mod robust_far;
 mod robust_mcd;
