@@ -2,6 +2,7 @@
 
 mod check;
 mod distance;
+mod jensen;
 mod kernel;
 mod violation;
 

@@ -13,6 +13,9 @@ use super::double_double::U;
 /// Bound on the relative error of [`decay`].
 pub(crate) const DECAY_ERROR: f64 = 32.0 * U;
 
+/// Adding it to a number rounds that to a whole one.
+const ROUNDER: f64 = 6_755_399_441_055_744.0;
+
 /// ln 2 in two parts; the first has 21 zero bits at its end, so that its products with |n| < 2¹¹ are exact.
 const LN_2: [f64; 2] = [6.931_471_803_691_238e-1, 1.908_214_929_270_587_7e-10];
 
@@ -21,14 +24,16 @@ pub(crate) fn decay(z: f64) -> f64 {
     if z > 745.0 {
         return 1.0;
     }
-    let n = -(z * std::f64::consts::LOG2_E).round();
+    let shifted = ROUNDER - z * std::f64::consts::LOG2_E;
+    let n = shifted - ROUNDER;
     let t = (-z - n * LN_2[0]) - n * LN_2[1];
     let mut sum = 0.0;
     for k in (2..=15).rev() {
         sum = (sum + 1.0) * (t / f64::from(k));
     }
     let less_one = t + t * sum;
-    let power = 2f64.powi(n as i32);
+    // 2ⁿ is at least 2⁻¹⁰⁷⁵ here, and 0 in place of what is below 2⁻¹⁰²² changes nothing.
+    let power = f64::from_bits((n.max(-1023.0) as i64 + 1023 << 52) as u64);
     (1.0 - power) - power * less_one
 }
 

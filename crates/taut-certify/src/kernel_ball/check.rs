@@ -10,12 +10,14 @@
 //! r² + s·Σ ξₖ/(νn) is at most s times the objective.
 //! *Rounding.* With k multipliers of sum 1 ± 2(k + 2)u, a sum Σ λᵢρᵢ of k terms is off by the errors of the ρᵢ and by (4k + 12)u of its
 //! terms' sizes, the division by the sum of the multipliers included.
-//! *Cost.* O(nkd) for n rows, in two passes.
+//! *Cost.* O(nkd) for n rows, in two passes; of a Gaussian kernel O(nd) and O(kd) for each row that one distance does not prove to be
+//! inside ([`jensen`](super::jensen)).
 //! *Reference.* Tax and Duin, Support vector data description, Mach. Learn. 54, 2004; the duality gap is new here.
 
 use taut_points::{Monitor, PointSource};
 
-use super::distance::{Near, of_kernel, squared_distance};
+use super::distance::{Near, of_kernel, own, squared_distance};
+use super::jensen::Jensen;
 use super::{Kernel, KernelBall, KernelBallCertificate, KernelBallVerdict, KernelBallViolation};
 use crate::arithmetic::{Compensated, U};
 use crate::hashed_pass::{KeptRows, WantedRows, all_finite, hashed_pass};
@@ -84,6 +86,9 @@ impl Block {
     fn add(&mut self, center: &Center<'_>, number: u64, row: &[f64]) -> Result<(), CheckError> {
         self.rows += 1;
         let squared_radius = center.ball.squared_radius;
+        if center.is_surely_inside(row) {
+            return Ok(());
+        }
         let distance = center.squared_distance(number, row)?;
         let most = (distance.value + distance.error) * (1.0 + U);
         if most <= squared_radius {
@@ -112,13 +117,19 @@ impl Block {
 struct Center<'a> {
     ball: &'a KernelBall,
     kept: &'a KeptRows,
+    /// The rows of the support with their K(x, x), for kernels of points.
+    support: Vec<(&'a [f64], Near)>,
     /// D.
     spread: Near,
+    /// What proves most points to be inside, for a Gaussian kernel.
+    jensen: Option<Jensen>,
 }
 
 impl<'a> Center<'a> {
     fn new(ball: &'a KernelBall, kept: &'a KeptRows) -> Result<Self, CheckError> {
-        let mut center = Center { ball, kept, spread: Near::default() };
+        let row = |&id: &u64| (kept.row(id), own(ball.kernel, kept.row(id)));
+        let support = ball.support.iter().map(row).collect();
+        let mut center = Center { ball, kept, support, spread: Near::default(), jensen: None };
         let mut sums = vec![];
         for &row in &ball.support {
             sums.push(center.mean_distance(row, kept.row(row))?);
@@ -128,7 +139,18 @@ impl<'a> Center<'a> {
         if !(center.spread.value + center.spread.error).is_finite() {
             return Err(KernelBallViolation::Range { row: ball.support[0] }.into());
         }
+        if let Kernel::Gaussian { gamma } = ball.kernel {
+            let rows: Vec<&[f64]> = center.support.iter().map(|point| point.0).collect();
+            center.jensen = Some(Jensen::of(gamma, &rows, &ball.multipliers));
+        }
         Ok(center)
+    }
+
+    /// Whether Jensen's bound proves a row to be inside.
+    fn is_surely_inside(&self, row: &[f64]) -> bool {
+        let Some(jensen) = &self.jensen else { return false };
+        let least = self.spread.value - self.spread.error;
+        (jensen.upper_bound(row) - least) * (1.0 + 4.0 * U) <= self.ball.squared_radius
     }
 
     /// Σ λᵢ·termᵢ divided by Σ λᵢ.
@@ -152,9 +174,8 @@ impl<'a> Center<'a> {
     fn mean_distance(&self, number: u64, x: &[f64]) -> Result<Near, CheckError> {
         let support = &self.ball.support;
         if self.ball.kernel != Kernel::Precomputed {
-            let kernel = self.ball.kernel;
-            let distances =
-                support.iter().map(|&row| squared_distance(kernel, x, self.kept.row(row)));
+            let (kernel, x) = (self.ball.kernel, (x, own(self.ball.kernel, x)));
+            let distances = self.support.iter().map(|&y| squared_distance(kernel, x, y));
             return Ok(self.weighted(distances));
         }
         let exact = |value| Near { value, error: 0.0 };

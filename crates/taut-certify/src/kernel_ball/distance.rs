@@ -20,32 +20,49 @@ pub(super) struct Near {
     pub(super) error: f64,
 }
 
-/// ρ(x, y) for kernels of points; not for a precomputed one.
-pub(super) fn squared_distance(kernel: Kernel, x: &[f64], y: &[f64]) -> Near {
-    if x == y {
-        return Near::default();
+/// K(x, x) where ρ is found from it; 0 elsewhere.
+pub(super) fn own(kernel: Kernel, x: &[f64]) -> Near {
+    match kernel {
+        Kernel::Polynomial { gamma, offset, degree } => polynomial(gamma, offset, degree, x, x),
+        _ => Near::default(),
     }
+}
+
+/// ρ(x, y) for kernels of points; not for a precomputed one. With each point comes its [`own`].
+pub(super) fn squared_distance(
+    kernel: Kernel,
+    (x, of_x): (&[f64], Near),
+    (y, of_y): (&[f64], Near),
+) -> Near {
     let dim = x.len() as f64;
     match kernel {
         Kernel::Gaussian { gamma } => {
             let square = squared_difference(x, y);
-            let lost = (gamma * dim + 1.0) * VANISHED;
-            let value = 2.0 * decay(gamma * square);
-            // An infinite |x − y|² may be one that γ would bring back: what it stands for is unknown.
-            let relative =
-                if square.is_finite() { (dim + 8.0) * U + DECAY_ERROR } else { f64::NAN };
-            Near { value, error: relative * value + 2.0 * lost }
+            if square == 0.0 && x == y {
+                return Near::default();
+            }
+            feature_distance(gamma, square, x.len())
         }
         Kernel::Linear | Kernel::Precomputed => {
             let value = squared_difference(x, y);
-            Near { value, error: (dim + 6.0) * U * value + dim * VANISHED }
+            let lost = if value == 0.0 && x == y { 0.0 } else { dim * VANISHED };
+            Near { value, error: (dim + 6.0) * U * value + lost }
         }
+        Kernel::Polynomial { .. } if x == y => Near::default(),
         Kernel::Polynomial { gamma, offset, degree } => {
-            let term = |a: &[f64], b: &[f64]| polynomial(gamma, offset, degree, a, b);
-            let (of_x, of_y, both) = (term(x, x), term(y, y), term(x, y));
-            of_kernel(of_x, of_y, both)
+            of_kernel(of_x, of_y, polynomial(gamma, offset, degree, x, y))
         }
     }
+}
+
+/// 2(1 − e^{−γs}) for a sum s of squared differences in `dim` dimensions.
+pub(super) fn feature_distance(gamma: f64, square: f64, dim: usize) -> Near {
+    let dim = dim as f64;
+    let lost = (gamma * dim + 1.0) * VANISHED;
+    let value = 2.0 * decay(gamma * square);
+    // An infinite |x − y|² may be one that γ would bring back: what it stands for is unknown.
+    let relative = if square.is_finite() { (dim + 8.0) * U + DECAY_ERROR } else { f64::NAN };
+    Near { value, error: relative * value + 2.0 * lost }
 }
 
 /// ρ from K(x, x), K(y, y) and K(x, y).
@@ -56,7 +73,7 @@ pub(super) fn of_kernel(of_x: Near, of_y: Near, both: Near) -> Near {
     Near { value, error: error * (1.0 + 8.0 * U) }
 }
 
-fn squared_difference(x: &[f64], y: &[f64]) -> f64 {
+pub(super) fn squared_difference(x: &[f64], y: &[f64]) -> f64 {
     x.iter().zip(y).map(|(a, b)| (a - b) * (a - b)).sum()
 }
 
