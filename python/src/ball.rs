@@ -1,7 +1,10 @@
-//! `taut.ball` and `taut.ball_of_balls`, behind their Python signatures.
+//! `taut.ball`, with and without a kernel, and `taut.ball_of_balls`, behind their Python signatures.
 
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use taut::{BallMethod, BallOptions};
+use taut::certify::Kernel;
+use taut::enclose::{KernelBallMethod, KernelBallOptions};
+use taut::{BallMethod, BallOptions, Items};
 
 use crate::found::{Found, solve};
 use crate::items::{items_of_name, raise};
@@ -38,5 +41,53 @@ pub(crate) fn ball(
         rows,
         |source, monitor| taut::ball(source, &BallOptions { monitor: *monitor, ..options }),
         |error, columns| raise(error, items, columns),
+    )
+}
+
+/// The smallest ball in the feature space of a kernel; `parameters` are γ, the offset and the degree.
+#[pyfunction]
+pub(crate) fn kernel_ball(
+    py: Python<'_>,
+    rows: &Bound<'_, PyAny>,
+    kernel: &str,
+    parameters: (f64, f64, u32),
+    nu: Option<f64>,
+    epsilon: f64,
+    steps: Option<u64>,
+    limits: (u64, Option<usize>, u64),
+) -> PyResult<Found> {
+    let (gamma, offset, degree) = parameters;
+    let kernel = match kernel {
+        "gaussian" => Kernel::Gaussian { gamma },
+        "polynomial" => Kernel::Polynomial { gamma, offset, degree },
+        "linear" => Kernel::Linear,
+        "precomputed" => Kernel::Precomputed,
+        _ => {
+            let expected = "gaussian, polynomial, linear or precomputed";
+            let message = format!("option `kernel` is {kernel}: expected {expected}");
+            return Err(PyValueError::new_err(message));
+        }
+    };
+    let method =
+        if steps.is_some() { KernelBallMethod::Thesis } else { KernelBallMethod::default() };
+    let (max_passes, threads, seed) = limits;
+    let base = KernelBallOptions {
+        kernel,
+        nu,
+        epsilon,
+        method,
+        max_passes,
+        threads,
+        seed,
+        ..Default::default()
+    };
+    let options = KernelBallOptions { steps: steps.unwrap_or(base.steps), ..base };
+    solve(
+        py,
+        rows,
+        |source, monitor| {
+            taut::enclose::kernel_ball(source, &KernelBallOptions { monitor: *monitor, ..options })
+        },
+        |error, columns| raise(error, Items::Points, columns),
     )
 }

@@ -41,7 +41,7 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _native {
     #[pymodule_export]
-    use crate::ball::ball;
+    use crate::ball::{ball, kernel_ball};
     #[pymodule_export]
     use crate::bodies::inscribed_bodies;
     #[pymodule_export]

@@ -21,6 +21,7 @@ from ._answers.ellipse import EllipseCertificate, EllipseVerdict, InscribedEllip
 from ._answers.ellipsoid import Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, Hull
 from ._answers.file import FileVerdict
 from ._answers.inscribed import InscribedCertificate, InscribedEllipsoid, InscribedVerdict
+from ._answers.kernel_ball import KernelBall, KernelBallCertificate, KernelBallVerdict
 from ._answers.order import Order, OrderCertificate, OrderVerdict
 from ._answers.polygon import ConvexCertificate, ConvexPolygon, ConvexVerdict
 from ._answers.rectangle import InscribedRectangle, RectangleCertificate, RectangleVerdict
@@ -29,7 +30,7 @@ from ._answers.surface import Surface, SurfaceCertificate, SurfaceComponent, Sur
 from ._answers.trace import PassBounds, Trace
 from ._answers.triangle import InscribedTriangle, TriangleCertificate, TriangleVerdict
 from ._answers.triangulation import Triangulation, TriangulationCertificate, TriangulationVerdict
-from ._ball import ball, ball_of_balls
+from ._ball import ball, ball_of_balls, kernel_ball
 from ._bodies import inscribed_bodies, inscribed_dops, triangle_rows
 from ._centers import centers, farthest_first, sphere_tree
 from ._circle import inscribed_circle
@@ -89,6 +90,9 @@ __all__ = [
     "InscribedRectangle",
     "InscribedTriangle",
     "InscribedVerdict",
+    "KernelBall",
+    "KernelBallCertificate",
+    "KernelBallVerdict",
     "Order",
     "OrderCertificate",
     "OrderVerdict",
@@ -131,6 +135,7 @@ __all__ = [
     "inscribed_polygon",
     "inscribed_rectangle",
     "inscribed_triangle",
+    "kernel_ball",
     "robust_ellipsoid",
     "sample",
     "sort_file",

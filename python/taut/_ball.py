@@ -11,6 +11,7 @@ from ._arrays import as_rows
 from ._solution import Solution
 
 BallMethod = Literal["core-set", "thesis-pure", "thesis-fast", "badoiu-clarkson"]
+KernelName = Literal["gaussian", "polynomial", "linear", "precomputed"]
 
 
 def ball(
@@ -69,6 +70,7 @@ def ball(
     See Also
     --------
     ball_of_balls : the smallest ball around balls.
+    kernel_ball : the smallest ball in the feature space of a kernel.
     verify : checks an answer that was stored.
 
     Examples
@@ -93,6 +95,80 @@ def ball(
     items = "points" if shapes is None else "ellipsoids"
     rows = as_rows(points, shapes=shapes)
     return Solution(_native.ball(rows, items, epsilon, method, batch, max_passes, threads, seed), rows)
+
+
+def kernel_ball(
+    points: ArrayLike,
+    *,
+    kernel: KernelName = "gaussian",
+    gamma: float = 1.0,
+    offset: float = 1.0,
+    degree: int = 2,
+    nu: float | None = None,
+    epsilon: float = 1e-6,
+    thesis_steps: int | None = None,
+    max_passes: int = 10_000,
+    threads: int | None = None,
+    seed: int = 0,
+) -> Solution:
+    """Smallest ball around points in the feature space of a kernel, hard or soft, with a certificate.
+
+    The soft ball is a support vector data description: it minimizes R**2 + sum(max(0, d**2 - R**2)) / (nu * n), where d are the
+    distances of the n points from its center, and leaves at most a share `nu` of them outside.
+
+    Parameters
+    ----------
+    points : array_like of shape (n, d)
+        Finite real numbers, as for `ball`. With ``kernel="precomputed"`` the symmetric and positive semidefinite matrix of
+        shape (n, n) of the products in the feature space.
+    kernel : {"gaussian", "polynomial", "linear", "precomputed"}, default "gaussian"
+        exp(-gamma |x - y|**2), (gamma x.y + offset)**degree, x.y, or the entries given.
+    gamma, offset, degree : float > 0, float >= 0, int in [1, 16]
+        Parameters of the kernel; those that it does not have are ignored.
+    nu : float in (0, 1], optional
+        Given this, the ball is soft.
+    epsilon : float in (0, 1), default 1e-6
+        Relative gap of the objective to prove; the objective is a squared radius.
+    thesis_steps : int >= 2, optional
+        Takes so many steps of Algorithm 11 of the thesis in place of the default method; only without `nu`.
+    max_passes : int >= 1, default 10,000
+        Reads of all points before the best ball so far is returned with its gap.
+    threads : int in [1, 1024], optional
+        Threads to use, by default all cores. The answer does not depend on it.
+    seed : int >= 0, default 0
+        Chooses the sample from which the search starts.
+
+    Returns
+    -------
+    Solution
+        ``answer`` is a `KernelBall` with ``support``, ``multipliers`` and ``squared_radius``; ``certificate`` and ``trace``.
+
+    Raises
+    ------
+    ValueError
+        When there is no point, a coordinate is NaN or infinite, distances exceed float64, or an option is out of range.
+    KeyboardInterrupt
+        Ctrl-C stops the work within a block of points.
+
+    See Also
+    --------
+    ball : the smallest ball around points themselves.
+
+    Examples
+    --------
+    Three points at the same distance from each other:
+
+    >>> import taut
+    >>> points = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
+    >>> found = taut.kernel_ball(points, gamma=0.5)
+    >>> round(found.answer.squared_radius, 5)
+    0.42141
+    >>> found.check(points).gap <= 1e-6
+    True
+    """
+    rows = as_rows(points)
+    limits = (max_passes, threads, seed)
+    return Solution(_native.kernel_ball(rows, kernel, (gamma, offset, degree), nu, epsilon, thesis_steps, limits), rows)
 
 
 def ball_of_balls(

@@ -1,5 +1,6 @@
 //! The minimum enclosing ball in the feature space of a kernel, and its certificate.
 
+mod center;
 mod check;
 mod distance;
 mod jensen;
@@ -12,6 +13,7 @@ use taut_points::{Monitor, PointSource, PointsHash};
 use crate::json::{hash_from_hex, hash_to_hex};
 use crate::{Answer, CheckError};
 
+pub use center::KernelCenter;
 pub use kernel::Kernel;
 pub use violation::KernelBallViolation;
 

@@ -110,7 +110,7 @@ pub use inscribed::{InscribedCertificate, InscribedEllipsoid, InscribedVerdict};
 pub use items::Items;
 pub use json::{JsonError, SCHEMA};
 pub use kernel_ball::{
-    Kernel, KernelBall, KernelBallCertificate, KernelBallVerdict, KernelBallViolation,
+    Kernel, KernelBall, KernelBallCertificate, KernelBallVerdict, KernelBallViolation, KernelCenter,
 };
 pub use order::{Order, OrderCertificate, OrderCurve, OrderVerdict, OrderViolation};
 pub use polygon::PolygonViolation;

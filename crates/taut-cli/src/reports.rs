@@ -6,6 +6,7 @@ pub(crate) mod curve;
 pub(crate) mod dop;
 pub(crate) mod ellipsoid;
 pub(crate) mod inscribed;
+pub(crate) mod kernel_ball;
 pub(crate) mod order;
 pub(crate) mod robust;
 pub(crate) mod surface;

@@ -3,7 +3,7 @@
 use taut_certify::{
     Answer, Ball, BoundingDop, Centers, ConvexPolygon, Curve, Ellipsoid, InscribedBodies,
     InscribedCircle, InscribedEllipse, InscribedEllipsoid, InscribedRectangle, InscribedTriangle,
-    Order, RobustEllipsoid, Solution, Surface, Triangulation,
+    KernelBall, Order, RobustEllipsoid, Solution, Surface, Triangulation,
 };
 use taut_points::PointSource;
 
@@ -48,6 +48,7 @@ macro_rules! drawn_by {
 
 drawn_by! {
     Ball: crate::ball_figures;
+    KernelBall: crate::kernel_ball_figures;
     Ellipsoid: crate::ellipsoid_figures;
     InscribedEllipsoid: crate::inscribed_figures;
     InscribedCircle: crate::circle_figures;

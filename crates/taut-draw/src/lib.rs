@@ -8,6 +8,7 @@
 //! | an ellipsoid and its points | [`ellipsoid_figures`] | scenes of the plane or of space, shadows on pairs of coordinates, and plots |
 //! | a robust ellipsoid and its points | [`robust_figures`] | the same with outliers apart, and the distance of each point |
 //! | an ellipsoid in a polytope, and its half-spaces | [`inscribed_figures`] | scenes of the plane or of space, cuts through the center, and plots |
+//! | a ball of a kernel | [`kernel_ball_figures`] | a scene of the plane with its border, or a histogram of squared distances |
 //! | a circle in a polygon, and the rings | [`circle_figures`] | a scene of the plane, with the edges that are touched |
 //! | an ellipse in a polygon, and the rings | [`ellipse_figures`] | the same |
 //! | a convex polygon in a polygon, and the rings | [`convex_figures`] | the same |
@@ -59,6 +60,7 @@ mod figure;
 mod html;
 mod inscribed;
 mod item_pass;
+mod kernel_ball;
 mod marks;
 mod number;
 mod options;
@@ -94,6 +96,7 @@ pub use error::Error;
 pub use figure::{Figure, Figures};
 pub use html::{Field, Page, Section, to_html};
 pub use inscribed::inscribed_figures;
+pub use kernel_ball::kernel_ball_figures;
 pub use options::DrawOptions;
 pub use plot::{Bar, Level, Plot, Scale, Series, SeriesStyle};
 #[cfg(feature = "png")]

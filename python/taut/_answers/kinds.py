@@ -14,6 +14,7 @@ from .dop import BoundingDop, DopCertificate, DopVerdict
 from .ellipse import EllipseCertificate, EllipseVerdict, InscribedEllipse
 from .ellipsoid import Ellipsoid, EllipsoidCertificate, EllipsoidVerdict
 from .inscribed import InscribedCertificate, InscribedEllipsoid, InscribedVerdict
+from .kernel_ball import KernelBall, KernelBallCertificate, KernelBallVerdict
 from .order import Order, OrderCertificate, OrderVerdict
 from .polygon import ConvexCertificate, ConvexPolygon, ConvexVerdict
 from .rectangle import InscribedRectangle, RectangleCertificate, RectangleVerdict
@@ -24,6 +25,7 @@ from .triangulation import Triangulation, TriangulationCertificate, Triangulatio
 
 AnyVerdict = (
     Verdict
+    | KernelBallVerdict
     | EllipsoidVerdict
     | InscribedVerdict
     | CircleVerdict
@@ -58,6 +60,13 @@ class Kind(NamedTuple):
 
 KINDS = {
     "ball": Kind(Ball, BallCertificate, Verdict, "encloses", ("answer.radius", "certificate.gap")),
+    "kernel-ball": Kind(
+        KernelBall,
+        KernelBallCertificate,
+        KernelBallVerdict,
+        "encloses",
+        ("answer.kernel", "answer.squared_radius", "certificate.gap"),
+    ),
     "ellipsoid": Kind(
         Ellipsoid,
         EllipsoidCertificate,

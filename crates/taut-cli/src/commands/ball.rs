@@ -1,4 +1,6 @@
-//! `taut ball`: the smallest ball around points or balls.
+//! `taut ball`: the smallest ball around points or balls, or in the feature space of a kernel.
+
+mod kernel;
 
 use taut::certify::Ball;
 use taut::{BallMethod, BallOptions, Items, Monitor, Solution, ball};
@@ -17,7 +19,8 @@ use crate::watch::Watch;
 Exit: 0 reached · 1 the check failed · 2 bad input or usage, nothing written ·
       3 stopped early by a budget, or where rounding hides the gap that was asked for;
         the gap reached is reported
-Example: taut ball points.csv -o ball.json --draw ball.svg && taut verify ball.json points.csv")]
+Example: taut ball points.csv -o ball.json --draw ball.svg && taut verify ball.json points.csv
+         taut ball points.csv --kernel gaussian --gamma 0.5 --nu 0.05 -o soft.json --draw soft.svg")]
 pub(crate) struct Args {
     #[command(flatten)]
     points: Points,
@@ -28,9 +31,10 @@ pub(crate) struct Args {
     /// matrix S, row by row; all are held in memory
     #[arg(long, conflicts_with_all = ["balls", "draw"])]
     ellipsoids: bool,
-    /// Proved relative gap to reach, in [0, 1): radius ≤ (1 + ε) · smallest; 0 is exact to rounding
-    #[arg(long, value_name = "REAL", default_value = "1e-9", allow_negative_numbers = true)]
-    epsilon: f64,
+    /// Proved relative gap to reach, in [0, 1): radius ≤ (1 + ε) · smallest; 0 is exact to rounding. Of a kernel: of the squared radius
+    /// [default: 1e-9, with --kernel 1e-6]
+    #[arg(long, value_name = "REAL", allow_negative_numbers = true)]
+    epsilon: Option<f64>,
     /// The way to find it; all end in the same certificate
     #[arg(long, value_name = "NAME", default_value = BallMethod::default().name(), value_parser = choice::<BallMethod>())]
     method: BallMethod,
@@ -44,6 +48,8 @@ pub(crate) struct Args {
     /// Chooses the point from which the thesis' methods start
     #[arg(long, value_name = "N", default_value_t = BallOptions::default().seed)]
     seed: u64,
+    #[command(flatten)]
+    kernel: kernel::KernelArgs,
     #[command(flatten)]
     output: OutputOptions,
     #[command(flatten)]
@@ -73,19 +79,22 @@ impl Find for Args {
     }
 
     fn outcome(&self, found: &Solution<Ball>) -> Outcome {
-        reports::outcome(found.trace.stop, found.certificate.gap, self.epsilon)
+        reports::outcome(found.trace.stop, found.certificate.gap, self.options().epsilon)
     }
 }
 
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
-        pipeline::run(self)
+        match self.kernel.of(self)? {
+            Some(kernel) => pipeline::run(&kernel),
+            None => pipeline::run(self),
+        }
     }
 
     fn options(&self) -> BallOptions<'static> {
         BallOptions {
             inputs: items(self.balls, self.ellipsoids),
-            epsilon: self.epsilon,
+            epsilon: self.epsilon.unwrap_or(BallOptions::default().epsilon),
             method: self.method,
             batch: self.batch,
             max_passes: self.max_passes,
