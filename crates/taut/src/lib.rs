@@ -174,6 +174,8 @@ mod pages {
     struct Ellipse;
     #[doc = include_str!("../../../docs/ellipsoid.md")]
     struct Ellipsoid;
+    #[doc = include_str!("../../../docs/kernel-ball.md")]
+    struct KernelBall;
     #[doc = include_str!("../../../docs/polygon.md")]
     struct Polygon;
     #[doc = include_str!("../../../docs/rectangle.md")]

@@ -65,7 +65,8 @@ pub(super) fn check(
         _ => ((upper / lower.max(0.0)) * (1.0 + 2.0 * U) - 1.0).next_up().max(0.0),
     };
     let (relative, absolute) = GAP_SLACK;
-    let is_proved = gap <= certificate.gap * (1.0 + relative) + absolute;
+    // An infinite gap is none, and must not pass as no more than a claim that overflows.
+    let is_proved = gap.is_finite() && gap <= certificate.gap * (1.0 + relative) + absolute;
     if !is_proved {
         return Err(Violation::Gap { claimed: certificate.gap, proved: gap }.into());
     }

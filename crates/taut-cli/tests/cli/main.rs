@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod ball;
+mod ball_kernel;
 mod centers;
 mod curve;
 mod delaunay;

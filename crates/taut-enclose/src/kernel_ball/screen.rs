@@ -71,14 +71,20 @@ pub(super) fn first_pass(source: &dyn PointSource, monitor: &Monitor<'_>) -> Res
             return Err(Error::Input(InputError::NonFinite { row, column, value }));
         }
         let mut row = vec![0.0; dim];
-        let is_same = (0..rows.len()).all(|k| {
+        let mut spread = 0.0f64;
+        for k in 0..rows.len() {
             rows.copy_row(k, &mut row);
-            row == first
-        });
-        Ok::<(BlockHash, bool), Error>((hash_block(&rows), is_same))
+            spread = row.iter().zip(&first).fold(spread, |most, (x, y)| most.max((x - y).abs()));
+        }
+        Ok::<(BlockHash, f64), Error>((hash_block(&rows), spread))
     })?;
+    let spread = blocks.iter().map(|block| block.1).fold(0.0, f64::max);
+    // Two rows are at most twice as far apart as one is from the first.
+    if !(4.0 * spread * spread * dim as f64).is_finite() {
+        return Err(Error::Overflow);
+    }
     let hash = PointsHash::of_blocks(source.len(), dim, blocks.iter().map(|block| block.0));
-    Ok(First { hash, is_one_point: blocks.iter().all(|block| block.1) })
+    Ok(First { hash, is_one_point: spread == 0.0 })
 }
 
 impl Center {

@@ -25,6 +25,11 @@ fn no_false_centers_are_accepted() {
 }
 
 #[test]
+fn no_false_ball_of_a_kernel_is_accepted() {
+    attack("kernel-ball", &cases::kernel_ball::all()).report("kernel-ball");
+}
+
+#[test]
 fn no_false_bodies_are_accepted() {
     attack("bodies", &cases::bodies::all()).report("bodies");
 }

@@ -13,6 +13,7 @@ pub mod ellipsoid;
 pub mod files;
 pub mod hand;
 pub mod inscribed;
+pub mod kernel_ball;
 pub mod order;
 pub mod rectangle;
 pub mod robust;

@@ -18,6 +18,7 @@ pub mod files;
 mod flat;
 pub mod inscribed;
 mod interval;
+pub mod kernel_ball;
 mod lattice;
 mod linear;
 mod mvee;
@@ -46,6 +47,7 @@ use self::dop::DopOracle;
 use self::ellipse::EllipseOracle;
 use self::ellipsoid::EllipsoidOracle;
 use self::inscribed::InscribedOracle;
+use self::kernel_ball::KernelBallOracle;
 use self::order::OrderOracle;
 use self::rectangle::RectangleOracle;
 use self::robust::RobustOracle;
@@ -97,6 +99,7 @@ pub struct CaseOracle<'a> {
     ellipse: Option<EllipseOracle>,
     ellipsoids: BTreeMap<u8, EllipsoidOracle>,
     inscribed: Option<InscribedOracle>,
+    kernel_ball: Option<KernelBallOracle>,
     order: Option<OrderOracle>,
     rectangle: Option<RectangleOracle>,
     robust: Option<RobustOracle>,
@@ -130,6 +133,7 @@ impl<'a> CaseOracle<'a> {
             ellipse: None,
             ellipsoids: BTreeMap::new(),
             inscribed: None,
+            kernel_ball: None,
             order: None,
             rectangle: None,
             robust: None,
@@ -195,6 +199,11 @@ impl<'a> CaseOracle<'a> {
                 verdict.upper = verdict.upper.min(f64::MAX);
                 verdict.gap = verdict.gap.min(f64::MAX);
                 oracle.judge(found, &verdict)
+            }
+            (AnySolution::KernelBall(found), AnyVerdict::KernelBall(verdict)) => {
+                let oracle =
+                    self.kernel_ball.get_or_insert_with(|| KernelBallOracle::new(values, *columns));
+                oracle.judge(found, verdict)
             }
             (AnySolution::Order(found), AnyVerdict::Order(verdict)) => {
                 let oracle = self.order.get_or_insert_with(|| OrderOracle::new(values, *columns));
