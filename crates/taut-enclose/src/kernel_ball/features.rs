@@ -15,7 +15,7 @@ pub(super) struct Features {
     /// Row after row.
     pub(super) rows: Vec<f64>,
     /// K(x, x) for the kernels that need it; empty for the others.
-    own: Vec<f64>,
+    pub(super) own: Vec<f64>,
 }
 
 impl Features {

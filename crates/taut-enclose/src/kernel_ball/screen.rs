@@ -4,7 +4,8 @@
 //! *Idea, Gaussian.* For a group G of the support with weight Λ = Σ λᵢ, mean m = Σ λᵢxᵢ/Λ and spread v = Σ λᵢ|xᵢ − m|²/Λ, Jensen's
 //! inequality for the convex function e^{−γs} gives Σ λᵢρ(x, xᵢ) ≤ 2Λ(1 − exp(−γ(|x − m|² + v))). With one group that is a bound on
 //! |x − m|², so that one distance and a comparison prove most points to be inside. Those left over are tried with the 8 and the 64
-//! groups of a tree over the support, and the rest is summed up term by term.
+//! groups of a tree over the support. Then, from the nearest group on, the bound of a group gives way to the sum of its terms, until
+//! the point is inside; only of points outside are all terms summed up. Where a kernel is narrow, few groups are near a point.
 //! *Idea, linear.* |φ(x) − c|² = |x − m|²: one group is exact.
 //! *Guarantee.* No point above the level is passed over but by rounding, which the checker allows for.
 
@@ -19,14 +20,20 @@ use crate::Error;
 use crate::kernel::{Center as Mean, squared_distances};
 use crate::top::{Far, Top};
 
-/// Numbers of groups that are tried before all terms are summed up: where the support has at least four times as many points.
+/// Numbers of groups: those that the support has at least four times as many points as.
 const GROUPS: [usize; 3] = [1, 8, 64];
+
+/// Groups of a rough center, at most.
+const ROUGH_GROUPS: usize = 8;
 
 /// A group of the support: its weight, mean and spread.
 struct Group {
     weight: f64,
     mean: Mean,
     spread: f64,
+    /// Its points and their multipliers, in groups of the finest level.
+    members: Features,
+    lambda: Vec<f64>,
 }
 
 /// A center in the feature space.
@@ -124,7 +131,27 @@ impl Center {
             row.iter().zip(&mean).map(|(x, m)| (x - m) * (x - m)).sum::<f64>()
         };
         let spread = places.iter().map(|&i| self.lambda[i] / weight * squared(i)).sum();
-        Group { weight, mean: Mean { high: mean, low: vec![] }, spread }
+        let members = self.support.subset(places, self.dim);
+        let lambda = places.iter().map(|&i| self.lambda[i]).collect();
+        Group { weight, mean: Mean { high: mean, low: vec![] }, spread, members, lambda }
+    }
+
+    /// A center of a few points in the place of this one: the means of its groups, with their weights.
+    pub(super) fn rough(&self) -> Self {
+        let groups = self.levels.iter().rev().find(|groups| groups.len() <= ROUGH_GROUPS);
+        let Some(groups) = groups.filter(|_| self.kernel != Kernel::Linear) else {
+            return Center::new(
+                self.kernel,
+                self.dim,
+                self.support.clone(),
+                self.lambda.clone(),
+                self.spread,
+            );
+        };
+        let rows = groups.iter().flat_map(|group| group.mean.high.clone()).collect();
+        let support = Features { ids: vec![0; groups.len()], rows, ..Features::default() };
+        let lambda = groups.iter().map(|group| group.weight).collect();
+        Center::new(self.kernel, self.dim, support, lambda, 0.0)
     }
 
     /// Splits a group at the median of its widest coordinate, until there are `count`.
@@ -233,10 +260,15 @@ impl Center {
         }
         left.complete(self.kernel, self.dim);
         block.own = left.own_largest();
-        for groups in self.levels.iter().skip(1) {
-            self.screen(groups, mean_level, &mut left, block);
+        match self.levels.split_last() {
+            Some((finest, coarser)) if !coarser.is_empty() => {
+                for groups in &coarser[1..] {
+                    self.screen(groups, mean_level, &mut left, block);
+                }
+                self.refine(finest, mean_level, &left, block)
+            }
+            _ => self.measure(&left, level, block),
         }
-        self.measure(&left, level, block)
     }
 
     /// Drops rows that the bound of the groups proves to be at most at the level.
@@ -256,6 +288,46 @@ impl Center {
         *left = left.subset(&stays, self.dim);
     }
 
+    /// Puts sums in the place of the bounds of groups, the nearest first, until a row is known to be inside, or all are summed up.
+    fn refine(
+        &self,
+        groups: &[Group],
+        mean_level: f64,
+        left: &Features,
+        block: &mut Block,
+    ) -> Result<(), Error> {
+        let Kernel::Gaussian { gamma } = self.kernel else { return Ok(()) };
+        let means: Vec<f64> = groups.iter().flat_map(|group| &group.mean.high).copied().collect();
+        let largest = groups.iter().map(|group| group.lambda.len()).max().unwrap_or(0);
+        let (mut near, mut terms) = (vec![0.0; groups.len()], vec![0.0; largest]);
+        let mut order: Vec<usize> = vec![];
+        for (&id, row) in left.ids.iter().zip(left.rows.chunks_exact(self.dim)) {
+            let row = Mean { high: row.to_vec(), low: vec![] };
+            squared_distances(&means, self.dim, &row, &mut near);
+            near.iter_mut().zip(groups).for_each(|(s, group)| *s += group.spread);
+            order.clear();
+            order.extend(0..groups.len());
+            order.sort_unstable_by(|&a, &b| near[a].total_cmp(&near[b]).then(a.cmp(&b)));
+            decay_all(gamma, &mut near);
+            let mut sum: f64 = near.iter().zip(groups).map(|(rho, group)| group.weight * rho).sum();
+            let mut is_inside = sum <= mean_level;
+            for &g in &order {
+                if is_inside {
+                    break;
+                }
+                let group = &groups[g];
+                let terms = &mut terms[..group.lambda.len()];
+                squared_distances(&group.members.rows, self.dim, &row, terms);
+                decay_all(gamma, terms);
+                let exact: f64 = terms.iter().zip(&group.lambda).map(|(rho, l)| l * rho).sum();
+                sum += exact - group.weight * near[g];
+                is_inside = sum <= mean_level;
+            }
+            block.offer(id, sum - self.spread, mean_level - self.spread)?;
+        }
+        Ok(())
+    }
+
     /// Finds the squared distances of the rows that are left, term by term.
     fn measure(&self, left: &Features, level: f64, block: &mut Block) -> Result<(), Error> {
         if left.len() == 0 {
@@ -273,17 +345,7 @@ impl Center {
             }
             sums.iter_mut().for_each(|sum| *sum -= self.spread);
         }
-        for (&id, &square) in left.ids.iter().zip(&sums) {
-            if !square.is_finite() {
-                return Err(Error::Overflow);
-            }
-            block.largest = block.largest.max(square);
-            if square > level {
-                block.excess += square - level;
-                block.top.offer(Far { id, reach2: square });
-            }
-        }
-        Ok(())
+        left.ids.iter().zip(&sums).try_for_each(|(&id, &square)| block.offer(id, square, level))
     }
 }
 
@@ -292,4 +354,19 @@ struct Block {
     excess: f64,
     largest: f64,
     own: f64,
+}
+
+impl Block {
+    /// Takes a row with its squared distance, or a bound of it that is not above the level.
+    fn offer(&mut self, id: u64, square: f64, level: f64) -> Result<(), Error> {
+        if !square.is_finite() {
+            return Err(Error::Overflow);
+        }
+        self.largest = self.largest.max(square);
+        if square > level {
+            self.excess += square - level;
+            self.top.offer(Far { id, reach2: square });
+        }
+        Ok(())
+    }
 }

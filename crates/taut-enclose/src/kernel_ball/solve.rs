@@ -23,6 +23,9 @@ const WHOLE_ROWS: u64 = 1024;
 /// Parts of ε that the pairs, and the border of a hard ball, take up.
 const SHARE_OF_PAIRS: f64 = 0.125;
 const SHARE_OF_BORDER: f64 = 0.5;
+/// The part of the gap of the last pass that the pairs are solved to, and the gap before the first.
+const SHARE_OF_GAP: f64 = 0.01;
+const START_GAP: f64 = 0.2;
 /// The least tolerance of the pairs, relatively: below it rounding decides.
 const TOLERANCE_MIN: f64 = 1e-14;
 
@@ -39,8 +42,11 @@ pub(super) fn solve(
     let mut pairs = start(source, options)?;
     let mut history = vec![];
     let mut passes = 1;
+    let mut gap = START_GAP;
     loop {
-        let tolerance = (SHARE_OF_PAIRS * options.epsilon).max(TOLERANCE_MIN);
+        // While many points are outside, more digits of the multipliers would be lost with the next of them.
+        let least = (SHARE_OF_PAIRS * options.epsilon).max(TOLERANCE_MIN);
+        let tolerance = least.max(SHARE_OF_GAP * gap);
         let border = pairs.maximize(tolerance, monitor).map_err(ReadError::from)?;
         let spread = pairs.spread();
         let center = center_of(&pairs, spread);
@@ -70,6 +76,7 @@ pub(super) fn solve(
             }
         };
         history.push(PassBounds { lower: spread, upper, working_set: pairs.features.len() as u64 });
+        gap = (upper / spread - 1.0).min(gap);
         let is_done = upper <= spread * (1.0 + SHARE_OF_BORDER * options.epsilon);
         let known: BTreeSet<u64> = pairs.features.ids.iter().copied().collect();
         let fresh: Vec<u64> =
@@ -77,6 +84,10 @@ pub(super) fn solve(
         let stop = match () {
             () if is_done => Stop::Converged,
             () if passes >= options.max_passes => Stop::PassBudget,
+            () if fresh.is_empty() && tolerance > least => {
+                gap = 0.0;
+                continue;
+            }
             // All points above the level are in the working set: more digits are not to be had.
             () if fresh.is_empty() => Stop::Rounding,
             () => {
@@ -153,7 +164,7 @@ fn start(source: &dyn PointSource, options: &KernelBallOptions<'_>) -> Result<Pa
         let lambda = vec![1.0 / count as f64; count];
         let mut spread = Pairs::new(kernel, dim, features, lambda.clone(), 1.0);
         let features = std::mem::take(&mut spread.features);
-        let center = Center::new(kernel, dim, features, lambda, spread.spread());
+        let center = Center::new(kernel, dim, features, lambda, spread.spread()).rough();
         let keep = ((SOFT_START * nu * n as f64) as usize).max(NEW_ROWS);
         let found = center.pass(source, f64::MIN, keep, &options.monitor)?;
         let ids: Vec<u64> = found.far.iter().map(|far| far.id).collect();
