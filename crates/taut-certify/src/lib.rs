@@ -8,6 +8,7 @@
 //! | [`InscribedEllipsoid`] | [`InscribedCertificate`] | it lies in every half-space; no ellipsoid in the polytope has a log-volume larger by more than the gap |
 //! | [`InscribedCircle`] | [`CircleCertificate`] | its center is inside and no edge enters it; no circle in the polygon has a radius above (1 + gap)·r |
 //! | [`InscribedEllipse`] | [`EllipseCertificate`] | its center is inside and no edge enters it; no ellipse in the polygon has an area above (1 + gap) times its own |
+//! | [`InscribedOrientedRectangle`] | [`OrientedRectangleCertificate`] | it is inside; no rectangle of any direction in the polygon has an area above (1 + gap) times its own |
 //! | [`InscribedRectangle`] | [`RectangleCertificate`] | it is inside; no rectangle along the axes in the polygon has an area above (1 + gap) times its own |
 //! | [`ConvexPolygon`] | [`ConvexCertificate`] | it is convex and inside; no convex set in the polygon has an area above (1 + gap) times its own |
 //! | [`InscribedTriangle`] | [`TriangleCertificate`] | it lies in the polygon; no triangle in the polygon has an area above (1 + gap) times its own |
@@ -71,6 +72,7 @@ mod inscribed;
 mod items;
 mod json;
 mod order;
+mod oriented;
 mod polygon;
 mod rectangle;
 mod registry;
@@ -108,6 +110,10 @@ pub use inscribed::{InscribedCertificate, InscribedEllipsoid, InscribedVerdict};
 pub use items::Items;
 pub use json::{JsonError, SCHEMA};
 pub use order::{Order, OrderCertificate, OrderCurve, OrderVerdict, OrderViolation};
+pub use oriented::{
+    InscribedOrientedRectangle, OrientedRectangleCertificate, OrientedRectangleVerdict,
+    OrientedRectangleViolation,
+};
 pub use polygon::PolygonViolation;
 pub use rectangle::{
     InscribedRectangle, RectangleCertificate, RectangleVerdict, RectangleViolation,

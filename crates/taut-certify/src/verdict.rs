@@ -5,8 +5,8 @@ use taut_points::ReadError;
 
 use crate::{
     BodiesViolation, CentersViolation, CircleViolation, ConvexViolation, CurveViolation,
-    DopViolation, EllipseViolation, MeshViolation, OrderViolation, PolygonViolation,
-    RectangleViolation, SurfaceViolation, TriangleViolation,
+    DopViolation, EllipseViolation, MeshViolation, OrderViolation, OrientedRectangleViolation,
+    PolygonViolation, RectangleViolation, SurfaceViolation, TriangleViolation,
 };
 
 /// The proved facts about an enclosing shape.
@@ -378,6 +378,9 @@ pub enum Violation {
     /// Something is wrong with an inscribed ellipse.
     #[error(transparent)]
     Ellipse(#[from] EllipseViolation),
+    /// Something is wrong with an inscribed oriented rectangle.
+    #[error(transparent)]
+    OrientedRectangle(#[from] OrientedRectangleViolation),
     /// Something is wrong with an inscribed rectangle.
     #[error(transparent)]
     Rectangle(#[from] RectangleViolation),
@@ -447,6 +450,7 @@ impl Violation {
             Violation::Bodies(ref violation) => violation.fault(),
             Violation::Circle(ref violation) => violation.fault(),
             Violation::Convex(ref violation) => violation.fault(),
+            Violation::OrientedRectangle(ref violation) => violation.fault(),
             Violation::Rectangle(ref violation) => violation.fault(),
             Violation::Dop(ref violation) => violation.fault(rows),
             Violation::Ellipse(ref violation) => violation.fault(),
@@ -516,6 +520,12 @@ impl From<CircleViolation> for CheckError {
 impl From<ConvexViolation> for CheckError {
     fn from(violation: ConvexViolation) -> Self {
         CheckError::Rejected(violation.into())
+    }
+}
+
+impl From<OrientedRectangleViolation> for CheckError {
+    fn from(violation: OrientedRectangleViolation) -> Self {
+        Violation::from(violation).into()
     }
 }
 
