@@ -42,9 +42,6 @@ const COORDINATE_ERROR: f64 = f64::from_bits((1023 - 50) << 52);
 /// Share of a gap by which rounding may miss it.
 const GAP_SLACK: f64 = 1e-9;
 
-/// How far below the gap asked for the search goes, absolutely, so that the rectangle may be shrunk.
-const SHRINK_SLACK: f64 = 1e-12;
-
 /// How to look for the rectangle. Write `OrientedRectangleOptions { epsilon: 1e-2, ..Default::default() }`.
 #[derive(Clone)]
 pub struct OrientedRectangleOptions<'a> {
@@ -80,15 +77,16 @@ pub fn inscribed_oriented_rectangle(
     let units = Units::square(&polygon.edges);
     let pivot = units.extent.map(|x| 0.5 * x);
     let about = |edge: &[[f64; 2]; 2]| edge.map(|p| [p[0] - pivot[0], p[1] - pivot[1]]);
+    let moved = units.edges.iter().map(about).collect();
     let target = Target {
-        boundary: Boundary::of(units.edges.iter().map(about).collect(), COORDINATE_ERROR),
-        edges: units.edges.clone(),
+        units: &units,
+        given: &polygon.edges,
+        boundary: Boundary::of(moved, &polygon.edges, COORDINATE_ERROR),
         pivot,
         levels: Levels::of(&units.edges, units.extent[1]),
     };
-    let found = search::search(&target, units.extent, options)?;
-    let best = found.best.ok_or(Error::TooThin)?;
-    let reported = report::rounded(&best, pivot, &units, &polygon.edges).ok_or(Error::TooThin)?;
+    let found = search::search(&target, options)?;
+    let reported = found.best.ok_or(Error::TooThin)?;
     if !reported.answer.area.is_normal() {
         return Err(Error::Area);
     }

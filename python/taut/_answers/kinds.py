@@ -15,6 +15,7 @@ from .ellipse import EllipseCertificate, EllipseVerdict, InscribedEllipse
 from .ellipsoid import Ellipsoid, EllipsoidCertificate, EllipsoidVerdict
 from .inscribed import InscribedCertificate, InscribedEllipsoid, InscribedVerdict
 from .order import Order, OrderCertificate, OrderVerdict
+from .oriented import InscribedOrientedRectangle, OrientedRectangleCertificate, OrientedRectangleVerdict
 from .polygon import ConvexCertificate, ConvexPolygon, ConvexVerdict
 from .rectangle import InscribedRectangle, RectangleCertificate, RectangleVerdict
 from .robust import RobustCertificate, RobustEllipsoid, RobustVerdict
@@ -29,6 +30,7 @@ AnyVerdict = (
     | CircleVerdict
     | EllipseVerdict
     | ConvexVerdict
+    | OrientedRectangleVerdict
     | RectangleVerdict
     | TriangleVerdict
     | BodiesVerdict
@@ -91,6 +93,13 @@ KINDS = {
         ConvexPolygon,
         ConvexCertificate,
         ConvexVerdict,
+        "lies in",
+        ("answer.area", "certificate.gap"),
+    ),
+    "inscribed-oriented-rectangle": Kind(
+        InscribedOrientedRectangle,
+        OrientedRectangleCertificate,
+        OrientedRectangleVerdict,
         "lies in",
         ("answer.area", "certificate.gap"),
     ),

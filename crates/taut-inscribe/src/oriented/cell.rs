@@ -11,8 +11,9 @@ pub(super) const SLOPE: usize = 4;
 /// Largest offset in size at the root: heights are below √2·√2 in size.
 const OFFSET_MAX: f64 = 2.25;
 
-/// How surely one number has to be below another, in units, besides errors of coordinates: 2⁻⁴⁰.
-pub(super) const MARGIN: f64 = f64::from_bits((1023 - 40) << 52);
+/// How surely one number has to be below another, in units, besides errors of coordinates: 2⁻⁴², twice
+/// that of a checker.
+pub(super) const MARGIN: f64 = f64::from_bits((1023 - 42) << 52);
 
 /// The height of a point above a side is the first number plus m times the second.
 pub(super) fn height_parts(side: usize, w: [f64; 2]) -> [f64; 2] {
@@ -62,10 +63,10 @@ impl Cell {
         1.0 + least * least
     }
 
-    /// A bound of the area of all rectangles of the cell.
+    /// A bound of the area of all rectangles of the cell, which a checker finds in spite of its rounding.
     pub(super) fn hull_area(&self) -> f64 {
         let sums = [0, 1].map(|k| (self.high[k] + self.high[k + 2]).max(0.0));
-        sums[0] * sums[1] / self.least_square() * (1.0 + 8.0 * f64::EPSILON)
+        (sums[0] * sums[1] + 4.0 * MARGIN) / self.least_square() * (1.0 + 8.0 * f64::EPSILON)
     }
 
     /// The ranges that rectangles of more than an area have whose sides are no farther out than the polygon is; `None` if there are none.
@@ -116,6 +117,24 @@ impl Cell {
             let (of_a, of_b) = (self.heights(side, a), self.heights(side, b));
             let [low, high] = place[side];
             of_a[1].max(of_b[1]) < low - error || of_a[0].min(of_b[0]) > high + error
+        }) || self.is_beside_line(place, [a, b], error)
+    }
+
+    /// Whether a place surely lies on one side of the line of an edge.
+    fn is_beside_line(&self, place: &[[f64; 2]; 2], [a, b]: Segment, error: f64) -> bool {
+        let across = [b[1] - a[1], a[0] - b[0]];
+        let size = across[0].abs().max(across[1].abs());
+        [size, -size].into_iter().any(|size| {
+            let normal = across.map(|x| x / size);
+            let offset = normal[0] * a[0] + normal[1] * a[1];
+            let parts = [0, 1].map(|side| height_parts(side, normal));
+            // With p = (x·u₀ + y·u₁)/(1 + m²): n·p < h.
+            (0..4).all(|corner| {
+                let p = [place[0][corner & 1], place[1][corner >> 1]];
+                let of_part = |part: usize| p[0] * parts[0][part] + p[1] * parts[1][part];
+                let polynomial = [of_part(0) - offset, of_part(1), -offset];
+                largest_value(polynomial, self.slopes()) < -4.0 * error
+            })
         })
     }
 
@@ -135,6 +154,14 @@ impl Cell {
         (below.high[coordinate], above.low[coordinate]) = (at, at);
         (self.low[coordinate] < at && at < self.high[coordinate]).then_some([below, above])
     }
+}
+
+/// The largest value of c₀ + c₁m + c₂m² in a range of m.
+pub(super) fn largest_value([c0, c1, c2]: [f64; 3], [from, to]: [f64; 2]) -> f64 {
+    let at = |m: f64| c0 + m * (c1 + m * c2);
+    let most = at(from).max(at(to));
+    let top = -0.5 * c1 / c2;
+    if c2 < 0.0 && from < top && top < to { most.max(at(top)) } else { most }
 }
 
 /// The point with heights above sides 0 and 1.

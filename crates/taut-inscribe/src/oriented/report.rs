@@ -8,6 +8,7 @@ use crate::units::Units;
 
 use super::ascent::Candidate;
 use super::cell::SLOPE;
+use super::search::Target;
 
 /// Shares by which a rectangle is shrunk until edges are clear of it, as powers of two: from the first to the last.
 const SHRINK_BITS: std::ops::RangeInclusive<i32> = 12..=50;
@@ -23,14 +24,10 @@ pub(super) struct Reported {
 }
 
 /// Rounds a rectangle and shrinks it as little as keeps edges clear; `None` where nothing is left.
-pub(super) fn rounded(
-    best: &Candidate,
-    pivot: [f64; 2],
-    units: &Units,
-    edges: &[Segment],
-) -> Option<Reported> {
+pub(super) fn rounded(best: &Candidate, target: &Target<'_>) -> Option<Reported> {
+    let (units, edges) = (target.units, target.given);
     let center = best.center();
-    let center = units.given_point([0, 1].map(|k| center[k] + pivot[k]));
+    let center = units.given_point([0, 1].map(|k| center[k] + target.pivot[k]));
     let is_inside = edges.iter().filter(|&&edge| is_left(edge, center)).count() % 2 == 1;
     let halves = [0, 1].map(|k| 0.5 * (best.at[k] + best.at[k + 2]));
     let m = best.at[SLOPE];

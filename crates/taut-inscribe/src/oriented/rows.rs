@@ -8,7 +8,7 @@
 
 use crate::polygon::Segment;
 
-use super::cell::{Cell, MARGIN, SLOPE, height, height_parts};
+use super::cell::{Cell, MARGIN, SLOPE, height, height_parts, largest_value};
 use super::tree::Part;
 
 /// Shares of the way along an edge are whole multiples of 1 over this, as in a certificate.
@@ -89,7 +89,6 @@ impl Terms {
 
 /// The largest (s₀ + s₂)(s₁ + s₃) − area·(1 + m²) plus a polynomial in a cell.
 pub(super) fn largest(cell: &Cell, terms: &Terms, area: f64) -> f64 {
-    let [from, to] = cell.slopes();
     let mut most = f64::NEG_INFINITY;
     for corner in 0..16 {
         let s = [0, 1, 2, 3].map(|k| if corner >> k & 1 == 1 { cell.high[k] } else { cell.low[k] });
@@ -100,14 +99,7 @@ pub(super) fn largest(cell: &Cell, terms: &Terms, area: f64) -> f64 {
             c0 += constant * s;
             c1 += linear * s;
         }
-        let at = |m: f64| c0 + m * (c1 + m * c2);
-        most = most.max(at(from)).max(at(to));
-        if c2 < 0.0 {
-            let top = -0.5 * c1 / c2;
-            if from < top && top < to {
-                most = most.max(at(top));
-            }
-        }
+        most = most.max(largest_value([c0, c1, c2], cell.slopes()));
     }
     most
 }
@@ -128,12 +120,12 @@ pub(super) enum Found {
 }
 
 impl Boundary {
-    /// From the edges of rings, each edge after the one that ends where it begins.
-    pub(super) fn of(edges: Vec<Segment>, error: f64) -> Self {
+    /// From edges and the same edges as given, ring by ring, in which no two vertices of a ring are equal.
+    pub(super) fn of(edges: Vec<Segment>, given: &[Segment], error: f64) -> Self {
         let mut after: Vec<u32> = (1..=edges.len() as u32).collect();
         let mut first = 0;
-        for edge in 0..edges.len() {
-            if edges[edge][1] == edges[first][0] {
+        for edge in 0..given.len() {
+            if given[edge][1] == given[first][0] {
                 after[edge] = first as u32;
                 first = edge + 1;
             }

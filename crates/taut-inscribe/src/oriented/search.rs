@@ -14,12 +14,14 @@ use crate::inner_points::inner_points;
 use crate::levels::Levels;
 use crate::polygon::Segment;
 use crate::program::{self, Column};
+use crate::units::Units;
 
+use super::OrientedRectangleOptions;
 use super::ascent::{Candidate, around};
 use super::cell::{Cell, MARGIN, SLOPE, height, point_at};
+use super::report::{Reported, rounded};
 use super::rows::{Boundary, Condition, Found, Terms, largest};
 use super::tree::{Node, Reason};
-use super::{OrientedRectangleOptions, SHRINK_SLACK};
 
 /// Cells between two looks at the monitor.
 const CELLS_BETWEEN_LOOKS: u64 = 256;
@@ -38,7 +40,7 @@ const WEIGHT_BITS: (i32, i32) = (24, 60);
 
 /// What a search found.
 pub(super) struct Outcome {
-    pub(super) best: Option<Candidate>,
+    pub(super) best: Option<Reported>,
     /// No rectangle has a larger area.
     pub(super) upper: f64,
     pub(super) nodes: Vec<Node>,
@@ -48,18 +50,20 @@ pub(super) struct Outcome {
 }
 
 /// The polygon in the coordinates of the search.
-pub(super) struct Target {
+pub(super) struct Target<'a> {
+    pub(super) units: &'a Units,
+    /// The edges as given.
+    pub(super) given: &'a [Segment],
     pub(super) boundary: Boundary,
-    /// The edges with coordinates of at least 0, as `levels` has them, and what is taken from these.
-    pub(super) edges: Vec<Segment>,
+    /// What is taken from the coordinates of the units, whose edges are those of `levels`.
     pub(super) pivot: [f64; 2],
     pub(super) levels: Levels,
 }
 
-impl Target {
+impl Target<'_> {
     /// Whether a point of the search is inside.
     pub(super) fn is_inside(&self, p: [f64; 2]) -> bool {
-        self.levels.is_inside(&self.edges, [0, 1].map(|k| p[k] + self.pivot[k]))
+        self.levels.is_inside(&self.units.edges, [0, 1].map(|k| p[k] + self.pivot[k]))
     }
 }
 
@@ -94,8 +98,8 @@ impl PartialEq for Waiting {
 impl Eq for Waiting {}
 
 struct Search<'a> {
-    target: &'a Target,
-    best: Option<Candidate>,
+    target: &'a Target<'a>,
+    best: Option<Reported>,
     nodes: Vec<Node>,
     waiting: BinaryHeap<Waiting>,
     /// The largest bound of cells that rounding does not let split.
@@ -108,8 +112,7 @@ struct Search<'a> {
 
 /// Finds the largest rectangle and the tree that proves it.
 pub(super) fn search(
-    target: &Target,
-    extent: [f64; 2],
+    target: &Target<'_>,
     options: &OrientedRectangleOptions<'_>,
 ) -> Result<Outcome, Cancelled> {
     let mut search = Search {
@@ -118,12 +121,12 @@ pub(super) fn search(
         nodes: vec![],
         waiting: BinaryHeap::new(),
         done: 0.0,
-        epsilon: (options.epsilon - SHRINK_SLACK).max(0.5 * options.epsilon),
+        epsilon: options.epsilon,
         ascents: 0,
         extents: HashMap::new(),
     };
-    search.start(extent);
-    let list: Rc<[u32]> = (0..target.edges.len() as u32).collect();
+    search.start();
+    let list: Rc<[u32]> = (0..target.given.len() as u32).collect();
     search.add(Cell::root(), &list, f64::INFINITY);
     let mut looked = 0;
     let is_complete = loop {
@@ -151,14 +154,19 @@ pub(super) fn search(
 impl Search<'_> {
     /// The largest bound that ends the search.
     fn goal(&self) -> f64 {
-        self.best.map_or(0.0, |best| best.area) * (1.0 + self.epsilon)
+        self.area() * (1.0 + self.epsilon)
+    }
+
+    /// The area of the best rectangle, as it will be reported.
+    fn area(&self) -> f64 {
+        self.best.as_ref().map_or(0.0, |best| best.in_units)
     }
 
     /// Climbs from the largest of the rectangles around inner points.
-    fn start(&mut self, extent: [f64; 2]) {
+    fn start(&mut self) {
         let edges = &self.target.boundary.edges;
         let mut starts: Vec<Candidate> = vec![];
-        for center in inner_points(&self.target.edges, extent) {
+        for center in inner_points(&self.target.units.edges, self.target.units.extent) {
             let center = [0, 1].map(|k| center[k] - self.target.pivot[k]);
             let largest = around(center)
                 .filter_map(|found| found.freed(edges.iter().copied(), f64::INFINITY))
@@ -176,9 +184,10 @@ impl Search<'_> {
     fn climb(&mut self, start: &Candidate) {
         self.ascents += 1;
         let found = start.climbed(&self.target.boundary.edges);
-        let best = self.best.map_or(0.0, |best| best.area);
-        if found.area > best && found.area.is_finite() && self.target.is_inside(found.center()) {
-            self.best = Some(found);
+        let area = self.area();
+        if found.area > area && found.area.is_finite() {
+            let reported = rounded(&found, self.target);
+            self.best = reported.filter(|reported| reported.in_units > area).or(self.best.take());
         }
     }
 
@@ -204,7 +213,7 @@ impl Search<'_> {
             return node;
         };
         let boundary = &self.target.boundary;
-        let error = MARGIN + 8.0 * boundary.error;
+        let error = 2.0 * MARGIN + 8.0 * boundary.error;
         let hull = cell.hull();
         let apart = |place: &[[f64; 2]; 2], number: u32| {
             cell.is_apart(place, boundary.edges[number as usize], error)
@@ -279,9 +288,9 @@ impl Search<'_> {
                 parts.push((all[place].1.part, named as i64));
             }
         }
-        let value = largest(cell, &terms, area) + total * 64.0 * MARGIN;
+        let value = largest(cell, &terms, area) + total * 4.0 * MARGIN;
         if value > 0.0 {
-            self.try_step(cell, &at, &half, &found.step);
+            self.try_step(&at, &half, &found.step);
         }
         let bound = area + value.max(0.0) / cell.least_square() * (1.0 + 4.0 * MARGIN);
         // NaN carries no evidence.
@@ -290,12 +299,12 @@ impl Search<'_> {
     }
 
     /// Climbs from a step of a program if it promises more than the best rectangle.
-    fn try_step(&mut self, cell: &Cell, at: &[f64; 5], half: &[f64; 5], step: &[f64; 5]) {
+    fn try_step(&mut self, at: &[f64; 5], half: &[f64; 5], step: &[f64; 5]) {
         let coordinates = [0, 1, 2, 3, 4].map(|k| at[k] + half[k] * step[k]);
         let edges = &self.target.boundary.edges;
-        let best = self.best.map_or(0.0, |best| best.area);
+        let best = self.area();
         let start = Candidate::of(coordinates)
-            .filter(|start| start.area > best && cell.slopes()[0] <= coordinates[SLOPE])
+            .filter(|start| start.area > best)
             .and_then(|start| start.freed(edges.iter().copied(), 1.0));
         if let Some(start) = start.filter(|start| start.area > best * (1.0 + START_GAIN)) {
             self.climb(&start);

@@ -6,7 +6,7 @@
 //! *Rounding.* Terms have up to four products of at most 9 in size for a weight of 1, and at most 16 of them are added. Together with
 //! errors of heights these are off by less than 2⁻⁴¹ times the sum of 1 and all weights.
 
-use super::cell::{Cell, height_parts};
+use super::cell::{Cell, height_parts, largest};
 
 /// Bound of the errors for a weight of 1: 2⁻⁴¹.
 const TERM_ERROR: f64 = f64::from_bits((1023 - 41) << 52);
@@ -63,29 +63,9 @@ impl Terms {
     }
 }
 
-/// The largest value of a polynomial of degree 2 in a range.
-fn largest([c0, c1, c2]: [f64; 3], [from, to]: [f64; 2]) -> f64 {
-    let at = |m: f64| c0 + m * (c1 + m * c2);
-    let ends = [at(from), at(to)];
-    let most = if ends[0] >= ends[1] { ends[0] } else { ends[1] };
-    let top = -0.5 * c1 / c2;
-    match c2 < 0.0 && from < top && top < to {
-        true => most.max(at(top)),
-        false => most,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_polynomial_is_largest_at_its_top_or_an_end() {
-        assert_eq!(largest([1.0, 2.0, -1.0], [0.0, 3.0]), 2.0);
-        assert_eq!(largest([1.0, 2.0, -1.0], [2.0, 3.0]), 1.0);
-        assert_eq!(largest([1.0, -2.0, 1.0], [0.0, 3.0]), 4.0);
-        assert_eq!(largest([1.0, 0.0, 0.0], [-1.0, 1.0]), 1.0);
-    }
 
     #[test]
     fn a_point_bounds_a_side() {

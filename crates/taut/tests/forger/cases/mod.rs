@@ -14,6 +14,7 @@ pub mod files;
 pub mod hand;
 pub mod inscribed;
 pub mod order;
+pub mod oriented;
 pub mod rectangle;
 pub mod robust;
 pub mod surface;

@@ -24,6 +24,7 @@ mod mvee;
 mod mvie;
 mod numbers;
 pub mod order;
+pub mod oriented;
 pub mod rectangle;
 pub mod robust;
 pub mod shapes;
@@ -47,6 +48,7 @@ use self::ellipse::EllipseOracle;
 use self::ellipsoid::EllipsoidOracle;
 use self::inscribed::InscribedOracle;
 use self::order::OrderOracle;
+use self::oriented::OrientedOracle;
 use self::rectangle::RectangleOracle;
 use self::robust::RobustOracle;
 use self::surface::SurfaceOracle;
@@ -98,6 +100,7 @@ pub struct CaseOracle<'a> {
     ellipsoids: BTreeMap<u8, EllipsoidOracle>,
     inscribed: Option<InscribedOracle>,
     order: Option<OrderOracle>,
+    oriented: Option<OrientedOracle>,
     rectangle: Option<RectangleOracle>,
     robust: Option<RobustOracle>,
     surface: Option<SurfaceOracle>,
@@ -131,6 +134,7 @@ impl<'a> CaseOracle<'a> {
             ellipsoids: BTreeMap::new(),
             inscribed: None,
             order: None,
+            oriented: None,
             rectangle: None,
             robust: None,
             surface: None,
@@ -216,6 +220,11 @@ impl<'a> CaseOracle<'a> {
                     .get_or_insert_with(|| TriangulationOracle::new(values, *columns));
                 oracle.judge(found, verdict)
             }
+            (AnySolution::OrientedRectangle(found), AnyVerdict::OrientedRectangle(verdict)) => {
+                let oracle =
+                    self.oriented.get_or_insert_with(|| OrientedOracle::new(values, *columns));
+                oracle.judge(found, verdict)
+            }
             (AnySolution::Rectangle(found), AnyVerdict::Rectangle(verdict)) => {
                 let oracle =
                     self.rectangle.get_or_insert_with(|| RectangleOracle::new(values, *columns));
@@ -252,6 +261,10 @@ impl<'a> CaseOracle<'a> {
             }
             (AnySolution::Convex(_), AnyVerdict::Convex(verdict)) => {
                 let optimum = "the largest area of a convex set inside".to_owned();
+                vec![Interval { optimum, lower: verdict.lower, upper: verdict.upper }]
+            }
+            (AnySolution::OrientedRectangle(_), AnyVerdict::OrientedRectangle(verdict)) => {
+                let optimum = "the largest area of a rectangle of any direction inside".to_owned();
                 vec![Interval { optimum, lower: verdict.lower, upper: verdict.upper }]
             }
             (AnySolution::Rectangle(_), AnyVerdict::Rectangle(verdict)) => {
