@@ -38,6 +38,9 @@ const CONDITIONS_MAX: usize = 96;
 /// Bits of the largest weight in a certificate, and the largest power of two that weights are over.
 const WEIGHT_BITS: (i32, i32) = (24, 60);
 
+/// How far below the gap asked for bounds are to end, relatively, so that rounding of areas and of the gap does not miss it.
+const GOAL_SLACK: f64 = 32.0 * f64::EPSILON;
+
 /// What a search found.
 pub(super) struct Outcome {
     pub(super) best: Option<Reported>,
@@ -154,7 +157,7 @@ pub(super) fn search(
 impl Search<'_> {
     /// The largest bound that ends the search.
     fn goal(&self) -> f64 {
-        self.area() * (1.0 + self.epsilon)
+        self.area() * (1.0 + self.epsilon) * (1.0 - GOAL_SLACK)
     }
 
     /// The area of the best rectangle, as it will be reported.
