@@ -130,7 +130,7 @@ pub(super) fn search(
     };
     search.start();
     let list: Rc<[u32]> = (0..target.given.len() as u32).collect();
-    search.add(Cell::root(), &list, f64::INFINITY);
+    search.add(Cell::root(), &list);
     let mut looked = 0;
     let is_complete = loop {
         if looked <= search.nodes.len() as u64 {
@@ -208,7 +208,7 @@ impl Search<'_> {
     }
 
     /// Makes a node of a cell.
-    fn add(&mut self, given: Cell, parents: &Rc<[u32]>, most: f64) -> usize {
+    fn add(&mut self, given: Cell, parents: &Rc<[u32]>) -> usize {
         let node = self.nodes.len();
         self.nodes.push(Node::Leaf(Reason::Small));
         let extents = self.extents(&given);
@@ -241,7 +241,7 @@ impl Search<'_> {
         };
         let (reason, bound) = self.weighed(&cell, conditions);
         self.nodes[node] = Node::Leaf(reason);
-        let bound = bound.min(most);
+        // The bound of its parent may be less, but this reason does not prove it.
         if bound > self.goal() {
             self.waiting.push(Waiting { bound, node, given, cell, list });
         }
@@ -309,7 +309,10 @@ impl Search<'_> {
         let start = Candidate::of(coordinates)
             .filter(|start| start.area > best)
             .and_then(|start| start.freed(edges.iter().copied(), 1.0));
-        if let Some(start) = start.filter(|start| start.area > best * (1.0 + START_GAIN)) {
+        let is_better = |start: &Candidate| {
+            start.area > best * (1.0 + START_GAIN) && self.target.is_inside(start.center())
+        };
+        if let Some(start) = start.filter(is_better) {
             self.climb(&start);
         }
     }
@@ -325,7 +328,7 @@ impl Search<'_> {
             self.done = self.done.max(bound);
             return;
         };
-        let children = halves.map(|half| self.add(half, &list, bound));
+        let children = halves.map(|half| self.add(half, &list));
         self.nodes[node] = Node::Split(coordinate, children);
     }
 }

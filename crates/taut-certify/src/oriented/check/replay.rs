@@ -32,8 +32,8 @@ const BITS_MAX: i64 = 60;
 /// Largest numerator of a weight, which is a number in double precision.
 const WEIGHT_MAX: i64 = 1 << 53;
 
-/// Most edges of a part of the boundary.
-const EDGES_MAX: usize = 64;
+/// Most edges of a part of the boundary, among them those of no length between repeated rows.
+const EDGES_MAX: usize = 1024;
 
 /// The polygon about the pivot.
 struct Boundary<'a> {
@@ -265,7 +265,7 @@ impl Boundary<'_> {
         let mut edge = from;
         while edge != to {
             if part.len() > EDGES_MAX {
-                return Err("has a part of the boundary of more than 64 edges");
+                return Err("has a part of the boundary of more than 1024 edges");
             }
             edge = self.units.end(edge);
             part.push(self.edge(edge)[0]);
