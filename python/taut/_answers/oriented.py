@@ -34,7 +34,8 @@ class InscribedOrientedRectangle(Record):
         """The four corners, counterclockwise, as rows."""
         across = self.ratio * np.array([-self.axis[1], self.axis[0]])
         signs = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
-        return self.center + signs @ np.array([self.axis, across])
+        corners: Floats = self.center + signs @ np.array([self.axis, across])
+        return corners
 
 
 @record("gap", "tree")
