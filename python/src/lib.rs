@@ -25,6 +25,7 @@ mod items;
 mod names;
 mod numbers;
 mod object;
+mod oriented;
 mod picture;
 mod polygon;
 mod rectangle;
@@ -72,6 +73,8 @@ mod _native {
     use crate::inscribed::inscribed_ellipsoid;
     #[pymodule_export]
     use crate::names::names;
+    #[pymodule_export]
+    use crate::oriented::inscribed_oriented_rectangle;
     #[pymodule_export]
     use crate::polygon::inscribed_polygon;
     #[pymodule_export]

@@ -23,6 +23,7 @@ from ._answers.file import FileVerdict
 from ._answers.inscribed import InscribedCertificate, InscribedEllipsoid, InscribedVerdict
 from ._answers.kernel_ball import KernelBall, KernelBallCertificate, KernelBallVerdict
 from ._answers.order import Order, OrderCertificate, OrderVerdict
+from ._answers.oriented import InscribedOrientedRectangle, OrientedRectangleCertificate, OrientedRectangleVerdict
 from ._answers.polygon import ConvexCertificate, ConvexPolygon, ConvexVerdict
 from ._answers.rectangle import InscribedRectangle, RectangleCertificate, RectangleVerdict
 from ._answers.robust import RobustCertificate, RobustEllipsoid, RobustVerdict
@@ -44,6 +45,7 @@ from ._generate import generate
 from ._memory import sample, sort_file, spatial_order, transpose_file
 from ._native import Violation, __version__
 from ._polygon import inscribed_polygon
+from ._oriented import inscribed_oriented_rectangle
 from ._rectangle import inscribed_rectangle
 from ._robust import robust_ellipsoid
 from ._solution import Solution
@@ -87,6 +89,7 @@ __all__ = [
     "InscribedCircle",
     "InscribedEllipse",
     "InscribedEllipsoid",
+    "InscribedOrientedRectangle",
     "InscribedRectangle",
     "InscribedTriangle",
     "InscribedVerdict",
@@ -96,6 +99,8 @@ __all__ = [
     "Order",
     "OrderCertificate",
     "OrderVerdict",
+    "OrientedRectangleCertificate",
+    "OrientedRectangleVerdict",
     "PassBounds",
     "RectangleCertificate",
     "RectangleVerdict",
@@ -132,6 +137,7 @@ __all__ = [
     "inscribed_dops",
     "inscribed_ellipse",
     "inscribed_ellipsoid",
+    "inscribed_oriented_rectangle",
     "inscribed_polygon",
     "inscribed_rectangle",
     "inscribed_triangle",

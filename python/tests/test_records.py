@@ -41,6 +41,7 @@ SOLVED = {
     "circle": (taut.inscribed_circle(RINGS[:60]), (RINGS[:60],), {}),
     "ellipse": (taut.inscribed_ellipse(RINGS[:60]), (RINGS[:60],), {}),
     "rectangle": (taut.inscribed_rectangle(RINGS[:60]), (RINGS[:60],), {}),
+    "oriented rectangle": (taut.inscribed_oriented_rectangle(RINGS[:60], epsilon=0.1), (RINGS[:60],), {}),
     "convex polygon": (taut.inscribed_polygon(RINGS[:60], rounds=5), (RINGS[:60],), {}),
     "triangle": (taut.inscribed_triangle(RINGS[:60]), (RINGS[:60],), {}),
     "bodies": (taut.inscribed_dops(SIMPLEX, SIDES, count=2, disjoint=True, events=500), (SIMPLEX_ROWS,), {}),

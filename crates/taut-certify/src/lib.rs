@@ -9,6 +9,7 @@
 //! | [`InscribedEllipsoid`] | [`InscribedCertificate`] | it lies in every half-space; no ellipsoid in the polytope has a log-volume larger by more than the gap |
 //! | [`InscribedCircle`] | [`CircleCertificate`] | its center is inside and no edge enters it; no circle in the polygon has a radius above (1 + gap)·r |
 //! | [`InscribedEllipse`] | [`EllipseCertificate`] | its center is inside and no edge enters it; no ellipse in the polygon has an area above (1 + gap) times its own |
+//! | [`InscribedOrientedRectangle`] | [`OrientedRectangleCertificate`] | it is inside; no rectangle of any direction in the polygon has an area above (1 + gap) times its own |
 //! | [`InscribedRectangle`] | [`RectangleCertificate`] | it is inside; no rectangle along the axes in the polygon has an area above (1 + gap) times its own |
 //! | [`ConvexPolygon`] | [`ConvexCertificate`] | it is convex and inside; no convex set in the polygon has an area above (1 + gap) times its own |
 //! | [`InscribedTriangle`] | [`TriangleCertificate`] | it lies in the polygon; no triangle in the polygon has an area above (1 + gap) times its own |
@@ -73,6 +74,7 @@ mod items;
 mod json;
 mod kernel_ball;
 mod order;
+mod oriented;
 mod polygon;
 mod rectangle;
 mod registry;
@@ -113,6 +115,10 @@ pub use kernel_ball::{
     Kernel, KernelBall, KernelBallCertificate, KernelBallVerdict, KernelBallViolation, KernelCenter,
 };
 pub use order::{Order, OrderCertificate, OrderCurve, OrderVerdict, OrderViolation};
+pub use oriented::{
+    InscribedOrientedRectangle, OrientedRectangleCertificate, OrientedRectangleVerdict,
+    OrientedRectangleViolation,
+};
 pub use polygon::PolygonViolation;
 pub use rectangle::{
     InscribedRectangle, RectangleCertificate, RectangleVerdict, RectangleViolation,

@@ -10,9 +10,9 @@ use crate::json::{kind_of, parse_document, without_mark};
 use crate::{
     Answer, Ball, BoundingDop, Centers, CheckError, ConvexPolygon, Curve, DrawnSample, Ellipsoid,
     FileAnswer, FileCheckError, FileSolution, FileVerdict, Files, InscribedBodies, InscribedCircle,
-    InscribedEllipse, InscribedEllipsoid, InscribedRectangle, InscribedTriangle, JsonError,
-    KernelBall, Order, RobustEllipsoid, Solution, SortedFile, Surface, TransposedFile,
-    Triangulation,
+    InscribedEllipse, InscribedEllipsoid, InscribedOrientedRectangle, InscribedRectangle,
+    InscribedTriangle, JsonError, KernelBall, Order, RobustEllipsoid, Solution, SortedFile,
+    Surface, TransposedFile, Triangulation,
 };
 
 /// Hands the answers about points to a macro, each with the name of its variant.
@@ -36,7 +36,9 @@ macro_rules! answers_about_points {
             Ellipse(InscribedEllipse),
             /// A large convex polygon in a polygon.
             Convex(ConvexPolygon),
-            /// A largest rectangle in a polygon.
+            /// A largest rectangle of any direction in a polygon.
+            OrientedRectangle(InscribedOrientedRectangle),
+            /// A largest rectangle along the axes in a polygon.
             Rectangle(InscribedRectangle),
             /// A largest triangle in a polygon.
             Triangle(InscribedTriangle),

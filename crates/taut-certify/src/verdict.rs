@@ -6,7 +6,8 @@ use taut_points::ReadError;
 use crate::{
     BodiesViolation, CentersViolation, CircleViolation, ConvexViolation, CurveViolation,
     DopViolation, EllipseViolation, KernelBallViolation, MeshViolation, OrderViolation,
-    PolygonViolation, RectangleViolation, SurfaceViolation, TriangleViolation,
+    OrientedRectangleViolation, PolygonViolation, RectangleViolation, SurfaceViolation,
+    TriangleViolation,
 };
 
 /// The proved facts about an enclosing shape.
@@ -381,6 +382,9 @@ pub enum Violation {
     /// Something is wrong with a ball of a kernel.
     #[error(transparent)]
     KernelBall(#[from] KernelBallViolation),
+    /// Something is wrong with an inscribed oriented rectangle.
+    #[error(transparent)]
+    OrientedRectangle(#[from] OrientedRectangleViolation),
     /// Something is wrong with an inscribed rectangle.
     #[error(transparent)]
     Rectangle(#[from] RectangleViolation),
@@ -451,6 +455,7 @@ impl Violation {
             Violation::Circle(ref violation) => violation.fault(),
             Violation::Convex(ref violation) => violation.fault(),
             Violation::KernelBall(ref violation) => violation.fault(),
+            Violation::OrientedRectangle(ref violation) => violation.fault(),
             Violation::Rectangle(ref violation) => violation.fault(),
             Violation::Dop(ref violation) => violation.fault(rows),
             Violation::Ellipse(ref violation) => violation.fault(),
@@ -526,6 +531,12 @@ impl From<ConvexViolation> for CheckError {
 impl From<KernelBallViolation> for CheckError {
     fn from(violation: KernelBallViolation) -> Self {
         CheckError::Rejected(violation.into())
+    }
+}
+
+impl From<OrientedRectangleViolation> for CheckError {
+    fn from(violation: OrientedRectangleViolation) -> Self {
+        Violation::from(violation).into()
     }
 }
 

@@ -2,8 +2,9 @@
 
 use taut_certify::{
     Answer, Ball, BoundingDop, Centers, ConvexPolygon, Curve, Ellipsoid, InscribedBodies,
-    InscribedCircle, InscribedEllipse, InscribedEllipsoid, InscribedRectangle, InscribedTriangle,
-    KernelBall, Order, RobustEllipsoid, Solution, Surface, Triangulation,
+    InscribedCircle, InscribedEllipse, InscribedEllipsoid, InscribedOrientedRectangle,
+    InscribedRectangle, InscribedTriangle, KernelBall, Order, RobustEllipsoid, Solution, Surface,
+    Triangulation,
 };
 use taut_points::PointSource;
 
@@ -54,6 +55,7 @@ drawn_by! {
     InscribedCircle: crate::circle_figures;
     InscribedEllipse: crate::ellipse_figures;
     ConvexPolygon: crate::convex_figures;
+    InscribedOrientedRectangle: crate::oriented_rectangle_figures;
     InscribedRectangle: crate::rectangle_figures;
     InscribedTriangle: crate::triangle_figures;
     InscribedBodies: crate::bodies_figures;

@@ -12,7 +12,7 @@
 //! | a circle in a polygon, and the rings | [`circle_figures`] | a scene of the plane, with the edges that are touched |
 //! | an ellipse in a polygon, and the rings | [`ellipse_figures`] | the same |
 //! | a convex polygon in a polygon, and the rings | [`convex_figures`] | the same |
-//! | a rectangle in a polygon, and the rings | [`rectangle_figures`] | the same |
+//! | a rectangle in a polygon, and the rings | [`rectangle_figures`], [`oriented_rectangle_figures`] | the same |
 //! | an ellipse or a triangle in a polygon, and the rings | [`ellipse_figures`], [`triangle_figures`] | the same |
 //! | convex bodies in a mesh, and its triangles | [`bodies_figures`] | a scene of space, with the mesh translucent |
 //! | a bounding dop and its points | [`dop_figures`] | a scene of space, with the facets translucent |
@@ -101,7 +101,7 @@ pub use options::DrawOptions;
 pub use plot::{Bar, Level, Plot, Scale, Series, SeriesStyle};
 #[cfg(feature = "png")]
 pub use png::to_png;
-pub use rectangle::rectangle_figures;
+pub use rectangle::{oriented_rectangle_figures, rectangle_figures};
 pub use scene2::{Aspect, Axis, Circle2, Layer2, Point2, Scene2, Shape2, Text2};
 pub use scene3::{
     Layer3, Mesh3, Point3, Projection, Scene3, Shading, Shape3, Sphere3, Surface3, View, Views,

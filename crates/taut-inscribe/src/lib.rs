@@ -6,6 +6,7 @@
 //! | the largest ellipse in a polygon, with holes | [`inscribed_ellipse()`] | largest area ≤ (1 + ε)·area, proved | O(n log n), and the cells of the search |
 //! | a large convex polygon in a polygon, with holes | [`inscribed_polygon()`] | inside, proved; largest area ≤ (1 + gap)·area, proved with a gap of up to 65 % | the ellipse, and O(n) for each turn of a side |
 //! | the largest rectangle along the axes in a polygon, with holes | [`inscribed_rectangle()`] | largest area ≤ (1 + ε)·area, proved | the cells of the search |
+//! | the largest rectangle of any direction in a polygon, with holes | [`inscribed_oriented_rectangle()`] | largest area ≤ (1 + ε)·area, proved | the cells of the search |
 //! | the largest triangle in a polygon, with holes | [`inscribed_triangle()`] | largest area ≤ (1 + ε)·area, proved | O(n log n), and the cells of the search |
 //! | convex bodies in a triangle mesh that cover much of it | [`inscribed_bodies()`] | each lies inside, proved; how much they cover is an estimate | O(log n) for most events |
 //! | how much of the mesh they hide | [`occlusion()`] | an estimate with its standard error | O(n) for each view |
@@ -33,8 +34,10 @@ mod error;
 mod inner_points;
 mod levels;
 mod occlusion;
+mod oriented;
 mod pair;
 mod polygon;
+mod program;
 mod random;
 mod rectangle;
 mod simple;
@@ -47,5 +50,6 @@ pub use convex::{ConvexOptions, inscribed_polygon};
 pub use ellipse::{EllipseOptions, inscribed_ellipse};
 pub use error::Error;
 pub use occlusion::{Occlusion, OcclusionOptions, occlusion};
+pub use oriented::{OrientedRectangleOptions, inscribed_oriented_rectangle};
 pub use rectangle::{RectangleOptions, inscribed_rectangle};
 pub use triangle::{TriangleOptions, inscribed_triangle};

@@ -5,7 +5,7 @@
 //! the corners in their boxes, it must not be left of the third side, pq: (p − w) × (q − w) ≤ 0. A corner is in a half-plane that
 //! holds the part of the polygon in its box ([`tile`]). The doubled area and such terms are linear in each coordinate alone, and with
 //! weights λ ≥ 0 their sum is largest at corners of the boxes ([`bound`]). The weights solve a linear program with nine rows
-//! ([`program`]); its dual is the step of a local ascent ([`ascent`]).
+//! ([`program`](crate::program)); its dual is the step of a local ascent ([`ascent`]).
 //! *Guarantee.* largest area ≤ (1 + ε)·area, from the leaves of the subdivision, which are the certificate. No triangle is reported
 //! that an edge enters.
 //! *Trap.* A triangle can lie in a bay, outside, with no vertex in it: no edge tells, only a point of it. An edge can cut off a corner with
@@ -20,7 +20,6 @@ mod frame;
 mod gauge;
 mod groups;
 mod lines;
-mod program;
 mod report;
 mod rows;
 mod search;

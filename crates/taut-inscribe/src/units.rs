@@ -35,6 +35,26 @@ impl Units {
         Units { edges, extent, axes }
     }
 
+    /// Units in which both axes have one scale, so that angles are kept: the larger extent is in [1, 2).
+    pub(crate) fn square(edges: &[Segment]) -> Self {
+        let mut units = Units::of(edges);
+        let begins = |k: usize| edges.iter().map(move |edge| edge[0][k]);
+        let most = begins(0).chain(begins(1)).fold(0.0f64, |most, x| most.max(x.abs()));
+        let factors = factors_of(most);
+        let mut extent = 0.0f64;
+        for (k, axis) in units.axes.iter_mut().enumerate() {
+            let scaled = begins(k).map(|x| x * factors[0] * factors[1]);
+            (axis.factors, axis.origin) = (factors, scaled.clone().fold(f64::INFINITY, f64::min));
+            extent = scaled.fold(extent, |most, x| most.max(x - axis.origin));
+        }
+        let [one, other] = factors_of(extent);
+        units.axes.iter_mut().for_each(|axis| axis.growth = one * other);
+        units.edges = edges.iter().map(|edge| edge.map(|p| units.point(p))).collect();
+        units.extent =
+            [0, 1].map(|k| units.edges.iter().fold(0.0f64, |most, edge| most.max(edge[0][k])));
+        units
+    }
+
     /// A point of the input.
     pub(crate) fn point(&self, p: [f64; 2]) -> [f64; 2] {
         [self.axes[0].units(p[0]), self.axes[1].units(p[1])]
@@ -46,6 +66,16 @@ impl Units {
             let axis = self.axes[k];
             (p[k] / axis.growth + axis.origin) / axis.factors[0] / axis.factors[1]
         })
+    }
+
+    /// A coordinate scaled by the factors of its axis: exact unless it underflows.
+    pub(crate) fn scaled(&self, axis: usize, x: f64) -> f64 {
+        x * self.axes[axis].factors[0] * self.axes[axis].factors[1]
+    }
+
+    /// The power of two that brings scaled coordinates of an axis to units.
+    pub(crate) fn growth(&self, axis: usize) -> f64 {
+        self.axes[axis].growth
     }
 
     /// A difference of two coordinates of the input along an axis, in units.

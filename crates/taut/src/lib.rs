@@ -12,6 +12,7 @@
 //! | the ellipsoid of largest volume in a polytope | [`inscribed_ellipsoid()`] | optimum ≤ log-volume + ε, proved | [`enclose`] |
 //! | the largest circle in a polygon, with holes | [`inscribed_circle()`] | largest radius ≤ (1 + ε)·radius, proved | [`inscribe`] |
 //! | the largest ellipse in a polygon, with holes | [`inscribe::inscribed_ellipse()`] | largest area ≤ (1 + ε)·area, proved | [`inscribe`] |
+//! | the largest rectangle of any direction in a polygon | [`inscribe::inscribed_oriented_rectangle()`] | largest area ≤ (1 + ε)·area, proved | [`inscribe`] |
 //! | the largest rectangle along the axes in a polygon | [`inscribe::inscribed_rectangle()`] | largest area ≤ (1 + ε)·area, proved | [`inscribe`] |
 //! | a large convex polygon in a polygon, with holes | [`inscribe::inscribed_polygon()`] | inside, proved; largest area ≤ (1 + gap)·area, proved | [`inscribe`] |
 //! | the largest triangle in a polygon, with holes | [`inscribe::inscribed_triangle()`] | largest area ≤ (1 + ε)·area, proved | [`inscribe`] |

@@ -16,6 +16,7 @@ from .ellipsoid import Ellipsoid, EllipsoidCertificate, EllipsoidVerdict
 from .inscribed import InscribedCertificate, InscribedEllipsoid, InscribedVerdict
 from .kernel_ball import KernelBall, KernelBallCertificate, KernelBallVerdict
 from .order import Order, OrderCertificate, OrderVerdict
+from .oriented import InscribedOrientedRectangle, OrientedRectangleCertificate, OrientedRectangleVerdict
 from .polygon import ConvexCertificate, ConvexPolygon, ConvexVerdict
 from .rectangle import InscribedRectangle, RectangleCertificate, RectangleVerdict
 from .robust import RobustCertificate, RobustEllipsoid, RobustVerdict
@@ -31,6 +32,7 @@ AnyVerdict = (
     | CircleVerdict
     | EllipseVerdict
     | ConvexVerdict
+    | OrientedRectangleVerdict
     | RectangleVerdict
     | TriangleVerdict
     | BodiesVerdict
@@ -100,6 +102,13 @@ KINDS = {
         ConvexPolygon,
         ConvexCertificate,
         ConvexVerdict,
+        "lies in",
+        ("answer.area", "certificate.gap"),
+    ),
+    "inscribed-oriented-rectangle": Kind(
+        InscribedOrientedRectangle,
+        OrientedRectangleCertificate,
+        OrientedRectangleVerdict,
         "lies in",
         ("answer.area", "certificate.gap"),
     ),

@@ -51,6 +51,30 @@ impl Units {
         Units { points, ends, axes, stretch: 1.0, error: COORDINATE_ERROR }
     }
 
+    /// Units in which both axes have one scale, so that angles are kept: the larger extent is in [1, 2].
+    pub(crate) fn square(polygon: &Polygon) -> Self {
+        let given: Vec<[f64; 2]> = (0..polygon.len()).map(|edge| polygon.edge(edge)[0]).collect();
+        let mut axes = [0, 1].map(|k| Axis::of(given.iter().map(move |p| p[k])));
+        let factors =
+            power_pair(given.as_flattened().iter().fold(0.0, |most, x| x.abs().max(most)));
+        let scaled = |k: usize| given.iter().map(move |p| p[k] * factors[0] * factors[1]);
+        let mut extent = 0.0f64;
+        for (k, axis) in axes.iter_mut().enumerate() {
+            (axis.factors, axis.origin) = (factors, scaled(k).fold(f64::INFINITY, f64::min));
+            extent = scaled(k).fold(extent, |most, x| most.max(x - axis.origin));
+        }
+        let [one, other] = power_pair(extent);
+        axes.iter_mut().for_each(|axis| axis.growth = one * other);
+        let points = given.iter().map(|p| [axes[0].units(p[0]), axes[1].units(p[1])]).collect();
+        let ends = (0..polygon.len()).map(|edge| polygon.end(edge)).collect();
+        Units { points, ends, axes, stretch: 1.0, error: COORDINATE_ERROR }
+    }
+
+    /// The edge that begins where an edge ends.
+    pub(crate) fn end(&self, edge: u32) -> u32 {
+        self.ends[edge as usize]
+    }
+
     /// The units with the second coordinate y + m·x, for |m| ≤ 4.
     pub(crate) fn skewed(mut self, skew: f64) -> Self {
         if skew == 0.0 {

@@ -78,7 +78,7 @@ impl Args {
             Body::Ellipse(args) => pipeline::run(args),
             Body::Ellipsoid(args) => pipeline::run(args),
             Body::Polygon(args) => pipeline::run(args),
-            Body::Rectangle(args) => pipeline::run(args),
+            Body::Rectangle(args) => args.run(),
             Body::Triangle(args) => pipeline::run(args),
         }
     }

@@ -37,6 +37,34 @@ fn a_corridor_is_found_proved_and_drawn() {
 }
 
 #[test]
+fn a_rectangle_of_any_direction_is_found_proved_and_drawn() {
+    let folder = TestFolder::new();
+    // A rectangle of sides 5 and 10 along (3, 4) and (-4, 3).
+    folder.put("ring.csv", "x,y\n0,0\n3,4\n-5,10\n-8,6\n");
+    folder
+        .taut("inscribe rectangle ring.csv --oriented -o found.json --draw found.svg")
+        .ends(0)
+        .stdout_has(&[
+            "Largest rectangle of any direction in a polygon of 4 points\n",
+            "degrees",
+            "yes; it is inside, no edge enters it",
+            "no rectangle in the polygon has an area above",
+        ]);
+    let mut found: serde_json::Value = serde_json::from_str(&folder.text("found.json")).unwrap();
+    assert_eq!(found["kind"], "inscribed-oriented-rectangle");
+    assert!((found["answer"]["area"].as_f64().unwrap() - 50.0).abs() < 1e-6);
+    assert!((found["answer"]["ratio"].as_f64().unwrap() - 0.5).abs() < 1e-6);
+    assert!(folder.text("found.svg").contains("largest rectangle"));
+    folder.taut("verify found.json ring.csv").ends(0).stdout_has(&[
+        ": inscribed rectangle of any direction of area ",
+        "proved: of rectangles of any direction inside",
+    ]);
+    found["answer"]["ratio"] = 0.51.into();
+    folder.put("moved.json", found.to_string());
+    folder.taut("verify moved.json ring.csv").ends(1).stdout_has(&["Rejected: "]);
+}
+
+#[test]
 fn changed_rectangles_and_bad_input_are_refused() {
     let folder = TestFolder::new();
     folder.put("frame.csv", FRAME);

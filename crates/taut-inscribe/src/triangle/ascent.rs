@@ -3,14 +3,15 @@
 //! *Idea.* The triangle is mapped to one with legs of length 1. Each edge near it is kept apart from it by a line: a side of the triangle, to
 //! the right of which the edge stays, or the line of the edge, on one side of which the corners stay. The line with the most room is
 //! taken, and its conditions are linear in the changes of the corners but for their products. The best step of
-//! [`program`](super::program) is scaled from its centroid until no edge enters; a step that does not hold what it promises shrinks
+//! [`program`] is scaled from its centroid until no edge enters; a step that does not hold what it promises shrinks
 //! the region.
 
+use super::cell::ROWS;
 use super::gauge::{Gauge, Triangle, doubled_area, minus, scaled, turn};
 use super::groups::Groups;
-use super::program::{self, Column, ROWS};
 use super::rows::side_gradient;
 use crate::polygon::Segment;
+use crate::program::{self, Column};
 
 /// Steps of one climb among the same edges.
 const STEPS_MAX: usize = 50;
@@ -135,7 +136,7 @@ fn climb(start: Triangle, near: &Groups) -> Triangle {
 }
 
 /// The conditions of the edges near a triangle for small changes of its corners.
-fn columns(triangle: &Triangle, near: &Groups, trust: f64) -> Vec<Column> {
+fn columns(triangle: &Triangle, near: &Groups, trust: f64) -> Vec<Column<ROWS>> {
     let half = [[trust; 2]; 3];
     let away = TRUSTS_AWAY * trust;
     let length = |[a, b]: Segment| (b[0] - a[0]).hypot(b[1] - a[1]);

@@ -4,12 +4,14 @@ use std::rc::Rc;
 
 use super::gauge::{Triangle, minus};
 use super::lines::Lines;
-use super::program::ROWS;
 use super::tile::Tile;
 
 /// Share of the length of the opposite side that counts besides its component that changes the area, so that boxes are also split
 /// along directions in which the area does not change.
 const NEUTRAL_SHARE: f64 = 0.3;
+
+/// Unknowns of the linear program: six coordinates, and the products of the changes of two corners for three sides.
+pub(super) const ROWS: usize = 9;
 
 /// The boxes of the three corners.
 pub(super) type Cell = [Rc<Tile>; 3];

@@ -1,13 +1,13 @@
 //! Conditions that triangles of a cell obey: from the edges that may enter them, and from the hulls of their boxes.
 
 use super::bound::{Row, doubled_area};
-use super::cell::{Cell, middle, product};
+use super::cell::{Cell, ROWS, middle, product};
 use super::gauge::{Triangle, minus, turn};
 use super::groups::Groups;
 use super::lines::Lines;
-use super::program::{Column, ROWS};
 use super::tile::Tiles;
 use super::tree::{Leaf, Part};
+use crate::program::Column;
 
 /// Shares of the way along an edge are whole multiples of 1 over this, as in a certificate.
 const SHARES: f64 = 65536.0;
@@ -208,7 +208,7 @@ pub(super) fn side_gradient(
 }
 
 /// The column of a condition in the program of a cell.
-pub(super) fn column(cell: &Cell, tiles: &Tiles<'_>, condition: &Condition) -> Column {
+pub(super) fn column(cell: &Cell, tiles: &Tiles<'_>, condition: &Condition) -> Column<ROWS> {
     let triangle = middle(cell);
     let half = cell.each_ref().map(|tile| tile.half());
     match *condition {

@@ -13,14 +13,14 @@ use taut_points::Cancelled;
 
 use super::ascent::Candidate;
 use super::bound::{doubled_area, row_error};
-use super::cell::{self, Cell};
+use super::cell::{self, Cell, ROWS};
 use super::gauge::{self, Triangle, centroid};
-use super::program::{self, Column};
 use super::report::{self, Reported, Target};
 use super::rows::{self, Condition, Entered};
 use super::tile::Tiles;
 use super::tree::{self, Leaf, Log, Node, Reason};
 use super::{TriangleOptions, starts};
+use crate::program::{self, Column};
 
 /// Cells between two looks at the monitor.
 const CELLS_BETWEEN_LOOKS: u64 = 256;
@@ -244,9 +244,10 @@ impl Search<'_> {
         let of_edges = conditions.into_iter().map(|pair| pair.1);
         let of_boxes = rows::half_planes(cell, &self.tiles);
         let column = |condition| (rows::column(cell, &self.tiles, &condition), condition);
-        let mut all: Vec<(Column, Condition)> = of_edges.chain(of_boxes).map(column).collect();
+        let mut all: Vec<(Column<ROWS>, Condition)> =
+            of_edges.chain(of_boxes).map(column).collect();
         all.retain(|(column, _)| column.can_bind());
-        let columns: Vec<Column> = all.iter().map(|pair| pair.0).collect();
+        let columns: Vec<Column<ROWS>> = all.iter().map(|pair| pair.0).collect();
         let middle = cell::middle(cell);
         let at_middle = gauge::doubled_area(&middle);
         let changes = cell::changes(cell);

@@ -7,7 +7,8 @@ use super::common::{Ring, solve, verify};
 use super::ellipses::{solve as solve_ellipse, verified};
 use super::triangles;
 use taut_inscribe::{
-    ConvexOptions, Error, RectangleOptions, inscribed_polygon, inscribed_rectangle,
+    ConvexOptions, Error, OrientedRectangleOptions, RectangleOptions, inscribed_oriented_rectangle,
+    inscribed_polygon, inscribed_rectangle,
 };
 use taut_points::Points;
 
@@ -214,5 +215,29 @@ fn countries_have_a_proved_rectangle() {
             );
             assert!(gap <= 0.05, "{name}: {gap}");
         }
+    }
+}
+
+#[test]
+fn countries_have_a_proved_oriented_rectangle() {
+    let Some(rings) = rings("countries_110m.json.xz") else { return };
+    for (name, ring) in rings {
+        let source = Points::new(ring.as_flattened(), 2).unwrap();
+        let begun = std::time::Instant::now();
+        let found = inscribed_oriented_rectangle(&source, &OrientedRectangleOptions::default());
+        let found = found.unwrap_or_else(|error| panic!("{name}: {error}"));
+        let solved = begun.elapsed().as_secs_f64();
+        let begun = std::time::Instant::now();
+        let verdict = found.check(&source).unwrap_or_else(|error| panic!("{name}: {error}"));
+        let checked = begun.elapsed().as_secs_f64();
+        let (vertices, cells) = (ring.len(), found.certificate.tree.len());
+        let (area, json) = (found.answer.area, found.to_json().len());
+        println!(
+            "{name}: {vertices} vertices, area {area:.6}, {cells} cells, {json} bytes, {solved:.3} s, check {checked:.3} s"
+        );
+        assert!(verdict.gap <= 1e-3 * (1.0 + 1e-8), "{name}: {verdict:?}");
+        let options = RectangleOptions { epsilon: 1e-2, ..Default::default() };
+        let along_axes = inscribed_rectangle(&source, &options).unwrap().answer.area;
+        assert!(area * (1.0 + 1e-3) >= along_axes, "{name}: {area} and {along_axes}");
     }
 }

@@ -9,6 +9,7 @@ mod ellipse_mutations;
 mod ellipses;
 mod laws;
 mod mutations;
+mod oriented_rectangles;
 mod polygons;
 mod rectangles;
 mod rings;

@@ -55,6 +55,11 @@ fn no_false_convex_polygon_is_accepted() {
 }
 
 #[test]
+fn no_false_oriented_rectangle_is_accepted() {
+    attack("oriented-rectangle", &cases::oriented::all()).report("oriented-rectangle");
+}
+
+#[test]
 fn no_false_rectangle_is_accepted() {
     attack("rectangle", &cases::rectangle::all()).report("rectangle");
 }

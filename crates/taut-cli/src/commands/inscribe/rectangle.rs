@@ -1,5 +1,6 @@
-//! `taut inscribe rectangle`: the largest rectangle along the axes in a polygon.
+//! `taut inscribe rectangle`: the largest rectangle in a polygon, along the axes or of any direction.
 
+mod oriented;
 mod report;
 
 use std::path::PathBuf;
@@ -11,11 +12,11 @@ use taut::{Monitor, Solution};
 use crate::effort::Effort;
 use crate::exit::Outcome;
 use crate::input::reading::{Opened, Reading};
-use crate::pipeline::{Find, Input, Output, OutputOptions};
+use crate::pipeline::{self, Find, Input, Output, OutputOptions};
 use crate::reports;
 use crate::watch::Watch;
 
-/// Find the largest rectangle with sides along the axes in a polygon, with or without holes.
+/// Find the largest rectangle in a polygon, with or without holes: along the axes, or of any direction with --oriented.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Two columns x, y are the vertices of one ring in order. A third column has the number of the ring, 0, 1, and so on, for
@@ -26,11 +27,15 @@ Exit: 0 reached · 1 the check failed · 2 bad input or usage, nothing written �
       3 stopped early by the budget of cells, or where rounding hides the gap that was asked for;
         the gap reached is reported
 Example: taut inscribe rectangle ring.csv -o rectangle.json --draw rectangle.svg &&
-         taut verify rectangle.json ring.csv")]
+         taut verify rectangle.json ring.csv
+Example: taut inscribe rectangle ring.csv --oriented -o oriented.json")]
 pub(super) struct Rectangle {
     /// Rings of vertices in order, in any format of `taut formats`, such as CSV or GeoJSON; - is standard input
     #[arg(value_name = "RING")]
     path: PathBuf,
+    /// Let the sides have any direction; by default they are along the axes
+    #[arg(long)]
+    oriented: bool,
     /// Proved relative gap to reach, in (0, 1): largest area ≤ (1 + ε)·area
     #[arg(long, value_name = "REAL", default_value = "1e-3", allow_negative_numbers = true)]
     epsilon: f64,
@@ -76,6 +81,14 @@ impl Find for Rectangle {
 }
 
 impl Rectangle {
+    /// Finds the rectangle that was asked for.
+    pub(super) fn run(&self) -> anyhow::Result<Outcome> {
+        match self.oriented {
+            true => pipeline::run(&oriented::Oriented(self)),
+            false => pipeline::run(self),
+        }
+    }
+
     fn options(&self) -> RectangleOptions<'static> {
         RectangleOptions {
             epsilon: self.epsilon,

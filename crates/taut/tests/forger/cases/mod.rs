@@ -15,6 +15,7 @@ pub mod hand;
 pub mod inscribed;
 pub mod kernel_ball;
 pub mod order;
+pub mod oriented;
 pub mod rectangle;
 pub mod robust;
 pub mod surface;

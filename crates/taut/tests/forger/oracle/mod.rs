@@ -25,6 +25,7 @@ mod mvee;
 mod mvie;
 mod numbers;
 pub mod order;
+pub mod oriented;
 pub mod rectangle;
 pub mod robust;
 pub mod shapes;
@@ -49,6 +50,7 @@ use self::ellipsoid::EllipsoidOracle;
 use self::inscribed::InscribedOracle;
 use self::kernel_ball::KernelBallOracle;
 use self::order::OrderOracle;
+use self::oriented::OrientedOracle;
 use self::rectangle::RectangleOracle;
 use self::robust::RobustOracle;
 use self::surface::SurfaceOracle;
@@ -101,6 +103,7 @@ pub struct CaseOracle<'a> {
     inscribed: Option<InscribedOracle>,
     kernel_ball: Option<KernelBallOracle>,
     order: Option<OrderOracle>,
+    oriented: Option<OrientedOracle>,
     rectangle: Option<RectangleOracle>,
     robust: Option<RobustOracle>,
     surface: Option<SurfaceOracle>,
@@ -135,6 +138,7 @@ impl<'a> CaseOracle<'a> {
             inscribed: None,
             kernel_ball: None,
             order: None,
+            oriented: None,
             rectangle: None,
             robust: None,
             surface: None,
@@ -225,6 +229,11 @@ impl<'a> CaseOracle<'a> {
                     .get_or_insert_with(|| TriangulationOracle::new(values, *columns));
                 oracle.judge(found, verdict)
             }
+            (AnySolution::OrientedRectangle(found), AnyVerdict::OrientedRectangle(verdict)) => {
+                let oracle =
+                    self.oriented.get_or_insert_with(|| OrientedOracle::new(values, *columns));
+                oracle.judge(found, verdict)
+            }
             (AnySolution::Rectangle(found), AnyVerdict::Rectangle(verdict)) => {
                 let oracle =
                     self.rectangle.get_or_insert_with(|| RectangleOracle::new(values, *columns));
@@ -261,6 +270,10 @@ impl<'a> CaseOracle<'a> {
             }
             (AnySolution::Convex(_), AnyVerdict::Convex(verdict)) => {
                 let optimum = "the largest area of a convex set inside".to_owned();
+                vec![Interval { optimum, lower: verdict.lower, upper: verdict.upper }]
+            }
+            (AnySolution::OrientedRectangle(_), AnyVerdict::OrientedRectangle(verdict)) => {
+                let optimum = "the largest area of a rectangle of any direction inside".to_owned();
                 vec![Interval { optimum, lower: verdict.lower, upper: verdict.upper }]
             }
             (AnySolution::Rectangle(_), AnyVerdict::Rectangle(verdict)) => {

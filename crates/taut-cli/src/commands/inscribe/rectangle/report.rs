@@ -62,6 +62,6 @@ impl Summary for InscribedRectangle {
 }
 
 /// A corner as a pair.
-fn corner([x, y]: [f64; 2]) -> String {
+pub(super) fn corner([x, y]: [f64; 2]) -> String {
     format!("({}, {})", exact(x), exact(y))
 }

@@ -1,12 +1,9 @@
 //! The weights of conditions that bound the area in a cell best, and the step that promises the most.
 //!
-//! *Problem.* Minimize −Σ λᵢOᵢ + Σₖ |Tₖ − Σᵢ λᵢgᵢₖ| over λ ≥ 0. Its dual is the step: the ξ in [−1, 1]⁹ of the largest T·ξ among those
+//! *Problem.* Minimize −Σ λᵢOᵢ + Σₖ |Tₖ − Σᵢ λᵢgᵢₖ| over λ ≥ 0. Its dual is the step: the ξ in [−1, 1]ᴺ of the largest T·ξ among those
 //! with Oᵢ + gᵢ·ξ ≤ 0 for all conditions i.
-//! *Method.* The simplex method with nine rows; |x| is the sum of two slacks of cost 1. It begins with slacks alone.
+//! *Method.* The simplex method with N rows, one for each unknown; |x| is the sum of two slacks of cost 1. It begins with slacks alone.
 //! *Guarantee.* None is needed: any weights give a bound.
-
-/// Rows of the program: six coordinates, and the products of the changes of two corners for three sides.
-pub(super) const ROWS: usize = 9;
 
 /// Pivots after which the weights so far are taken.
 const PIVOTS_MAX: usize = 120;
@@ -22,35 +19,40 @@ const RAY_EXCESS: f64 = 1.01;
 
 /// A condition O + g·ξ ≤ 0.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Column {
+pub(crate) struct Column<const N: usize> {
     /// O and g, over the sum of the sizes of g.
     value: f64,
-    gradient: [f64; ROWS],
+    gradient: [f64; N],
     /// That sum.
     size: f64,
 }
 
-impl Column {
-    pub(super) fn new(value: f64, gradient: [f64; ROWS]) -> Self {
+impl<const N: usize> Column<N> {
+    pub(crate) fn new(value: f64, gradient: [f64; N]) -> Self {
         let size = gradient.iter().map(|g| g.abs()).sum::<f64>().max(f64::MIN_POSITIVE);
         Column { value: value / size, gradient: gradient.map(|g| g / size), size }
     }
 
-    /// Whether some step of [−1, 1]⁹ breaks the condition.
-    pub(super) fn can_bind(&self) -> bool {
+    /// The value in the middle, in sizes of the gradient.
+    pub(crate) fn value(&self) -> f64 {
+        self.value
+    }
+
+    /// Whether some step of [−1, 1]ᴺ breaks the condition.
+    pub(crate) fn can_bind(&self) -> bool {
         self.value > -1.0
     }
 }
 
 /// A solution of the program.
 #[derive(Clone, Debug)]
-pub(super) struct Weights {
+pub(crate) struct Weights<const N: usize> {
     /// Conditions, by their place in the list, and weights above 0.
-    pub(super) parts: Vec<(usize, f64)>,
+    pub(crate) parts: Vec<(usize, f64)>,
     /// The best step, each coordinate in [−1, 1], if all pivots were made.
-    pub(super) step: [f64; ROWS],
+    pub(crate) step: [f64; N],
     /// The value of the weights; −∞ where it has no bound and none was needed.
-    pub(super) value: f64,
+    pub(crate) value: f64,
 }
 
 /// A basic variable: a condition, or a slack of a row with its sign.
@@ -61,19 +63,23 @@ enum Basic {
 }
 
 /// Solves the program, at least until the value is not above `enough`.
-pub(super) fn best(columns: &[Column], target: &[f64; ROWS], enough: f64) -> Weights {
-    let mut basis = [Basic::Slack(0, 1.0); ROWS];
-    let mut inverse = [[0.0; ROWS]; ROWS];
-    let mut solution = [0.0; ROWS];
-    for k in 0..ROWS {
+pub(crate) fn best<const N: usize>(
+    columns: &[Column<N>],
+    target: &[f64; N],
+    enough: f64,
+) -> Weights<N> {
+    let mut basis = [Basic::Slack(0, 1.0); N];
+    let mut inverse = [[0.0; N]; N];
+    let mut solution = [0.0; N];
+    for k in 0..N {
         let sign = if target[k] < 0.0 { -1.0 } else { 1.0 };
         basis[k] = Basic::Slack(k, sign);
         inverse[k][k] = sign;
         solution[k] = target[k].abs();
     }
-    let (mut prices, mut value) = ([0.0; ROWS], 0.0);
+    let (mut prices, mut value) = ([0.0; N], 0.0);
     for _ in 0..PIVOTS_MAX {
-        (prices, value) = ([0.0; ROWS], 0.0);
+        (prices, value) = ([0.0; N], 0.0);
         for (row, &basic) in basis.iter().enumerate() {
             let cost = match basic {
                 Basic::Condition(i) => -columns[i].value,
@@ -104,7 +110,7 @@ pub(super) fn best(columns: &[Column], target: &[f64; ROWS], enough: f64) -> Wei
             }
         }
         let Some(basic) = entering else { break };
-        let direction: [f64; ROWS] = match basic {
+        let direction: [f64; N] = match basic {
             Basic::Condition(i) => {
                 let g = columns[i].gradient;
                 inverse.map(|row| row.iter().zip(g).map(|(x, y)| x * y).sum())
@@ -112,7 +118,7 @@ pub(super) fn best(columns: &[Column], target: &[f64; ROWS], enough: f64) -> Wei
             Basic::Slack(k, sign) => inverse.map(|row| sign * row[k]),
         };
         let mut leaving: Option<(usize, f64)> = None;
-        for row in 0..ROWS {
+        for row in 0..N {
             if direction[row] > ENTRY_SLACK {
                 let ratio = solution[row].max(0.0) / direction[row];
                 let is_better = leaving.is_none_or(|(other, least)| {
@@ -140,7 +146,7 @@ pub(super) fn best(columns: &[Column], target: &[f64; ROWS], enough: f64) -> Wei
             return Weights { parts: vec![], step: prices, value: f64::NEG_INFINITY };
         };
         let pivot = inverse[row].map(|x| x / direction[row]);
-        for other in 0..ROWS {
+        for other in 0..N {
             if other != row {
                 solution[other] -= ratio * direction[other];
                 for (entry, x) in inverse[other].iter_mut().zip(pivot) {
@@ -157,10 +163,10 @@ pub(super) fn best(columns: &[Column], target: &[f64; ROWS], enough: f64) -> Wei
 }
 
 /// The conditions of a basis with weights above 0, and one more.
-fn parts(
-    columns: &[Column],
-    basis: &[Basic; ROWS],
-    solution: &[f64; ROWS],
+fn parts<const N: usize>(
+    columns: &[Column<N>],
+    basis: &[Basic; N],
+    solution: &[f64; N],
     extra: Option<(usize, f64)>,
 ) -> Vec<(usize, f64)> {
     let of_basis = basis.iter().zip(solution).filter_map(|(&basic, &x)| match basic {
@@ -173,6 +179,8 @@ fn parts(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    const ROWS: usize = 9;
 
     fn random() -> impl FnMut() -> f64 {
         let mut state = 7u64;
@@ -201,7 +209,8 @@ mod tests {
             let target = [(); ROWS].map(|()| next());
             let rows: Vec<(f64, [f64; ROWS])> =
                 (0..12).map(|_| (next() - 0.4, [(); ROWS].map(|()| next()))).collect();
-            let columns: Vec<Column> = rows.iter().map(|row| Column::new(row.0, row.1)).collect();
+            let columns: Vec<Column<ROWS>> =
+                rows.iter().map(|row| Column::new(row.0, row.1)).collect();
             let found = best(&columns, &target, f64::NEG_INFINITY);
             let value = value_of(&found.parts, &rows, &target);
             assert!((found.value - value).abs() < 1e-9, "{found:?}");

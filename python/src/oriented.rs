@@ -1,0 +1,29 @@
+//! `taut.inscribed_oriented_rectangle`, behind its Python signature.
+
+use pyo3::prelude::*;
+use taut::Items;
+use taut::inscribe::OrientedRectangleOptions;
+
+use crate::found::{Found, solve};
+use crate::items::raise;
+use crate::numbers::whole;
+
+/// The largest rectangle of any direction in the polygon whose rings are the rows of an array.
+#[pyfunction]
+pub(crate) fn inscribed_oriented_rectangle(
+    py: Python<'_>,
+    rows: &Bound<'_, PyAny>,
+    epsilon: f64,
+    max_cells: &Bound<'_, PyAny>,
+) -> PyResult<Found> {
+    let max_cells = whole("max_cells", max_cells, "at least 1")?;
+    solve(
+        py,
+        rows,
+        |source, monitor| {
+            let options = OrientedRectangleOptions { epsilon, max_cells, monitor: *monitor };
+            taut::inscribe::inscribed_oriented_rectangle(source, &options)
+        },
+        |error, columns| raise(error, Items::Points, columns),
+    )
+}
