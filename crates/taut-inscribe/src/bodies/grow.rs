@@ -6,6 +6,7 @@ use taut_points::Monitor;
 
 use super::clip::{self, Scratch};
 use super::directions::{DIRECTIONS_MAX, Directions, Offsets, opposite};
+use super::lines::Line;
 use super::pack::{Family, Start};
 use super::polytope::{self, Sides};
 use super::scores::Scores;
@@ -169,7 +170,8 @@ impl<'a> Space<'a> {
         Ok(())
     }
 
-    fn event(&mut self, i: usize, dop: &mut Dop, most: i32) -> i32 {
+    /// Returns how far facet i of a body can move outward, at most to `most`.
+    pub(super) fn event(&mut self, i: usize, dop: &mut Dop, most: i32) -> i32 {
         self.events += 1;
         let event = self.tree.event(i, &dop.h, most, dop.stops[i]);
         dop.stops[i] = event.stop.or(dop.stops[i]);
@@ -232,8 +234,8 @@ impl Family for Space<'_> {
         Dop::new(h, start.point, start.is_given)
     }
 
-    fn aim(&mut self, points: Vec<[i32; 3]>) {
-        self.scores = Scores::of(&self.tree.directions, points);
+    fn aim(&mut self, points: Vec<[i32; 3]>, lines: Option<Vec<Line>>) {
+        self.scores = Scores::of(&self.tree.directions, points, lines.as_deref());
     }
 
     fn set_obstacles(&mut self, bodies: &[&Dop]) {
@@ -257,6 +259,10 @@ impl Family for Space<'_> {
 
     fn score(&self, dop: &Dop) -> u64 {
         self.scores.count(&dop.h)
+    }
+
+    fn sides(&self, dop: &Dop) -> Sides {
+        Sides::of_dop(&self.tree.directions, &dop.h)
     }
 
     fn contains(&self, dop: &Dop, p: [i32; 3]) -> bool {

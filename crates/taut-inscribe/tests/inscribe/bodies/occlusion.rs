@@ -1,10 +1,12 @@
 //! The share of lines that bodies hide.
 
 use taut_certify::{ConvexBody, InscribedBodies};
-use taut_inscribe::{Error, Occlusion, OcclusionOptions, inscribed_bodies, occlusion};
+use taut_inscribe::{
+    BodiesOptions, Error, Objective, Occlusion, OcclusionOptions, inscribed_bodies, occlusion,
+};
 use taut_points::InputError;
 
-use super::shapes::{Mesh, cuboid, octahedron, options, points, wavy};
+use super::shapes::{Mesh, cuboid, free, octahedron, options, points, proved, wavy};
 
 fn boxes(sizes: &[[i64; 2]]) -> InscribedBodies {
     let normals = vec![[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]];
@@ -84,4 +86,48 @@ fn bad_options_and_rows_are_refused() {
     let plane = taut_points::Points::new(&[0.0; 6], 3).unwrap();
     let refused = occlusion(&plane, &boxes(&[]), &OcclusionOptions::default());
     assert!(matches!(refused, Err(Error::Input(InputError::Dimension { dim: 3, .. }))));
+}
+
+/// A cube has more volume than a plate, and less surface, so that it hides less (Cauchy).
+#[test]
+fn one_body_covers_the_cube_and_hides_the_plate() {
+    let mut mesh = cuboid([0.0; 3], [4.0; 3]);
+    mesh.extend(cuboid([5.0, 0.0, 0.0], [15.0, 10.0, 0.5]));
+    for base in [options(6), options(18), free(64)] {
+        for (objective, volume) in [(Objective::Volume, 64.0), (Objective::Occlusion, 50.0)] {
+            let options = BodiesOptions { objective, ..base.clone() };
+            let (found, verdict) = proved(&mesh, &options);
+            assert!((verdict.largest - volume).abs() < 1e-3, "{options:?}: {verdict:?}");
+            let counters = &found.trace.counters;
+            let lines = counters["searched_lines"];
+            match objective {
+                Objective::Volume => assert_eq!(lines, 0),
+                // 240 of 336, with four standard errors of 8,000 lines; few lines meet both boxes.
+                Objective::Occlusion => {
+                    let share = counters["searched_hidden"] as f64 / lines as f64;
+                    assert!((0.71..0.80).contains(&share), "{share}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn bodies_that_optimize_occlusion_hide_more_and_are_the_same_for_all_threads() {
+    let mesh = wavy(20, None);
+    for base in [options(18), free(40)] {
+        let base = BodiesOptions { count: 3, events: 10_000, ..base };
+        let [by_volume, by_lines] = [Objective::Volume, Objective::Occlusion].map(|objective| {
+            let (found, _) = proved(&mesh, &BodiesOptions { objective, ..base.clone() });
+            (hidden(&mesh, &found.answer, 200_000).share, found)
+        });
+        println!("{:?}: {:.3} by volume, {:.3} by lines", base.shape, by_volume.0, by_lines.0);
+        assert!(by_lines.0 > by_volume.0, "{} and {}", by_lines.0, by_volume.0);
+        let options = BodiesOptions { objective: Objective::Occlusion, ..base };
+        for threads in [1, 3] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let again = pool.install(|| proved(&mesh, &options).0);
+            assert_eq!(again.to_json(), by_lines.1.to_json());
+        }
+    }
 }
