@@ -112,22 +112,24 @@ fn one_body_covers_the_cube_and_hides_the_plate() {
     }
 }
 
+/// The lines of the search have the measure of those of the estimate. A search of 8,000 lines sees up to 2 % more than others do;
+/// the standard errors of both leave as much again.
 #[test]
-fn bodies_that_optimize_occlusion_hide_more_and_are_the_same_for_all_threads() {
+fn the_search_counts_lines_as_the_estimate_does_for_all_threads() {
     let mesh = wavy(20, None);
     for base in [options(18), free(40)] {
-        let base = BodiesOptions { count: 3, events: 10_000, ..base };
-        let [by_volume, by_lines] = [Objective::Volume, Objective::Occlusion].map(|objective| {
-            let (found, _) = proved(&mesh, &BodiesOptions { objective, ..base.clone() });
-            (hidden(&mesh, &found.answer, 200_000).share, found)
-        });
-        println!("{:?}: {:.3} by volume, {:.3} by lines", base.shape, by_volume.0, by_lines.0);
-        assert!(by_lines.0 > by_volume.0, "{} and {}", by_lines.0, by_volume.0);
-        let options = BodiesOptions { objective: Objective::Occlusion, ..base };
+        let objective = Objective::Occlusion;
+        let options = BodiesOptions { count: 3, events: 10_000, objective, ..base };
+        let (found, _) = proved(&mesh, &options);
+        let counters = &found.trace.counters;
+        let seen = counters["searched_hidden"] as f64 / counters["searched_lines"] as f64;
+        let share = hidden(&mesh, &found.answer, 200_000).share;
+        println!("{:?}: {seen:.3} seen by the search, {share:.3} estimated", options.shape);
+        assert!((seen - share).abs() < 0.04, "{seen} and {share}");
         for threads in [1, 3] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             let again = pool.install(|| proved(&mesh, &options).0);
-            assert_eq!(again.to_json(), by_lines.1.to_json());
+            assert_eq!(again.to_json(), found.to_json());
         }
     }
 }

@@ -9,7 +9,7 @@ use super::shapes::{Mesh, cuboid, octahedron, options, proved, solve, wavy};
 
 /// All seeds, with and without translation, and merged spheres.
 fn variants() -> Vec<BodiesThesisOptions> {
-    let usual = BodiesThesisOptions::default();
+    let usual = BodiesThesisOptions { cells: 16, ..BodiesThesisOptions::default() };
     let mut all = vec![BodiesThesisOptions { merge: true, ..usual }];
     for seeds in ThesisSeeds::ALL {
         for translate in [false, true] {
