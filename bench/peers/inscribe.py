@@ -3,8 +3,8 @@
 mic-shapely and mic-polylabel find the largest circle in the ring of the input, to a tolerance of 1e-6: center and radius.
 solid-iris grows one region of drake's Iris, at most 5 iterations, from the inner point that is farthest from the mesh, around all its
 triangles; solid-vhacd makes at most 32 hulls, solid-coacd as many at a threshold of 0.1. Of these goes to CENTER which share of the inside
-they cover, which part of the volume lies outside, as a share of the inside, and the volume of the largest part. Inside is the winding
-number of libigl above one half, at the cells of a grid of 64 along the longest side.
+they cover, which part of the volume lies outside, as a share of the inside, and the volume of the largest part; of Iris also its seed.
+Inside is the winding number of libigl above one half, at the cells of a grid of 64 along the longest side.
 """
 
 import json
@@ -66,10 +66,12 @@ def iris(solid):
     options.iteration_limit, options.require_sample_point_is_contained = 5, False
     obstacles = [VPolytope(solid.vertices[face].T) for face in solid.faces]
     box = HPolyhedron.MakeBox(solid.low - 0.01, solid.high + 0.01)
+    seed = inner[squares.argmax()]
     start = time.perf_counter()
-    region = Iris(obstacles, inner[squares.argmax()], box, options)
+    region = Iris(obstacles, seed, box, options)
     seconds = time.perf_counter() - start
-    return solid.judged([VPolytope(region).vertices().T], seconds)
+    *found, judged = solid.judged([VPolytope(region).vertices().T], seconds)
+    return *found, [*judged, *seed]
 
 
 def vhacd(solid):

@@ -2,7 +2,7 @@
 
 mod bodies;
 mod planar;
-mod shapes;
+pub(crate) mod shapes;
 
 use taut_certify::{InscribedBodies, Solution};
 use taut_inscribe::{BodiesOptions, BodyShape, OcclusionOptions, inscribed_bodies, occlusion};
@@ -22,7 +22,7 @@ pub(crate) const AREA: Area<Run> = Area {
         runs("packing", bodies::packing)
             .about("18-dops, overlapping and disjoint: coverage, time, certificates, occlusion."),
         runs("peers", bodies::peers).about(
-            "One dop beside drake's Iris; packings beside V-HACD and CoACD, with what lies outside.",
+            "A body with free facets beside drake's Iris from its seed; packings beside V-HACD and CoACD, with what lies outside.",
         ),
     ],
     runs: 3,

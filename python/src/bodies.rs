@@ -2,8 +2,11 @@
 
 use pyo3::prelude::*;
 use taut::Items;
-use taut::inscribe::{BodiesOptions, BodyShape};
+use taut::inscribe::{
+    BodiesMethod, BodiesOptions, BodiesThesisOptions, BodyShape, Objective, ThesisSeeds,
+};
 
+use crate::choice::choice;
 use crate::found::{Found, solve};
 use crate::items::raise;
 use crate::numbers::whole;
@@ -16,6 +19,7 @@ pub(crate) fn inscribed_bodies(
     rows: &Bound<'_, PyAny>,
     is_free: bool,
     facets: &Bound<'_, PyAny>,
+    objective: &str,
     count: &Bound<'_, PyAny>,
     disjoint: bool,
     at: Vec<[f64; 3]>,
@@ -23,13 +27,30 @@ pub(crate) fn inscribed_bodies(
     close_holes: bool,
     events: &Bound<'_, PyAny>,
     seed: &Bound<'_, PyAny>,
+    method: &str,
+    seeds: &str,
+    cells: &Bound<'_, PyAny>,
+    votes: &Bound<'_, PyAny>,
+    translate: bool,
+    merge: bool,
 ) -> PyResult<Found> {
     let shape = match is_free {
         true => BodyShape::Free(whole("facets", facets, "from 8 to 256")?),
         false => BodyShape::Dop(whole("directions", facets, "6, 14, 18 or 26")?),
     };
+    let objective = choice::<Objective>("objective", objective)?;
     let count = whole("count", count, "from 1 to 1000")?;
     let events = whole("events", events, "at least 1")?;
+    let method = match choice::<BodiesMethod>("method", method)? {
+        BodiesMethod::Thesis(_) => BodiesMethod::Thesis(BodiesThesisOptions {
+            seeds: choice::<ThesisSeeds>("seeds", seeds)?,
+            cells: whole("cells", cells, "from 2 to 256")?,
+            votes: whole("votes", votes, "from 1 to 100")?,
+            translate,
+            merge,
+        }),
+        other => other,
+    };
     let seed = whole("seed", seed, "from 0 to 2^64 - 1")?;
     solve(
         py,
@@ -37,6 +58,8 @@ pub(crate) fn inscribed_bodies(
         |source, monitor| {
             let options = BodiesOptions {
                 shape,
+                method,
+                objective,
                 count,
                 disjoint,
                 at: &at,

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use pyo3::prelude::*;
 use taut::certify::{OrderCurve, SurfaceMethod};
 use taut::delaunay::InsertionOrder;
+use taut::inscribe::{BodiesMethod, Objective, ThesisSeeds};
 use taut::oblivious::external::KeyKind;
 use taut::points::{Choice, Distribution};
 use taut::reconstruct::thesis::Priority;
@@ -26,6 +27,9 @@ pub(crate) fn names() -> BTreeMap<&'static str, Vec<&'static str>> {
         ("delaunay.order", of::<InsertionOrder>()),
         ("ellipsoid.method", of::<EllipsoidMethod>()),
         ("generate.distribution", listed(Distribution::NAMES)),
+        ("inscribed_dops.method", of::<BodiesMethod>()),
+        ("inscribed_dops.objective", of::<Objective>()),
+        ("inscribed_dops.seeds", of::<ThesisSeeds>()),
         ("robust_ellipsoid.method", of::<RobustMethod>()),
         ("sort_file.kind", listed(KeyKind::NAMES)),
         ("spatial_order.curve", of::<OrderCurve>()),

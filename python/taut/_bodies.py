@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
 from ._arrays import Rows, as_rows
 from ._solution import Solution
+
+Objective = Literal["volume", "occlusion"]
+BodiesMethod = Literal["recreate", "thesis"]
+ThesisSeeds = Literal["grid", "center", "random"]
 
 
 def triangle_rows(vertices: ArrayLike, triangles: ArrayLike) -> Rows:
@@ -54,6 +60,7 @@ def inscribed_bodies(
     triangles: ArrayLike,
     *,
     facets: int = 256,
+    objective: Objective = "volume",
     count: int | None = None,
     disjoint: bool = False,
     at: ArrayLike | None = None,
@@ -75,6 +82,8 @@ def inscribed_bodies(
         `close_holes` is set.
     facets : int from 8 to 256, default 256
         Most facets of a body; more facets cover more.
+    objective : {"volume", "occlusion"}, default "volume"
+        What the search counts: the part of the inside that bodies cover, or the lines through the mesh that they hide.
     count : int from 1 to 1000, optional
         Most bodies to find; fewer are found where no more fit. By default 1, or 1000 with `coverage`; as many as there are
         points in `at`, if these are more.
@@ -88,7 +97,7 @@ def inscribed_bodies(
     close_holes : bool, default False
         Whether the holes of a mesh that is not closed are closed by triangles, the ``caps`` of the answer.
     events : int >= 1, default 200_000
-        How many facets one search may move or place; more of these events cover more.
+        How many facets one search may place, move, or try to move; more of these events cover more.
     seed : int >= 0, default 0
         Where the random choices begin.
 
@@ -121,7 +130,8 @@ def inscribed_bodies(
     rows = triangle_rows(vertices, triangles)
     return Solution(
         _native.inscribed_bodies(
-            rows, True, facets, _count(count, coverage), disjoint, _points(at), coverage, close_holes, events, seed
+            rows, True, facets, objective, _count(count, coverage), disjoint, _points(at), coverage, close_holes,
+            events, seed, "recreate", "grid", 32, 5, False, False,
         ),
         rows,
     )
@@ -132,6 +142,7 @@ def inscribed_dops(
     triangles: ArrayLike,
     *,
     directions: int = 18,
+    objective: Objective = "volume",
     count: int | None = None,
     disjoint: bool = False,
     at: ArrayLike | None = None,
@@ -139,6 +150,12 @@ def inscribed_dops(
     close_holes: bool = False,
     events: int = 200_000,
     seed: int = 0,
+    method: BodiesMethod = "recreate",
+    seeds: ThesisSeeds = "grid",
+    cells: int = 32,
+    votes: int = 5,
+    translate: bool = False,
+    merge: bool = False,
 ) -> Solution:
     """Large convex bodies with facets in fixed directions (k-dops) inside a triangle mesh, with a certificate.
 
@@ -154,6 +171,8 @@ def inscribed_dops(
         `close_holes` is set.
     directions : {6, 14, 18, 26}, default 18
         Directions of the facets.
+    objective : {"volume", "occlusion"}, default "volume"
+        What the search counts: the part of the inside that bodies cover, or the lines through the mesh that they hide.
     count : int from 1 to 1000, optional
         Most bodies to find; fewer are found where no more fit. By default 1, or 1000 with `coverage`; as many as there are
         points in `at`, if these are more.
@@ -167,9 +186,24 @@ def inscribed_dops(
     close_holes : bool, default False
         Whether the holes of a mesh that is not closed are closed by triangles, the ``caps`` of the answer.
     events : int >= 1, default 200_000
-        How many facets one search may move or place; more of these events cover more.
+        How many facets one search may place, move, or try to move; more of these events cover more.
     seed : int >= 0, default 0
         Where the random choices begin.
+    method : {"recreate", "thesis"}, default "recreate"
+        "recreate" grows bodies, ruins them in a few facets and grows them again. "thesis" is the procedure of section 8.5
+        of the thesis: disjoint bodies, without a budget of events; the options after this one are of it alone. It needs
+        triangles that are turned alike.
+    seeds : {"grid", "center", "random"}, default "grid"
+        Where dops start: at the point of a grid that is farthest from all vertices and dops; at the center of the bounding
+        box, then at random points; at random points.
+    cells : int from 2 to 256, default 32
+        Cells of the grid along the longest side.
+    votes : int from 1 to 100, default 5
+        How many of the nearest vertices vote on whether a point is inside.
+    translate : bool, default False
+        Whether a dop that has doubled its size moves away from what it touches, and doubles again.
+    merge : bool, default False
+        Whether a dop starts around the centers of the largest sphere and its largest neighbor, with seeds of a grid.
 
     Returns
     -------
@@ -200,7 +234,8 @@ def inscribed_dops(
     rows = triangle_rows(vertices, triangles)
     return Solution(
         _native.inscribed_bodies(
-            rows, False, directions, _count(count, coverage), disjoint, _points(at), coverage, close_holes, events, seed
+            rows, False, directions, objective, _count(count, coverage), disjoint, _points(at), coverage, close_holes,
+            events, seed, method, seeds, cells, votes, translate, merge,
         ),
         rows,
     )

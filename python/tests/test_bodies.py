@@ -40,6 +40,24 @@ def test_bodies_are_closed_meshes_that_face_outward():
         assert abs(volume - body.volume) < 1e-9
 
 
+def test_occlusion_can_be_the_objective():
+    found = taut.inscribed_dops(OCTAHEDRON, FACES, objective="occlusion", events=1000)
+    counters = found.trace.counters
+    assert 0 < counters["searched_hidden"] < counters["searched_lines"]
+    with pytest.raises(ValueError, match="objective"):
+        taut.inscribed_bodies(OCTAHEDRON, FACES, objective="surface")
+
+
+def test_the_procedure_of_the_thesis_gives_disjoint_bodies():
+    # All triangles turned outward, as its votes need them.
+    outward = [face if (face > 2).sum() % 2 == 0 else face[::-1] for face in FACES]
+    found = taut.inscribed_dops(OCTAHEDRON, np.array(outward), directions=6, count=3, method="thesis", seeds="random")
+    assert found.answer.disjoint and found.trace.method == "thesis"
+    assert found.check(taut.triangle_rows(OCTAHEDRON, FACES)).disjoint
+    with pytest.raises(ValueError, match="cells"):
+        taut.inscribed_dops(OCTAHEDRON, FACES, method="thesis", cells=1)
+
+
 def test_disjoint_bodies_travel_as_json():
     found = taut.inscribed_dops(OCTAHEDRON, FACES, count=3, disjoint=True, events=3000)
     again = taut.Solution.from_json(found.to_json())

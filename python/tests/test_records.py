@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import taut
-from taut import _ball, _centers, _curve, _delaunay, _ellipsoid, _generate, _memory, _native, _robust, _surface
+from taut import _ball, _bodies, _centers, _curve, _delaunay, _ellipsoid, _generate, _memory, _native, _robust, _surface
 from taut._record import Record
 
 RNG = np.random.default_rng(5)
@@ -266,6 +266,9 @@ WORDS = {
     "delaunay.order": _delaunay.InsertionOrder,
     "ellipsoid.method": _ellipsoid.EllipsoidMethod,
     "generate.distribution": _generate.Distribution,
+    "inscribed_dops.method": _bodies.BodiesMethod,
+    "inscribed_dops.objective": _bodies.Objective,
+    "inscribed_dops.seeds": _bodies.ThesisSeeds,
     "robust_ellipsoid.method": _robust.RobustMethod,
     "sort_file.kind": _memory.KeyKind,
     "spatial_order.curve": _memory.OrderCurve,

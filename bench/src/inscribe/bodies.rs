@@ -10,6 +10,9 @@ const MODELS: [Model; 4] = [
     model("horse", 10, [[0.67, 0.72], [0.57, 0.62], [0.0, 0.0]], 0.0),
 ];
 
+/// Events for one body that is compared with a region of drake: some 20 bodies of 50 planes.
+const REGION_EVENTS: u64 = 1_000;
+
 /// Bodies with what they cost.
 struct Packed {
     found: Solution<InscribedBodies>,
@@ -108,14 +111,32 @@ pub(super) fn peers(context: &Context, out: &mut Outcome) -> Result<()> {
                     continue;
                 }
             };
-            // What is found goes to the file: covered, outside, volume of the largest part.
-            ensure!(theirs.center.len() == 3, "{peer}: three numbers expected");
+            // What is found goes to the file: covered, outside, volume of the largest part; of Iris then its seed.
+            let (judged, seed) = theirs.center.split_at(theirs.center.len().min(3));
+            ensure!(judged.len() == 3, "{peer}: three numbers expected");
             let row = json!([model.name, peer, theirs.support, theirs.seconds]);
             let row: Vec<Value> = row.as_array().into_iter().flatten().cloned().collect();
-            table.push([row, theirs.center.iter().map(|x| json!(x)).collect()].concat());
-            if peer == "solid-iris" {
-                let what = format!("{}: drake's time for one region over ours for all", model.name);
-                out.at_least(what, theirs.seconds / seconds, [1.0, 100.0], Unit::Times);
+            table.push([row, judged.iter().map(|x| json!(x)).collect()].concat());
+            if let [x, y, z] = *seed {
+                // One body around the seed that Iris had, with few events, as Iris has at most five rounds.
+                let (at, events) = ([[x, y, z]], REGION_EVENTS);
+                let options = BodiesOptions { at: &at, events, ..Default::default() };
+                let Packed { found, seconds, coverage, .. } = pack(context, &mesh, &options)?;
+                let volume = found.answer.bodies[0].volume;
+                table.push(json!([
+                    model.name,
+                    "taut, from its seed",
+                    1,
+                    seconds,
+                    coverage,
+                    0.0,
+                    volume
+                ]));
+                let of =
+                    |what: &str| format!("{}: {what} of one free body over drake's", model.name);
+                out.at_least(of("volume"), volume / judged[2], [1.0, 1.1], Unit::Times);
+                let what = format!("{}: drake's time for one region over ours", model.name);
+                out.at_least(what, theirs.seconds / seconds, [100.0, 1000.0], Unit::Times);
             }
         }
     }

@@ -34,7 +34,7 @@ fn collect(value: &Value, name: &str, found: &mut Vec<Named>) {
 }
 
 /// The triangles of a mesh, by their corners.
-pub(super) type Mesh = Vec<[[f64; 3]; 3]>;
+pub(crate) type Mesh = Vec<[[f64; 3]; 3]>;
 
 /// A model, and what has to be reached on it.
 #[derive(Clone, Copy)]
@@ -61,7 +61,7 @@ pub(super) const fn model(
 }
 
 /// The mesh of a model with the longest side 1 and without holes, each closed by a fan; `None` where it is missing.
-pub(super) fn read(name: &str) -> Result<Option<Mesh>> {
+pub(crate) fn read(name: &str) -> Result<Option<Mesh>> {
     let Some(path) = data::find(&format!("inscribe/{name}.off.xz")) else { return Ok(None) };
     let mesh = open_mesh(&path, Content::Surface, None)?;
     let extent = |c: usize| {

@@ -43,6 +43,11 @@ impl Figure {
         Figure::new(number, title.into(), x, ["points", ""], Scale::Linear)
     }
 
+    /// A figure of shares.
+    pub(super) fn of_shares(number: u32, title: impl Into<String>, x: &'static str) -> Self {
+        Figure::new(number, title.into(), x, ["share", "%"], Scale::Linear)
+    }
+
     fn new(
         number: u32,
         title: String,

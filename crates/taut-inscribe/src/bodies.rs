@@ -22,6 +22,7 @@ mod directions;
 mod free;
 mod given;
 mod grow;
+mod lines;
 mod mesh;
 mod options;
 mod pack;
@@ -29,6 +30,7 @@ mod polytope;
 mod proof;
 mod samples;
 mod scores;
+mod thesis;
 mod tree;
 mod vectors;
 mod warm;
@@ -46,6 +48,7 @@ use crate::Error;
 
 use self::directions::Directions;
 use self::free::Free;
+use self::lines::Sample;
 use self::mesh::GridMesh;
 use self::pack::{Family, Input, Packing};
 use self::proof::Proved;
@@ -53,7 +56,9 @@ use self::tree::Tree;
 use crate::random::Random;
 
 pub use self::mesh::triangle_rows;
-pub use self::options::{BodiesOptions, BodyShape};
+pub use self::options::{
+    BodiesMethod, BodiesOptions, BodiesThesisOptions, BodyShape, Objective, ThesisSeeds,
+};
 
 /// Points by which coverage is reported; the search does not see them. The standard error is below 0.2 %.
 const REPORTED_POINTS: usize = 60_000;
@@ -80,7 +85,9 @@ pub fn inscribed_bodies(
     let tree = Arc::new(Tree::new(&mesh.corners, &Arc::new(Directions::of(kind))));
     let given = given::starts(&mesh, &tree, options)?;
     let points = samples::points(&tree, pack::SCORED_POINTS, &mut random);
-    let input = Input::new(&mesh, &tree, &points, &given, options);
+    let mut hidden = || Sample::draw(&tree, lines::SCORED_LINES, &mut random);
+    let lines = (options.objective == Objective::Occlusion).then(&mut hidden);
+    let input = Input::new(&mesh, &tree, &points, lines.as_ref(), &given, options);
     let (found, searched) = search(&input, &tree)?;
     if found.bodies.is_empty() {
         return Err(if mesh.caps.is_empty() { Error::NoInside } else { Error::Ambiguous });
@@ -95,10 +102,16 @@ pub fn inscribed_bodies(
         ("sample_points", reported.len() as u64),
         ("searched_bodies", searched.bodies),
         ("searched_covered", searched.covered),
+        ("searched_hidden", searched.hidden),
+        ("searched_lines", lines.map_or(0, |lines| lines.lines.len() as u64)),
         ("searched_points", points.len() as u64),
         ("triangles", mesh.corners.len() as u64 - mesh.caps.len() as u64),
     ];
-    let method = if let BodyShape::Dop(_) = options.shape { "dops" } else { "free" };
+    let method = match (options.method, options.shape) {
+        (BodiesMethod::Thesis(_), _) => "thesis",
+        (BodiesMethod::Recreate, BodyShape::Dop(_)) => "dops",
+        (BodiesMethod::Recreate, BodyShape::Free(_)) => "free",
+    };
     let trace = Trace {
         method: method.to_owned(),
         stop: Stop::NodeBudget,
@@ -111,7 +124,7 @@ pub fn inscribed_bodies(
     let answer = InscribedBodies {
         exponent: mesh.exponent,
         origin: mesh.origin,
-        disjoint: options.disjoint,
+        disjoint: options.is_disjoint(),
         caps: mesh.caps,
         at: options.at.to_vec(),
         bodies: found.bodies,
@@ -127,28 +140,43 @@ struct Searched {
     events: u64,
     /// How many of the points to cover bodies cover.
     covered: u64,
+    /// How many of the lines to hide bodies hide.
+    hidden: u64,
 }
 
 /// Finds and proves bodies.
 fn search(input: &Input<'_>, tree: &Arc<Tree>) -> Result<(Proved, Searched), Error> {
     let options = input.options;
+    if let BodiesMethod::Thesis(thesis) = &options.method {
+        let thesis::Packed { dops, events, covered } = thesis::pack(input, tree, thesis)?;
+        let searched = Searched { bodies: dops.len() as u64, events, covered, hidden: 0 };
+        return Ok((proof::prove(input.mesh, tree, dops, true)?, searched));
+    }
     match options.shape {
         BodyShape::Dop(_) => {
             let found = warm::pack(input, tree)?;
-            let (bodies, events, covered) =
-                (found.bodies.len() as u64, found.events, found.covered);
+            let searched = Searched {
+                bodies: found.bodies.len() as u64,
+                events: found.events,
+                covered: found.covered,
+                hidden: found.hidden,
+            };
             let proved = proof::prove(input.mesh, tree, found.bodies, options.disjoint)?;
-            Ok((proved, Searched { bodies, events, covered }))
+            Ok((proved, searched))
         }
         BodyShape::Free(facets) => {
             let random = Random::new(options.seed);
             let family = Free::new(tree, random, facets, options.monitor);
             let mut packing = Packing::new(input, family);
             packing.fill(options.events)?;
-            let (events, covered) = (packing.family.events(), packing.covered());
-            let bodies = packing.bodies.len() as u64;
+            let searched = Searched {
+                bodies: packing.bodies.len() as u64,
+                events: packing.family.events(),
+                covered: packing.covered(),
+                hidden: packing.hidden(),
+            };
             let proved = free::prove(input.mesh, tree, packing.bodies, options.disjoint)?;
-            Ok((proved, Searched { bodies, events, covered }))
+            Ok((proved, searched))
         }
     }
 }

@@ -44,7 +44,10 @@ mod simple;
 mod triangle;
 mod units;
 
-pub use bodies::{BodiesOptions, BodyShape, inscribed_bodies, triangle_rows};
+pub use bodies::{
+    BodiesMethod, BodiesOptions, BodiesThesisOptions, BodyShape, Objective, ThesisSeeds,
+    inscribed_bodies, triangle_rows,
+};
 pub use circle::{CircleOptions, inscribed_circle};
 pub use convex::{ConvexOptions, inscribed_polygon};
 pub use ellipse::{EllipseOptions, inscribed_ellipse};

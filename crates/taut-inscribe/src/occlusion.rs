@@ -142,6 +142,26 @@ fn rows(source: &dyn PointSource, monitor: &Monitor<'_>) -> Result<Vec<[[f64; 3]
     Ok(blocks.concat())
 }
 
+/// Returns a random direction, uniform on the sphere, and two directions across it and each other, all of length 1.
+pub(crate) fn frame(random: &mut Random) -> [[f64; 3]; 3] {
+    // A point of the disc is a point of the sphere; square roots are the same on all machines, unlike sines.
+    let [x, y, square] = loop {
+        let [x, y] = [random.unit(), random.unit()].map(|t| 2.0 * t - 1.0);
+        if x * x + y * y < 1.0 {
+            break [x, y, x * x + y * y];
+        }
+    };
+    let root = (1.0 - square).sqrt();
+    let along = [2.0 * x * root, 2.0 * y * root, 1.0 - 2.0 * square];
+    let least = (0..3).min_by(|&a, &b| along[a].abs().total_cmp(&along[b].abs())).unwrap_or(0);
+    let mut axis = [0.0; 3];
+    axis[least] = 1.0;
+    let one = cross(along, axis);
+    let length = (one[0] * one[0] + one[1] * one[1] + one[2] * one[2]).sqrt();
+    let one = one.map(|x| x / length);
+    [along, one, cross(along, one)]
+}
+
 /// A view: a plane across the lines, with the grid of the points at which lines cross it.
 struct Frame {
     center: [f64; 3],
@@ -155,24 +175,10 @@ struct Frame {
 
 impl Frame {
     fn random(center: [f64; 3], radius: f64, side: usize, random: &mut Random) -> Self {
-        // A point of the disc is a point of the sphere; square roots are the same on all machines, unlike sines.
-        let [x, y, square] = loop {
-            let [x, y] = [random.unit(), random.unit()].map(|t| 2.0 * t - 1.0);
-            if x * x + y * y < 1.0 {
-                break [x, y, x * x + y * y];
-            }
-        };
-        let root = (1.0 - square).sqrt();
-        let along = [2.0 * x * root, 2.0 * y * root, 1.0 - 2.0 * square];
-        let least = (0..3).min_by(|&a, &b| along[a].abs().total_cmp(&along[b].abs())).unwrap_or(0);
-        let mut axis = [0.0; 3];
-        axis[least] = 1.0;
-        let one = cross(along, axis);
-        let length = (one[0] * one[0] + one[1] * one[1] + one[2] * one[2]).sqrt();
-        let one = one.map(|x| x / length);
+        let [_, one, other] = frame(random);
         let distance = 2.0 * radius / side as f64;
         let start = [random.unit(), random.unit()].map(|shift| shift * distance - radius);
-        Frame { center, axes: [one, cross(along, one)], start, distance, side }
+        Frame { center, axes: [one, other], start, distance, side }
     }
 
     /// For each line whether it meets a triangle.

@@ -68,6 +68,7 @@ fn the_share_of_hidden_lines_is_evidence_and_the_same_for_all_threads() {
         .parse()
         .unwrap();
     assert!((30.0..80.0).contains(&share), "{share}");
+    folder.taut(&format!("{command} --objective occlusion")).ends(0).stdout_has(&["occlusion"]);
     let refused = "inscribe dops mesh.off --events 500 --occlusion 3";
     folder.taut(refused).ends(2).stderr_has(&["option `--occlusion` is 3: expected from 1000"]);
 }
@@ -112,9 +113,25 @@ fn rows_of_nine_numbers_are_triangles_and_holes_are_named() {
     folder.taut("inscribe dops open.off").ends(2).stderr_has(&[
         "open.off",
         "3 of its edges",
-        "close",
+        "--close-holes",
     ]);
     folder.taut("inscribe dops mesh.off -k 8").ends(2).stderr_has(&["--directions", "is 8"]);
     folder.put("points.off", "OFF\n1 0 0\n0 0 0\n");
     folder.taut("inscribe dops points.off").ends(2).stderr_has(&["points.off", "no triangle"]);
+}
+
+#[test]
+fn the_procedure_of_the_thesis_gives_disjoint_bodies_with_proofs() {
+    let folder = folder();
+    // All triangles turned outward, as its votes need them.
+    let turned = [("0 2 5", "2 0 5"), ("0 3 4", "3 0 4"), ("1 2 4", "2 1 4"), ("1 3 5", "3 1 5")];
+    let outward = |mesh: String, (from, to): (&str, &str)| mesh.replace(from, to);
+    folder.put("mesh.off", turned.into_iter().fold(OCTAHEDRON.to_owned(), outward));
+    let command = "inscribe dops mesh.off -k 6 --method thesis --count 3 -o bodies.json";
+    folder.taut(command).ends(0).stdout_has(&["method", "thesis", "disjoint", "yes"]);
+    folder.taut("verify bodies.json mesh.off").ends(0).stdout_has(&["no two bodies overlap"]);
+    let refused = "inscribe dops mesh.off --method thesis --votes 0";
+    folder.taut(refused).ends(2).stderr_has(&["option `--votes` is 0: expected from 1 to 100"]);
+    let refused = "inscribe dops mesh.off --method thesis --at 0,0,0";
+    folder.taut(refused).ends(2).stderr_has(&["--at", "none with method thesis"]);
 }

@@ -9,6 +9,20 @@ pub(super) const TOUCH: f64 = 1e-6;
 /// Corners of a clipped triangle, at most: each of 25 planes adds one, and rounding hardly more.
 const CORNERS_MAX: usize = 40;
 
+/// Room for the polygons of a clipped triangle, so that it is not cleared for each of them.
+pub(super) struct Scratch {
+    polygon: [[f64; 3]; CORNERS_MAX],
+    clipped: [[f64; 3]; CORNERS_MAX],
+    beyond: [f64; CORNERS_MAX],
+}
+
+impl Default for Scratch {
+    fn default() -> Self {
+        let none = [[0.0; 3]; CORNERS_MAX];
+        Scratch { polygon: none, clipped: none, beyond: [0.0; CORNERS_MAX] }
+    }
+}
+
 /// The least uᵢ·x over the triangle in the open body {uⱼ·x < hⱼ for all j ≠ i}; `None` where the triangle does not enter it.
 ///
 /// `heights` has the least uⱼ·x of the triangle, rounded down, for all j. A plane that all of the triangle is below cuts nothing.
@@ -18,10 +32,10 @@ pub(super) fn lowest(
     i: usize,
     h: &Offsets,
     directions: &Directions,
+    scratch: &mut Scratch,
 ) -> Option<f64> {
-    let mut polygon = [[0.0; 3]; CORNERS_MAX];
-    let mut clipped = [[0.0; 3]; CORNERS_MAX];
-    let mut beyond = [0.0; CORNERS_MAX];
+    let Scratch { polygon, clipped, beyond } = scratch;
+    let (mut polygon, mut clipped) = (polygon, clipped);
     let mut size = 3;
     polygon[..3].copy_from_slice(corners);
     let is_cutting = |&j: &usize| j != i && -heights[opposite(j)] >= h[j];
@@ -40,7 +54,7 @@ pub(super) fn lowest(
         }
         let mut kept = 0;
         let (mut from, mut before) = (polygon[size - 1], beyond[size - 1]);
-        for (to, &after) in polygon[..size].iter().zip(&beyond) {
+        for (to, &after) in polygon[..size].iter().zip(&*beyond) {
             if kept + 2 > CORNERS_MAX {
                 // The whole triangle is not higher than its part.
                 return Some(f64::from(heights[i]));

@@ -15,6 +15,7 @@ use taut_points::Monitor;
 
 use super::cloud::Cloud;
 use super::grow::ANCHOR_MARGIN;
+use super::lines::Line;
 use super::pack::{Family, Start};
 use super::polytope::{self, Sides};
 use super::tree::{self, Tree};
@@ -58,6 +59,8 @@ pub(super) struct Free<'a> {
     /// Planes that were placed or moved so far.
     events: u64,
     points: Cloud,
+    /// The lines to hide, if that is the objective.
+    lines: Option<Vec<Line>>,
     /// Facets of a body, at most.
     facets_max: usize,
     monitor: Monitor<'a>,
@@ -70,9 +73,16 @@ impl<'a> Free<'a> {
         facets_max: usize,
         monitor: Monitor<'a>,
     ) -> Self {
-        let tree = Arc::clone(tree);
-        let points = Cloud::default();
-        Free { tree, obstacles: vec![], random, events: 0, points, facets_max, monitor }
+        Free {
+            tree: Arc::clone(tree),
+            obstacles: vec![],
+            random,
+            events: 0,
+            points: Cloud::default(),
+            lines: None,
+            facets_max,
+            monitor,
+        }
     }
 
     /// The body with planes around the center of a metric; `None` where there is none.
@@ -135,8 +145,9 @@ impl Family for Free<'_> {
         FreeBody { sides, anchor: start.point, is_given: start.is_given, is_cube: true, covered }
     }
 
-    fn aim(&mut self, points: Vec<[i32; 3]>) {
+    fn aim(&mut self, points: Vec<[i32; 3]>, lines: Option<Vec<Line>>) {
         self.points = Cloud::of(&points);
+        self.lines = lines;
     }
 
     fn set_obstacles(&mut self, bodies: &[&FreeBody]) {
@@ -189,7 +200,14 @@ impl Family for Free<'_> {
     }
 
     fn score(&self, body: &FreeBody) -> u64 {
-        body.covered.len() as u64
+        match &self.lines {
+            Some(lines) => lines.iter().filter(|line| line.meets(&body.sides)).count() as u64,
+            None => body.covered.len() as u64,
+        }
+    }
+
+    fn sides(&self, body: &FreeBody) -> Sides {
+        body.sides.clone()
     }
 
     fn contains(&self, body: &FreeBody, p: [i32; 3]) -> bool {

@@ -4,8 +4,9 @@ use std::sync::Arc;
 
 use taut_points::Monitor;
 
-use super::clip;
-use super::directions::{Directions, Offsets, opposite};
+use super::clip::{self, Scratch};
+use super::directions::{DIRECTIONS_MAX, Directions, Offsets, opposite};
+use super::lines::Line;
 use super::pack::{Family, Start};
 use super::polytope::{self, Sides};
 use super::scores::Scores;
@@ -43,6 +44,16 @@ pub(super) struct Dop {
     pub(super) anchor: [i32; 3],
     /// Whether the body has to contain the point.
     pub(super) is_given: bool,
+    /// The triangle that stopped each facet last, by its place in the order of the tree, if one did: a first guess for the next
+    /// time.
+    pub(super) stops: [Option<u32>; DIRECTIONS_MAX],
+}
+
+impl Dop {
+    /// A body that has not grown yet.
+    pub(super) fn new(h: Offsets, anchor: [i32; 3], is_given: bool) -> Self {
+        Dop { h, anchor, is_given, stops: [None; _] }
+    }
 }
 
 /// A body that may not be entered: its facets as triangles.
@@ -88,9 +99,10 @@ impl Obstacle {
         if !tree::reaches(&self.all[..k], &limits) {
             return most;
         }
+        let scratch = &mut Scratch::default();
         for (triangle, heights) in self.triangles.iter().zip(&self.heights) {
             if tree::reaches(&heights[..k], &limits)
-                && let Some(height) = clip::lowest(triangle, heights, i, h, directions)
+                && let Some(height) = clip::lowest(triangle, heights, i, h, directions, scratch)
             {
                 limits[i] = limits[i].min((height + clip::TOUCH).floor() as i32);
             }
@@ -118,14 +130,22 @@ impl<'a> Space<'a> {
     }
 
     /// Moves facets outward in random order until each meets a triangle or is redundant.
+    ///
+    /// No facet moves inward meanwhile, so a triangle that stops a facet once stops it to the end; later tries are events that
+    /// cost nothing.
     pub(super) fn grow(&mut self, dop: &mut Dop) -> Result<(), Error> {
         self.monitor.check()?;
         let directions = Arc::clone(&self.tree.directions);
         let mut order: Vec<usize> = (0..directions.len()).collect();
+        let mut is_stopped = [false; DIRECTIONS_MAX];
         for round in 0..ROUNDS_MAX {
             self.random.shuffle(&mut order);
             let mut changed = false;
             for &i in &order {
+                if is_stopped[i] {
+                    self.events += 1;
+                    continue;
+                }
                 let h = &dop.h;
                 let mut most = self.tree.extent(i);
                 if round < BALANCED_ROUNDS {
@@ -136,8 +156,9 @@ impl<'a> Space<'a> {
                     most = most.min(h[i] + (part * width).ceil() as i32);
                 }
                 if most > h[i] {
-                    let moved = self.event(i, h, most);
-                    changed |= moved > h[i];
+                    let moved = self.event(i, dop, most);
+                    is_stopped[i] = moved < most;
+                    changed |= moved > dop.h[i];
                     dop.h[i] = moved;
                 }
             }
@@ -149,12 +170,14 @@ impl<'a> Space<'a> {
         Ok(())
     }
 
-    fn event(&mut self, i: usize, h: &Offsets, most: i32) -> i32 {
+    /// Returns how far facet i of a body can move outward, at most to `most`.
+    pub(super) fn event(&mut self, i: usize, dop: &mut Dop, most: i32) -> i32 {
         self.events += 1;
-        let most = self.tree.event(i, h, most);
+        let event = self.tree.event(i, &dop.h, most, dop.stops[i]);
+        dop.stops[i] = event.stop.or(dop.stops[i]);
         let directions = &self.tree.directions;
-        let of_one = |most: i32, obstacle: &Obstacle| obstacle.event(i, h, most, directions);
-        self.obstacles.iter().fold(most, of_one)
+        let of_one = |most: i32, obstacle: &Obstacle| obstacle.event(i, &dop.h, most, directions);
+        self.obstacles.iter().fold(event.height, of_one)
     }
 
     /// Moves some facets inward, but not beyond a point, and grows the body again.
@@ -208,11 +231,11 @@ impl Family for Space<'_> {
             let reach = 0.57 * start.clearance * length;
             h[j] = (self.tree.directions.along(j, start.point) as f64 + reach) as i32;
         }
-        Dop { h, anchor: start.point, is_given: start.is_given }
+        Dop::new(h, start.point, start.is_given)
     }
 
-    fn aim(&mut self, points: Vec<[i32; 3]>) {
-        self.scores = Scores::of(&self.tree.directions, points);
+    fn aim(&mut self, points: Vec<[i32; 3]>, lines: Option<Vec<Line>>) {
+        self.scores = Scores::of(&self.tree.directions, points, lines.as_deref());
     }
 
     fn set_obstacles(&mut self, bodies: &[&Dop]) {
@@ -236,6 +259,10 @@ impl Family for Space<'_> {
 
     fn score(&self, dop: &Dop) -> u64 {
         self.scores.count(&dop.h)
+    }
+
+    fn sides(&self, dop: &Dop) -> Sides {
+        Sides::of_dop(&self.tree.directions, &dop.h)
     }
 
     fn contains(&self, dop: &Dop, p: [i32; 3]) -> bool {

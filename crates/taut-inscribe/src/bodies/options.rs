@@ -19,11 +19,117 @@ pub enum BodyShape {
     Free(usize),
 }
 
+taut_points::choice! { "objective", Objective {
+    Volume = "volume", "by the part of the inside that bodies cover";
+    Occlusion = "occlusion", "by the part of the lines through the mesh that meet a body";
+} }
+
+/// How the search tells which bodies are better.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Objective {
+    /// By the part of the inside that they cover.
+    #[default]
+    Volume,
+    /// By the part of the lines through the mesh that also meet a body: how much of the mesh the bodies hide.
+    Occlusion,
+}
+
+/// Cells of the grid of seeds along the longest side that are allowed.
+const CELLS: std::ops::RangeInclusive<usize> = 2..=256;
+
+/// Vertices that may vote on a point.
+const VOTES: std::ops::RangeInclusive<usize> = 1..=100;
+
+taut_points::choice! { "seeds", ThesisSeeds {
+    Grid = "grid", "the point of a grid farthest from all vertices and dops";
+    Center = "center", "the center of the bounding box, then random points";
+    Random = "random", "random points";
+} }
+
+/// Where the procedure of the thesis starts dops.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ThesisSeeds {
+    /// At the point of a grid that is farthest from all vertices and dops.
+    #[default]
+    Grid,
+    /// At the center of the bounding box, then at random points.
+    Center,
+    /// At random points.
+    Random,
+}
+
+/// What the procedure of the thesis leaves open.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BodiesThesisOptions {
+    /// Where dops start. Default [`ThesisSeeds::Grid`].
+    pub seeds: ThesisSeeds,
+    /// Cells of the grid of seeds along the longest side, from 2 to 256. Default 32.
+    pub cells: usize,
+    /// How many of the nearest vertices vote on whether a point is inside, from 1 to 100. Default 5.
+    pub votes: usize,
+    /// Whether a dop that has doubled its size moves away from what it touches, and doubles again. Default false: with seeds of a
+    /// grid the thesis found it unnecessary.
+    pub translate: bool,
+    /// Whether a dop starts around the centers of two spheres, the largest one and its largest neighbor; with seeds of a grid.
+    /// Default false.
+    pub merge: bool,
+}
+
+impl BodiesThesisOptions {
+    /// The defaults.
+    pub const DEFAULT: Self = BodiesThesisOptions {
+        seeds: ThesisSeeds::Grid,
+        cells: 32,
+        votes: 5,
+        translate: false,
+        merge: false,
+    };
+
+    fn check(&self) -> Result<(), InputError> {
+        for (name, value, range, expected) in [
+            ("cells", self.cells, CELLS, "from 2 to 256"),
+            ("votes", self.votes, VOTES, "from 1 to 100"),
+        ] {
+            if !range.contains(&value) {
+                return Err(InputError::Option { name, value: value.to_string(), expected });
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Default for BodiesThesisOptions {
+    fn default() -> Self {
+        Self::DEFAULT
+    }
+}
+
+taut_points::choice! { "method", BodiesMethod {
+    Recreate = "recreate", "grow bodies by events, ruin them in a few facets and grow them again";
+    Thesis(BodiesThesisOptions::DEFAULT) = "thesis",
+        "disjoint k-dops by doubling and sliding, as in the thesis";
+} }
+
+/// The methods.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum BodiesMethod {
+    /// Bodies grow by events; random changes improve them against each other.
+    #[default]
+    Recreate,
+    /// Disjoint k-dops by the procedure of section 8.5 of the thesis, step by step. It knows neither [`BodiesOptions::at`] nor
+    /// [`Objective::Occlusion`], and ends by itself, without a budget of events.
+    Thesis(BodiesThesisOptions),
+}
+
 /// How to look for bodies. Write `BodiesOptions { count: 10, ..Default::default() }`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BodiesOptions<'a> {
     /// The facets of bodies. Default [`BodyShape::Free`] with 256 facets.
     pub shape: BodyShape,
+    /// How bodies are found. Default [`BodiesMethod::Recreate`].
+    pub method: BodiesMethod,
+    /// How the search tells which bodies are better. Default [`Objective::Volume`].
+    pub objective: Objective,
     /// Most bodies to find, from 1 to 1000; fewer are found where no more fit. Default 1.
     pub count: usize,
     /// Whether no two bodies may overlap. Default false.
@@ -36,8 +142,8 @@ pub struct BodiesOptions<'a> {
     pub coverage: Option<f64>,
     /// Whether the holes of a mesh that is not closed are closed by triangles, which the answer names. Default false.
     pub close_holes: bool,
-    /// How many facet events one search may compute, at least 1: a facet of a k-dop that moves, or a plane of a body with free
-    /// facets. A search for k-dops is preceded by those with fewer directions. Default 200,000.
+    /// How many facet events one search may take, at least 1: a facet of a k-dop that moves or tries to, or a plane of a body with
+    /// free facets. A search for k-dops is preceded by those with fewer directions. Default 200,000.
     pub events: u64,
     /// Where the random choices begin. Default 0.
     pub seed: u64,
@@ -49,6 +155,8 @@ impl Default for BodiesOptions<'_> {
     fn default() -> Self {
         BodiesOptions {
             shape: BodyShape::Free(FACETS_MAX),
+            method: BodiesMethod::Recreate,
+            objective: Objective::Volume,
             count: 1,
             disjoint: false,
             at: &[],
@@ -62,6 +170,11 @@ impl Default for BodiesOptions<'_> {
 }
 
 impl BodiesOptions<'_> {
+    /// Whether no two bodies may overlap: those of the thesis never do.
+    pub(super) fn is_disjoint(&self) -> bool {
+        self.disjoint || matches!(self.method, BodiesMethod::Thesis(_))
+    }
+
     /// Refuses options out of range.
     pub(super) fn check(&self) -> Result<(), InputError> {
         let wrong =
@@ -89,6 +202,16 @@ impl BodiesOptions<'_> {
         if self.events == 0 {
             return wrong("events", "0".to_owned(), "at least 1");
         }
-        Ok(())
+        let BodiesMethod::Thesis(thesis) = self.method else { return Ok(()) };
+        if matches!(self.shape, BodyShape::Free(_)) {
+            return wrong("method", self.method.to_string(), "recreate for free facets");
+        }
+        if self.objective == Objective::Occlusion {
+            return wrong("objective", self.objective.to_string(), "volume with method thesis");
+        }
+        if !self.at.is_empty() {
+            return wrong("at", format!("{} points", self.at.len()), "none with method thesis");
+        }
+        thesis.check()
     }
 }

@@ -2,10 +2,15 @@
 //!
 //! *Idea.* Greedy: a body starts at uncovered points far from all triangles, the best few starts are improved by random changes,
 //! and the best body stays. Afterwards each body in turn is improved against the points that the others leave. Bodies around
-//! given points come first; they are to cover as many points as they can, covered or not.
+//! given points come first; they are to cover as many points as they can, covered or not. Where the objective is occlusion, lines
+//! take the place of points: bodies start from the middles of lines that no body hides yet.
+
+use std::cell::OnceCell;
 
 use super::BodiesOptions;
+use super::lines::{Line, Sample};
 use super::mesh::GridMesh;
+use super::polytope::Sides;
 use super::tree::Tree;
 use crate::Error;
 
@@ -44,8 +49,8 @@ pub(super) trait Family {
     /// Returns a small body around a start.
     fn small(&self, start: &Start) -> Self::Body;
 
-    /// Sets the points that bodies are to cover from now on.
-    fn aim(&mut self, points: Vec<[i32; 3]>);
+    /// Sets the points that bodies are to cover from now on, and the lines that they are to hide, if these decide.
+    fn aim(&mut self, points: Vec<[i32; 3]>, lines: Option<Vec<Line>>);
 
     /// Sets the bodies that bodies may not enter from now on.
     fn set_obstacles(&mut self, bodies: &[&Self::Body]);
@@ -59,8 +64,11 @@ pub(super) trait Family {
     /// Returns a random change of the body that was prepared last.
     fn change(&mut self, body: &Self::Body) -> Result<Self::Body, Error>;
 
-    /// Returns how many of the points to cover are in the interior of a body.
+    /// Returns how many of the points to cover are in the interior of a body, or how many of the lines to hide meet it.
     fn score(&self, body: &Self::Body) -> u64;
+
+    /// Returns the half-spaces of a body.
+    fn sides(&self, body: &Self::Body) -> Sides;
 
     /// Returns whether a point is in the interior of a body.
     fn contains(&self, body: &Self::Body, p: [i32; 3]) -> bool;
@@ -81,9 +89,13 @@ pub(super) struct Input<'a> {
     pub(super) mesh: &'a GridMesh,
     /// The triangles; any directions.
     pub(super) tree: &'a Tree,
-    /// The points to cover, and their distances from the nearest triangle.
+    /// The points to cover.
     pub(super) points: &'a [[i32; 3]],
-    pub(super) clearances: Vec<f64>,
+    /// The lines to hide, if that is the objective.
+    pub(super) lines: Option<&'a Sample>,
+    /// For each line, or else for each point, the distance from its middle, or from it, to the nearest triangle, once a start is
+    /// looked for: where all are given they would take most of the time.
+    clearances: OnceCell<Vec<f64>>,
     /// The points that the first bodies contain.
     pub(super) given: &'a [Start],
     pub(super) options: &'a BodiesOptions<'a>,
@@ -94,11 +106,28 @@ impl<'a> Input<'a> {
         mesh: &'a GridMesh,
         tree: &'a Tree,
         points: &'a [[i32; 3]],
+        lines: Option<&'a Sample>,
         given: &'a [Start],
         options: &'a BodiesOptions<'a>,
     ) -> Self {
-        let clearances = points.iter().map(|&p| tree.squared_distance(p).sqrt()).collect();
-        Input { mesh, tree, points, clearances, given, options }
+        Input { mesh, tree, points, lines, clearances: OnceCell::new(), given, options }
+    }
+
+    fn clearances(&self) -> &[f64] {
+        self.clearances.get_or_init(|| {
+            let clearance = |&p: &[i32; 3]| self.tree.squared_distance(p).sqrt();
+            self.middles().iter().map(clearance).collect()
+        })
+    }
+
+    /// The points from which bodies start.
+    fn middles(&self) -> &'a [[i32; 3]] {
+        self.lines.map_or(self.points, |sample| &sample.middles)
+    }
+
+    /// The lines to hide.
+    fn lines(&self) -> &'a [Line] {
+        self.lines.map_or(&[], |sample| &sample.lines)
     }
 
     /// The most bodies.
@@ -107,48 +136,83 @@ impl<'a> Input<'a> {
     }
 }
 
-/// Bodies, and the points that each covers.
+/// Bodies, and what each of them covers and hides.
 pub(super) struct Packing<'a, F: Family> {
     pub(super) input: &'a Input<'a>,
     pub(super) family: F,
     pub(super) bodies: Vec<F::Body>,
-    covers: Vec<Vec<u32>>,
+    reaches: Vec<Reached>,
+}
+
+/// The points that a body covers, and the lines that it hides.
+struct Reached {
+    points: Vec<u32>,
+    lines: Vec<u32>,
+}
+
+/// The part of the items that no list has.
+fn left<'b>(items: usize, lists: impl Iterator<Item = &'b Vec<u32>>) -> Vec<usize> {
+    let mut is_left = vec![true; items];
+    lists.flatten().for_each(|&item| is_left[item as usize] = false);
+    (0..items).filter(|&item| is_left[item]).collect()
 }
 
 impl<'a, F: Family> Packing<'a, F> {
     pub(super) fn new(input: &'a Input<'a>, family: F) -> Self {
-        Packing { input, family, bodies: vec![], covers: vec![] }
+        Packing { input, family, bodies: vec![], reaches: vec![] }
     }
 
     /// How many points are covered.
     pub(super) fn covered(&self) -> u64 {
-        self.counts(None).iter().filter(|&&count| count > 0).count() as u64
+        (self.input.points.len() - self.open_points(None).len()) as u64
     }
 
-    /// By how many bodies each point is covered, without one of them.
-    fn counts(&self, without: Option<usize>) -> Vec<u16> {
-        let mut counts = vec![0; self.input.points.len()];
-        for (_, cover) in self.covers.iter().enumerate().filter(|&(b, _)| Some(b) != without) {
-            cover.iter().for_each(|&point| counts[point as usize] += 1);
-        }
-        counts
+    /// How many lines are hidden.
+    pub(super) fn hidden(&self) -> u64 {
+        (self.input.lines().len() - self.open_lines(None).len()) as u64
+    }
+
+    /// How many points are covered, or lines hidden, as the objective has it.
+    pub(super) fn value(&self) -> u64 {
+        if self.input.lines.is_some() { self.hidden() } else { self.covered() }
+    }
+
+    /// All bodies but one.
+    fn others(&self, without: Option<usize>) -> impl Iterator<Item = &Reached> {
+        let all = self.reaches.iter().enumerate();
+        all.filter(move |&(body, _)| Some(body) != without).map(|(_, reached)| reached)
     }
 
     /// The points that no body but one of them covers.
-    fn open(&self, without: Option<usize>) -> Vec<usize> {
-        let counts = self.counts(without);
-        (0..counts.len()).filter(|&k| counts[k] == 0).collect()
+    fn open_points(&self, without: Option<usize>) -> Vec<usize> {
+        left(self.input.points.len(), self.others(without).map(|reached| &reached.points))
     }
 
-    /// The points in a body.
-    fn cover(&self, body: &F::Body) -> Vec<u32> {
-        let points = self.input.points.iter().enumerate();
-        points.filter(|&(_, &p)| self.family.contains(body, p)).map(|(k, _)| k as u32).collect()
+    /// The lines that no body but one of them hides.
+    fn open_lines(&self, without: Option<usize>) -> Vec<usize> {
+        left(self.input.lines().len(), self.others(without).map(|reached| &reached.lines))
+    }
+
+    /// The points in a body, and the lines that meet it.
+    fn reached(&self, body: &F::Body) -> Reached {
+        let (points, lines) = (self.input.points.iter(), self.input.lines().iter());
+        let points = points.zip(0u32..).filter(|&(&p, _)| self.family.contains(body, p));
+        let sides = self.family.sides(body);
+        let lines = lines.zip(0u32..).filter(|(line, _)| line.meets(&sides));
+        Reached { points: points.map(|(_, k)| k).collect(), lines: lines.map(|(_, k)| k).collect() }
+    }
+
+    /// Sets what bodies are to cover and hide: what is left.
+    fn aim(&mut self, points: &[usize], lines: &[usize]) {
+        let input = self.input;
+        let points = points.iter().map(|&k| input.points[k]).collect();
+        let of = |sample: &Sample| lines.iter().map(|&k| sample.lines[k]).collect();
+        self.family.aim(points, input.lines.map(of));
     }
 
     /// Adds a body.
     pub(super) fn push(&mut self, body: F::Body) {
-        self.covers.push(self.cover(&body));
+        self.reaches.push(self.reached(&body));
         self.bodies.push(body);
     }
 
@@ -175,7 +239,7 @@ impl<'a, F: Family> Packing<'a, F> {
             self.family.grow(&mut grown)?;
             let until = until(self.family.events(), body);
             if let Some((_, grown)) = self.best(vec![grown], until)? {
-                self.covers[body] = self.cover(&grown);
+                self.reaches[body] = self.reached(&grown);
                 self.bodies[body] = grown;
             }
         }
@@ -190,11 +254,12 @@ impl<'a, F: Family> Packing<'a, F> {
         self.improve(events)
     }
 
-    /// The next body, which covers points that no other covers; `None` where there is no room.
+    /// The next body, which covers points or hides lines that no other does; `None` where there is no room.
     fn next(&mut self, until: u64) -> Result<Option<F::Body>, Error> {
-        let open = self.open(None);
+        let (points, lines) = (self.open_points(None), self.open_lines(None));
         self.set_obstacles(None);
-        self.family.aim(open.iter().map(|&k| self.input.points[k]).collect());
+        self.aim(&points, &lines);
+        let open = if self.input.lines.is_some() { lines } else { points };
         let mut grown: Vec<(u64, F::Body)> = vec![];
         for start in self.starts(&open) {
             let mut body = self.family.small(&start);
@@ -223,30 +288,41 @@ impl<'a, F: Family> Packing<'a, F> {
         Ok(best)
     }
 
-    /// Points among those open that are far from all triangles, the farthest first, each outside the balls around the others.
+    /// Points among those open that are far from all triangles, the farthest first, each outside the balls around the others. Of
+    /// the middles of lines half come in random order instead: a plate hides more than a ball of its volume.
     fn starts(&self, open: &[usize]) -> Vec<Start> {
         let input = self.input;
         let mut by_clearance = open.to_vec();
-        by_clearance.sort_by(|&a, &b| input.clearances[b].total_cmp(&input.clearances[a]));
+        let clearances = input.clearances();
+        by_clearance.sort_by(|&a, &b| clearances[b].total_cmp(&clearances[a]));
+        let (farthest, any) =
+            if input.lines.is_some() { (STARTS / 2, STARTS) } else { (STARTS, 0) };
         let mut starts: Vec<Start> = vec![];
-        for k in by_clearance {
-            let point = input.points[k];
-            let is_far = starts.iter().all(|start| distance(point, start.point) > start.clearance);
-            if !is_far {
-                continue;
-            }
-            let clearance = self.family.clearance(point, input.clearances[k]);
-            let is_start = clearance >= CLEARANCE_MIN
-                && input.tree.is_inside(point) == Some(true)
-                && input.mesh.sees_mesh(point);
-            if is_start {
-                starts.push(Start { point, clearance, is_given: false });
-            }
-            if starts.len() == STARTS {
-                break;
+        // Lines come in random order.
+        for (list, most) in [(&by_clearance[..], farthest), (open, any)] {
+            for &k in list {
+                if starts.len() >= most {
+                    break;
+                }
+                starts.extend(self.start(k, &starts));
             }
         }
         starts
+    }
+
+    /// A start that is outside the balls around others, if there is room around it.
+    fn start(&self, k: usize, others: &[Start]) -> Option<Start> {
+        let input = self.input;
+        let point = input.middles()[k];
+        let is_far = others.iter().all(|start| distance(point, start.point) > start.clearance);
+        if !is_far {
+            return None;
+        }
+        let clearance = self.family.clearance(point, input.clearances()[k]);
+        let is_start = clearance >= CLEARANCE_MIN
+            && input.tree.is_inside(point) == Some(true)
+            && input.mesh.sees_mesh(point);
+        is_start.then_some(Start { point, clearance, is_given: false })
     }
 
     /// Improves a body by random changes until so many events are spent; returns its score.
@@ -277,7 +353,7 @@ impl<'a, F: Family> Packing<'a, F> {
             let until = self.family.events() + left;
             self.family.prepare(&mut changed);
             self.recreate(&mut changed, until)?;
-            self.covers[body] = self.cover(&changed);
+            self.reaches[body] = self.reached(&changed);
             self.bodies[body] = changed;
         }
         Ok(())
@@ -285,11 +361,13 @@ impl<'a, F: Family> Packing<'a, F> {
 
     /// Sets what a body is to cover, and which bodies it may not enter.
     fn aim_around(&mut self, body: usize) {
-        let points = match body < self.input.given.len() {
-            true => self.input.points.to_vec(),
-            false => self.open(Some(body)).into_iter().map(|k| self.input.points[k]).collect(),
+        let (points, lines) = match body < self.input.given.len() {
+            true => {
+                ((0..self.input.points.len()).collect(), (0..self.input.lines().len()).collect())
+            }
+            false => (self.open_points(Some(body)), self.open_lines(Some(body))),
         };
-        self.family.aim(points);
+        self.aim(&points, &lines);
         self.set_obstacles(Some(body));
     }
 

@@ -42,7 +42,8 @@ fn by_clipping(directions: &Directions, i: usize, h: &Offsets, most: i32, all: &
     let clipped = all.iter().filter_map(|corners| {
         let least = |j| corners.map(|p| directions.along(j, p) as i32).into_iter().min();
         let heights: Vec<i32> = (0..directions.len()).filter_map(least).collect();
-        clip::lowest(&corners.map(|p| p.map(f64::from)), &heights, i, h, directions)
+        let scratch = &mut clip::Scratch::default();
+        clip::lowest(&corners.map(|p| p.map(f64::from)), &heights, i, h, directions, scratch)
     });
     clipped.map(|height| (height + TOUCH).floor() as i32).fold(most, i32::min).max(h[i])
 }
@@ -92,9 +93,14 @@ fn events_equal_brute_force_and_do_not_see_subdivision() {
                 for i in 0..directions.len() {
                     let most = tree.extent(i).max(h[i]) + 3;
                     let expected = by_weights(&directions, i, &h, most, &all);
-                    assert_eq!(tree.event(i, &h, most), expected, "{kind}, facet {i}: {h:?}");
+                    let event = tree.event(i, &h, most, None);
+                    assert_eq!(event.height, expected, "{kind}, facet {i}: {h:?}");
+                    assert_eq!(event.stop.is_some(), expected < most);
                     assert_eq!(by_clipping(&directions, i, &h, most, &all), expected);
-                    assert_eq!(finer_tree.event(i, &h, most), expected);
+                    assert_eq!(finer_tree.event(i, &h, most, None).height, expected);
+                    for guess in [event.stop, Some(random.below(all.len()) as u32)] {
+                        assert_eq!(tree.event(i, &h, most, guess).height, expected);
+                    }
                     events += 1;
                     stopped += u32::from(expected < most);
                 }

@@ -3,12 +3,15 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::clip::{self, TOUCH};
+use super::clip::{self, Scratch, TOUCH};
 use super::directions::{Directions, Offsets, opposite};
 use super::vectors::{dot, minus, nearest};
 
 /// Triangles of a leaf, at most. With the cost of a clipped triangle at about ten times that of a node, 2 to 8 differ little.
 const LEAF_TRIANGLES_MAX: usize = 4;
+
+/// Nodes for which the stack of an event has room from the start: a tree of 2³² triangles has at most as many at once.
+const STACK_NODES: usize = 32;
 
 /// A node: its triangles are `first..end` in the order of the tree. An inner node has its lower child next to it.
 struct Node {
@@ -29,6 +32,14 @@ pub(super) struct Tree {
     pub(super) corners: Arc<Vec<[[i32; 3]; 3]>>,
     /// The row of each triangle.
     pub(super) rows: Arc<Vec<u32>>,
+}
+
+/// How far a facet can move.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Event {
+    pub(super) height: i32,
+    /// The triangle that stops it there, by its place in the order of the tree, if one does.
+    pub(super) stop: Option<u32>,
 }
 
 /// The parts of a node.
@@ -125,37 +136,61 @@ impl Tree {
         -self.node_heights[opposite(i)]
     }
 
-    /// How far facet i of an empty body can move outward, at most to `most`: the event.
-    pub(super) fn event(&self, i: usize, h: &Offsets, most: i32) -> i32 {
+    /// Returns how far facet i of an empty body can move outward, at most to `most`: the event.
+    ///
+    /// `guess` is a triangle that is tried first, for example the one that stopped the facet before; it saves time and does not
+    /// change the event.
+    pub(super) fn event(&self, i: usize, h: &Offsets, most: i32, guess: Option<u32>) -> Event {
         let k = self.directions.len();
+        let mut scratch = Scratch::default();
+        let mut found = Event { height: most, stop: None };
         let mut limits = *h;
         limits[i] = most;
-        let mut stack = vec![0u32];
-        while let Some(at) = stack.pop() {
-            let at = at as usize;
-            if !reaches(&self.node_heights[at * k..][..k], &limits) {
+        let mut lower = |t: usize, limits: &mut Offsets, found: &mut Event| {
+            let heights = &self.heights[t * k..][..k];
+            if reaches(heights, limits) {
+                let corners = self.corners[t].map(|p| p.map(f64::from));
+                let lowest = clip::lowest(&corners, heights, i, h, &self.directions, &mut scratch);
+                let height = lowest.map_or(most, |height| (height + TOUCH).floor() as i32);
+                if height < found.height {
+                    *found = Event { height, stop: Some(t as u32) };
+                    limits[i] = height;
+                }
+            }
+        };
+        if let Some(t) = guess {
+            lower(t as usize, &mut limits, &mut found);
+        }
+        let reaches_node =
+            |at: u32, limits: &Offsets| reaches(&self.node_heights[at as usize * k..][..k], limits);
+        let mut stack = Vec::with_capacity(STACK_NODES);
+        if reaches_node(0, &limits) {
+            stack.push(0u32);
+        }
+        while found.height > h[i]
+            && let Some(at) = stack.pop()
+        {
+            // Since the node came onto the stack only the limit of facet i has changed.
+            let height = |node: u32| self.node_heights[node as usize * k + i];
+            if height(at) >= limits[i] {
                 continue;
             }
-            let node = &self.nodes[at];
+            let node = &self.nodes[at as usize];
             if node.other > 0 {
-                let (one, two) = (at as u32 + 1, node.other);
-                let height = |node: u32| self.node_heights[node as usize * k + i];
+                let (one, two) = (at + 1, node.other);
                 let is_nearer = height(one) <= height(two);
-                stack.extend(if is_nearer { [two, one] } else { [one, two] });
+                for child in if is_nearer { [two, one] } else { [one, two] } {
+                    if reaches_node(child, &limits) {
+                        stack.push(child);
+                    }
+                }
                 continue;
             }
             for t in node.first as usize..node.end as usize {
-                let heights = &self.heights[t * k..][..k];
-                if reaches(heights, &limits) {
-                    let corners = self.corners[t].map(|p| p.map(f64::from));
-                    let lowest = clip::lowest(&corners, heights, i, h, &self.directions);
-                    if let Some(height) = lowest {
-                        limits[i] = limits[i].min((height + TOUCH).floor() as i32);
-                    }
-                }
+                lower(t, &mut limits, &mut found);
             }
         }
-        limits[i].max(h[i])
+        Event { height: found.height.max(h[i]), ..found }
     }
 
     /// Calls a function for each triangle that no single facet separates from a body, until it returns false.

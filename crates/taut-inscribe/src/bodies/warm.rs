@@ -25,6 +25,10 @@ pub(super) struct Packed<B> {
     pub(super) events: u64,
     /// Points that at least one body covers.
     pub(super) covered: u64,
+    /// Lines that at least one body hides.
+    pub(super) hidden: u64,
+    /// The points covered, or the lines hidden, as the objective has it.
+    value: u64,
 }
 
 /// Finds bodies with the directions of a tree.
@@ -58,11 +62,13 @@ fn search(
     let before = smaller.last().map_or(0, |(_, packed)| packed.events);
     let mut best = Packed {
         covered: packing.covered(),
+        hidden: packing.hidden(),
+        value: packing.value(),
         events: before + packing.family.events,
         bodies: packing.bodies,
     };
     let parts = smaller.iter().filter(|(kind, _)| is_part(*kind, k));
-    if let Some((kind, packed)) = parts.max_by_key(|(_, packed)| packed.covered) {
+    if let Some((kind, packed)) = parts.max_by_key(|(_, packed)| packed.value) {
         let cold = packing.family.events;
         let mut warm = Packing::new(input, packing.family);
         for dop in &packed.bodies {
@@ -70,8 +76,9 @@ fn search(
         }
         warm.improve(cold + budget / EVENTS_PART_OF_WARM_START)?;
         best.events = before + warm.family.events;
-        if warm.covered() > best.covered {
-            best = Packed { covered: warm.covered(), bodies: warm.bodies, ..best };
+        if warm.value() > best.value {
+            let (covered, hidden, value) = (warm.covered(), warm.hidden(), warm.value());
+            best = Packed { covered, hidden, value, bodies: warm.bodies, ..best };
         }
     }
     Ok(best)

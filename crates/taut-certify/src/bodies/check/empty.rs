@@ -15,8 +15,8 @@ pub(super) fn is_empty(
     boxes: &Boxes,
 ) -> Result<(), BodiesViolation> {
     let mut entries = proof.combined.iter().enumerate().peekable();
-    // Neighbors in the list are mostly neighbors in space: the last facet that separated is tried first.
-    let mut last = 0;
+    // Neighbors in the list are mostly neighbors in space: the facets that separated last are tried first.
+    let mut order: Vec<usize> = (0..found.normals.len()).collect();
     for row in 0..boxes.floors.len() {
         let [low, high] = [&boxes.floors[row], &boxes.ceilings[row]];
         let separates = |&facet: &usize| {
@@ -25,15 +25,14 @@ pub(super) fn is_empty(
         };
         match entries.next_if(|(_, entry)| entry.first() == Some(&(row as u64))) {
             Some((position, entry)) => combined(body, position, found, entry, low, high)?,
-            None if separates(&last) => {}
             None => {
-                let Some(facet) = (0..found.normals.len()).find(separates) else {
+                let Some(place) = order.iter().position(separates) else {
                     return Err(match row.checked_sub(boxes.rows) {
                         None => BodiesViolation::Reaches { row: row as u64, body },
                         Some(cap) => BodiesViolation::CapReaches { cap: cap as u64, body },
                     });
                 };
-                last = facet;
+                order[..=place].rotate_right(1);
             }
         }
     }
@@ -47,9 +46,9 @@ pub(super) fn is_empty(
 }
 
 /// The least value of a linear function with small coefficients on a box. At most 3·2⁴⁶.
-fn least(normal: [i64; 3], low: [i64; 3], high: [i64; 3]) -> i64 {
-    debug_assert!(low.iter().chain(&high).all(|c| c.abs() <= COORDINATE_MAX));
-    (0..3).map(|c| normal[c] * if normal[c] > 0 { low[c] } else { high[c] }).sum()
+fn least(normal: [i64; 3], low: [i32; 3], high: [i32; 3]) -> i64 {
+    debug_assert!(low.iter().chain(&high).all(|&c| i64::from(c).abs() <= COORDINATE_MAX));
+    (0..3).map(|c| normal[c] * i64::from(if normal[c] > 0 { low[c] } else { high[c] })).sum()
 }
 
 /// Checks the weights of one entry: Σ λⱼ(uⱼ·y − hⱼ) ≥ 0 for the corners of the triangle, wherever they are in their boxes.
@@ -58,8 +57,8 @@ fn combined(
     entry: usize,
     found: &ConvexBody,
     list: &[u64],
-    low: &[[i64; 3]; 3],
-    high: &[[i64; 3]; 3],
+    low: &[[i32; 3]; 3],
+    high: &[[i32; 3]; 3],
 ) -> Result<(), BodiesViolation> {
     let wrong = |problem| Err(BodiesViolation::Combined { body, entry, problem });
     let (pairs, rest) = list[1..].as_chunks::<2>();

@@ -9,7 +9,12 @@ use super::grid::Boxes;
 pub(super) fn is_inside(point: [i64; 3], boxes: &Boxes) -> bool {
     let mut is_odd = false;
     for triangle in &boxes.floors {
-        match crosses(point, triangle) {
+        // Most triangles are all above or all below the ray.
+        let sides = triangle.map(|corner| i64::from(corner[1]) > point[1]);
+        if sides == [true; 3] || sides == [false; 3] {
+            continue;
+        }
+        match crosses(point, &triangle.map(|corner| corner.map(i64::from))) {
             Some(crosses) => is_odd ^= crosses,
             None => return false,
         }
@@ -62,7 +67,7 @@ fn passes(point: [i64; 3], a: &[i64; 3], b: &[i64; 3]) -> bool {
 mod tests {
     use super::*;
 
-    fn inside(point: [i64; 3], floors: &[[[i64; 3]; 3]]) -> bool {
+    fn inside(point: [i64; 3], floors: &[[[i32; 3]; 3]]) -> bool {
         let rows = floors.len();
         is_inside(point, &Boxes { rows, floors: floors.to_vec(), ceilings: floors.to_vec() })
     }

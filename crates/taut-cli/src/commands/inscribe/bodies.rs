@@ -5,14 +5,17 @@ mod report;
 
 use std::path::PathBuf;
 
+use anyhow::anyhow;
 use taut::certify::InscribedBodies;
 use taut::inscribe::{
-    BodiesOptions, BodyShape, Occlusion, OcclusionOptions, inscribed_bodies, occlusion,
+    BodiesOptions, BodyShape, Error, Objective, Occlusion, OcclusionOptions, inscribed_bodies,
+    occlusion,
 };
 use taut::{Monitor, Solution};
 
 use crate::effort::Effort;
 use crate::exit::Outcome;
+use crate::input::choice::choice;
 use crate::input::reading::{Opened, Reading};
 use crate::output::writing::Outputs;
 use crate::pipeline::{Find, Input, Output};
@@ -47,6 +50,9 @@ pub(super) struct Search {
     /// The mesh: .off, .obj, .ply or .stl, or points with 9 coordinates, the corners of a triangle in each row
     #[arg(value_name = "MESH")]
     path: PathBuf,
+    /// What the search counts: the part of the inside that bodies cover, or the lines through the mesh that they hide
+    #[arg(long, value_name = "NAME", default_value = Objective::default().name(), value_parser = choice::<Objective>())]
+    objective: Objective,
     /// Most bodies to find, from 1 to 1000; by default 1, or 1000 with --coverage, or as many as there are points with --at
     #[arg(short = 'n', long, value_name = "N")]
     count: Option<usize>,
@@ -62,7 +68,7 @@ pub(super) struct Search {
     /// Close the holes of a mesh that is not closed by triangles, which the answer names
     #[arg(long)]
     close_holes: bool,
-    /// How many facets one search may move or place, at least 1; more of these events cover more
+    /// How many facets one search may place, move, or try to move, at least 1; more of these events cover more
     #[arg(long, value_name = "N", default_value_t = BodiesOptions::default().events)]
     events: u64,
     /// Where the random choices begin
@@ -84,6 +90,13 @@ fn point(text: &str) -> Result<[f64; 3], String> {
     let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
     let found = numbers.ok().and_then(|numbers| <[f64; 3]>::try_from(numbers).ok());
     found.ok_or_else(|| "expected three numbers between commas, as 0.5,-1,2".to_owned())
+}
+
+/// Explains why no bodies were found; of a mesh with holes also which option closes them.
+fn explain(mesh: &Opened, error: Error) -> anyhow::Error {
+    let is_open = matches!(error, Error::Open { .. });
+    let explained = mesh.explain(error);
+    if is_open { anyhow!("{explained} with --close-holes") } else { explained }
 }
 
 impl Search {
@@ -119,15 +132,15 @@ impl Search {
 
     pub(super) fn solve(
         &self,
-        shape: BodyShape,
+        options: BodiesOptions<'_>,
         mesh: &Opened,
         watch: &Watch,
     ) -> anyhow::Result<(Solution<InscribedBodies>, Option<Occlusion>)> {
         let solve = |monitor: &Monitor<'_>| {
-            let options = BodiesOptions { monitor: *monitor, ..self.options(shape) };
+            let options = BodiesOptions { monitor: *monitor, ..options };
             inscribed_bodies(mesh.source(), &options)
         };
-        let found = watch.during("solving", solve).map_err(|error| mesh.explain(error))?;
+        let found = watch.during("solving", solve).map_err(|error| explain(mesh, error))?;
         let hide = |monitor: &Monitor<'_>| {
             let of_lines = |lines| {
                 let options = OcclusionOptions { lines, seed: self.seed, monitor: *monitor };
@@ -143,6 +156,7 @@ impl Search {
         let many = if self.coverage.is_some() { COUNT_MAX } else { BodiesOptions::default().count };
         BodiesOptions {
             shape,
+            objective: self.objective,
             count: self.count.unwrap_or(many),
             disjoint: self.disjoint,
             at: &self.at,
@@ -180,7 +194,7 @@ impl Find for Bodies {
         mesh: &Opened,
         watch: &Watch,
     ) -> anyhow::Result<(Solution<InscribedBodies>, Option<Occlusion>)> {
-        self.search.solve(BodyShape::Free(self.facets), mesh, watch)
+        self.search.solve(self.search.options(BodyShape::Free(self.facets)), mesh, watch)
     }
 
     fn side_fields(&self, hidden: &Option<Occlusion>) -> Vec<Field> {
@@ -206,7 +220,7 @@ impl Find for Bodies {
 #[cfg(test)]
 mod tests {
     use clap::{Args as _, FromArgMatches};
-    use taut::inscribe::{BodiesOptions, BodyShape};
+    use taut::inscribe::{BodiesOptions, BodyShape, Objective};
 
     fn options(line: &str) -> super::Bodies {
         let command = super::Bodies::augment_args(clap::Command::new("bodies"));
@@ -219,6 +233,8 @@ mod tests {
         let found = options("bodies mesh.off");
         let shape = BodyShape::Free(found.facets);
         assert_eq!(found.search.options(shape), BodiesOptions::default());
+        let found = options("bodies mesh.off --objective occlusion");
+        assert_eq!(found.search.options(shape).objective, Objective::Occlusion);
         let found = options("bodies mesh.off --coverage 0.5 --at=1,-2,.5 --at -1e3,0,0");
         let found = found.search.options(shape);
         assert_eq!((found.count, found.coverage), (1000, Some(0.5)));

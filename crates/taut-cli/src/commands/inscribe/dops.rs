@@ -1,11 +1,14 @@
 //! `taut inscribe dops`: convex bodies with facets in fixed directions inside a triangle mesh.
 
 use taut::certify::InscribedBodies;
-use taut::inscribe::{BodyShape, Occlusion};
+use taut::inscribe::{
+    BodiesMethod, BodiesOptions, BodiesThesisOptions, BodyShape, Occlusion, ThesisSeeds,
+};
 use taut::{Monitor, Solution};
 
 use super::bodies::Search;
 use crate::exit::Outcome;
+use crate::input::choice::choice;
 use crate::input::reading::Opened;
 use crate::output::writing::Outputs;
 use crate::pipeline::{Find, Input, Output};
@@ -19,6 +22,7 @@ Each edge of the mesh must belong to an even number of triangles; if not, the me
 mesh by triangles that the answer names. Inside is decided by the even-odd rule, however triangles are turned. That each body
 lies inside is proved. How much of the inside the bodies cover is an estimate, and nothing is claimed about how much such bodies
 can cover. Bodies with facets in any directions cover more: taut inscribe bodies.
+The method thesis finds disjoint bodies without a budget of events; its inside test needs triangles that are turned alike.
 Exit: 0 found · 1 the check failed · 2 bad input or usage, nothing written
 Example: taut inscribe dops horse.off --count 10 -o bodies.json --draw bodies.html &&
          taut verify bodies.json horse.off
@@ -27,6 +31,24 @@ pub(super) struct Dops {
     /// Directions of the facets: 6, 14, 18 or 26
     #[arg(short = 'k', long, value_name = "K", default_value_t = 18)]
     directions: usize,
+    /// The way to find them
+    #[arg(long, value_name = "NAME", default_value = BodiesMethod::default().name(), value_parser = choice::<BodiesMethod>())]
+    method: BodiesMethod,
+    /// Of thesis, where dops start
+    #[arg(long, value_name = "NAME", default_value = ThesisSeeds::default().name(), value_parser = choice::<ThesisSeeds>())]
+    seeds: ThesisSeeds,
+    /// Of thesis, cells of the grid of seeds along the longest side, from 2 to 256
+    #[arg(long, value_name = "N", default_value_t = BodiesThesisOptions::DEFAULT.cells)]
+    cells: usize,
+    /// Of thesis, how many of the nearest vertices vote on whether a point is inside, from 1 to 100
+    #[arg(long, value_name = "N", default_value_t = BodiesThesisOptions::DEFAULT.votes)]
+    votes: usize,
+    /// Of thesis, move a dop that has doubled its size away from what it touches, and double again
+    #[arg(long)]
+    translate: bool,
+    /// Of thesis, start a dop around the centers of the largest sphere and its largest neighbor
+    #[arg(long)]
+    merge: bool,
     #[command(flatten)]
     search: Search,
 }
@@ -56,7 +78,7 @@ impl Find for Dops {
         mesh: &Opened,
         watch: &Watch,
     ) -> anyhow::Result<(Solution<InscribedBodies>, Option<Occlusion>)> {
-        self.search.solve(BodyShape::Dop(self.directions), mesh, watch)
+        self.search.solve(self.options(), mesh, watch)
     }
 
     fn side_fields(&self, hidden: &Option<Occlusion>) -> Vec<Field> {
@@ -76,5 +98,48 @@ impl Find for Dops {
 
     fn outcome(&self, _found: &Solution<InscribedBodies>) -> Outcome {
         Outcome::Done
+    }
+}
+
+impl Dops {
+    fn options(&self) -> BodiesOptions<'_> {
+        let method = match self.method {
+            BodiesMethod::Thesis(_) => BodiesMethod::Thesis(BodiesThesisOptions {
+                seeds: self.seeds,
+                cells: self.cells,
+                votes: self.votes,
+                translate: self.translate,
+                merge: self.merge,
+            }),
+            other => other,
+        };
+        BodiesOptions { method, ..self.search.options(BodyShape::Dop(self.directions)) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::{Args as _, FromArgMatches};
+    use taut::inscribe::{
+        BodiesMethod, BodiesOptions, BodiesThesisOptions, BodyShape, ThesisSeeds,
+    };
+
+    #[test]
+    fn the_defaults_are_those_of_the_library() {
+        let found = |line: &str| {
+            let command = super::Dops::augment_args(clap::Command::new("dops"));
+            let matches = command.get_matches_from(line.split_whitespace());
+            super::Dops::from_arg_matches(&matches).unwrap()
+        };
+        let usual = BodiesOptions { shape: BodyShape::Dop(18), ..Default::default() };
+        assert_eq!(found("dops mesh.off").options(), usual);
+        let thesis = found("dops mesh.off --method thesis");
+        let expected = BodiesMethod::Thesis(BodiesThesisOptions::default());
+        assert_eq!(thesis.options(), BodiesOptions { method: expected, ..usual.clone() });
+        let line =
+            "dops mesh.off --method thesis --seeds random --cells 9 --votes 2 --translate --merge";
+        let seeds = ThesisSeeds::Random;
+        let other = BodiesThesisOptions { seeds, cells: 9, votes: 2, translate: true, merge: true };
+        assert_eq!(found(line).options().method, BodiesMethod::Thesis(other));
     }
 }

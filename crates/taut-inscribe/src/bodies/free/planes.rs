@@ -7,7 +7,7 @@
 //! *Trap.* The triangles of a curved surface would each get a plane of its own: a plane moves inward a little where that
 //! replaces another one.
 
-use std::cmp::Ordering;
+use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use super::super::polytope::Sides;
@@ -43,37 +43,41 @@ pub(super) struct Blocks<'a> {
     pub(super) obstacles: &'a [Obstacle],
 }
 
-/// What comes next: a node, with the number of planes that do not keep it out, a triangle or an obstacle.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+/// What comes next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Item {
+    /// A node, with the number of planes that do not keep it out.
     Node(u32, u16),
     Triangle(u32),
     Obstacle(u32),
 }
 
-/// The nearest comes first, of equally near ones the first.
-#[derive(Clone, Copy, Debug)]
-struct Entry(f64, Item);
+/// A distance and an item in one number, so that a heap compares them fast: the nearest comes first, of equally near ones the
+/// first. Distances are not negative, and their bits have their order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Entry(Reverse<u128>);
 
-impl Ord for Entry {
-    fn cmp(&self, other: &Self) -> Ordering {
-        other.0.total_cmp(&self.0).then(other.1.cmp(&self.1))
+impl Entry {
+    fn new(distance: f64, item: Item) -> Self {
+        let (kind, number, tried) = match item {
+            Item::Node(at, tried) => (0, at, tried),
+            Item::Triangle(t) => (1, t, 0),
+            Item::Obstacle(at) => (2, at, 0),
+        };
+        let item = (kind << 48) | (u64::from(number) << 16) | u64::from(tried);
+        Entry(Reverse((u128::from(distance.to_bits()) << 64) | u128::from(item)))
+    }
+
+    fn item(self) -> Item {
+        let bits = self.0.0 as u64;
+        let number = (bits >> 16) as u32;
+        match bits >> 48 {
+            0 => Item::Node(number, bits as u16),
+            1 => Item::Triangle(number),
+            _ => Item::Obstacle(number),
+        }
     }
 }
-
-impl PartialOrd for Entry {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Entry {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Entry {}
 
 /// Returns at most `most` planes around the center that no triangle and no obstacle enters, and how often a plane was placed or
 /// moved; `None` where there are no such planes, or they would cut off the point to be kept.
@@ -92,12 +96,12 @@ pub(super) fn around(
 /// Places planes; `None` where this fails.
 fn place(blocks: &Blocks<'_>, planes: &mut Planes<'_>) -> Option<()> {
     let (tree, metric) = (blocks.tree, planes.metric);
-    let mut heap = BinaryHeap::from([Entry(0.0, Item::Node(0, 0))]);
+    let mut heap = BinaryHeap::from([Entry::new(0.0, Item::Node(0, 0))]);
     for (at, obstacle) in blocks.obstacles.iter().enumerate() {
-        heap.push(Entry(distance(metric, &obstacle.triangles), Item::Obstacle(at as u32)));
+        heap.push(Entry::new(distance(metric, &obstacle.triangles), Item::Obstacle(at as u32)));
     }
-    while let Some(Entry(_, item)) = heap.pop() {
-        match item {
+    while let Some(entry) = heap.pop() {
+        match entry.item() {
             Item::Node(at, tried) => {
                 let [center, half] = tree.bounds(at);
                 if planes.new_ones_keep_box_out(usize::from(tried), center, half) {
@@ -110,7 +114,7 @@ fn place(blocks: &Blocks<'_>, planes: &mut Planes<'_>) -> Option<()> {
                             let [center, half] = tree.bounds(node);
                             if !planes.keep_box_out(center, half) {
                                 let item = Item::Node(node, tried);
-                                heap.push(Entry(metric.to_box(center, half), item));
+                                heap.push(Entry::new(metric.to_box(center, half), item));
                             }
                         }
                     }
@@ -119,7 +123,7 @@ fn place(blocks: &Blocks<'_>, planes: &mut Planes<'_>) -> Option<()> {
                             let corners = tree.corners[t].map(|p| p.map(f64::from));
                             if !planes.keep_out(&corners) {
                                 let near = distance(metric, &[corners]);
-                                heap.push(Entry(near, Item::Triangle(t as u32)));
+                                heap.push(Entry::new(near, Item::Triangle(t as u32)));
                             }
                         }
                     }

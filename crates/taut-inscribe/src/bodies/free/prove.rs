@@ -76,7 +76,7 @@ fn separated_cube(tree: &Tree, body: &FreeBody) -> Option<(Sides, Vec<Vec<u64>>)
     for (h, &offset) in h.iter_mut().zip(&body.sides.offsets) {
         *h = offset as i32;
     }
-    let cube = Dop { h, anchor: body.anchor, is_given: body.is_given };
+    let cube = Dop::new(h, body.anchor, body.is_given);
     let (h, combined) = separated(tree, &cube)?;
     Some((Sides::of_dop(&tree.directions, &h), combined))
 }

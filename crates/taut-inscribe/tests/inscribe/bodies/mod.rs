@@ -10,3 +10,4 @@ mod models;
 mod mutations;
 mod occlusion;
 mod shapes;
+mod thesis;

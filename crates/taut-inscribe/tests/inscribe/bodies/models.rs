@@ -3,7 +3,9 @@
 use std::io::Read;
 use std::path::Path;
 
-use taut_inscribe::{BodiesOptions, BodyShape, Error, triangle_rows};
+use taut_inscribe::{
+    BodiesOptions, BodyShape, Error, Objective, OcclusionOptions, occlusion, triangle_rows,
+};
 
 use super::shapes::{Mesh, points, solve};
 
@@ -207,4 +209,30 @@ fn open_models_are_refused_by_name_of_an_edge() {
             other => panic!("{name}: {:?}", other.map(|found| found.answer.bodies.len())),
         }
     }
+}
+
+#[test]
+fn ten_dops_hide_more_where_that_is_the_objective() {
+    let mut better = 0;
+    for (name, least) in [("beethoven", 0.86), ("porsche", 0.79), ("bunny_res2", 0.78)] {
+        let Some(mesh) = model(name) else { return };
+        let hidden = |objective| {
+            let base = BodiesOptions { close_holes: true, count: 10, ..BodiesOptions::default() };
+            let (shape, events) = (BodyShape::Dop(18), events(base.events));
+            let found = solve(&mesh, &BodiesOptions { shape, objective, events, ..base }).unwrap();
+            found.check(&points(&mesh)).unwrap();
+            let options = OcclusionOptions { lines: 300_000, ..OcclusionOptions::default() };
+            occlusion(&points(&mesh), &found.answer, &options).unwrap().share
+        };
+        let [by_volume, by_lines] = [Objective::Volume, Objective::Occlusion].map(hidden);
+        println!(
+            "{name}: {:.2} % by volume, {:.2} % by lines",
+            100.0 * by_volume,
+            100.0 * by_lines
+        );
+        let slack = if cfg!(debug_assertions) { 0.1 } else { 0.0 };
+        assert!(by_lines >= least - slack, "{name}: {by_lines}");
+        better += u32::from(by_lines > by_volume);
+    }
+    assert!(better >= 2, "{better} of 3");
 }
