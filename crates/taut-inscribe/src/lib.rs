@@ -37,6 +37,7 @@ mod pair;
 mod polygon;
 mod random;
 mod rectangle;
+mod runs;
 mod simple;
 mod triangle;
 mod units;
