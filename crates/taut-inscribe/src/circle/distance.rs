@@ -54,7 +54,6 @@ impl<'a> Edges<'a> {
         }
     }
 
-    #[cfg(test)]
     pub(super) fn len(&self) -> u32 {
         self.exact.len() as u32
     }

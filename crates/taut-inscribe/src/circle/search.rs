@@ -30,6 +30,12 @@ const LOGS_MAX: u64 = 3;
 /// Factor of the gap to prove when the budget was used up.
 const GAP_GROWTH: f64 = 16.0;
 
+/// Half diagonal of a cell, in radii, above which weights are not worth their cost: many edges are about as near as the nearest.
+const LARGE_CELL: f64 = 1.4;
+
+/// Edges of a polygon up to which weights are sought in large cells as well.
+const EDGES_OF_LARGE_CELL_MAX: u32 = 64;
+
 /// The factor by which distances change along the shorter side of a cell that is split there.
 const CHANGE_RATIO: f64 = 4.0;
 
@@ -242,6 +248,12 @@ impl Search<'_> {
         let mut bound = weighted(edges, &corners, &single);
         if bound <= self.wanted(gap) {
             return Ok((Outcome::Closed(single, bound), nearest));
+        }
+        if half > LARGE_CELL * self.radius.max(clearance) && edges.len() > EDGES_OF_LARGE_CELL_MAX {
+            let distances = corners.map(|corner| edges.distance(corner, nearest));
+            let excess = bound - self.wanted(gap);
+            let axis = split_axis(cell, size, excess, [(1.0, distances)].into_iter());
+            return Ok((Outcome::Open(single, bound, axis), nearest));
         }
         // Plain distances will do where the circle is much larger than their rounding errors.
         let is_thin = self.radius.max(clearance) < ROUNDING * THIN_CIRCLE_ROUNDINGS;
