@@ -49,4 +49,4 @@ pub use ellipse::{EllipseOptions, inscribed_ellipse};
 pub use error::Error;
 pub use occlusion::{Occlusion, OcclusionOptions, occlusion};
 pub use rectangle::{RectangleOptions, inscribed_rectangle};
-pub use triangle::{TriangleOptions, inscribed_triangle};
+pub use triangle::{TriangleMethod, TriangleOptions, TriangleThesisOptions, inscribed_triangle};
