@@ -45,7 +45,7 @@ mod units;
 pub use bodies::{BodiesOptions, BodyShape, inscribed_bodies, triangle_rows};
 pub use circle::{CircleOptions, inscribed_circle};
 pub use convex::{ConvexOptions, inscribed_polygon};
-pub use ellipse::{EllipseOptions, inscribed_ellipse};
+pub use ellipse::{EllipseFivePointOptions, EllipseMethod, EllipseOptions, inscribed_ellipse};
 pub use error::Error;
 pub use occlusion::{Occlusion, OcclusionOptions, occlusion};
 pub use rectangle::{RectangleOptions, inscribed_rectangle};

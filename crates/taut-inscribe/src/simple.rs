@@ -308,10 +308,10 @@ mod tests {
         // A comb of slanted teeth, whose boxes all overlap.
         let tooth = |i: i32| {
             let (x, far) = (f64::from(i / 2), (i + 1) % 4 >= 2);
-            if far { [x + 4e3, 4e3] } else { [x, 0.0] }
+            if far { [x + 1200.0, 1200.0] } else { [x, 0.0] }
         };
         let comb: Vec<[f64; 2]> =
-            (0..4000).map(tooth).chain([[1999.0, -1.0], [0.0, -1.0]]).collect();
+            (0..1200).map(tooth).chain([[599.0, -1.0], [0.0, -1.0]]).collect();
         let loops = loops(&[&comb]);
         let (runs, monitor) = (Runs::of(&loops.segments), &Monitor::silent());
         let left = RUN_PAIRS_MAX * (runs.lowest() + 1);
