@@ -21,7 +21,12 @@ pub(crate) fn inscribed_ellipse(
         py,
         rows,
         |source, monitor| {
-            let options = EllipseOptions { epsilon, max_cells, monitor: *monitor };
+            let options = EllipseOptions {
+                epsilon,
+                max_cells,
+                monitor: *monitor,
+                ..EllipseOptions::default()
+            };
             taut::inscribe::inscribed_ellipse(source, &options)
         },
         |error, columns| raise(error, Items::Points, columns),

@@ -21,7 +21,12 @@ pub(crate) fn inscribed_triangle(
         py,
         rows,
         |source, monitor| {
-            let options = TriangleOptions { epsilon, max_cells, monitor: *monitor };
+            let options = TriangleOptions {
+                epsilon,
+                max_cells,
+                monitor: *monitor,
+                ..TriangleOptions::default()
+            };
             taut::inscribe::inscribed_triangle(source, &options)
         },
         |error, columns| raise(error, Items::Points, columns),

@@ -54,7 +54,7 @@ def test_options_out_of_range_are_refused():
         ({"kernel": "cosine"}, "`kernel` is cosine"),
         ({"gamma": 0.0}, "`gamma` is 0"),
         ({"nu": 1.5}, r"`nu` is 1\.5"),
-        ({"thesis_steps": 1}, "`steps` is 1"),
+        ({"thesis_steps": 1}, "`thesis_steps` is 1"),
         ({"nu": 0.1, "thesis_steps": 9}, "`method`"),
         ({"kernel": "precomputed"}, "square"),
     ]:

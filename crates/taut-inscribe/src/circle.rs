@@ -16,7 +16,9 @@
 
 mod cell;
 mod distance;
+mod log;
 mod polish;
+mod queries;
 mod search;
 mod weights;
 
@@ -32,6 +34,9 @@ use self::distance::Edges;
 
 /// The largest excess of the distance of a touching edge over the radius, relative to the radius; rounding of the center comes on top.
 const TOUCHING_SLACK: f64 = 1e-10;
+
+/// Absolute rounding errors of distances in plain arithmetic, coordinates being below 2 in size: 16u.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// Options to look for the circle. Write `CircleOptions { epsilon: 1e-6, ..Default::default() }`.
 #[derive(Clone)]
@@ -58,8 +63,8 @@ impl Default for CircleOptions<'_> {
 /// cells with weights on edges as bounds.
 ///
 /// # Cost
-/// O(n log n) for the test of the rings where their edges crowd nowhere, and for each cell of the search its near edges; tens to
-/// hundreds of cells for outlines of countries.
+/// About O(n) for the test of the rings of outlines, and for each cell of the search O(log n) and its near edges; tens to hundreds
+/// of cells for outlines of countries.
 ///
 /// # Errors
 /// [`Error::NotSimple`] with two edges that meet, [`Error::RingNumber`], [`Error::TooFewVertices`], [`Error::TooThin`], and
@@ -70,7 +75,7 @@ pub fn inscribed_circle(
 ) -> Result<Solution<InscribedCircle>, Error> {
     check_options(options)?;
     let polygon = Polygon::read(polygon, &options.monitor)?;
-    let edges = Edges::of(&polygon.edges);
+    let edges = Edges::of(&polygon.edges, &polygon.runs);
     let found = search::search(&edges, options)?;
     let radius = edges.unscaled_down(found.radius);
     if found.center.is_none() || radius <= 0.0 {
@@ -80,9 +85,10 @@ pub fn inscribed_circle(
     let point = edges.scaled(center);
     let rounding = 2.0 * f64::EPSILON * (point[0].abs() + point[1].abs());
     let most = found.radius * (1.0 + TOUCHING_SLACK) + rounding;
-    let touching = (0..edges.len()).filter(|&edge| edges.distance(point, edge) <= most);
+    let mut touching = vec![];
+    edges.within(point, most, usize::MAX, &mut touching);
     let certificate = CircleCertificate {
-        touching: touching.map(|edge| polygon.rows[edge as usize]).collect(),
+        touching: touching.iter().map(|&edge| polygon.rows[edge as usize]).collect(),
         tree: found.log.tree,
         leaves: found.log.leaves.into_iter().map(|leaf| leaf.numbers(&polygon.rows)).collect(),
         gap: ((found.upper / found.radius) * (1.0 + 8.0 * f64::EPSILON) - 1.0).max(0.0),

@@ -6,6 +6,7 @@
 use taut_points::{InputError, Monitor, PointSource, PointsHash, hash_block, map_blocks};
 
 use crate::Error;
+use crate::runs::Runs;
 use crate::simple;
 
 /// Most rows of a polygon, so that edges have 32-bit numbers.
@@ -21,6 +22,8 @@ pub(crate) struct Polygon {
     /// The row at which each edge begins: of equal rows that follow each other, the last.
     pub(crate) rows: Vec<u64>,
     pub(crate) points_hash: PointsHash,
+    /// Boxes around runs of the edges.
+    pub(crate) runs: Runs,
 }
 
 impl Polygon {
@@ -52,11 +55,12 @@ impl Polygon {
             rows.extend(kept.iter().map(|&row| row as u64));
             ends.extend(kept.iter().map(|&row| after(row) as u64));
         }
-        if let Some(edges) = simple::crossing(&loops, monitor)? {
+        let runs = Runs::of(&loops.segments);
+        if let Some(edges) = simple::crossing(&loops, &runs, monitor)? {
             let [edge, other] = edges.map(|edge| [rows[edge], ends[edge]]);
             return Err(Error::NotSimple { edge, other });
         }
-        Ok(Polygon { edges: loops.segments, rows, points_hash })
+        Ok(Polygon { edges: loops.segments, rows, points_hash, runs })
     }
 }
 
@@ -69,6 +73,14 @@ pub(crate) struct Loops {
 }
 
 impl Loops {
+    /// One ring.
+    #[cfg(test)]
+    pub(crate) fn of_ring(ring: &[[f64; 2]]) -> Self {
+        let mut loops = Loops::default();
+        loops.push(ring);
+        loops
+    }
+
     /// Adds a ring by its vertices, of which no two that follow each other are equal.
     pub(crate) fn push(&mut self, ring: &[[f64; 2]]) {
         let first = self.segments.len();

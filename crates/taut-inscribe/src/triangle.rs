@@ -20,42 +20,29 @@ mod frame;
 mod gauge;
 mod groups;
 mod lines;
+mod options;
 mod report;
 mod rows;
 mod search;
 mod starts;
+mod thesis;
 mod tile;
 mod tree;
 
 use std::collections::BTreeMap;
 
 use taut_certify::{InscribedTriangle, Solution, Trace, TriangleCertificate};
-use taut_points::{InputError, Monitor, PointSource, shown_number};
+use taut_points::PointSource;
 
+pub use self::options::{TriangleMethod, TriangleOptions, TriangleThesisOptions};
 use crate::Error;
+use crate::levels::Levels;
 use crate::polygon::Polygon;
 use crate::units::Units;
 
 use self::frame::Frame;
 use self::groups::Groups;
 use self::report::Target;
-
-/// How to look for the triangle. Write `TriangleOptions { epsilon: 1e-6, ..Default::default() }`.
-#[derive(Clone)]
-pub struct TriangleOptions<'a> {
-    /// Proved relative gap of the area to reach, in (0, 1): largest area ≤ (1 + ε)·area. Default 1e-3.
-    pub epsilon: f64,
-    /// Most cells of the certificate; where ε takes more, a larger gap is proved. At least 1, by default a million.
-    pub max_cells: u64,
-    /// Watches the work and can stop it. Default [`Monitor::silent`].
-    pub monitor: Monitor<'a>,
-}
-
-impl Default for TriangleOptions<'_> {
-    fn default() -> Self {
-        TriangleOptions { epsilon: 1e-3, max_cells: 1_000_000, monitor: Monitor::silent() }
-    }
-}
 
 /// Finds the triangle of the largest area in a polygon.
 ///
@@ -65,29 +52,40 @@ impl Default for TriangleOptions<'_> {
 ///
 /// # Errors
 /// [`Error::NotSimple`] with two edges that meet, [`Error::RingNumber`], [`Error::TooFewVertices`], [`Error::TooThin`],
-/// [`Error::Area`] when the area is no normal number, and [`Error::Input`] for bad points or options, and for what reading says.
+/// [`Error::Area`] when the area is no normal number, and [`Error::Input`] for bad points or options, for samples without a triangle,
+/// and for what reading says.
 pub fn inscribed_triangle(
     polygon: &dyn PointSource,
     options: &TriangleOptions<'_>,
 ) -> Result<Solution<InscribedTriangle>, Error> {
-    check_options(options)?;
+    options::check(options)?;
     let polygon = Polygon::read(polygon, &options.monitor)?;
     let frame = Frame::of(Units::of(&polygon.edges));
     let groups = Groups::of(&frame.edges);
     let target = Target { frame: &frame, groups, edges: &polygon.edges };
     let found = search::search(&target, options)?;
-    let reported = found.best.ok_or(Error::TooThin)?;
+    let best = found.best.ok_or(Error::TooThin)?;
+    let best_doubled = best.doubled;
+    let reported = match &options.method {
+        TriangleMethod::BranchAndBound => best,
+        TriangleMethod::Thesis(thesis) => {
+            let levels = Levels::of(&frame.edges, frame.extent[1]);
+            let sampled = thesis::sampled(&target, &levels, thesis, &options.monitor)?;
+            sampled.ok_or_else(|| options::too_few(thesis.samples))?
+        }
+    };
     if !reported.answer.area.is_normal() {
         return Err(Error::Area);
     }
-    let ratio = found.upper / reported.doubled;
+    let gap_of =
+        |doubled: f64| ((found.upper / doubled) * (1.0 + 16.0 * f64::EPSILON) - 1.0).max(0.0);
     let certificate = TriangleCertificate {
         touching: reported.touching.iter().map(|&edge| polygon.rows[edge as usize]).collect(),
         skew: frame.skew(),
         root: frame.root(),
         leaves: found.log.leaves.iter().map(|leaf| leaf.numbers(&polygon.rows)).collect(),
         tree: found.log.tree,
-        gap: (ratio * (1.0 + 16.0 * f64::EPSILON) - 1.0).max(0.0),
+        gap: gap_of(reported.doubled),
         points_hash: polygon.points_hash,
     };
     let counters = [
@@ -96,8 +94,8 @@ pub fn inscribed_triangle(
         ("vertices", polygon.rows.len() as u64),
     ];
     let trace = Trace {
-        method: "branch-and-bound".to_owned(),
-        stop: report::stop(found.is_complete, certificate.gap, options.epsilon),
+        method: options.method.name().to_owned(),
+        stop: report::stop(found.is_complete, gap_of(best_doubled), options.epsilon),
         passes: 1,
         iterations: certificate.tree.len() as u64,
         core_set: certificate.touching.len() as u64,
@@ -105,15 +103,4 @@ pub fn inscribed_triangle(
         counters: BTreeMap::from(counters.map(|(name, count)| (name.to_owned(), count))),
     };
     Ok(Solution { answer: reported.answer, certificate, trace })
-}
-
-fn check_options(options: &TriangleOptions<'_>) -> Result<(), InputError> {
-    let wrong = |name, value, expected| Err(InputError::Option { name, value, expected });
-    if !(options.epsilon > 0.0 && options.epsilon < 1.0) {
-        return wrong("epsilon", shown_number(options.epsilon), "a number above 0 and below 1");
-    }
-    if options.max_cells == 0 {
-        return wrong("max_cells", "0".to_owned(), "at least 1");
-    }
-    Ok(())
 }

@@ -46,7 +46,7 @@ mod tests {
 
     /// 1 − e^{−z} as a fraction, to within 2⁻²⁰⁰ of its size: (e^{−z/2ᵐ})^{2ᵐ} by the series, in numbers of 400 bits.
     fn truth(z: f64) -> BigRational {
-        let scale = BigRational::from_integer(num_bigint::BigInt::one() << 500);
+        let scale = num_traits::pow(BigRational::from_integer(2.into()), 500);
         let cut = |x: BigRational| (x * &scale).round() / &scale;
         let x =
             BigRational::from_float(z).unwrap() / BigRational::from_integer((1u64 << 12).into());

@@ -57,7 +57,9 @@ pub(super) fn check(
         blocks.iter().map(|block| block.rows).max().unwrap_or(0) as f64 + blocks.len() as f64;
     let slacks = slacks * (1.0 + 2.0 * (terms + 2.0) * U);
     let points = source.len() as f64;
-    let share = ball.nu.map_or(0.0, |nu| slacks / (nu * points) * (1.0 + 6.0 * U));
+    // A quotient that vanishes is still more than nothing.
+    let share = |nu: f64| (slacks / (nu * points) * (1.0 + 6.0 * U)).next_up();
+    let share = ball.nu.filter(|_| slacks > 0.0).map_or(0.0, share);
     let upper = (ball.squared_radius + share) * (1.0 + 2.0 * U);
     let lower = center.lower_bound(source.len());
     let gap = match upper {
@@ -217,7 +219,7 @@ impl<'a> Center<'a> {
         let largest = self.ball.multipliers.iter().copied().fold(0.0, f64::max);
         let slack = 1.0 + (2.0 * self.ball.multipliers.len() as f64 + 16.0) * U;
         let excess = (largest * nu * points as f64 * slack).max(1.0);
-        least / excess * (1.0 - 2.0 * U)
+        (least / excess * (1.0 - 2.0 * U)).next_down()
     }
 }
 

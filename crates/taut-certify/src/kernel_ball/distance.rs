@@ -58,7 +58,7 @@ pub(super) fn squared_distance(
 /// 2(1 − e^{−γs}) for a sum s of squared differences in `dim` dimensions.
 pub(super) fn feature_distance(gamma: f64, square: f64, dim: usize) -> Near {
     let dim = dim as f64;
-    let lost = (gamma * dim + 1.0) * VANISHED;
+    let lost = gamma * (dim * VANISHED) + VANISHED;
     let value = 2.0 * decay(gamma * square);
     // An infinite |x − y|² may be one that γ would bring back: what it stands for is unknown.
     let relative = if square.is_finite() { (dim + 8.0) * U + DECAY_ERROR } else { f64::NAN };

@@ -31,7 +31,8 @@ pub(crate) struct Args {
     /// matrix S, row by row; all are held in memory
     #[arg(long, conflicts_with_all = ["balls", "draw"])]
     ellipsoids: bool,
-    /// Proved relative gap to reach, in [0, 1): radius ≤ (1 + ε) · smallest; 0 is exact to rounding. Of a kernel: of the squared radius
+    /// Proved relative gap to reach, in [0, 1): radius ≤ (1 + ε) · smallest; 0 is exact to rounding. With --kernel it is the gap of the
+    /// squared radius, above 0
     /// [default: 1e-9, with --kernel 1e-6]
     #[arg(long, value_name = "REAL", allow_negative_numbers = true)]
     epsilon: Option<f64>,

@@ -21,7 +21,7 @@ impl Summary for KernelBall {
         let proved = report.verdict.as_ref().map(|proved| {
             let lower = exact(proved.lower);
             let what = if answer.nu.is_some() { "objective" } else { "squared radius" };
-            (proved.gap, format!("no ball has a {what} below {lower}"))
+            (proved.gap, format!("the {what} of every ball is at least {lower}"))
         });
         let verified = match answer.nu {
             None => "every point is inside, and the gap is proved",
@@ -35,7 +35,10 @@ impl Summary for KernelBall {
             rows_of("support", &answer.support),
         ];
         if let (Some(_), Some(verdict)) = (answer.nu, &report.verdict) {
-            fields.push(Field::new("outside", counted(verdict.outside, "point")));
+            fields.push(Field::new(
+                "outside",
+                format!("at least {}", counted(verdict.outside, "point")),
+            ));
             fields.push(Field::new("objective", exact(verdict.upper)));
         }
         fields.extend([
@@ -59,7 +62,8 @@ impl Summary for KernelBall {
         let mut fields = vec![
             Field::proved("bracket", bracket).remark(format!("of the {what}")),
             Field::proved("gap", gap(verdict.gap)).remark("relative, from the points alone"),
-            Field::proved("outside", counted(verdict.outside, "point")),
+            Field::proved("outside", format!("at least {}", counted(verdict.outside, "point")))
+                .remark("rounding leaves no doubt of them"),
         ];
         if found.answer.kernel == Kernel::Precomputed {
             fields.push(

@@ -67,3 +67,35 @@ fn changed_ellipses_and_bad_polygons_are_refused() {
         .ends(3)
         .stdout_has(&["within the budget of cells"]);
 }
+
+#[test]
+fn samples_of_a_curve_are_joined_and_have_an_ellipse_by_either_method() {
+    let folder = TestFolder::new();
+    // Samples of an ellipse with the semi-axes 3 and 2, not in order: seven and sixty have no common factor.
+    let sample = |i: usize| {
+        let (sine, cosine) = (std::f64::consts::TAU * (7 * i % 60) as f64 / 60.0).sin_cos();
+        format!("{},{}\n", 3.0 * cosine, 2.0 * sine)
+    };
+    folder.put("points.csv", (0..60).map(sample).collect::<String>());
+    folder.taut("curve points.csv -o ring.geojson").ends(0);
+    let area = |name: &str| {
+        folder.taut(&format!("verify {name} ring.geojson")).ends(0);
+        let found: serde_json::Value = serde_json::from_str(&folder.text(name)).unwrap();
+        found["answer"]["area"].as_f64().unwrap()
+    };
+    folder.taut("inscribe ellipse ring.geojson -o largest.json").ends(0);
+    folder
+        .taut("inscribe ellipse ring.geojson --method five-point --samples 60 -o five.json")
+        .ends(0)
+        .stdout_has(&["Large ellipse in a polygon of ", "five-point"]);
+    let (largest, five) = (area("largest.json"), area("five.json"));
+    // The polygon between the samples has the ellipse scaled by cos(π/60) inside, and is in the ellipse itself.
+    let whole = 6.0 * std::f64::consts::PI;
+    let chord = (std::f64::consts::PI / 60.0).cos();
+    assert!(largest <= whole && largest * 1.001 >= whole * chord * chord, "{largest}");
+    assert!(five <= largest * 1.001 && five >= 0.95 * largest, "{five} for {largest}");
+    folder
+        .taut("inscribe ellipse ring.geojson --method five-point --samples 5")
+        .ends(2)
+        .stderr_has(&["samples"]);
+}

@@ -8,11 +8,18 @@ const U: f64 = f64::EPSILON / 2.0;
 
 use crate::pair::{Pair, cross, minus};
 use crate::polygon::Segment;
+use crate::runs::Runs;
 
 /// The edges of a polygon, with coordinates scaled by a power of two.
-pub(super) struct Edges {
+pub(super) struct Edges<'a> {
     /// The edges as given.
-    pub(super) exact: Vec<Segment>,
+    pub(super) exact: &'a [Segment],
+    /// Boxes around runs of the edges as given.
+    pub(super) runs: &'a Runs,
+    /// Boxes around runs of the scaled edges.
+    pub(super) scaled_runs: Runs,
+    /// The first edge of each ring.
+    pub(super) ring_starts: Vec<u32>,
     scaled: Vec<Segment>,
     /// Of each edge its vector over its squared length, so that a projection takes no division; 0 where that overflows.
     inverse: Vec<[f64; 2]>,
@@ -20,8 +27,8 @@ pub(super) struct Edges {
     factors: [f64; 2],
 }
 
-impl Edges {
-    pub(super) fn of(exact: &[Segment]) -> Self {
+impl<'a> Edges<'a> {
+    pub(super) fn of(exact: &'a [Segment], runs: &'a Runs) -> Self {
         let coordinates = exact.iter().flatten().flatten();
         let largest = coordinates.fold(0.0f64, |most, x| most.max(x.abs()));
         let factors = factors_of(largest);
@@ -32,16 +39,23 @@ impl Edges {
             let inverse = e.map(|x| x / (e[0] * e[0] + e[1] * e[1]));
             if inverse.iter().all(|x| x.is_finite()) { inverse } else { [0.0; 2] }
         });
-        Edges { exact: exact.to_vec(), inverse: inverse.collect(), scaled, factors }
+        let inverse = inverse.collect();
+        // Rings do not touch, so that another one starts where an edge does not start at the end of the one before.
+        let is_start = |&edge: &usize| edge == 0 || exact[edge - 1][1] != exact[edge][0];
+        let ring_starts = (0..exact.len()).filter(is_start).map(|edge| edge as u32).collect();
+        Edges {
+            exact,
+            runs,
+            scaled_runs: runs.mapped(scale),
+            ring_starts,
+            inverse,
+            scaled,
+            factors,
+        }
     }
 
     pub(super) fn len(&self) -> u32 {
         self.exact.len() as u32
-    }
-
-    /// The ends of an edge as given.
-    pub(super) fn segment(&self, edge: u32) -> Segment {
-        self.exact[edge as usize]
     }
 
     /// A point in scaled coordinates.
@@ -64,11 +78,17 @@ impl Edges {
     /// The distance of p from an edge, off by some units of the last place of p and of the ends.
     #[inline(always)]
     pub(super) fn distance(&self, p: [f64; 2], edge: u32) -> f64 {
+        self.square_distance(p, edge).sqrt()
+    }
+
+    /// The square of [`distance`](Self::distance).
+    #[inline(always)]
+    pub(super) fn square_distance(&self, p: [f64; 2], edge: u32) -> f64 {
         let [a, b] = self.scaled[edge as usize];
         let (d, inverse) = ([p[0] - a[0], p[1] - a[1]], self.inverse[edge as usize]);
         let share = (d[0] * inverse[0] + d[1] * inverse[1]).clamp(0.0, 1.0);
         let (x, y) = (d[0] - share * (b[0] - a[0]), d[1] - share * (b[1] - a[1]));
-        (x * x + y * y).sqrt()
+        x * x + y * y
     }
 
     /// The distance of p from an edge, off by at most 8u of it and 2⁻⁹⁸ times the distance of p from the ends.
@@ -129,26 +149,21 @@ mod tests {
     use super::*;
     use crate::polygon::Loops;
 
-    impl Edges {
-        /// The edges of one ring.
-        pub(in crate::circle) fn of_ring(ring: &[[f64; 2]]) -> Self {
-            let mut loops = Loops::default();
-            loops.push(ring);
-            Edges::of(&loops.segments)
-        }
-    }
-
     #[test]
     fn a_needle_keeps_its_width() {
         let width = 2f64.powi(-60);
-        let edges = Edges::of_ring(&[[-1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]);
+        let loops = Loops::of_ring(&[[-1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]);
+        let runs = Runs::of(&loops.segments);
+        let edges = Edges::of(&loops.segments, &runs);
         let expected = width * std::f64::consts::SQRT_2;
         assert!((edges.accurate([width, -width], 0) - expected).abs() <= 1e-15 * expected);
     }
 
     #[test]
     fn both_arithmetics_agree() {
-        let edges = Edges::of_ring(&[[0.3, 0.1], [1.7, 0.9], [0.2, 1.9]]);
+        let loops = Loops::of_ring(&[[0.3, 0.1], [1.7, 0.9], [0.2, 1.9]]);
+        let runs = Runs::of(&loops.segments);
+        let edges = Edges::of(&loops.segments, &runs);
         for i in 0..20 {
             for j in 0..20 {
                 let p = [f64::from(i) / 10.0, f64::from(j) / 10.0];

@@ -8,7 +8,7 @@ const STEPS_MAX: usize = 16;
 /// Returns a point near `start` that is equally far from the edges given, two or three; in scaled coordinates.
 ///
 /// With two edges there is a curve of such points; each step is the shortest that leads to it.
-pub(super) fn equidistant(edges: &Edges, touched: &[u32], start: [f64; 2]) -> Option<[f64; 2]> {
+pub(super) fn equidistant(edges: &Edges<'_>, touched: &[u32], start: [f64; 2]) -> Option<[f64; 2]> {
     let mut q = start;
     for _ in 0..STEPS_MAX {
         let mut from = [([0.0; 2], 0.0); 3];
@@ -46,10 +46,14 @@ pub(super) fn equidistant(edges: &Edges, touched: &[u32], start: [f64; 2]) -> Op
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::polygon::Loops;
+    use crate::runs::Runs;
 
     #[test]
     fn the_center_of_an_incircle_is_found() {
-        let edges = Edges::of_ring(&[[0.0, 0.0], [1.0, 0.0], [1.0, 0.75]]);
+        let loops = Loops::of_ring(&[[0.0, 0.0], [1.0, 0.0], [1.0, 0.75]]);
+        let runs = Runs::of(&loops.segments);
+        let edges = Edges::of(&loops.segments, &runs);
         let q = equidistant(&edges, &[0, 1, 2], [0.6, 0.3]).unwrap();
         assert!((q[0] - 0.75).abs() < 1e-15 && (q[1] - 0.25).abs() < 1e-15, "{q:?}");
         let q = equidistant(&edges, &[0, 1], [0.6, 0.3]).unwrap();

@@ -1,9 +1,10 @@
 //! Branch and bound over cells: first best first for a good circle, then depth first for the certificate.
 //!
-//! *Idea.* Each cell has the list of the edges that may be nearest to one of its points, out of the list of its parent. The first
-//! search opens the cell of the largest bound, so that it runs into no thin part of the polygon, and finds the circle. The
-//! second visits all cells depth first and writes down how each is closed. When it meets a better circle, what was closed
-//! before stays valid; it is run again if the circle grew much, as fewer cells are needed for the larger one.
+//! *Idea.* A cell is bounded by the edges that may be nearest to one of its points. The first search opens the cell of the largest
+//! bound, so that it runs into no thin part of the polygon, and finds the circle; its tree is the certificate, less cells that
+//! were split for a smaller circle. Where it takes too many cells, another search visits all cells depth first, without keeping
+//! them. When that meets a better circle, what was closed before stays valid; it is run again if the circle grew much, as fewer
+//! cells are needed for the larger one.
 //! *Trap.* Depth first with a circle that is too small, cells that hold better centers are split until their middles are as
 //! good as the best of them: as many cells as 1/ε.
 //! *Budget.* A search that needs too many cells is run again for a larger gap.
@@ -16,33 +17,33 @@ use taut_points::{Cancelled, Monitor};
 
 use super::cell::Cell;
 use super::distance::Edges;
+use super::log::{Leaf, Log, Node};
 use super::polish::equidistant;
-use super::{CircleOptions, weights};
-use crate::simple::meets_cell;
+use super::{CircleOptions, ROUNDING, weights};
 
 /// Cells after which the first search stops; the second one is complete without it.
 const FIRST_CELLS_MAX: u64 = 200_000;
 
-/// Searches that write a log; the second one is run with the best circle of the first.
+/// Searches depth first; each but the first is run with the best circle of the one before.
 const LOGS_MAX: u64 = 3;
 
 /// Factor of the gap to prove when the budget was used up.
 const GAP_GROWTH: f64 = 16.0;
 
-/// Edges up to which weights are sought in cells that are much larger than the circle.
-const LIST_OF_LARGE_CELL_MAX: usize = 64;
+/// Half diagonal of a cell, in radii, above which weights are not worth their cost: many edges are about as near as the nearest.
+const LARGE_CELL: f64 = 1.4;
+
+/// Edges of a polygon up to which weights are sought in large cells as well.
+const EDGES_OF_LARGE_CELL_MAX: u32 = 64;
 
 /// The factor by which distances change along the shorter side of a cell that is split there.
 const CHANGE_RATIO: f64 = 4.0;
 
-/// Half diagonal of a cell, in radii, above which it is much larger than the circle.
-const LARGE_CELL: f64 = 4.0;
-
-/// Absolute rounding errors of distances in plain arithmetic, coordinates being below 2 in size: 16u.
-const ROUNDING: f64 = 8.0 * f64::EPSILON;
-
 /// A circle is thin when its scaled radius is less than this many times the rounding errors of plain distances.
 const THIN_CIRCLE_ROUNDINGS: f64 = 1e12;
+
+/// Share of the radius beyond it up to which edges are looked at for the radius that is claimed.
+const CHECKED_BEYOND: f64 = 1e-9;
 
 /// Cells between two looks at the monitor.
 const CELLS_BETWEEN_CHECKS: u64 = 256;
@@ -63,50 +64,29 @@ pub(super) struct SearchResult {
     pub(super) searches: u64,
 }
 
-/// The subdivision, in the form of the certificate.
-#[derive(Default)]
-pub(super) struct Log {
-    pub(super) tree: String,
-    pub(super) leaves: Vec<Leaf>,
-}
-
-/// Edges with whole weights.
-#[derive(Clone)]
-pub(super) struct Leaf(Vec<(u32, u64)>);
-
-impl Leaf {
-    /// The numbers of the certificate, with edges by the rows at which they begin.
-    pub(super) fn numbers(self, rows: &[u64]) -> Vec<u64> {
-        match self.0[..] {
-            [(edge, _)] => vec![rows[edge as usize]],
-            _ => self.0.iter().flat_map(|&(edge, w)| [rows[edge as usize], w]).collect(),
-        }
-    }
-}
-
 /// Finds the largest circle, and the log that proves it.
 pub(super) fn search(
-    edges: &Edges,
+    edges: &Edges<'_>,
     options: &CircleOptions<'_>,
 ) -> Result<SearchResult, Cancelled> {
     let monitor = &options.monitor;
-    let mut search = Search { edges, monitor, center: None, radius: 0.0, cells: 0 };
-    search.best_first(options.epsilon)?;
+    let mut search = Search { edges, monitor, center: None, radius: 0.0, cells: 0, list: vec![] };
+    let nodes = search.best_first(options.epsilon)?;
     let (mut gap, mut stop, mut searches) = (options.epsilon, Stop::Converged, 1);
+    if let Some(nodes) = nodes {
+        let (log, upper) = Log::of(&nodes, search.wanted(gap));
+        if log.tree.len() as u64 <= options.max_cells {
+            return Ok(search.result(log, upper, stop, searches, options.epsilon));
+        }
+    }
     loop {
         searches += 1;
         let before = search.radius;
         let Some((log, upper)) = search.depth_first(gap, options.max_cells)? else {
             if search.center.is_none() {
-                return Ok(SearchResult {
-                    center: None,
-                    radius: 0.0,
-                    upper: f64::INFINITY,
-                    log: Log::default(),
-                    stop: Stop::NodeBudget,
-                    cells: search.cells,
-                    searches,
-                });
+                let upper = f64::INFINITY;
+                let (log, stop, epsilon) = (Log::default(), Stop::NodeBudget, options.epsilon);
+                return Ok(search.result(log, upper, stop, searches, epsilon));
             }
             (gap, stop) = (gap * GAP_GROWTH, Stop::NodeBudget);
             continue;
@@ -115,24 +95,19 @@ pub(super) fn search(
         if has_grown && stop == Stop::Converged && searches <= LOGS_MAX {
             continue;
         }
-        let radius = search.radius_over_all();
-        let upper = upper.max(radius);
-        let is_reached = upper <= radius * (1.0 + options.epsilon);
-        if !is_reached && stop == Stop::Converged {
-            stop = Stop::Rounding;
-        }
-        let (center, cells) = (search.center, search.cells);
-        return Ok(SearchResult { center, radius, upper, log, stop, cells, searches });
+        return Ok(search.result(log, upper, stop, searches, options.epsilon));
     }
 }
 
 /// The best circle so far, and what it takes to look for a better one.
 struct Search<'a> {
-    edges: &'a Edges,
+    edges: &'a Edges<'a>,
     monitor: &'a Monitor<'a>,
     center: Option<[f64; 2]>,
     radius: f64,
     cells: u64,
+    /// The edges that are nearest to a point, up to rounding.
+    list: Vec<u32>,
 }
 
 /// The known facts about a cell.
@@ -148,15 +123,16 @@ enum Outcome {
 /// A cell that waits to be split.
 struct Waiting {
     bound: f64,
-    number: u64,
+    node: usize,
     cell: Cell,
     axis: usize,
-    list: Vec<u32>,
+    /// The edge nearest to its middle.
+    nearest: u32,
 }
 
 impl Ord for Waiting {
     fn cmp(&self, other: &Self) -> Ordering {
-        self.bound.total_cmp(&other.bound).then(other.number.cmp(&self.number))
+        self.bound.total_cmp(&other.bound).then(other.node.cmp(&self.node))
     }
 }
 
@@ -175,76 +151,81 @@ impl PartialEq for Waiting {
 impl Eq for Waiting {}
 
 impl Search<'_> {
-    /// Opens the cell of the largest bound until that is within the gap.
-    fn best_first(&mut self, gap: f64) -> Result<(), Cancelled> {
-        let all: Vec<u32> = (0..self.edges.len()).collect();
-        let mut heap = BinaryHeap::new();
-        let mut parent = Waiting {
-            bound: f64::INFINITY,
-            number: 0,
-            cell: Cell::root(self.edges),
-            axis: 0,
-            list: all,
-        };
-        let mut children = vec![parent.cell];
-        loop {
-            for cell in children {
-                let mut list = vec![];
-                let outcome = self.examine(&cell, &parent.list, &mut list, gap)?;
-                if let Outcome::Open(_, bound, Some(axis)) = outcome {
-                    heap.push(Waiting { bound, number: self.cells, cell, axis, list });
-                }
+    /// Opens the cell of the largest bound until that is within the gap; returns the tree, or `None` if that takes too many cells.
+    fn best_first(&mut self, gap: f64) -> Result<Option<Vec<Node>>, Cancelled> {
+        let (mut nodes, mut heap) = (vec![], BinaryHeap::new());
+        self.add(Cell::root(self.edges), 0, gap, &mut nodes, &mut heap)?;
+        while let Some(next) = heap.pop() {
+            if next.bound <= self.wanted(gap) {
+                break;
             }
-            let Some(next) = heap.pop() else { return Ok(()) };
-            if next.bound <= self.radius * (1.0 + gap) || self.cells >= FIRST_CELLS_MAX {
-                return Ok(());
+            if self.cells >= FIRST_CELLS_MAX {
+                return Ok(None);
             }
-            children = next.cell.halves(next.axis, self.edges, &next.list).to_vec();
-            parent = next;
+            let [below, above] = next.cell.halves(next.axis);
+            let children = [
+                self.add(below, next.nearest, gap, &mut nodes, &mut heap)?,
+                self.add(above, next.nearest, gap, &mut nodes, &mut heap)?,
+            ];
+            nodes[next.node].split = Some((next.axis, children));
         }
+        Ok(Some(nodes))
+    }
+
+    /// Makes a node of a cell, and lets the cell wait if it is open.
+    fn add(
+        &mut self,
+        cell: Cell,
+        hint: u32,
+        gap: f64,
+        nodes: &mut Vec<Node>,
+        heap: &mut BinaryHeap<Waiting>,
+    ) -> Result<usize, Cancelled> {
+        let node = nodes.len();
+        let (outcome, nearest) = self.examine(&cell, hint, gap)?;
+        let bound = match outcome {
+            Outcome::Outside => None,
+            Outcome::Closed(leaf, bound) => Some((leaf, bound)),
+            Outcome::Open(leaf, bound, axis) => {
+                if let Some(axis) = axis {
+                    heap.push(Waiting { bound, node, cell, axis, nearest });
+                }
+                Some((leaf, bound))
+            }
+        };
+        nodes.push(Node { bound, split: None });
+        Ok(node)
     }
 
     /// Closes all cells within the gap; returns the log with the largest bound, or `None` when that takes too many cells.
     fn depth_first(&mut self, gap: f64, max_cells: u64) -> Result<Option<(Log, f64)>, Cancelled> {
-        let (mut log, mut upper) = (Log::default(), 0.0f64);
-        let mut lists: Vec<Vec<u32>> = vec![(0..self.edges.len()).collect()];
-        let mut pending = vec![(Cell::root(self.edges), 1)];
+        let mut log = Log::default();
+        let mut pending = vec![(Cell::root(self.edges), 0)];
+        let mut upper = 0.0f64;
         let last = self.cells.saturating_add(max_cells);
-        while let Some((cell, depth)) = pending.pop() {
+        while let Some((cell, hint)) = pending.pop() {
             if self.cells >= last {
                 return Ok(None);
             }
-            if lists.len() == depth {
-                lists.push(vec![]);
-            }
-            let (parents, own) = lists.split_at_mut(depth);
-            let mut close = |log: &mut Log, leaf, bound: f64| {
-                log.tree.push('b');
-                log.leaves.push(leaf);
-                upper = upper.max(bound);
-            };
-            match self.examine(&cell, &parents[depth - 1], &mut own[0], gap)? {
-                Outcome::Outside => log.tree.push('o'),
-                Outcome::Closed(leaf, bound) => close(&mut log, leaf, bound),
+            let (outcome, nearest) = self.examine(&cell, hint, gap)?;
+            match outcome {
+                Outcome::Outside => log.outside(),
                 Outcome::Open(_, _, Some(axis)) => {
-                    log.tree.push(if axis == 0 { 'x' } else { 'y' });
-                    let [below, above] = cell.halves(axis, self.edges, &own[0]);
-                    pending.extend([(above, depth + 1), (below, depth + 1)]);
+                    log.split(axis);
+                    let [below, above] = cell.halves(axis);
+                    pending.extend([(above, nearest), (below, nearest)]);
                 }
-                Outcome::Open(leaf, bound, None) => close(&mut log, leaf, bound),
+                Outcome::Closed(leaf, bound) | Outcome::Open(leaf, bound, None) => {
+                    log.close(leaf);
+                    upper = upper.max(bound);
+                }
             }
         }
         Ok(Some((log, upper)))
     }
 
-    /// Bounds the clearance in a cell and looks for a better circle there. `list` becomes the list of the cell.
-    fn examine(
-        &mut self,
-        cell: &Cell,
-        parents: &[u32],
-        list: &mut Vec<u32>,
-        gap: f64,
-    ) -> Result<Outcome, Cancelled> {
+    /// Bounds the clearance in a cell and looks for a better circle there; also returns the edge nearest to the middle.
+    fn examine(&mut self, cell: &Cell, hint: u32, gap: f64) -> Result<(Outcome, u32), Cancelled> {
         self.cells += 1;
         if self.cells.is_multiple_of(CELLS_BETWEEN_CHECKS) {
             self.monitor.check()?;
@@ -254,28 +235,25 @@ impl Search<'_> {
         let middle = edges.scaled(cell.center());
         let size = [0, 1].map(|k| corners[3][k] - corners[0][k]);
         let half = 0.5 * size[0].hypot(size[1]);
-        let (nearest, clearance) = near(edges, middle, half, parents, list);
+        let (nearest, clearance) = edges.nearest(middle, hint);
         if clearance + ROUNDING > self.radius {
-            self.consider(cell, cell.center(), list);
+            self.consider(cell.center(), nearest);
         }
-        let has_no_edge = || {
-            let meets = |&edge: &u32| meets_cell(edges.segment(edge), cell.low, cell.high);
-            clearance > half * (1.0 + 1e-9) + ROUNDING || !list.iter().any(meets)
-        };
-        if !cell.is_inside && has_no_edge() {
-            return Ok(Outcome::Outside);
+        let is_apart =
+            || clearance > half * (1.0 + 1e-9) + ROUNDING || !edges.meet(cell.low, cell.high);
+        if is_apart() && !edges.is_inside(cell.low) {
+            return Ok((Outcome::Outside, nearest));
         }
         let mut single = Leaf(vec![(nearest, 1)]);
         let mut bound = weighted(edges, &corners, &single);
         if bound <= self.wanted(gap) {
-            return Ok(Outcome::Closed(single, bound));
+            return Ok((Outcome::Closed(single, bound), nearest));
         }
-        let is_large = half > LARGE_CELL * self.radius.max(clearance);
-        if is_large && list.len() > LIST_OF_LARGE_CELL_MAX {
+        if half > LARGE_CELL * self.radius.max(clearance) && edges.len() > EDGES_OF_LARGE_CELL_MAX {
             let distances = corners.map(|corner| edges.distance(corner, nearest));
             let excess = bound - self.wanted(gap);
             let axis = split_axis(cell, size, excess, [(1.0, distances)].into_iter());
-            return Ok(Outcome::Open(single, bound, axis));
+            return Ok((Outcome::Open(single, bound, axis), nearest));
         }
         // Plain distances will do where the circle is much larger than their rounding errors.
         let is_thin = self.radius.max(clearance) < ROUNDING * THIN_CIRCLE_ROUNDINGS;
@@ -283,23 +261,25 @@ impl Search<'_> {
             true => edges.accurate(corner, edge),
             false => edges.distance(corner, edge),
         };
-        let distances: Vec<[f64; 4]> =
-            list.iter().map(|&edge| corners.map(|corner| from(corner, edge))).collect();
-        let best = weights::best(&distances);
+        let distances = |edge| corners.map(|corner| from(corner, edge));
+        let least = |mu| edges.least_sum(&corners, mu, nearest, &distances);
+        // Half of the gap is left for whole weights.
+        let enough = self.radius * (1.0 + 0.5 * gap);
+        let best = weights::best((nearest, distances(nearest)), enough, least);
         if best.value > self.radius {
-            let touched: Vec<u32> = best.parts.iter().map(|part| list[part.0]).collect();
+            let touched: Vec<u32> = best.parts.iter().map(|part| part.0.0).collect();
             for some in groups(&touched) {
                 if let Some(q) = equidistant(edges, &some, middle) {
                     let q = edges.unscaled(q);
                     // Beyond a side by rounding alone, as the best center is often on the border of cells.
                     let q = [0, 1].map(|k| q[k].clamp(cell.low[k], cell.high[k]));
-                    self.consider(cell, q, list);
+                    self.consider(q, some[0]);
                 }
             }
         }
         for bits in WEIGHT_BITS {
-            let whole = |&(place, weight): &(usize, f64)| {
-                (list[place], (weight * (1u64 << bits) as f64).round() as u64)
+            let whole = |&((edge, _), weight): &(weights::Row, f64)| {
+                (edge, (weight * (1u64 << bits) as f64).round() as u64)
             };
             let parts: Vec<(u32, u64)> =
                 best.parts.iter().map(whole).filter(|part| part.1 > 0).collect();
@@ -309,12 +289,12 @@ impl Search<'_> {
                 (single, bound) = (leaf, value);
             }
             if bound <= self.wanted(gap) {
-                return Ok(Outcome::Closed(single, bound));
+                return Ok((Outcome::Closed(single, bound), nearest));
             }
         }
-        let parts = best.parts.iter().map(|&(place, weight)| (weight, distances[place]));
+        let parts = best.parts.iter().map(|&((_, distances), weight)| (weight, distances));
         let axis = split_axis(cell, size, bound - self.wanted(gap), parts);
-        Ok(Outcome::Open(single, bound, axis))
+        Ok((Outcome::Open(single, bound, axis), nearest))
     }
 
     /// The largest bound that closes a cell.
@@ -322,26 +302,48 @@ impl Search<'_> {
         self.radius * (1.0 + gap) * (1.0 - ROUNDING)
     }
 
-    /// Takes the circle around q, a point of the cell, if it is the largest so far.
-    fn consider(&mut self, cell: &Cell, q: [f64; 2], list: &[u32]) {
+    /// Takes the circle around q if it is the largest so far. `hint` is an edge that may be near.
+    fn consider(&mut self, q: [f64; 2], hint: u32) {
         let (edges, p) = (self.edges, self.edges.scaled(q));
-        let nearest = |least: f64, &edge: &u32| least.min(edges.distance(p, edge));
-        let least = list.iter().fold(f64::INFINITY, nearest);
+        if edges.distance(p, hint) + ROUNDING <= self.radius {
+            return;
+        }
+        let (_, least) = edges.nearest(p, hint);
         if least + ROUNDING <= self.radius {
             return;
         }
-        let near = list.iter().filter(|&&edge| edges.distance(p, edge) <= least + ROUNDING);
-        let radius = near.map(|&edge| edges.rounded_down(p, edge)).fold(f64::INFINITY, f64::min);
-        if radius > self.radius && cell.is_inside(q, edges, list) {
+        let radius = self.rounded_down(p, least + ROUNDING);
+        if radius > self.radius && edges.is_inside(q) {
             (self.center, self.radius) = (Some(q), radius);
         }
     }
 
-    /// The clearance of the center, from all edges and rounded down.
-    fn radius_over_all(&self) -> f64 {
+    /// The clearance of a scaled point, rounded down, from the edges up to a distance.
+    fn rounded_down(&mut self, p: [f64; 2], most: f64) -> f64 {
+        self.edges.within(p, most, usize::MAX, &mut self.list);
+        let near = self.list.iter().map(|&edge| self.edges.rounded_down(p, edge));
+        near.fold(f64::INFINITY, f64::min)
+    }
+
+    /// The circle with its log; `upper` is the largest bound of a leaf.
+    fn result(
+        mut self,
+        log: Log,
+        upper: f64,
+        mut stop: Stop,
+        searches: u64,
+        epsilon: f64,
+    ) -> SearchResult {
         let p = self.edges.scaled(self.center.unwrap_or_default());
-        let all = (0..self.edges.len()).map(|edge| self.edges.rounded_down(p, edge));
-        all.fold(self.radius, f64::min)
+        // All other edges are farther than the radius even where plain distances are off.
+        let radius = self.rounded_down(p, self.radius * (1.0 + CHECKED_BEYOND) + 8.0 * ROUNDING);
+        let radius = self.radius.min(radius);
+        let upper = upper.max(radius);
+        if upper > radius * (1.0 + epsilon) && stop == Stop::Converged {
+            stop = Stop::Rounding;
+        }
+        let (center, cells) = (self.center, self.cells);
+        SearchResult { center, radius, upper, log, stop, cells, searches }
     }
 }
 
@@ -376,30 +378,8 @@ fn groups(edges: &[u32]) -> Vec<Vec<u32>> {
     some.map(members).collect()
 }
 
-/// Lists the edges that may be nearest to a point within `half` of the middle; returns the edge nearest to the middle and its
-/// distance.
-fn near(
-    edges: &Edges,
-    middle: [f64; 2],
-    half: f64,
-    parents: &[u32],
-    list: &mut Vec<u32>,
-) -> (u32, f64) {
-    let distances: Vec<f64> = parents.iter().map(|&edge| edges.distance(middle, edge)).collect();
-    let mut nearest = (parents[0], f64::INFINITY);
-    for (&edge, &distance) in parents.iter().zip(&distances) {
-        if distance < nearest.1 {
-            nearest = (edge, distance);
-        }
-    }
-    let most = nearest.1 + 2.0 * half * (1.0 + 1e-9) + ROUNDING;
-    list.clear();
-    list.extend(parents.iter().zip(&distances).filter(|pair| *pair.1 <= most).map(|pair| *pair.0));
-    nearest
-}
-
 /// The largest weighted mean of distances over the corners, rounded up.
-fn weighted(edges: &Edges, corners: &[[f64; 2]; 4], leaf: &Leaf) -> f64 {
+fn weighted(edges: &Edges<'_>, corners: &[[f64; 2]; 4], leaf: &Leaf) -> f64 {
     let sum = leaf.0.iter().map(|part| part.1).sum::<u64>() as f64;
     let mean = |corner: &[f64; 2]| {
         let term = |&(edge, weight): &(u32, u64)| weight as f64 * edges.rounded_up(*corner, edge);

@@ -16,36 +16,39 @@ const VALUE_SLACK: f64 = 1e-13;
 /// The amount by which rounding may take a weight below 0 of an optimal strategy.
 const WEIGHT_SLACK: f64 = 1e-12;
 
+/// An edge, with its distances from the four corners.
+pub(super) type Row = (u32, [f64; 4]);
+
 /// Edges with weights that sum to 1.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Weights {
-    /// Edges, by their place in the list of the cell, and weights above 0.
-    pub(super) parts: Vec<(usize, f64)>,
+    /// Edges and weights above 0.
+    pub(super) parts: Vec<(Row, f64)>,
     /// maxⱼ Σᵢ λᵢDᵢⱼ.
     pub(super) value: f64,
 }
 
-/// Solves the game of all rows of `distances`, of which there is at least one.
-pub(super) fn best(distances: &[[f64; 4]]) -> Weights {
-    let largest = |row: &[f64; 4]| row.iter().copied().fold(0.0, f64::max);
-    let first = (0..distances.len())
-        .min_by(|&i, &j| largest(&distances[i]).total_cmp(&largest(&distances[j])))
-        .unwrap_or(0);
+/// Solves the game of all edges, from a first one, until the value is at most `enough`. `least` returns the edge of the least
+/// Σⱼ Dᵢⱼμⱼ for weights μ of the corners.
+pub(super) fn best(first: Row, enough: f64, least: impl Fn([f64; 4]) -> Row) -> Weights {
+    let largest = first.1.into_iter().fold(0.0, f64::max);
     let mut chosen = vec![first];
-    let mut best = Weights { parts: vec![(first, 1.0)], value: largest(&distances[first]) };
+    let mut best = Weights { parts: vec![(first, 1.0)], value: largest };
     for _ in 0..ROUNDS_MAX {
-        let rows: Vec<[f64; 4]> = chosen.iter().map(|&i| distances[i]).collect();
+        let rows: Vec<[f64; 4]> = chosen.iter().map(|row| row.1).collect();
         let (lambda, value) = minimize(&rows, 4);
         if value < best.value || best.parts.len() != chosen.len() {
             let parts = chosen.iter().copied().zip(lambda).filter(|part| part.1 > 0.0);
             best = Weights { parts: parts.collect(), value };
         }
-        let mu = corners(&rows);
-        let at = |i: usize| (0..4).map(|j| mu[j] * distances[i][j]).sum::<f64>();
-        let Some(next) = (0..distances.len()).min_by(|&i, &j| at(i).total_cmp(&at(j))) else {
+        if best.value <= enough {
             break;
-        };
-        if at(next) >= best.value * (1.0 - VALUE_SLACK) || chosen.contains(&next) {
+        }
+        let mu = corners(&rows);
+        let next = least(mu);
+        let at_next = (0..4).map(|j| mu[j] * next.1[j]).sum::<f64>();
+        let is_chosen = chosen.iter().any(|row| row.0 == next.0);
+        if at_next >= best.value * (1.0 - VALUE_SLACK) || is_chosen {
             break;
         }
         if chosen.len() == 4 {
@@ -144,6 +147,17 @@ fn subsets(n: usize, size: usize) -> impl Iterator<Item = [usize; 3]> {
 mod tests {
     use super::*;
 
+    /// Solves the game of all rows.
+    fn best_of(rows: &[[f64; 4]]) -> Weights {
+        let least = |mu: [f64; 4]| {
+            let at = |row: &[f64; 4]| (0..4).map(|j| mu[j] * row[j]).sum::<f64>();
+            let all = rows.iter().enumerate();
+            let (i, row) = all.min_by(|one, other| at(one.1).total_cmp(&at(other.1))).unwrap();
+            (i as u32, *row)
+        };
+        best((0, rows[0]), 0.0, least)
+    }
+
     #[test]
     fn three_sides_of_a_triangle_balance() {
         // Distances from lines with normals that sum to 0 have the mean 1 at every point.
@@ -154,7 +168,7 @@ mod tests {
             .map(|n| corners.map(|p| 1.0 - n[0] * p[0] - n[1] * p[1]))
             .chain([[2.0; 4], [1.5; 4]])
             .collect();
-        let found = best(&rows);
+        let found = best_of(&rows);
         assert!((found.value - 1.0).abs() < 1e-12, "{found:?}");
         assert_eq!(found.parts.len(), 3);
         assert!(found.parts.iter().all(|part| (part.1 - 1.0 / 3.0).abs() < 1e-9));
@@ -176,7 +190,7 @@ mod tests {
                     [c, c + x, c + y, c + x + y]
                 })
                 .collect();
-            let found = best(&rows);
+            let found = best_of(&rows);
             let mut least = f64::INFINITY;
             for i in 0..=PARTS {
                 for j in 0..=PARTS - i {

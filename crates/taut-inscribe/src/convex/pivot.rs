@@ -55,6 +55,11 @@ pub(super) fn best_side(
             _ => (inner(q, next) - begin).rem_euclid(TAU),
         };
         let at = |angle: f64| Side::through(q, [angle.cos(), angle.sin()]);
+        let shuts_out = |angle: f64| at(angle).is_none_or(|side| side.excess(inside) >= 0.0);
+        // Then all directions between do as well: q is on the far side of the hull.
+        if turn < PI && shuts_out(begin) && shuts_out(begin + turn) {
+            continue;
+        }
         let parts = DIRECTIONS + 1;
         let angle = |part: usize| begin + turn * part as f64 / parts as f64;
         for part in 0..parts {

@@ -20,6 +20,11 @@ impl Side {
     pub(super) fn excess(&self, p: [f64; 2]) -> f64 {
         dot(self.normal, p) - self.offset
     }
+
+    /// The least excess in a box, which rounding makes no larger than that of any point there.
+    pub(super) fn least_excess(&self, [low, high]: &[[f64; 2]; 2]) -> f64 {
+        self.excess([0, 1].map(|k| if self.normal[k] > 0.0 { low[k] } else { high[k] }))
+    }
 }
 
 /// Corners in counterclockwise order.

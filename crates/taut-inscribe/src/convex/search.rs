@@ -10,10 +10,11 @@ use taut_points::{Cancelled, Monitor};
 use crate::ellipse::local_optima;
 use crate::polygon::Segment;
 use crate::random::Random;
+use crate::runs::{Bounds, Runs, bounds, overlap};
 use crate::units::Units;
 
 use super::carve::{Metric, carve};
-use super::pivot::best_side;
+use super::pivot::{best_side, hull};
 use super::region::{Moments, Region, Side};
 
 /// How far edges may reach into a body, in units of the bounding box.
@@ -31,6 +32,16 @@ const SWEEPS_MAX: usize = 60;
 /// Times that a first body is carved again in the metric of the one before.
 const CARVINGS: usize = 3;
 
+/// How far beyond a side that was taken out edges are looked for first, in units of the bounding box, and the factor of the next.
+const FIRST_BEYOND: f64 = 1.0 / 64.0;
+const BEYOND_GROWTH: f64 = 4.0;
+
+/// A distance that no two points of the bounding box have, in its units.
+const BEYOND_MAX: f64 = 4.0;
+
+/// Times that points are added for one side before all are taken.
+const ADDITIONS_MAX: usize = 16;
+
 /// Bodies that rounds of ruin and recreation start from.
 const KEPT_MAX: usize = 3;
 
@@ -47,6 +58,7 @@ pub(super) struct Body {
 
 struct Search<'a> {
     edges: &'a [Segment],
+    runs: Runs,
     whole: Region,
     box_sides: [Side; BOX_SIDES],
 }
@@ -63,6 +75,7 @@ pub(super) fn search(
     let side = |normal, offset| Side { normal, offset };
     let search = Search {
         edges: &units.edges,
+        runs: Runs::of(&units.edges),
         whole: Region::rectangle([0.0; 2], units.extent),
         box_sides: [
             side([1.0, 0.0], width),
@@ -111,8 +124,7 @@ impl Search<'_> {
 
     fn carved(&self, sides: Vec<Side>, center: [f64; 2], metric: Metric) -> Option<Body> {
         let room = self.whole.within(&sides[BOX_SIDES..]);
-        let [low, high] = room.bounds();
-        let near = self.edges.iter().copied().filter(|edge| is_near(edge, low, high));
+        let near = self.near(&sides, &room).into_iter();
         let (region, sides) = carve(&room, sides, center, metric, near, DEPTH)?;
         let area = region.area();
         (area > 0.0).then_some(Body { region, sides, area })
@@ -127,17 +139,16 @@ impl Search<'_> {
                 let Some(Moments { centroid, .. }) = body.region.moments() else { return body };
                 let turned = body.sides.remove(at);
                 let room = self.whole.within(&body.sides[BOX_SIDES..]);
-                let mut reaching = self.reaching(&body.sides, &room);
-                if reaching.is_empty() {
+                let points = self.first_points(&body.sides, &turned, &room);
+                if points.is_empty() {
                     // The others alone keep all edges out.
                     body.area = room.area();
                     body.region = room;
                     continue;
                 }
-                let side = match best_side(&room, &mut reaching, centroid) {
-                    Some((area, side)) if area > body.area * (1.0 + GAIN_MIN) => side,
-                    _ => turned,
-                };
+                let least = body.area * (1.0 + GAIN_MIN);
+                let better = self.better_side(&body.sides, &room, points, centroid, least);
+                let side = better.unwrap_or(turned);
                 body.sides.insert(at, side);
                 body.region = room.clipped(&side);
                 body.area = body.region.area();
@@ -150,13 +161,72 @@ impl Search<'_> {
         body
     }
 
+    /// The ends of the parts of edges that reach into a room and are nearest beyond a side that was taken out; none if no edge does.
+    fn first_points(&self, sides: &[Side], taken: &Side, room: &Region) -> Vec<[f64; 2]> {
+        let mut beyond = FIRST_BEYOND;
+        while beyond < BEYOND_MAX {
+            let mut sides = sides.to_vec();
+            sides.push(Side { normal: taken.normal, offset: taken.offset + beyond });
+            let points = self.reaching(&sides, &room.clipped(&sides[sides.len() - 1]));
+            if !points.is_empty() {
+                return points;
+            }
+            beyond *= BEYOND_GROWTH;
+        }
+        self.reaching(sides, room)
+    }
+
+    /// The side that leaves most of a room without an edge in it, if that is more than `least`.
+    ///
+    /// The best side for some points leaves at least as much as that for all; points that it lets in are added.
+    fn better_side(
+        &self,
+        sides: &[Side],
+        room: &Region,
+        mut points: Vec<[f64; 2]>,
+        inside: [f64; 2],
+        least: f64,
+    ) -> Option<Side> {
+        for _ in 0..ADDITIONS_MAX {
+            let (area, side) = best_side(room, &mut points, inside)?;
+            if area <= least {
+                return None;
+            }
+            let mut all = sides.to_vec();
+            all.push(side);
+            let entering = self.reaching(&all, &room.clipped(&side));
+            if entering.is_empty() {
+                return Some(side);
+            }
+            points = hull(&mut points);
+            points.extend(entering);
+        }
+        let (area, side) = best_side(room, &mut self.reaching(sides, room), inside)?;
+        (area > least).then_some(side)
+    }
+
     /// The ends of the parts of edges that reach into a room.
     fn reaching(&self, sides: &[Side], room: &Region) -> Vec<[f64; 2]> {
-        let [low, high] = room.bounds();
-        let near = self.edges.iter().filter(|edge| is_near(edge, low, high));
-        near.filter_map(|&edge| Region::inner_part(sides.iter().copied(), edge, DEPTH))
+        let near = self.near(sides, room).into_iter();
+        near.filter_map(|edge| Region::inner_part(sides.iter().copied(), edge, DEPTH))
             .flatten()
             .collect()
+    }
+
+    /// The edges whose boxes meet that of a room, without runs that one of its sides keeps out.
+    fn near(&self, sides: &[Side], room: &Region) -> Vec<Segment> {
+        let around = room.bounds();
+        let is_kept_out = |side: &Side, bounds: &Bounds| side.least_excess(bounds) + DEPTH >= 0.0;
+        let is_wanted = |bounds: &Bounds| {
+            overlap(bounds, &around) && !sides.iter().any(|side| is_kept_out(side, bounds))
+        };
+        let mut found = vec![];
+        self.runs.visit(&is_wanted, &mut |edges| {
+            let near = self.edges[edges].iter().filter(|&&edge| overlap(&bounds(edge), &around));
+            found.extend(near);
+            true
+        });
+        found
     }
 
     /// A larger body, if taking out some neighboring sides and carving the room again leads to one.
@@ -183,9 +253,4 @@ impl Search<'_> {
         let next = self.turned(self.carved(sides, center, Metric::of_moments(second))?);
         (next.area > body.area * (1.0 + GAIN_MIN)).then_some(next)
     }
-}
-
-/// Whether the bounding box of an edge meets a rectangle.
-fn is_near(edge: &Segment, low: [f64; 2], high: [f64; 2]) -> bool {
-    (0..2).all(|k| edge[0][k].max(edge[1][k]) >= low[k] && edge[0][k].min(edge[1][k]) <= high[k])
 }

@@ -5,11 +5,12 @@ mod report;
 use std::path::PathBuf;
 
 use taut::certify::InscribedEllipse;
-use taut::inscribe::{EllipseOptions, inscribed_ellipse};
+use taut::inscribe::{EllipseFivePointOptions, EllipseMethod, EllipseOptions, inscribed_ellipse};
 use taut::{Monitor, Solution};
 
 use crate::effort::Effort;
 use crate::exit::Outcome;
+use crate::input::choice::choice;
 use crate::input::reading::{Opened, Reading};
 use crate::pipeline::{Find, Input, Output, OutputOptions};
 use crate::reports;
@@ -21,7 +22,8 @@ use crate::watch::Watch;
 Two columns x, y are the vertices of one ring in order. A third column has the number of the ring, 0, 1, and so on, for
 polygons with holes or of several parts; inside is what an odd number of rings wind around. The last vertex of a ring may
 repeat its first. Rings may neither cross nor touch; if they do, the message names two edges by the vertices between
-which they lead, counted from 0.
+which they lead, counted from 0. With --method five-point the bound is as near to the largest area as ε says, and the gap is
+that of the ellipse through samples.
 Exit: 0 reached · 1 the check failed · 2 bad input or usage, nothing written ·
       3 stopped early by the budget of cells, or where rounding hides the gap that was asked for;
         the gap reached is reported
@@ -31,6 +33,20 @@ pub(super) struct Ellipse {
     /// Rings of vertices in order, in any format of `taut formats`, such as CSV or GeoJSON; - is standard input
     #[arg(value_name = "RING")]
     path: PathBuf,
+    /// The way to find it
+    #[arg(
+        long, value_name = "NAME", default_value = EllipseMethod::default().name(), value_parser = choice::<EllipseMethod>()
+    )]
+    method: EllipseMethod,
+    /// Of five-point, samples at even distances along the boundary, from 6 to 400
+    #[arg(long, value_name = "N", default_value_t = EllipseFivePointOptions::DEFAULT.samples)]
+    samples: u64,
+    /// Of five-point, the least cosine of the angle between the normals of ellipse and boundary, in (-1, 1)
+    #[arg(long, value_name = "REAL", default_value_t = EllipseFivePointOptions::DEFAULT.normal, allow_negative_numbers = true)]
+    normal: f64,
+    /// Of five-point, the least small radius in distances of samples, at least 0
+    #[arg(long, value_name = "REAL", default_value_t = EllipseFivePointOptions::DEFAULT.fatness, allow_negative_numbers = true)]
+    fatness: f64,
     /// Proved relative gap to reach, in (0, 1): largest area ≤ (1 + ε)·area
     #[arg(long, value_name = "REAL", default_value = "1e-3", allow_negative_numbers = true)]
     epsilon: f64,
@@ -77,7 +93,16 @@ impl Find for Ellipse {
 
 impl Ellipse {
     fn options(&self) -> EllipseOptions<'static> {
+        let five_point = EllipseFivePointOptions {
+            samples: self.samples,
+            normal: self.normal,
+            fatness: self.fatness,
+        };
         EllipseOptions {
+            method: match self.method {
+                EllipseMethod::FivePoint(_) => EllipseMethod::FivePoint(five_point),
+                other => other,
+            },
             epsilon: self.epsilon,
             max_cells: self.max_cells,
             ..EllipseOptions::default()
@@ -96,5 +121,6 @@ mod tests {
         let found = super::Ellipse::from_arg_matches(&matches).unwrap().options();
         let expected = taut::inscribe::EllipseOptions::default();
         assert_eq!((found.epsilon, found.max_cells), (expected.epsilon, expected.max_cells));
+        assert_eq!(found.method, expected.method);
     }
 }

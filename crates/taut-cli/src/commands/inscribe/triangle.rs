@@ -5,11 +5,12 @@ mod report;
 use std::path::PathBuf;
 
 use taut::certify::InscribedTriangle;
-use taut::inscribe::{TriangleOptions, inscribed_triangle};
+use taut::inscribe::{TriangleMethod, TriangleOptions, TriangleThesisOptions, inscribed_triangle};
 use taut::{Monitor, Solution};
 
 use crate::effort::Effort;
 use crate::exit::Outcome;
+use crate::input::choice::choice;
 use crate::input::reading::{Opened, Reading};
 use crate::pipeline::{Find, Input, Output, OutputOptions};
 use crate::reports;
@@ -21,7 +22,8 @@ use crate::watch::Watch;
 Two columns x, y are the vertices of one ring in order. A third column has the number of the ring, 0, 1, and so on, for
 polygons with holes or of several parts; inside is what an odd number of rings wind around. The last vertex of a ring may
 repeat its first. Rings may neither cross nor touch; if they do, the message names two edges by the vertices between
-which they lead, counted from 0.
+which they lead, counted from 0. With --method thesis the bound is as near to the largest area as ε says, and the gap is that
+of the triangle between random points.
 Exit: 0 reached · 1 the check failed · 2 bad input or usage, nothing written ·
       3 stopped early by the budget of cells, or where rounding hides the gap that was asked for;
         the gap reached is reported
@@ -31,6 +33,17 @@ pub(super) struct Triangle {
     /// Rings of vertices in order, in any format of `taut formats`, such as CSV or GeoJSON; - is standard input
     #[arg(value_name = "RING")]
     path: PathBuf,
+    /// The way to find it
+    #[arg(
+        long, value_name = "NAME", default_value = TriangleMethod::default().name(), value_parser = choice::<TriangleMethod>()
+    )]
+    method: TriangleMethod,
+    /// Of thesis, random points, from 3 to 4096
+    #[arg(long, value_name = "N", default_value_t = TriangleThesisOptions::DEFAULT.samples)]
+    samples: u64,
+    /// Of thesis, the seed of the points
+    #[arg(long, value_name = "N", default_value_t = TriangleThesisOptions::DEFAULT.seed)]
+    seed: u64,
     /// Proved relative gap to reach, in (0, 1): largest area ≤ (1 + ε)·area
     #[arg(long, value_name = "REAL", default_value = "1e-3", allow_negative_numbers = true)]
     epsilon: f64,
@@ -77,7 +90,12 @@ impl Find for Triangle {
 
 impl Triangle {
     fn options(&self) -> TriangleOptions<'static> {
+        let thesis = TriangleThesisOptions { samples: self.samples, seed: self.seed };
         TriangleOptions {
+            method: match self.method {
+                TriangleMethod::Thesis(_) => TriangleMethod::Thesis(thesis),
+                other => other,
+            },
             epsilon: self.epsilon,
             max_cells: self.max_cells,
             ..TriangleOptions::default()
@@ -96,5 +114,6 @@ mod tests {
         let found = super::Triangle::from_arg_matches(&matches).unwrap().options();
         let expected = taut::inscribe::TriangleOptions::default();
         assert_eq!((found.epsilon, found.max_cells), (expected.epsilon, expected.max_cells));
+        assert_eq!(found.method, expected.method);
     }
 }

@@ -12,7 +12,11 @@ impl Summary for InscribedEllipse {
 
     fn title(report: &Report<'_, Self>) -> String {
         let vertices = counted(report.points.source().len(), "point");
-        format!("Largest ellipse in a polygon of {vertices}")
+        let size = match &*report.found.trace.method {
+            "branch-and-bound" => "Largest",
+            _ => "Large",
+        };
+        format!("{size} ellipse in a polygon of {vertices}")
     }
 
     fn fields(report: &Report<'_, Self>) -> Vec<Field> {

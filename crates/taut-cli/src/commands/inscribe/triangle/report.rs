@@ -12,7 +12,11 @@ impl Summary for InscribedTriangle {
 
     fn title(report: &Report<'_, Self>) -> String {
         let vertices = counted(report.points.source().len(), "point");
-        format!("Largest triangle in a polygon of {vertices}")
+        let size = match &*report.found.trace.method {
+            "branch-and-bound" => "Largest",
+            _ => "Large",
+        };
+        format!("{size} triangle in a polygon of {vertices}")
     }
 
     fn fields(report: &Report<'_, Self>) -> Vec<Field> {
