@@ -33,7 +33,7 @@ pub(crate) fn decay(z: f64) -> f64 {
     }
     let less_one = t + t * sum;
     // 2ⁿ is at least 2⁻¹⁰⁷⁵ here, and 0 in place of what is below 2⁻¹⁰²² changes nothing.
-    let power = f64::from_bits((n.max(-1023.0) as i64 + 1023 << 52) as u64);
+    let power = f64::from_bits(((n.max(-1023.0) as i64 + 1023) << 52) as u64);
     (1.0 - power) - power * less_one
 }
 
@@ -90,7 +90,7 @@ mod tests {
         for k in 1..50 {
             let z = std::f64::consts::LN_2 * f64::from(k) / 2.0;
             assert!((decay(z) + (-z).exp_m1()).abs() <= 4e-16, "{z}");
-            assert!(decay(z) < decay(z.next_up() + 1e-15), "{z}");
+            assert!(decay(z) <= decay(z + 1e-12), "{z}");
         }
     }
 }

@@ -36,7 +36,7 @@ fn a_gaussian_ball_is_found_proved_and_drawn() {
     let all = folder.text("ball.json");
     folder.taut("ball points.csv --kernel gaussian --gamma 0.5 --threads 1 -o ball.json").ends(0);
     assert_eq!(folder.text("ball.json"), all);
-    folder.put("moved.csv", &POINTS.replace("9,9", "90,9"));
+    folder.put("moved.csv", POINTS.replace("9,9", "90,9"));
     folder.taut("verify ball.json moved.csv").ends(1);
 }
 
@@ -48,7 +48,7 @@ fn a_soft_ball_leaves_out_its_share() {
     folder.taut(command).ends(0).stdout_has(&["Soft ball (ν = 0.2)", "outside", "objective"]);
     folder.taut("verify soft.json points.csv").ends(0).stdout_has(&["outside", "1 point"]);
     let text = folder.text("soft.json");
-    folder.put("forged.json", &text.replace("\"nu\": 0.2", "\"nu\": 0.9"));
+    folder.put("forged.json", text.replace("\"nu\": 0.2", "\"nu\": 0.9"));
     folder.taut("verify forged.json points.csv").ends(1).stdout_has(&["prove a gap of"]);
 }
 

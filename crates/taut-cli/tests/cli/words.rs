@@ -34,7 +34,7 @@ fn help_explains_every_command_with_an_example() {
         ]);
     }
     folder.taut("ball --help").ends(0).stdout_has(&[
-        "[default: 1e-9]",
+        "[default: 1e-9,",
         "TAUT_THREADS",
         "Exit: 0 reached",
     ]);

@@ -5,7 +5,7 @@
 //! i of the largest aᵢ that can grow, and the j that then gains most.
 //! *Guarantee.* D never falls; the steps end when no aᵢ that can grow exceeds one that can shrink by more than the tolerance.
 //! *Cost.* O(|W|) for each step, and the columns of ρ that it has not seen, O(|W|d).
-//! *Trap.* a is brought up to date with each step, and its error grows with them: it is found anew from time to time.
+//! *Trap.* a is brought up to date with each step, and its error grows with them: it is summed up again from time to time.
 //! *Reference.* Fan, Chen and Lin, Working set selection using second order information, JMLR 6, 2005.
 
 use std::collections::VecDeque;
@@ -19,7 +19,7 @@ use super::features::Features;
 const COLUMN_VALUES_MAX: usize = 1 << 25;
 /// Steps between two looks at the monitor.
 const STEPS_BETWEEN_LOOKS: u64 = 256;
-/// Steps after which a is found anew.
+/// Steps after which a is summed up again.
 const STEPS_BETWEEN_SUMS: u64 = 20_000;
 
 /// A working set with multipliers.
@@ -123,7 +123,8 @@ impl Pairs {
                     lowest = a;
                 }
             }
-            let is_settled = !(highest - lowest > tolerance * self.spread_from(highest, lowest));
+            let is_off = highest - lowest > tolerance * self.spread_from(highest, lowest);
+            let is_settled = !is_off;
             if (is_settled && since_sum > 0) || since_sum >= STEPS_BETWEEN_SUMS {
                 self.sum_up();
                 since_sum = 0;

@@ -282,7 +282,8 @@ impl Center {
             decay_all(gamma, &mut distances);
             sums.iter_mut().zip(&distances).for_each(|(sum, rho)| *sum += group.weight * rho);
         }
-        let stays: Vec<usize> = (0..left.len()).filter(|&k| !(sums[k] <= mean_level)).collect();
+        let stays: Vec<usize> =
+            (0..left.len()).filter(|&k| sums[k] > mean_level || sums[k].is_nan()).collect();
         let inside = sums.iter().filter(|&&sum| sum <= mean_level).fold(0.0, |a: f64, &b| a.max(b));
         block.largest = block.largest.max(inside - self.spread);
         *left = left.subset(&stays, self.dim);

@@ -116,7 +116,7 @@ pub(super) fn solve(
         let lambda = places.iter().map(|&i| pairs.lambda[i]).collect();
         let objective = [upper, spread, found.own];
         let is_in_range = spread > f64::MIN_POSITIVE / f64::EPSILON && upper.is_finite();
-        if !is_in_range && !(upper == 0.0 && options.kernel == Kernel::Precomputed) {
+        if !(is_in_range || upper == 0.0 && options.kernel == Kernel::Precomputed) {
             return Err(Error::Overflow);
         }
         return Ok(finish(

@@ -177,11 +177,12 @@ impl Candidate {
 /// Rectangles of several shapes and directions around a point.
 pub(super) fn around(center: [f64; 2]) -> impl Iterator<Item = Candidate> {
     /// Slopes tried, evenly in the angle.
-    const TURNS: usize = 8;
+    const TURN_ANGLES_TRIED: usize = 8;
     /// Ratios of the half sides tried.
     const RATIOS: [f64; 5] = [1.0, 2.5, 0.4, 7.0, 1.0 / 7.0];
-    (0..TURNS).flat_map(move |turn| {
-        let angle = std::f64::consts::FRAC_PI_2 * ((turn as f64 + 0.5) / TURNS as f64 - 0.5);
+    (0..TURN_ANGLES_TRIED).flat_map(move |turn| {
+        let angle =
+            std::f64::consts::FRAC_PI_2 * ((turn as f64 + 0.5) / TURN_ANGLES_TRIED as f64 - 0.5);
         let slope = angle.tan();
         RATIOS.into_iter().filter_map(move |ratio| {
             let [x, y] = [height(0, slope, center), height(1, slope, center)];

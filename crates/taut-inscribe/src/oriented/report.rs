@@ -14,7 +14,7 @@ use super::search::Target;
 const SHRINK_BITS: std::ops::RangeInclusive<i32> = 12..=50;
 
 /// How clear edges have to be, relative to the terms of a test: four times the error bound of a checker.
-const CLEAR: f64 = 32.0 * f64::EPSILON;
+const CLEARANCE_WANTED: f64 = 32.0 * f64::EPSILON;
 
 /// An answer.
 pub(super) struct Reported {
@@ -79,7 +79,7 @@ impl Given {
             let far = normal[0] * normal[0] + normal[1] * normal[1];
             [p, q].iter().all(|w| {
                 let (x, y) = (normal[0] * w[0], normal[1] * w[1]);
-                x + y - far > CLEAR * (x.abs() + y.abs() + far)
+                x + y - far > CLEARANCE_WANTED * (x.abs() + y.abs() + far)
             })
         };
         if [a, b, a.map(|x| -x), b.map(|x| -x)].into_iter().any(is_beyond) {
@@ -89,7 +89,7 @@ impl Given {
         let turns = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)].map(|(x, y)| {
             let corner = [0, 1].map(|k| x * a[k] + y * b[k] - p[k]);
             let size = |k: usize| p[k].abs() + a[0].abs() + a[1].abs() + along[k].abs();
-            let error = CLEAR * (along[0].abs() * size(1) + along[1].abs() * size(0));
+            let error = CLEARANCE_WANTED * (along[0].abs() * size(1) + along[1].abs() * size(0));
             (along[0] * corner[1] - along[1] * corner[0], error)
         });
         turns.iter().all(|(value, error)| value > error)

@@ -77,6 +77,7 @@ mod tests {
         assert!(terms.bound(&cell, 14.1) && !terms.bound(&cell, 13.9));
         let mut terms = Terms::default();
         terms.add_corner(0, [1.0, 1.0], 3.0, 4.0);
-        assert!(terms.bound(&cell, 12.1) && !terms.bound(&cell, 11.9));
+        // At s₀ = s₁ = 1, where 3·3 has (s₀ + s₁ − 3)·4 = −4 subtracted.
+        assert!(terms.bound(&cell, 13.1) && !terms.bound(&cell, 12.9));
     }
 }

@@ -33,7 +33,7 @@ pub fn all() -> Vec<Case> {
 
 fn of(input: &Input, kernel: Kernel, nu: Option<f64>) -> (String, Option<serde_json::Value>) {
     let method = match (kernel, nu) {
-        (Kernel::Gaussian { gamma }, None) if gamma == 30.0 => KernelBallMethod::Thesis,
+        (Kernel::Gaussian { gamma: 30.0 }, None) => KernelBallMethod::Thesis,
         _ => KernelBallMethod::WorkingSet,
     };
     let options = KernelBallOptions { kernel, nu, method, steps: 12, ..Default::default() };
