@@ -50,6 +50,7 @@ SOLVED = {
         (taut.triangle_rows(SIMPLEX, SIDES[1:]),),
         {},
     ),
+    "kernel ball": (taut.kernel_ball(SPACE, nu=0.3), (SPACE,), {}),
     "dop": (taut.bounding_dop(SPACE), (SPACE,), {}),
     "flat dop": (taut.bounding_dop(SPACE * [1, 1, 0], directions=6), (SPACE * [1, 1, 0],), {}),
     "mcd": (taut.robust_ellipsoid(PLANE), (PLANE,), {}),
@@ -171,6 +172,8 @@ def test_empty_arrays_have_a_type_and_a_shape():
 
 # Where an entry of the JSON is found, if not by its own name.
 ELSEWHERE = {
+    "answer.kernel.name": "answer.kernel",
+    "answer.kernel.gamma": "answer.gamma",
     "answer.flagged": "answer.outliers",
     "certificate.proof.by": "certificate.proof",
     "certificate.tour.lower": "certificate.tour_lower",

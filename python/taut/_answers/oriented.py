@@ -38,7 +38,7 @@ class InscribedOrientedRectangle(Record):
         return corners
 
 
-@record("gap", "tree")
+@record("gap")
 class OrientedRectangleCertificate(Record):
     """A subdivision of all rectangles by slope and offsets: the proof that none in the polygon is much larger.
 
