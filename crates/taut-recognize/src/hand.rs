@@ -1,0 +1,1 @@
+//! Hands: from the image of a hand to features in millimeters, and synthetic scans with ground truth.
