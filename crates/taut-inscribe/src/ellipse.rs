@@ -13,7 +13,9 @@
 
 mod ascent;
 mod cell;
+mod method;
 mod report;
+mod sampled;
 mod search;
 mod shape;
 mod tree;
@@ -34,10 +36,15 @@ use crate::units::Units;
 use self::ascent::Ellipse;
 use self::shape::Shape;
 
+pub use self::method::{EllipseMethod, EllipseThesisOptions};
+
 /// How to look for the ellipse. Write `EllipseOptions { epsilon: 1e-6, ..Default::default() }`.
 #[derive(Clone)]
 pub struct EllipseOptions<'a> {
-    /// Proved relative gap of the area to reach, in (0, 1): largest area ≤ (1 + ε)·area. Default 1e-3.
+    /// How the ellipse is found. Default [`EllipseMethod::BranchAndBound`].
+    pub method: EllipseMethod,
+    /// Proved relative gap of the area to reach, in (0, 1): largest area ≤ (1 + ε)·area. For other methods than the default it is the gap
+    /// of the largest ellipse that the search of the bound finds. Default 1e-3.
     pub epsilon: f64,
     /// Most cells of the certificate; where ε takes more, a larger gap is proved. At least 1, by default a million.
     pub max_cells: u64,
@@ -47,7 +54,12 @@ pub struct EllipseOptions<'a> {
 
 impl Default for EllipseOptions<'_> {
     fn default() -> Self {
-        EllipseOptions { epsilon: 1e-3, max_cells: 1_000_000, monitor: Monitor::silent() }
+        EllipseOptions {
+            method: EllipseMethod::default(),
+            epsilon: 1e-3,
+            max_cells: 1_000_000,
+            monitor: Monitor::silent(),
+        }
     }
 }
 
@@ -75,9 +87,25 @@ pub(crate) fn solved(
     units: &Units,
     options: &EllipseOptions<'_>,
 ) -> Result<Solution<InscribedEllipse>, Error> {
-    let found = search::search(units, options)?;
+    let mut counters = BTreeMap::new();
+    let mut count = |name: &str, count: u64| counters.insert(name.to_owned(), count);
+    let sampled = match options.method {
+        EllipseMethod::BranchAndBound => None,
+        EllipseMethod::Thesis(thesis) | EllipseMethod::FivePoint(thesis) => {
+            let has_five = matches!(options.method, EllipseMethod::FivePoint(_));
+            let found = sampled::largest(units, &thesis, has_five, &options.monitor)?;
+            count("samples", found.samples);
+            count("facets", found.facets);
+            let reported = found.ellipse.and_then(|ellipse| report::rounded(&ellipse, units));
+            let (method, samples) = (options.method.name(), thesis.sample_count);
+            Some(reported.ok_or(Error::NoneAmongSamples { method, samples })?)
+        }
+    };
+    let found = search::search(units, options, sampled.as_ref().map(|reported| reported.size))?;
     let best = found.best.ok_or(Error::TooThin)?;
-    let reported = report::rounded(&best, units).ok_or(Error::TooThin)?;
+    let best = report::rounded(&best, units).ok_or(Error::TooThin)?;
+    let reached = (found.upper / best.size).powi(2) - 1.0;
+    let reported = sampled.unwrap_or(best);
     if !reported.answer.area.is_normal() {
         return Err(Error::Area);
     }
@@ -95,19 +123,17 @@ pub(crate) fn solved(
         gap: (ratio * ratio * (1.0 + 16.0 * f64::EPSILON) - 1.0).max(0.0),
         points_hash: polygon.points_hash,
     };
-    let counters = [
-        ("cells", certificate.tree.len() as u64),
-        ("ascents", found.ascents),
-        ("vertices", polygon.rows.len() as u64),
-    ];
+    count("cells", certificate.tree.len() as u64);
+    count("ascents", found.ascents);
+    count("vertices", polygon.rows.len() as u64);
     let trace = Trace {
-        method: "branch-and-bound".to_owned(),
-        stop: report::stop(found.is_complete, certificate.gap, options.epsilon),
+        method: options.method.name().to_owned(),
+        stop: report::stop(found.is_complete, reached, options.epsilon),
         passes: 1,
         iterations: certificate.tree.len() as u64,
         core_set: certificate.touching.len() as u64,
         history: vec![],
-        counters: BTreeMap::from(counters.map(|(name, count)| (name.to_owned(), count))),
+        counters,
     };
     Ok(Solution { answer: reported.answer, certificate, trace })
 }
@@ -130,5 +156,8 @@ pub(crate) fn check_options(options: &EllipseOptions<'_>) -> Result<(), InputErr
     if options.max_cells == 0 {
         return wrong("max_cells", "0".to_owned(), "at least 1");
     }
-    Ok(())
+    match options.method {
+        EllipseMethod::BranchAndBound => Ok(()),
+        EllipseMethod::Thesis(thesis) | EllipseMethod::FivePoint(thesis) => thesis.check(),
+    }
 }

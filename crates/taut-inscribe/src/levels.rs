@@ -47,6 +47,19 @@ impl Levels {
         ((y * self.density) as usize).min(self.nodes.len() / 2 - 1)
     }
 
+    /// The edges that cross the horizontal line at a height.
+    pub(crate) fn crossing<'a>(
+        &'a self,
+        edges: &'a [Segment],
+        y: f64,
+    ) -> impl Iterator<Item = Segment> + 'a {
+        let leaf = self.nodes.len() / 2 + self.leaf(y);
+        std::iter::successors(Some(leaf), |&node| (node > 1).then_some(node / 2))
+            .flat_map(|node| &self.nodes[node])
+            .map(|&edge| edges[edge as usize])
+            .filter(move |[a, b]| (a[1] <= y) != (b[1] <= y))
+    }
+
     /// Whether an odd number of edges cross the line to the left of p.
     pub(crate) fn is_inside(&self, edges: &[Segment], p: [f64; 2]) -> bool {
         let mut node = self.nodes.len() / 2 + self.leaf(p[1]);

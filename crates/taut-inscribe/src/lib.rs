@@ -39,13 +39,14 @@ mod random;
 mod rectangle;
 mod simple;
 mod triangle;
+mod uniform;
 mod units;
 
 pub use bodies::{BodiesOptions, BodyShape, inscribed_bodies, triangle_rows};
 pub use circle::{CircleOptions, inscribed_circle};
 pub use convex::{ConvexOptions, inscribed_polygon};
-pub use ellipse::{EllipseOptions, inscribed_ellipse};
+pub use ellipse::{EllipseMethod, EllipseOptions, EllipseThesisOptions, inscribed_ellipse};
 pub use error::Error;
 pub use occlusion::{Occlusion, OcclusionOptions, occlusion};
 pub use rectangle::{RectangleOptions, inscribed_rectangle};
-pub use triangle::{TriangleOptions, inscribed_triangle};
+pub use triangle::{TriangleMethod, TriangleOptions, TriangleThesisOptions, inscribed_triangle};

@@ -116,7 +116,7 @@ fn folds(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> bool {
 }
 
 /// Returns true if two segments have a point in common.
-fn meet([a, b]: Segment, [c, d]: Segment) -> bool {
+pub(crate) fn meet([a, b]: Segment, [c, d]: Segment) -> bool {
     if (0..2).any(|k| a[k].max(b[k]) < c[k].min(d[k]) || c[k].max(d[k]) < a[k].min(b[k])) {
         return false;
     }

@@ -20,9 +20,11 @@ mod frame;
 mod gauge;
 mod groups;
 mod lines;
+mod method;
 mod program;
 mod report;
 mod rows;
+mod sampled;
 mod search;
 mod starts;
 mod tile;
@@ -41,10 +43,15 @@ use self::frame::Frame;
 use self::groups::Groups;
 use self::report::Target;
 
+pub use self::method::{TriangleMethod, TriangleThesisOptions};
+
 /// How to look for the triangle. Write `TriangleOptions { epsilon: 1e-6, ..Default::default() }`.
 #[derive(Clone)]
 pub struct TriangleOptions<'a> {
-    /// Proved relative gap of the area to reach, in (0, 1): largest area ≤ (1 + ε)·area. Default 1e-3.
+    /// How the triangle is found. Default [`TriangleMethod::BranchAndBound`].
+    pub method: TriangleMethod,
+    /// Proved relative gap of the area to reach, in (0, 1): largest area ≤ (1 + ε)·area. For other methods than the default it is the gap
+    /// of the largest triangle that the search of the bound finds. Default 1e-3.
     pub epsilon: f64,
     /// Most cells of the certificate; where ε takes more, a larger gap is proved. At least 1, by default a million.
     pub max_cells: u64,
@@ -54,7 +61,12 @@ pub struct TriangleOptions<'a> {
 
 impl Default for TriangleOptions<'_> {
     fn default() -> Self {
-        TriangleOptions { epsilon: 1e-3, max_cells: 1_000_000, monitor: Monitor::silent() }
+        TriangleOptions {
+            method: TriangleMethod::default(),
+            epsilon: 1e-3,
+            max_cells: 1_000_000,
+            monitor: Monitor::silent(),
+        }
     }
 }
 
@@ -76,8 +88,22 @@ pub fn inscribed_triangle(
     let frame = Frame::of(Units::of(&polygon.edges));
     let groups = Groups::of(&frame.edges);
     let target = Target { frame: &frame, groups, edges: &polygon.edges };
+    let mut counters = BTreeMap::new();
+    let mut count = |name: &str, count: u64| counters.insert(name.to_owned(), count);
+    let sampled = match options.method {
+        TriangleMethod::BranchAndBound => None,
+        TriangleMethod::Thesis(thesis) => {
+            let found = sampled::largest(&target, &thesis, &options.monitor)?;
+            count("samples", thesis.sample_count);
+            count("visible pairs", found.visible_pairs);
+            let (method, samples) = (options.method.name(), thesis.sample_count);
+            Some(found.reported.ok_or(Error::NoneAmongSamples { method, samples })?)
+        }
+    };
     let found = search::search(&target, options)?;
-    let reported = found.best.ok_or(Error::TooThin)?;
+    let best = found.best.ok_or(Error::TooThin)?;
+    let reached = found.upper / best.doubled - 1.0;
+    let reported = sampled.unwrap_or(best);
     if !reported.answer.area.is_normal() {
         return Err(Error::Area);
     }
@@ -91,19 +117,17 @@ pub fn inscribed_triangle(
         gap: (ratio * (1.0 + 16.0 * f64::EPSILON) - 1.0).max(0.0),
         points_hash: polygon.points_hash,
     };
-    let counters = [
-        ("cells", certificate.tree.len() as u64),
-        ("ascents", found.ascents),
-        ("vertices", polygon.rows.len() as u64),
-    ];
+    count("cells", certificate.tree.len() as u64);
+    count("ascents", found.ascents);
+    count("vertices", polygon.rows.len() as u64);
     let trace = Trace {
-        method: "branch-and-bound".to_owned(),
-        stop: report::stop(found.is_complete, certificate.gap, options.epsilon),
+        method: options.method.name().to_owned(),
+        stop: report::stop(found.is_complete, reached, options.epsilon),
         passes: 1,
         iterations: certificate.tree.len() as u64,
         core_set: certificate.touching.len() as u64,
         history: vec![],
-        counters: BTreeMap::from(counters.map(|(name, count)| (name.to_owned(), count))),
+        counters,
     };
     Ok(Solution { answer: reported.answer, certificate, trace })
 }
@@ -115,6 +139,9 @@ fn check_options(options: &TriangleOptions<'_>) -> Result<(), InputError> {
     }
     if options.max_cells == 0 {
         return wrong("max_cells", "0".to_owned(), "at least 1");
+    }
+    if let TriangleMethod::Thesis(thesis) = options.method {
+        thesis.check()?;
     }
     Ok(())
 }

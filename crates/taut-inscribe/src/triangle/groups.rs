@@ -91,6 +91,28 @@ impl Groups {
         }
     }
 
+    /// Whether an edge passes a test, which no edge does whose box fails another one.
+    pub(super) fn any(
+        &self,
+        may_hold: impl Fn(&Extent) -> bool,
+        holds: impl Fn(Segment) -> bool,
+    ) -> bool {
+        let mut pending = vec![self.root()];
+        while let Some(group) = pending.pop() {
+            let extent = self.extent(group);
+            // The boxes of groups without edges are at infinity.
+            if extent.half[0].is_infinite() || !may_hold(&extent) {
+                continue;
+            }
+            match self.children(group) {
+                Some([one, other]) => pending.extend([other, one]),
+                None if self.range(group).any(|edge| holds(self.edge(edge))) => return true,
+                None => {}
+            }
+        }
+        false
+    }
+
     /// The least scale at which the triangle of a gauge reaches an edge, or `most` if that is less.
     pub(super) fn least_scale(&self, gauge: &Gauge, most: f64) -> f64 {
         let mut least = most;

@@ -13,5 +13,6 @@ mod polygons;
 mod rectangles;
 mod rings;
 mod sampling;
+mod thesis_methods;
 mod triangle_mutations;
 mod triangles;
