@@ -30,6 +30,7 @@ mod circle;
 mod convex;
 mod ellipse;
 mod error;
+mod groups;
 mod inner_points;
 mod levels;
 mod occlusion;

@@ -18,10 +18,10 @@ mod bound;
 mod cell;
 mod frame;
 mod gauge;
-mod groups;
 mod lines;
 mod method;
 mod program;
+mod reach;
 mod report;
 mod rows;
 mod sampled;
@@ -36,11 +36,11 @@ use taut_certify::{InscribedTriangle, Solution, Trace, TriangleCertificate};
 use taut_points::{InputError, Monitor, PointSource, shown_number};
 
 use crate::Error;
+use crate::groups::Groups;
 use crate::polygon::Polygon;
 use crate::units::Units;
 
 use self::frame::Frame;
-use self::groups::Groups;
 use self::report::Target;
 
 pub use self::method::{TriangleMethod, TriangleThesisOptions};

@@ -6,6 +6,7 @@ mod dops;
 mod ellipse;
 mod polygon;
 mod rectangle;
+mod samples;
 mod triangle;
 
 use taut::certify::InscribedEllipsoid;

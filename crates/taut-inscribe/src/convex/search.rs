@@ -8,6 +8,7 @@
 use taut_points::{Cancelled, Monitor};
 
 use crate::ellipse::local_optima;
+use crate::groups::{Extent, Groups};
 use crate::polygon::Segment;
 use crate::random::Random;
 use crate::units::Units;
@@ -18,6 +19,9 @@ use super::region::{Moments, Region, Side};
 
 /// How far edges may reach into a body, in units of the bounding box.
 const DEPTH: f64 = 1e-12;
+
+/// Bound of the rounding errors of distances to sides, coordinates being below 4 in size.
+const EXCESS_ERROR: f64 = 64.0 * f64::EPSILON;
 
 /// Least gain in area for a change to count, relatively.
 const GAIN_MIN: f64 = 1e-9;
@@ -45,8 +49,8 @@ pub(super) struct Body {
     pub(super) area: f64,
 }
 
-struct Search<'a> {
-    edges: &'a [Segment],
+struct Search {
+    edges: Groups,
     whole: Region,
     box_sides: [Side; BOX_SIDES],
 }
@@ -62,7 +66,7 @@ pub(super) fn search(
     let [width, height] = units.extent;
     let side = |normal, offset| Side { normal, offset };
     let search = Search {
-        edges: &units.edges,
+        edges: Groups::of(&units.edges),
         whole: Region::rectangle([0.0; 2], units.extent),
         box_sides: [
             side([1.0, 0.0], width),
@@ -92,7 +96,7 @@ pub(super) fn search(
     Ok(bodies.into_iter().next())
 }
 
-impl Search<'_> {
+impl Search {
     /// The body around a center, carved again in its own metric and turned.
     fn first(&self, mut center: [f64; 2], mut metric: Metric) -> Option<Body> {
         let mut best: Option<Body> = None;
@@ -111,9 +115,8 @@ impl Search<'_> {
 
     fn carved(&self, sides: Vec<Side>, center: [f64; 2], metric: Metric) -> Option<Body> {
         let room = self.whole.within(&sides[BOX_SIDES..]);
-        let [low, high] = room.bounds();
-        let near = self.edges.iter().copied().filter(|edge| is_near(edge, low, high));
-        let (region, sides) = carve(&room, sides, center, metric, near, DEPTH)?;
+        let near = self.near(&sides, &room);
+        let (region, sides) = carve(&room, sides, center, metric, near.into_iter(), DEPTH)?;
         let area = region.area();
         (area > 0.0).then_some(Body { region, sides, area })
     }
@@ -152,11 +155,31 @@ impl Search<'_> {
 
     /// The ends of the parts of edges that reach into a room.
     fn reaching(&self, sides: &[Side], room: &Region) -> Vec<[f64; 2]> {
-        let [low, high] = room.bounds();
-        let near = self.edges.iter().filter(|edge| is_near(edge, low, high));
-        near.filter_map(|&edge| Region::inner_part(sides.iter().copied(), edge, DEPTH))
+        self.near(sides, room)
+            .into_iter()
+            .filter_map(|edge| Region::inner_part(sides.iter().copied(), edge, DEPTH))
             .flatten()
             .collect()
+    }
+
+    /// The edges that may reach into a room: those of groups whose boxes meet its bounding box and are behind none of its sides.
+    fn near(&self, sides: &[Side], room: &Region) -> Vec<Segment> {
+        let [low, high] = room.bounds();
+        let is_behind = |side: &Side, &Extent { center, half }: &Extent| {
+            let reach = side.normal[0].abs() * half[0] + side.normal[1].abs() * half[1];
+            side.excess(center) - reach + DEPTH >= EXCESS_ERROR
+        };
+        let may_reach = |extent: &Extent| {
+            let Extent { center, half } = *extent;
+            let is_apart = |k: usize| {
+                center[k] + half[k] < low[k] - EXCESS_ERROR
+                    || center[k] - half[k] > high[k] + EXCESS_ERROR
+            };
+            !is_apart(0) && !is_apart(1) && !sides.iter().any(|side| is_behind(side, extent))
+        };
+        let mut found = self.edges.among(may_reach);
+        found.retain(|edge| is_near(edge, low, high));
+        found
     }
 
     /// A larger body, if taking out some neighboring sides and carving the room again leads to one.

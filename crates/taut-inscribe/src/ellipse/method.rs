@@ -5,6 +5,9 @@ use taut_points::{InputError, choice, shown_number};
 /// Range of the number of samples: a hull in ℝ⁵ needs points to start from, and has about as many facets as the square of them.
 const SAMPLE_COUNTS: std::ops::RangeInclusive<u64> = 12..=1000;
 
+/// Least semi-axis, in spacings of the samples, at which no ellipse passes between two of them around its center.
+const FATNESS_MIN: f64 = 0.5;
+
 /// How the ellipse is found. The upper bound comes from the branch and bound in each case.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
@@ -31,7 +34,7 @@ choice! { "method", EllipseMethod {
 pub struct EllipseThesisOptions {
     /// Samples of the rings, evenly spaced along them, 12 to 1000. Time and memory grow with the square. Default 200.
     pub sample_count: u64,
-    /// c: the least semi-axis, in spacings of the samples; at least 0. Default 1.
+    /// c: the least semi-axis, in spacings of the samples; at least ½, as thinner ellipses pass between samples. Default 1.
     pub fatness: f64,
     /// Largest angle between the normals of the ellipse and of the ring at a sample that the ellipse touches, in degrees, above 0 and
     /// below 90. Default 45.
@@ -51,8 +54,8 @@ impl EllipseThesisOptions {
             let value = self.sample_count.to_string();
             return wrong("sample_count", value, "a number from 12 to 1000");
         }
-        if !(self.fatness >= 0.0 && self.fatness.is_finite()) {
-            return wrong("fatness", shown_number(self.fatness), "a number of at least 0");
+        if !(self.fatness >= FATNESS_MIN && self.fatness.is_finite()) {
+            return wrong("fatness", shown_number(self.fatness), "a number of at least 0.5");
         }
         if !(self.angle > 0.0 && self.angle < 90.0) {
             return wrong("angle", shown_number(self.angle), "a number above 0 and below 90");

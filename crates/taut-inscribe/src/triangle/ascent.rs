@@ -7,9 +7,9 @@
 //! the region.
 
 use super::gauge::{Gauge, Triangle, doubled_area, minus, scaled, turn};
-use super::groups::Groups;
 use super::program::{self, Column, ROWS};
 use super::rows::side_gradient;
+use crate::groups::Groups;
 use crate::polygon::Segment;
 
 /// Steps of one climb among the same edges.

@@ -3,8 +3,8 @@
 //! *Idea.* A point is left of all lines from a point of one box to a point of another if it is left of the sixteen lines between
 //! corners, as the cross product is linear in each coordinate. Each of these is a linear function of the point.
 
-use super::groups::Extent;
 use super::tile::Tile;
+use crate::groups::Extent;
 
 /// Lines side by side, for vectors of the machine.
 const LANES: usize = 4;

@@ -5,7 +5,7 @@ use taut_predicates::plane::orient;
 
 use super::frame::Frame;
 use super::gauge::{Gauge, Triangle, centroid, scaled};
-use super::groups::Groups;
+use crate::groups::Groups;
 use crate::levels::is_left;
 use crate::polygon::Segment;
 

@@ -3,11 +3,11 @@
 use super::bound::{Row, doubled_area};
 use super::cell::{Cell, middle, product};
 use super::gauge::{Triangle, minus, turn};
-use super::groups::Groups;
 use super::lines::Lines;
 use super::program::{Column, ROWS};
 use super::tile::Tiles;
 use super::tree::{Leaf, Part};
+use crate::groups::Groups;
 
 /// Shares of the way along an edge are whole multiples of 1 over this, as in a certificate.
 const SHARES: f64 = 65536.0;

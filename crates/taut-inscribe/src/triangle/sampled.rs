@@ -12,9 +12,9 @@ use taut_points::{Cancelled, Monitor};
 use taut_predicates::plane::orient;
 
 use super::gauge::{Triangle, cross, doubled_area, minus};
-use super::groups::{Extent, Groups};
 use super::method::TriangleThesisOptions;
 use super::report::{self, Reported, Target};
+use crate::groups::{Extent, Groups};
 use crate::levels::Levels;
 use crate::random::Random;
 use crate::simple::meet;

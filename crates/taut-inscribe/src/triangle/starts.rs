@@ -3,7 +3,7 @@
 use super::ascent::Candidate;
 use super::frame::Frame;
 use super::gauge::{Gauge, Triangle, doubled_area, scaled};
-use super::groups::Groups;
+use crate::groups::Groups;
 use crate::inner_points::inner_points;
 
 /// Starts of ascents before the search, the largest first.

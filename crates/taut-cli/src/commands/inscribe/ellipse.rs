@@ -2,18 +2,22 @@
 
 mod report;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use taut::certify::InscribedEllipse;
-use taut::inscribe::{EllipseOptions, inscribed_ellipse};
+use taut::inscribe::{EllipseMethod, EllipseOptions, EllipseThesisOptions, inscribed_ellipse};
 use taut::{Monitor, Solution};
 
 use crate::effort::Effort;
 use crate::exit::Outcome;
+use crate::input::choice::choice;
 use crate::input::reading::{Opened, Reading};
+use crate::output::writing::Outputs;
 use crate::pipeline::{Find, Input, Output, OutputOptions};
 use crate::reports;
 use crate::watch::Watch;
+
+use super::samples::Samples;
 
 /// Find the ellipse of largest area in a polygon, with or without holes.
 #[derive(Debug, clap::Args)]
@@ -26,17 +30,38 @@ Exit: 0 reached · 1 the check failed · 2 bad input or usage, nothing written �
       3 stopped early by the budget of cells, or where rounding hides the gap that was asked for;
         the gap reached is reported
 Example: taut inscribe ellipse ring.csv -o ellipse.json --draw ellipse.svg &&
-         taut verify ellipse.json ring.csv")]
+         taut verify ellipse.json ring.csv
+         taut inscribe ellipse ring.csv --method thesis
+         taut inscribe ellipse points.csv --samples --ring ring.csv -o ellipse.json")]
 pub(super) struct Ellipse {
     /// Rings of vertices in order, in any format of `taut formats`, such as CSV or GeoJSON; - is standard input
     #[arg(value_name = "RING")]
     path: PathBuf,
-    /// Proved relative gap to reach, in (0, 1): largest area ≤ (1 + ε)·area
+    /// The way to find it; the upper bound comes from branch and bound in any case
+    #[arg(
+        long, value_name = "NAME", default_value = EllipseMethod::default().name(), value_parser = choice::<EllipseMethod>()
+    )]
+    method: EllipseMethod,
+    #[command(flatten)]
+    samples: Samples,
+    /// Proved relative gap to reach, in (0, 1): largest area ≤ (1 + ε)·area; of other methods that of the best ellipse known
     #[arg(long, value_name = "REAL", default_value = "1e-3", allow_negative_numbers = true)]
     epsilon: f64,
     /// Most cells of the certificate; where ε takes more, a larger gap is proved; at least 1
     #[arg(long, value_name = "N", default_value_t = EllipseOptions::default().max_cells)]
     max_cells: u64,
+    /// Of thesis and five-point, samples along the rings, 12 to 1000
+    #[arg(long, value_name = "N", default_value_t = EllipseThesisOptions::default().sample_count)]
+    sample_count: u64,
+    /// Of thesis and five-point, the least semi-axis in spacings of the samples, at least 0.5
+    #[arg(long, value_name = "REAL", default_value_t = EllipseThesisOptions::default().fatness, allow_negative_numbers = true)]
+    fatness: f64,
+    /// Of thesis and five-point, the largest angle between normals where ellipse and ring touch, in degrees below 90
+    #[arg(long, value_name = "DEGREES", default_value_t = EllipseThesisOptions::default().angle, allow_negative_numbers = true)]
+    angle: f64,
+    /// Of thesis and five-point, the seed of the order and of the perturbation of the samples
+    #[arg(long, value_name = "N", default_value_t = EllipseThesisOptions::default().seed)]
+    seed: u64,
     #[command(flatten)]
     output: OutputOptions,
     #[command(flatten)]
@@ -57,6 +82,14 @@ impl Find for Ellipse {
         self.output.output()
     }
 
+    fn open(&self) -> anyhow::Result<Opened> {
+        self.samples.open(self.input())
+    }
+
+    fn side_files(&self) -> Vec<&Path> {
+        self.samples.files()
+    }
+
     fn solve(
         &self,
         ring: &Opened,
@@ -70,6 +103,21 @@ impl Find for Ellipse {
         Ok((found, ()))
     }
 
+    fn write(
+        &self,
+        found: &mut Solution<InscribedEllipse>,
+        _: &(),
+        ring: &Opened,
+        outputs: &mut Outputs,
+        _: &Monitor<'_>,
+    ) -> anyhow::Result<()> {
+        self.samples.write(ring, outputs)?;
+        match self.output().out {
+            Some(out) => outputs.add_json(out, found),
+            None => Ok(()),
+        }
+    }
+
     fn outcome(&self, found: &Solution<InscribedEllipse>) -> Outcome {
         reports::outcome(found.trace.stop, found.certificate.gap, self.epsilon)
     }
@@ -77,7 +125,18 @@ impl Find for Ellipse {
 
 impl Ellipse {
     fn options(&self) -> EllipseOptions<'static> {
+        let thesis = EllipseThesisOptions {
+            sample_count: self.sample_count,
+            fatness: self.fatness,
+            angle: self.angle,
+            seed: self.seed,
+        };
         EllipseOptions {
+            method: match self.method {
+                EllipseMethod::Thesis(_) => EllipseMethod::Thesis(thesis),
+                EllipseMethod::FivePoint(_) => EllipseMethod::FivePoint(thesis),
+                other => other,
+            },
             epsilon: self.epsilon,
             max_cells: self.max_cells,
             ..EllipseOptions::default()
@@ -95,6 +154,17 @@ mod tests {
         let matches = command.get_matches_from(["ellipse", "ring.csv"]);
         let found = super::Ellipse::from_arg_matches(&matches).unwrap().options();
         let expected = taut::inscribe::EllipseOptions::default();
-        assert_eq!((found.epsilon, found.max_cells), (expected.epsilon, expected.max_cells));
+        assert_eq!(
+            (found.method, found.epsilon, found.max_cells),
+            (expected.method, expected.epsilon, expected.max_cells)
+        );
+        for &(name, method, _) in <taut::inscribe::EllipseMethod as taut::points::Choice>::CHOICES {
+            let command = super::Ellipse::augment_args(clap::Command::new("ellipse"));
+            let matches = command.get_matches_from(["ellipse", "ring.csv", "--method", name]);
+            assert_eq!(
+                super::Ellipse::from_arg_matches(&matches).unwrap().options().method,
+                method
+            );
+        }
     }
 }

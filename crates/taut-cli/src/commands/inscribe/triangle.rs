@@ -2,18 +2,22 @@
 
 mod report;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use taut::certify::InscribedTriangle;
-use taut::inscribe::{TriangleOptions, inscribed_triangle};
+use taut::inscribe::{TriangleMethod, TriangleOptions, TriangleThesisOptions, inscribed_triangle};
 use taut::{Monitor, Solution};
 
 use crate::effort::Effort;
 use crate::exit::Outcome;
+use crate::input::choice::choice;
 use crate::input::reading::{Opened, Reading};
+use crate::output::writing::Outputs;
 use crate::pipeline::{Find, Input, Output, OutputOptions};
 use crate::reports;
 use crate::watch::Watch;
+
+use super::samples::Samples;
 
 /// Find the triangle of largest area in a polygon, with or without holes.
 #[derive(Debug, clap::Args)]
@@ -26,17 +30,32 @@ Exit: 0 reached · 1 the check failed · 2 bad input or usage, nothing written �
       3 stopped early by the budget of cells, or where rounding hides the gap that was asked for;
         the gap reached is reported
 Example: taut inscribe triangle ring.csv -o triangle.json --draw triangle.svg &&
-         taut verify triangle.json ring.csv")]
+         taut verify triangle.json ring.csv
+         taut inscribe triangle ring.csv --method thesis
+         taut inscribe triangle points.csv --samples --ring ring.csv -o triangle.json")]
 pub(super) struct Triangle {
     /// Rings of vertices in order, in any format of `taut formats`, such as CSV or GeoJSON; - is standard input
     #[arg(value_name = "RING")]
     path: PathBuf,
-    /// Proved relative gap to reach, in (0, 1): largest area ≤ (1 + ε)·area
+    /// The way to find it; the upper bound comes from branch and bound in any case
+    #[arg(
+        long, value_name = "NAME", default_value = TriangleMethod::default().name(), value_parser = choice::<TriangleMethod>()
+    )]
+    method: TriangleMethod,
+    #[command(flatten)]
+    samples: Samples,
+    /// Proved relative gap to reach, in (0, 1): largest area ≤ (1 + ε)·area; of other methods that of the best triangle known
     #[arg(long, value_name = "REAL", default_value = "1e-3", allow_negative_numbers = true)]
     epsilon: f64,
     /// Most cells of the certificate; where ε takes more, a larger gap is proved; at least 1
     #[arg(long, value_name = "N", default_value_t = TriangleOptions::default().max_cells)]
     max_cells: u64,
+    /// Of thesis, random points in the polygon, 3 to 4096
+    #[arg(long, value_name = "N", default_value_t = TriangleThesisOptions::default().sample_count)]
+    sample_count: u64,
+    /// Of thesis, the seed of the random points
+    #[arg(long, value_name = "N", default_value_t = TriangleThesisOptions::default().seed)]
+    seed: u64,
     #[command(flatten)]
     output: OutputOptions,
     #[command(flatten)]
@@ -57,6 +76,14 @@ impl Find for Triangle {
         self.output.output()
     }
 
+    fn open(&self) -> anyhow::Result<Opened> {
+        self.samples.open(self.input())
+    }
+
+    fn side_files(&self) -> Vec<&Path> {
+        self.samples.files()
+    }
+
     fn solve(
         &self,
         ring: &Opened,
@@ -70,6 +97,21 @@ impl Find for Triangle {
         Ok((found, ()))
     }
 
+    fn write(
+        &self,
+        found: &mut Solution<InscribedTriangle>,
+        _: &(),
+        ring: &Opened,
+        outputs: &mut Outputs,
+        _: &Monitor<'_>,
+    ) -> anyhow::Result<()> {
+        self.samples.write(ring, outputs)?;
+        match self.output().out {
+            Some(out) => outputs.add_json(out, found),
+            None => Ok(()),
+        }
+    }
+
     fn outcome(&self, found: &Solution<InscribedTriangle>) -> Outcome {
         reports::outcome(found.trace.stop, found.certificate.gap, self.epsilon)
     }
@@ -77,7 +119,12 @@ impl Find for Triangle {
 
 impl Triangle {
     fn options(&self) -> TriangleOptions<'static> {
+        let thesis = TriangleThesisOptions { sample_count: self.sample_count, seed: self.seed };
         TriangleOptions {
+            method: match self.method {
+                TriangleMethod::Thesis(_) => TriangleMethod::Thesis(thesis),
+                other => other,
+            },
             epsilon: self.epsilon,
             max_cells: self.max_cells,
             ..TriangleOptions::default()
@@ -95,6 +142,18 @@ mod tests {
         let matches = command.get_matches_from(["triangle", "ring.csv"]);
         let found = super::Triangle::from_arg_matches(&matches).unwrap().options();
         let expected = taut::inscribe::TriangleOptions::default();
-        assert_eq!((found.epsilon, found.max_cells), (expected.epsilon, expected.max_cells));
+        assert_eq!(
+            (found.method, found.epsilon, found.max_cells),
+            (expected.method, expected.epsilon, expected.max_cells)
+        );
+        for &(name, method, _) in <taut::inscribe::TriangleMethod as taut::points::Choice>::CHOICES
+        {
+            let command = super::Triangle::augment_args(clap::Command::new("triangle"));
+            let matches = command.get_matches_from(["triangle", "ring.csv", "--method", name]);
+            assert_eq!(
+                super::Triangle::from_arg_matches(&matches).unwrap().options().method,
+                method
+            );
+        }
     }
 }
