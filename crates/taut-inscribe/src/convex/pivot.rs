@@ -20,13 +20,28 @@ const HALVINGS: usize = 40;
 /// Corners of hulls that are nearer to each other than this are one, and sides may have them this far inside.
 const SAME: f64 = 1e-13;
 
+/// Directions an eighth of a turn apart, counterclockwise.
+const OCTANTS: [[f64; 2]; 8] = [
+    [1.0, 0.0],
+    [1.0, 1.0],
+    [0.0, 1.0],
+    [-1.0, 1.0],
+    [-1.0, 0.0],
+    [-1.0, -1.0],
+    [0.0, -1.0],
+    [1.0, -1.0],
+];
+
+/// How far inside of an octagon a point has to be, as twice the area of a triangle: far above rounding, as coordinates are below 4.
+const OCTAGON_MARGIN: f64 = 1e-12;
+
 /// The half-plane that leaves most of a region, has one point inside and none of some others, and the area left.
 pub(super) fn best_side(
     region: &Region,
-    points: &mut [[f64; 2]],
+    points: &[[f64; 2]],
     inside: [f64; 2],
 ) -> Option<(f64, Side)> {
-    let hull = hull(points);
+    let hull = hull(&mut outer(points));
     let mut best: Option<(f64, Side)> = None;
     let mut consider = |side: Side| {
         // Behind the points there may be no inside of the polygon. At a corner of a nearly straight hull rounding can make the range
@@ -103,10 +118,30 @@ fn chord(region: &Region, q: [f64; 2], direction: [f64; 2]) -> [f64; 2] {
     [ahead, behind]
 }
 
+/// The points but for those well inside of the octagon of the farthest ones in eight directions, which are no corners of the hull (Akl and
+/// Toussaint).
+fn outer(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let mut octagon = [[0.0; 2]; OCTANTS.len()];
+    for (corner, direction) in octagon.iter_mut().zip(OCTANTS) {
+        let farther = |p: &[f64; 2], q: &[f64; 2]| dot(direction, *p) > dot(direction, *q);
+        let farthest = points.iter().copied().reduce(|p, q| if farther(&q, &p) { q } else { p });
+        *corner = farthest.unwrap_or_default();
+    }
+    let sides: Vec<[[f64; 2]; 2]> = (0..octagon.len())
+        .map(|k| [octagon[k], octagon[(k + 1) % octagon.len()]])
+        .filter(|[a, b]| a != b)
+        .collect();
+    let is_inner = |&p: &[f64; 2]| {
+        sides.iter().all(|&[a, b]| cross(minus(b, a), minus(p, a)) > OCTAGON_MARGIN)
+    };
+    points.iter().copied().filter(|p| sides.is_empty() || !is_inner(p)).collect()
+}
+
 /// The corners of the convex hull, counterclockwise (Andrew's chain).
 pub(super) fn hull(points: &mut [[f64; 2]]) -> Vec<[f64; 2]> {
     points.sort_by(|p, q| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])));
-    let is_near = |p: [f64; 2], q: [f64; 2]| (p[0] - q[0]).hypot(p[1] - q[1]) <= SAME;
+    let is_near =
+        |p: [f64; 2], q: [f64; 2]| (p[0] - q[0]).powi(2) + (p[1] - q[1]).powi(2) <= SAME * SAME;
     let chain = |points: &mut dyn Iterator<Item = [f64; 2]>| {
         let mut kept: Vec<[f64; 2]> = vec![];
         for p in points {

@@ -123,23 +123,35 @@ impl Search {
 
     /// Puts the best side in the place of each, until none gains.
     fn turned(&self, mut body: Body) -> Body {
+        // Sides that follow each other and stay: when all do, another sweep would find the same.
+        let mut unchanged = 0;
         for _ in 0..SWEEPS_MAX {
             let before = body.area;
             let mut at = BOX_SIDES;
             while at < body.sides.len() {
+                if unchanged == body.sides.len() - BOX_SIDES {
+                    return body;
+                }
                 let Some(Moments { centroid, .. }) = body.region.moments() else { return body };
                 let turned = body.sides.remove(at);
                 let room = self.whole.within(&body.sides[BOX_SIDES..]);
-                let mut reaching = self.reaching(&body.sides, &room);
+                let reaching = self.reaching(&body.sides, &room);
                 if reaching.is_empty() {
                     // The others alone keep all edges out.
                     body.area = room.area();
                     body.region = room;
+                    unchanged = 0;
                     continue;
                 }
-                let side = match best_side(&room, &mut reaching, centroid) {
-                    Some((area, side)) if area > body.area * (1.0 + GAIN_MIN) => side,
-                    _ => turned,
+                let side = match best_side(&room, &reaching, centroid) {
+                    Some((area, side)) if area > body.area * (1.0 + GAIN_MIN) => {
+                        unchanged = 0;
+                        side
+                    }
+                    _ => {
+                        unchanged += 1;
+                        turned
+                    }
                 };
                 body.sides.insert(at, side);
                 body.region = room.clipped(&side);
@@ -155,11 +167,17 @@ impl Search {
 
     /// The ends of the parts of edges that reach into a room.
     fn reaching(&self, sides: &[Side], room: &Region) -> Vec<[f64; 2]> {
-        self.near(sides, room)
-            .into_iter()
-            .filter_map(|edge| Region::inner_part(sides.iter().copied(), edge, DEPTH))
-            .flatten()
-            .collect()
+        let mut found: Vec<[f64; 2]> = vec![];
+        for edge in self.near(sides, room) {
+            if let Some([from, to]) = Region::inner_part(sides.iter().copied(), edge, DEPTH) {
+                // Edges of a ring follow each other.
+                if found.last() != Some(&from) {
+                    found.push(from);
+                }
+                found.push(to);
+            }
+        }
+        found
     }
 
     /// The edges that may reach into a room: those of groups whose boxes meet its bounding box and are behind none of its sides.
