@@ -340,8 +340,10 @@ impl Search<'_> {
     /// The clearance of the center, from all edges and rounded down.
     fn radius_over_all(&self) -> f64 {
         let p = self.edges.scaled(self.center.unwrap_or_default());
-        let all = (0..self.edges.len()).map(|edge| self.edges.rounded_down(p, edge));
-        all.fold(self.radius, f64::min)
+        // The accurate distance of an edge that is farther by its plain one is above the radius.
+        let most = self.radius * (1.0 + 16.0 * ROUNDING) + 2.0 * ROUNDING;
+        let near = (0..self.edges.len()).filter(|&edge| self.edges.distance(p, edge) <= most);
+        near.map(|edge| self.edges.rounded_down(p, edge)).fold(self.radius, f64::min)
     }
 }
 
