@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use pyo3::prelude::*;
 use taut::certify::{OrderCurve, SurfaceMethod};
 use taut::delaunay::InsertionOrder;
-use taut::inscribe::{BodiesMethod, Objective, ThesisSeeds};
+use taut::inscribe::{BodiesMethod, EllipseMethod, Objective, ThesisSeeds, TriangleMethod};
 use taut::oblivious::external::KeyKind;
 use taut::points::{Choice, Distribution};
 use taut::reconstruct::thesis::Priority;
@@ -26,6 +26,8 @@ pub(crate) fn names() -> BTreeMap<&'static str, Vec<&'static str>> {
         ("curve.method", of::<CurveMethod>()),
         ("delaunay.order", of::<InsertionOrder>()),
         ("ellipsoid.method", of::<EllipsoidMethod>()),
+        ("inscribed_ellipse.method", of::<EllipseMethod>()),
+        ("inscribed_triangle.method", of::<TriangleMethod>()),
         ("generate.distribution", listed(Distribution::NAMES)),
         ("inscribed_dops.method", of::<BodiesMethod>()),
         ("inscribed_dops.objective", of::<Objective>()),

@@ -2,14 +2,28 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 from numpy.typing import ArrayLike
 
 from . import _native
 from ._arrays import as_rows
 from ._solution import Solution
 
+EllipseMethod = Literal["branch-and-bound", "thesis", "five-point"]
 
-def inscribed_ellipse(polygon: ArrayLike, *, epsilon: float = 1e-3, max_cells: int = 1_000_000) -> Solution:
+
+def inscribed_ellipse(
+    polygon: ArrayLike,
+    *,
+    epsilon: float = 1e-3,
+    max_cells: int = 1_000_000,
+    method: EllipseMethod = "branch-and-bound",
+    sample_count: int = 200,
+    fatness: float = 1.0,
+    angle: float = 45.0,
+    seed: int = 1,
+) -> Solution:
     """Ellipse of largest area in a polygon, with a certificate.
 
     Parameters
@@ -22,6 +36,18 @@ def inscribed_ellipse(polygon: ArrayLike, *, epsilon: float = 1e-3, max_cells: i
         Relative gap to prove, largest area <= (1 + epsilon) * area.
     max_cells : int >= 1, default 1_000_000
         Most cells of the certificate; where epsilon takes more, a larger gap is proved.
+    method : str, default "branch-and-bound"
+        The way to find it. "thesis" is Algorithm 12 of the thesis, corrected: the largest ellipse through three samples of the rings and
+        around none; "five-point" takes ellipses through five. The largest ellipse of the same center and shape in the polygon is
+        the answer, and its gap is that of the bound of the default method.
+    sample_count : int from 12 to 1000, default 200
+        Of "thesis" and "five-point": samples along the rings. Time and memory grow with the square.
+    fatness : float >= 0.5, default 1.0
+        Of "thesis" and "five-point": the least semi-axis, in spacings of the samples.
+    angle : float in (0, 90), default 45.0
+        Of "thesis" and "five-point": largest angle between the normals of ellipse and ring where they touch, in degrees.
+    seed : int >= 0, default 1
+        Of "thesis" and "five-point": seed of the order and of the perturbation of the samples.
 
     Returns
     -------
@@ -56,4 +82,4 @@ def inscribed_ellipse(polygon: ArrayLike, *, epsilon: float = 1e-3, max_cells: i
     True
     """
     rows = as_rows(polygon)
-    return Solution(_native.inscribed_ellipse(rows, epsilon, max_cells), rows)
+    return Solution(_native.inscribed_ellipse(rows, epsilon, max_cells, method, sample_count, fatness, angle, seed), rows)

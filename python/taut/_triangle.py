@@ -2,14 +2,26 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 from numpy.typing import ArrayLike
 
 from . import _native
 from ._arrays import as_rows
 from ._solution import Solution
 
+TriangleMethod = Literal["branch-and-bound", "thesis"]
 
-def inscribed_triangle(polygon: ArrayLike, *, epsilon: float = 1e-3, max_cells: int = 1_000_000) -> Solution:
+
+def inscribed_triangle(
+    polygon: ArrayLike,
+    *,
+    epsilon: float = 1e-3,
+    max_cells: int = 1_000_000,
+    method: TriangleMethod = "branch-and-bound",
+    sample_count: int = 300,
+    seed: int = 1,
+) -> Solution:
     """Triangle of largest area in a polygon, with a certificate.
 
     Parameters
@@ -22,6 +34,13 @@ def inscribed_triangle(polygon: ArrayLike, *, epsilon: float = 1e-3, max_cells: 
         Relative gap to prove, largest area <= (1 + epsilon) * area.
     max_cells : int >= 1, default 1_000_000
         Most cells of the certificate; where epsilon takes more, a larger gap is proved.
+    method : str, default "branch-and-bound"
+        The way to find it. "thesis" takes the largest triangle whose corners are random points in the polygon that see each other; its
+        gap is that of the bound of the default method.
+    sample_count : int from 3 to 4096, default 300
+        Of "thesis": random points.
+    seed : int >= 0, default 1
+        Of "thesis": seed of the random points.
 
     Returns
     -------
@@ -55,4 +74,4 @@ def inscribed_triangle(polygon: ArrayLike, *, epsilon: float = 1e-3, max_cells: 
     (True, True)
     """
     rows = as_rows(polygon)
-    return Solution(_native.inscribed_triangle(rows, epsilon, max_cells), rows)
+    return Solution(_native.inscribed_triangle(rows, epsilon, max_cells, method, sample_count, seed), rows)

@@ -3,4 +3,5 @@
 pub(crate) mod answer_file;
 pub(crate) mod choice;
 pub(crate) mod reading;
+pub(crate) mod samples;
 pub(crate) mod size;

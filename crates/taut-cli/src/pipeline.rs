@@ -13,6 +13,7 @@ use crate::commands::verify::judge;
 use crate::effort::Effort;
 use crate::exit::Outcome;
 use crate::input::reading::{Opened, Reading};
+use crate::input::samples::Samples;
 use crate::output::picture::{Picture, PictureOptions};
 use crate::output::writing::{self, Outputs};
 use crate::reports::{self, Field, Report, Summary};
@@ -30,10 +31,18 @@ pub(crate) trait Find {
     /// Describes what the subcommand does with its answer.
     fn output(&self) -> Output<'_>;
 
+    /// The options for samples of curves in place of rings, in subcommands on polygons.
+    fn samples(&self) -> Option<&Samples> {
+        None
+    }
+
     /// Opens the rows.
     fn open(&self) -> anyhow::Result<Opened> {
         let input = self.input();
-        input.reading.open(input.path)
+        match self.samples() {
+            Some(samples) => samples.open(input),
+            None => input.reading.open(input.path),
+        }
     }
 
     /// Refuses options and names of files, before any work.
@@ -43,7 +52,7 @@ pub(crate) trait Find {
 
     /// Files that are written beside `-o` and `--draw`.
     fn side_files(&self) -> Vec<&Path> {
-        Vec::new()
+        self.samples().map_or(vec![], Samples::files)
     }
 
     /// Finds the shape.
@@ -63,10 +72,13 @@ pub(crate) trait Find {
         &self,
         found: &mut Solution<Self::Answer>,
         _extra: &Self::Extra,
-        _points: &Opened,
+        points: &Opened,
         outputs: &mut Outputs,
         _monitor: &Monitor<'_>,
     ) -> anyhow::Result<()> {
+        if let Some(samples) = self.samples() {
+            samples.write(points, outputs)?;
+        }
         match self.output().out {
             Some(out) => outputs.add_json(out, found),
             None => Ok(()),

@@ -54,8 +54,8 @@ pub struct KernelBallOptions<'a> {
     pub method: KernelBallMethod,
     /// Steps of [`KernelBallMethod::Thesis`], at least 2. Default 100.
     pub steps: u64,
-    /// Most passes over all points; then the best ball so far is returned with its gap. At least 1; ignored by
-    /// [`KernelBallMethod::Thesis`]. Default 10,000.
+    /// Most passes over all points, by default 10,000; then the best ball so far is returned with its gap. At least 1, but the start of
+    /// [`KernelBallMethod::WorkingSet`] takes two or three and that of [`KernelBallMethod::Thesis`] four in any case.
     pub max_passes: u64,
     /// Threads to use, 1 to 1024; `None` takes those of the current rayon pool. The answer does not depend on it.
     pub threads: Option<usize>,
@@ -85,7 +85,7 @@ impl Default for KernelBallOptions<'_> {
 ///
 /// With ν it is a support vector data description: the ball that trades its squared radius for points outside. The certificate holds the
 /// gap of the objective; that of the radius of a hard ball is half of it. A precomputed kernel is a source of n rows of n columns,
-/// symmetric and positive semidefinite; this function does not check that it is the latter.
+/// symmetric and positive semidefinite, which is not checked here; the checker refuses matrices that clearly are not.
 ///
 /// ```
 /// use taut_certify::Kernel;

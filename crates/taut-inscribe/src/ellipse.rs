@@ -13,9 +13,9 @@
 
 mod ascent;
 mod cell;
-mod five_point;
-mod options;
+mod method;
 mod report;
+mod sampled;
 mod search;
 mod shape;
 mod tree;
@@ -26,10 +26,8 @@ mod widths;
 use std::collections::BTreeMap;
 
 use taut_certify::{EllipseCertificate, InscribedEllipse, Solution, Trace};
-use taut_points::PointSource;
+use taut_points::{InputError, Monitor, PointSource, shown_number};
 
-pub(crate) use self::options::check as check_options;
-pub use self::options::{EllipseFivePointOptions, EllipseMethod, EllipseOptions};
 use crate::Error;
 use crate::levels::Levels;
 use crate::polygon::Polygon;
@@ -37,6 +35,33 @@ use crate::units::Units;
 
 use self::ascent::Ellipse;
 use self::shape::Shape;
+
+pub use self::method::{EllipseMethod, EllipseThesisOptions};
+
+/// How to look for the ellipse. Write `EllipseOptions { epsilon: 1e-6, ..Default::default() }`.
+#[derive(Clone)]
+pub struct EllipseOptions<'a> {
+    /// How the ellipse is found. Default [`EllipseMethod::BranchAndBound`].
+    pub method: EllipseMethod,
+    /// Proved relative gap of the area to reach, in (0, 1): largest area ≤ (1 + ε)·area. For other methods than the default it is the gap
+    /// of the largest ellipse that the search of the bound finds. Default 1e-3.
+    pub epsilon: f64,
+    /// Most cells of the certificate; where ε takes more, a larger gap is proved. At least 1, by default a million.
+    pub max_cells: u64,
+    /// Watches the work and can stop it. Default [`Monitor::silent`].
+    pub monitor: Monitor<'a>,
+}
+
+impl Default for EllipseOptions<'_> {
+    fn default() -> Self {
+        EllipseOptions {
+            method: EllipseMethod::default(),
+            epsilon: 1e-3,
+            max_cells: 1_000_000,
+            monitor: Monitor::silent(),
+        }
+    }
+}
 
 /// Finds the ellipse of the largest area in a polygon.
 ///
@@ -62,25 +87,29 @@ pub(crate) fn solved(
     units: &Units,
     options: &EllipseOptions<'_>,
 ) -> Result<Solution<InscribedEllipse>, Error> {
-    let found = search::search(units, options)?;
-    let best = found.best.ok_or(Error::TooThin)?;
-    let reported = report::rounded(&best, units).ok_or(Error::TooThin)?;
-    let best_size = reported.size;
-    let reported = match &options.method {
-        EllipseMethod::BranchAndBound => reported,
-        EllipseMethod::FivePoint(five) => {
-            let through_five = five_point::largest(units, five, &options.monitor)?;
-            let rounded = through_five.and_then(|ellipse| report::rounded(&ellipse, units));
-            rounded.ok_or_else(|| options::too_few(five.samples))?
+    let mut counters = BTreeMap::new();
+    let mut count = |name: &str, count: u64| counters.insert(name.to_owned(), count);
+    let sampled = match options.method {
+        EllipseMethod::BranchAndBound => None,
+        EllipseMethod::Thesis(thesis) | EllipseMethod::FivePoint(thesis) => {
+            let has_five = matches!(options.method, EllipseMethod::FivePoint(_));
+            let found = sampled::largest(units, &thesis, has_five, &options.monitor)?;
+            count("samples", found.samples);
+            count("facets", found.facets);
+            let reported = found.ellipse.and_then(|ellipse| report::rounded(&ellipse, units));
+            let (method, samples) = (options.method.name(), thesis.sample_count);
+            Some(reported.ok_or(Error::NoneAmongSamples { method, samples })?)
         }
     };
+    let found = search::search(units, options, sampled.as_ref().map(|reported| reported.size))?;
+    let best = found.best.ok_or(Error::TooThin)?;
+    let best = report::rounded(&best, units).ok_or(Error::TooThin)?;
+    let reached = (found.upper / best.size).powi(2) - 1.0;
+    let reported = sampled.unwrap_or(best);
     if !reported.answer.area.is_normal() {
         return Err(Error::Area);
     }
-    let gap_of = |size: f64| {
-        let ratio = found.upper / size;
-        (ratio * ratio * (1.0 + 16.0 * f64::EPSILON) - 1.0).max(0.0)
-    };
+    let ratio = found.upper / reported.size;
     let numbers = |parts: Vec<(u32, u64)>| match parts[..] {
         [(edge, _)] => vec![polygon.rows[edge as usize]],
         _ => parts.iter().flat_map(|&(edge, w)| [polygon.rows[edge as usize], w]).collect(),
@@ -91,22 +120,20 @@ pub(crate) fn solved(
         directions: found.directions,
         tree: found.log.tree,
         leaves: found.log.leaves.into_iter().map(numbers).collect(),
-        gap: gap_of(reported.size),
+        gap: (ratio * ratio * (1.0 + 16.0 * f64::EPSILON) - 1.0).max(0.0),
         points_hash: polygon.points_hash,
     };
-    let counters = [
-        ("cells", certificate.tree.len() as u64),
-        ("ascents", found.ascents),
-        ("vertices", polygon.rows.len() as u64),
-    ];
+    count("cells", certificate.tree.len() as u64);
+    count("ascents", found.ascents);
+    count("vertices", polygon.rows.len() as u64);
     let trace = Trace {
         method: options.method.name().to_owned(),
-        stop: report::stop(found.is_complete, gap_of(best_size), options.epsilon),
+        stop: report::stop(found.is_complete, reached, options.epsilon),
         passes: 1,
         iterations: certificate.tree.len() as u64,
         core_set: certificate.touching.len() as u64,
         history: vec![],
-        counters: BTreeMap::from(counters.map(|(name, count)| (name.to_owned(), count))),
+        counters,
     };
     Ok(Solution { answer: reported.answer, certificate, trace })
 }
@@ -119,4 +146,18 @@ pub(crate) fn local_optima(units: &Units, most: usize) -> Vec<([f64; 2], [f64; 3
     let found = circles.map(|circle| circle.climbed(edges)).filter(is_inside);
     let form = |Shape { s, t, .. }: Shape| [t + s * s / t, s / t, 1.0 / t];
     found.map(|ellipse| (ellipse.center, form(ellipse.shape))).collect()
+}
+
+pub(crate) fn check_options(options: &EllipseOptions<'_>) -> Result<(), InputError> {
+    let wrong = |name, value, expected| Err(InputError::Option { name, value, expected });
+    if !(options.epsilon > 0.0 && options.epsilon < 1.0) {
+        return wrong("epsilon", shown_number(options.epsilon), "a number above 0 and below 1");
+    }
+    if options.max_cells == 0 {
+        return wrong("max_cells", "0".to_owned(), "at least 1");
+    }
+    match options.method {
+        EllipseMethod::BranchAndBound => Ok(()),
+        EllipseMethod::Thesis(thesis) | EllipseMethod::FivePoint(thesis) => thesis.check(),
+    }
 }

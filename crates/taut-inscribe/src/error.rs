@@ -49,6 +49,17 @@ pub enum Error {
          far from the origin, shift it there"
     )]
     TooThin,
+    /// A method that looks among samples found nothing that lies in the polygon.
+    #[error(
+        "method `{method}` found nothing in the polygon among its {samples} samples: take more samples, wider conditions, or the \
+         default method"
+    )]
+    NoneAmongSamples {
+        /// The method.
+        method: &'static str,
+        /// How many samples it was to take.
+        samples: u64,
+    },
     /// The mesh has a boundary: some edge belongs to an odd number of triangles.
     #[error(
         "the mesh is not closed: {edges} of its edges belong to an odd number of triangles, the first of them the edge from \

@@ -51,7 +51,7 @@ pub use bodies::{
 };
 pub use circle::{CircleOptions, inscribed_circle};
 pub use convex::{ConvexOptions, inscribed_polygon};
-pub use ellipse::{EllipseFivePointOptions, EllipseMethod, EllipseOptions, inscribed_ellipse};
+pub use ellipse::{EllipseMethod, EllipseOptions, EllipseThesisOptions, inscribed_ellipse};
 pub use error::Error;
 pub use occlusion::{Occlusion, OcclusionOptions, occlusion};
 pub use oriented::{OrientedRectangleOptions, inscribed_oriented_rectangle};

@@ -71,7 +71,10 @@ pub fn inscribed_triangle(
         TriangleMethod::Thesis(thesis) => {
             let levels = Levels::of(&frame.edges, frame.extent[1]);
             let sampled = thesis::sampled(&target, &levels, thesis, &options.monitor)?;
-            sampled.ok_or_else(|| options::too_few(thesis.samples))?
+            sampled.ok_or(Error::NoneAmongSamples {
+                method: options.method.name(),
+                samples: thesis.sample_count,
+            })?
         }
     };
     if !reported.answer.area.is_normal() {

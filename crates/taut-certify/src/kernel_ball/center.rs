@@ -1,6 +1,6 @@
 //! Squared distances from the center of a ball of a kernel, for rows that were not there when it was found.
 
-use super::distance::{Near, of_kernel, own, squared_distance};
+use super::distance::{Approximate, kernel_of_itself, of_kernel, squared_distance};
 use super::{Kernel, KernelBall};
 
 /// The center of a ball of a kernel with the rows of its support, in plain double precision.
@@ -12,7 +12,8 @@ pub struct KernelCenter<'a> {
     dim: usize,
     /// The rows of the support, one after the other.
     rows: &'a [f64],
-    own: Vec<Near>,
+    /// K(x, x) of the support, where the kernel needs it.
+    of_support: Vec<Approximate>,
     /// D, the multipliers being taken divided by their sum.
     spread: f64,
     sum: f64,
@@ -29,15 +30,16 @@ impl<'a> KernelCenter<'a> {
         {
             return None;
         }
-        let row_own = |(row, &id): (&[f64], &u64)| match ball.kernel {
-            Kernel::Precomputed => Near { value: row[id as usize], error: 0.0 },
-            kernel => own(kernel, row),
+        let of_row = |(row, &id): (&[f64], &u64)| match ball.kernel {
+            Kernel::Precomputed => Approximate { value: row[id as usize], error: 0.0 },
+            kernel => kernel_of_itself(kernel, row),
         };
-        let own = rows.chunks_exact(dim).zip(&ball.support).map(row_own).collect();
+        let of_support = rows.chunks_exact(dim).zip(&ball.support).map(of_row).collect();
         let sum = ball.multipliers.iter().sum();
-        let mut center = KernelCenter { ball, dim, rows, own, spread: 0.0, sum };
-        let mean =
-            |i: usize| center.mean_distance(&rows[i * dim..(i + 1) * dim], center.own[i].value);
+        let mut center = KernelCenter { ball, dim, rows, of_support, spread: 0.0, sum };
+        let mean = |i: usize| {
+            center.mean_distance(&rows[i * dim..(i + 1) * dim], center.of_support[i].value)
+        };
         let weighted = (0..count).map(|i| ball.multipliers[i] * mean(i)).sum::<f64>();
         center.spread = weighted / sum / 2.0;
         Some(center)
@@ -60,13 +62,13 @@ impl<'a> KernelCenter<'a> {
     fn mean_distance(&self, x: &[f64], own_value: f64) -> f64 {
         let kernel = self.ball.kernel;
         let of_x = match kernel {
-            Kernel::Precomputed => Near { value: own_value, error: 0.0 },
-            kernel => own(kernel, x),
+            Kernel::Precomputed => Approximate { value: own_value, error: 0.0 },
+            kernel => kernel_of_itself(kernel, x),
         };
-        let rows = self.rows.chunks_exact(self.dim).zip(&self.own);
-        let distance = |((y, &of_y), &id): ((&[f64], &Near), &u64)| match kernel {
+        let rows = self.rows.chunks_exact(self.dim).zip(&self.of_support);
+        let distance = |((y, &of_y), &id): ((&[f64], &Approximate), &u64)| match kernel {
             Kernel::Precomputed => {
-                of_kernel(of_x, of_y, Near { value: x[id as usize], error: 0.0 }).value
+                of_kernel(of_x, of_y, Approximate { value: x[id as usize], error: 0.0 }).value
             }
             kernel => squared_distance(kernel, (x, of_x), (y, of_y)).value,
         };

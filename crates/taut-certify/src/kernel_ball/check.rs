@@ -10,14 +10,14 @@
 //! r² + s·Σ ξₖ/(νn) is at most s times the objective.
 //! *Rounding.* With k multipliers of sum 1 ± 2(k + 2)u, a sum Σ λᵢρᵢ of k terms is off by the errors of the ρᵢ and by (4k + 12)u of its
 //! terms' sizes, the division by the sum of the multipliers included.
-//! *Cost.* O(nkd) for n rows, in two passes; of a Gaussian kernel O(nd) and O(kd) for each row that one distance does not prove to be
-//! inside ([`jensen`](super::jensen)).
+//! *Cost.* O(nkd) for n rows, in two passes; of a Gaussian kernel O(nd) and O(kd) for each row that no few distances prove to be inside
+//! ([`jensen`](super::jensen)).
 //! *Reference.* Tax and Duin, Support vector data description, Mach. Learn. 54, 2004; the duality gap is new here.
 
 use taut_points::{Monitor, PointSource};
 
-use super::distance::{Near, of_kernel, own, squared_distance};
-use super::jensen::Jensen;
+use super::distance::{Approximate, kernel_of_itself, of_kernel, squared_distance};
+use super::jensen::Bounds;
 use super::{Kernel, KernelBall, KernelBallCertificate, KernelBallVerdict, KernelBallViolation};
 use crate::arithmetic::{Compensated, U};
 use crate::hashed_pass::{KeptRows, WantedRows, all_finite, hashed_pass};
@@ -25,6 +25,10 @@ use crate::{CheckError, Violation};
 
 /// The amount by which the gap claimed may fall short of the gap proved, relatively and in units of 1.
 const GAP_SLACK: (f64, f64) = (1e-9, 4e-16);
+
+/// How far below 0, in parts of its terms, a squared distance by a precomputed kernel may be: matrices are products that were rounded.
+/// That a matrix is positive semidefinite is assumed; this finds those that clearly are not.
+const INDEFINITE: f64 = 1e-9;
 
 pub(super) fn check(
     ball: &KernelBall,
@@ -121,43 +125,44 @@ struct Center<'a> {
     ball: &'a KernelBall,
     kept: &'a KeptRows,
     /// The rows of the support with their K(x, x), for kernels of points.
-    support: Vec<(&'a [f64], Near)>,
+    support: Vec<(&'a [f64], Approximate)>,
     /// D.
-    spread: Near,
+    spread: Approximate,
     /// What proves most points to be inside, for a Gaussian kernel.
-    jensen: Option<Jensen>,
+    jensen: Option<Bounds>,
 }
 
 impl<'a> Center<'a> {
     fn new(ball: &'a KernelBall, kept: &'a KeptRows) -> Result<Self, CheckError> {
-        let row = |&id: &u64| (kept.row(id), own(ball.kernel, kept.row(id)));
+        let row = |&id: &u64| (kept.row(id), kernel_of_itself(ball.kernel, kept.row(id)));
         let support = ball.support.iter().map(row).collect();
-        let mut center = Center { ball, kept, support, spread: Near::default(), jensen: None };
+        let mut center =
+            Center { ball, kept, support, spread: Approximate::default(), jensen: None };
         let mut sums = vec![];
         for &row in &ball.support {
             sums.push(center.mean_distance(row, kept.row(row))?);
         }
         let mean = center.weighted(sums.into_iter());
-        center.spread = Near { value: mean.value / 2.0, error: mean.error / 2.0 };
+        center.spread = Approximate { value: mean.value / 2.0, error: mean.error / 2.0 };
         if !(center.spread.value + center.spread.error).is_finite() {
             return Err(KernelBallViolation::Range { row: ball.support[0] }.into());
         }
         if let Kernel::Gaussian { gamma } = ball.kernel {
             let rows: Vec<&[f64]> = center.support.iter().map(|point| point.0).collect();
-            center.jensen = Some(Jensen::of(gamma, &rows, &ball.multipliers));
+            center.jensen = Some(Bounds::of(gamma, &rows, &ball.multipliers));
         }
         Ok(center)
     }
 
     /// Whether Jensen's bound proves a row to be inside.
     fn is_surely_inside(&self, row: &[f64]) -> bool {
-        let Some(jensen) = &self.jensen else { return false };
         let least = self.spread.value - self.spread.error;
-        (jensen.upper_bound(row) - least) * (1.0 + 4.0 * U) <= self.ball.squared_radius
+        let is_inside = |bound: f64| (bound - least) * (1.0 + 4.0 * U) <= self.ball.squared_radius;
+        self.jensen.as_ref().is_some_and(|bounds| bounds.any(row, is_inside))
     }
 
     /// Σ λᵢ·termᵢ divided by Σ λᵢ.
-    fn weighted(&self, terms: impl Iterator<Item = Near>) -> Near {
+    fn weighted(&self, terms: impl Iterator<Item = Approximate>) -> Approximate {
         let (mut value, mut size, mut error) = (0.0, 0.0, 0.0);
         for (lambda, term) in self.ball.multipliers.iter().zip(terms) {
             value += lambda * term.value;
@@ -166,7 +171,7 @@ impl<'a> Center<'a> {
         }
         let k = self.ball.multipliers.len() as f64;
         let error = error * (1.0 + (4.0 * k + 12.0) * U) + (4.0 * k + 12.0) * U * size;
-        Near {
+        Approximate {
             value,
             error: error * (1.0 + 4.0 * U)
                 + k * f64::from_bits(8) * f64::from(u8::from(size > 0.0)),
@@ -174,14 +179,14 @@ impl<'a> Center<'a> {
     }
 
     /// Σ λᵢρ(x, xᵢ) for row `number`, which is x.
-    fn mean_distance(&self, number: u64, x: &[f64]) -> Result<Near, CheckError> {
+    fn mean_distance(&self, number: u64, x: &[f64]) -> Result<Approximate, CheckError> {
         let support = &self.ball.support;
         if self.ball.kernel != Kernel::Precomputed {
-            let (kernel, x) = (self.ball.kernel, (x, own(self.ball.kernel, x)));
+            let (kernel, x) = (self.ball.kernel, (x, kernel_of_itself(self.ball.kernel, x)));
             let distances = self.support.iter().map(|&y| squared_distance(kernel, x, y));
             return Ok(self.weighted(distances));
         }
-        let exact = |value| Near { value, error: 0.0 };
+        let exact = |value| Approximate { value, error: 0.0 };
         for &row in support {
             let (value, other) = (x[row as usize], self.kept.row(row)[number as usize]);
             if value != other {
@@ -195,21 +200,32 @@ impl<'a> Center<'a> {
                 .into());
             }
         }
-        let own = exact(x[number as usize]);
-        Ok(self.weighted(support.iter().map(|&row| match row == number {
-            true => Near::default(),
+        let of_itself = exact(x[number as usize]);
+        let distance = |row: u64| match row == number {
+            true => Approximate::default(),
             false => {
-                of_kernel(own, exact(self.kept.row(row)[row as usize]), exact(x[row as usize]))
+                let of_other = exact(self.kept.row(row)[row as usize]);
+                of_kernel(of_itself, of_other, exact(x[row as usize]))
             }
-        })))
+        };
+        for &row in support {
+            let value = distance(row).value;
+            let size = of_itself.value.abs() + self.kept.row(row)[row as usize].abs();
+            // NaN is for the sums to refuse.
+            if value < -INDEFINITE * size {
+                let column = row;
+                return Err(KernelBallViolation::Indefinite { row: number, column, value }.into());
+            }
+        }
+        Ok(self.weighted(support.iter().map(|&row| distance(row))))
     }
 
     /// |φ(x) − c|².
-    fn squared_distance(&self, number: u64, x: &[f64]) -> Result<Near, CheckError> {
+    fn squared_distance(&self, number: u64, x: &[f64]) -> Result<Approximate, CheckError> {
         let mean = self.mean_distance(number, x)?;
         let value = mean.value - self.spread.value;
         let error = (mean.error + self.spread.error) * (1.0 + 4.0 * U) + 2.0 * U * value.abs();
-        Ok(Near { value, error })
+        Ok(Approximate { value, error })
     }
 
     /// L, rounded down.

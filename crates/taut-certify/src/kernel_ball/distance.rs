@@ -15,40 +15,40 @@ const VANISHED: f64 = f64::from_bits(4);
 
 /// A number that is known to within an error.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Near {
+pub(super) struct Approximate {
     pub(super) value: f64,
     pub(super) error: f64,
 }
 
 /// K(x, x) where ρ is found from it; 0 elsewhere.
-pub(super) fn own(kernel: Kernel, x: &[f64]) -> Near {
+pub(super) fn kernel_of_itself(kernel: Kernel, x: &[f64]) -> Approximate {
     match kernel {
         Kernel::Polynomial { gamma, offset, degree } => polynomial(gamma, offset, degree, x, x),
-        _ => Near::default(),
+        _ => Approximate::default(),
     }
 }
 
-/// ρ(x, y) for kernels of points; not for a precomputed one. With each point comes its [`own`].
+/// ρ(x, y) for kernels of points; not for a precomputed one. With each point comes its [`kernel_of_itself`].
 pub(super) fn squared_distance(
     kernel: Kernel,
-    (x, of_x): (&[f64], Near),
-    (y, of_y): (&[f64], Near),
-) -> Near {
+    (x, of_x): (&[f64], Approximate),
+    (y, of_y): (&[f64], Approximate),
+) -> Approximate {
     let dim = x.len() as f64;
     match kernel {
         Kernel::Gaussian { gamma } => {
             let square = squared_difference(x, y);
             if square == 0.0 && x == y {
-                return Near::default();
+                return Approximate::default();
             }
             feature_distance(gamma, square, x.len())
         }
         Kernel::Linear | Kernel::Precomputed => {
             let value = squared_difference(x, y);
             let lost = if value == 0.0 && x == y { 0.0 } else { dim * VANISHED };
-            Near { value, error: (dim + 6.0) * U * value + lost }
+            Approximate { value, error: (dim + 6.0) * U * value + lost }
         }
-        Kernel::Polynomial { .. } if x == y => Near::default(),
+        Kernel::Polynomial { .. } if x == y => Approximate::default(),
         Kernel::Polynomial { gamma, offset, degree } => {
             of_kernel(of_x, of_y, polynomial(gamma, offset, degree, x, y))
         }
@@ -56,28 +56,32 @@ pub(super) fn squared_distance(
 }
 
 /// 2(1 − e^{−γs}) for a sum s of squared differences in `dim` dimensions.
-pub(super) fn feature_distance(gamma: f64, square: f64, dim: usize) -> Near {
+pub(super) fn feature_distance(gamma: f64, square: f64, dim: usize) -> Approximate {
     let dim = dim as f64;
     let lost = gamma * (dim * VANISHED) + VANISHED;
     let value = 2.0 * decay(gamma * square);
     // An infinite |x − y|² may be one that γ would bring back: what it stands for is unknown.
     let relative = if square.is_finite() { (dim + 8.0) * U + DECAY_ERROR } else { f64::NAN };
-    Near { value, error: relative * value + 2.0 * lost }
+    Approximate { value, error: relative * value + 2.0 * lost }
 }
 
 /// ρ from K(x, x), K(y, y) and K(x, y).
-pub(super) fn of_kernel(of_x: Near, of_y: Near, both: Near) -> Near {
+pub(super) fn of_kernel(of_x: Approximate, of_y: Approximate, both: Approximate) -> Approximate {
+    let is_exact = of_x.error == 0.0 && of_y.error == 0.0 && both.error == 0.0;
+    if is_exact && of_x.value == both.value && of_y.value == both.value {
+        return Approximate::default();
+    }
     let value = (of_x.value + of_y.value) - 2.0 * both.value;
     let size = of_x.value.abs() + of_y.value.abs() + 2.0 * both.value.abs();
     let error = of_x.error + of_y.error + 2.0 * both.error + 4.0 * U * size + VANISHED;
-    Near { value, error: error * (1.0 + 8.0 * U) }
+    Approximate { value, error: error * (1.0 + 8.0 * U) }
 }
 
 pub(super) fn squared_difference(x: &[f64], y: &[f64]) -> f64 {
     x.iter().zip(y).map(|(a, b)| (a - b) * (a - b)).sum()
 }
 
-fn polynomial(gamma: f64, offset: f64, degree: u32, x: &[f64], y: &[f64]) -> Near {
+fn polynomial(gamma: f64, offset: f64, degree: u32, x: &[f64], y: &[f64]) -> Approximate {
     let (mut dot, mut sizes) = (0.0, 0.0);
     for (a, b) in x.iter().zip(y) {
         let product = a * b;
@@ -89,5 +93,8 @@ fn polynomial(gamma: f64, offset: f64, degree: u32, x: &[f64], y: &[f64]) -> Nea
     let relative = f64::from(2 * degree) * (x.len() as f64 + 8.0) * U;
     // What vanishes is less than VANISHED for each product, and for each factor after it.
     let lost = (gamma * x.len() as f64 + 2.0) * VANISHED * power(1.0 + size) * f64::from(degree);
-    Near { value: power(base), error: relative * power(size) * (1.0 + relative) + 2.0 * lost }
+    Approximate {
+        value: power(base),
+        error: relative * power(size) * (1.0 + relative) + 2.0 * lost,
+    }
 }

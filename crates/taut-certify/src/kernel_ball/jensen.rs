@@ -1,15 +1,31 @@
-//! One distance that proves most points to be inside a ball of a Gaussian kernel.
+//! Few distances that prove most points to be inside a ball of a Gaussian kernel.
 //!
-//! *Idea.* 1 − e^{−γs} is concave in s, so Σ λᵢ·2(1 − exp(−γ|x − xᵢ|²)) ≤ 2(1 − exp(−γS)) with S = Σ λᵢ|x − xᵢ|², for λ of sum 1. And for
-//! any vector m, S = |x − m|² − 2(x − m)·r + v with r = Σ λᵢ(xᵢ − m) and v = Σ λᵢ|xᵢ − m|²: with m near the mean, r is nearly 0.
-//! *Rounding.* S is at most |x − m|² + 2|x − m||r| + v. Sums of d squares are off by (d + 6)u, those over k multipliers, which sum to 1
-//! but for 2(k + 2)u, by (4k + 12)u more; the factor 1 + (2d + 8k + 100)u on S, and on the result, covers both and the steps between.
+//! *Idea.* 1 − e^{−γs} is concave in s, so Σ λᵢ·2(1 − exp(−γ|x − xᵢ|²)) ≤ 2Λ(1 − exp(−γS)) with Λ = Σ λᵢ and S = Σ (λᵢ/Λ)|x − xᵢ|². And for
+//! any vector m, S = |x − m|² − 2(x − m)·r + v with r = Σ (λᵢ/Λ)(xᵢ − m) and v = Σ (λᵢ/Λ)|xᵢ − m|²: with m near the mean, r is nearly 0.
+//! One group of all xᵢ is tried first, then groups of neighbors, whose bounds are added.
+//! *Rounding.* S is at most |x − m|² + 2|x − m||r| + v. Sums of d squares are off by (d + 6)u, those over k multipliers, all of which sum to 1
+//! but for 2(k + 2)u, by (4k + 12)u more; the factor 1 + (2d + 8k + 200)u on S, and on the result, covers both and the steps between, the sum
+//! over at most 64 groups included.
 
 use super::distance::{feature_distance, squared_difference};
 use crate::arithmetic::U;
 
-pub(super) struct Jensen {
+/// Numbers of groups, coarse to fine, each used where the support has at least so many times [`GROUP_ROWS`] points.
+const GROUP_COUNTS: [usize; 3] = [1, 8, 64];
+
+/// Rows of a group at least, but where there is one group.
+const GROUP_ROWS: usize = 4;
+
+/// Upper bounds of Σ λᵢ·2(1 − exp(−γ|x − xᵢ|²)) by more and more groups.
+pub(super) struct Bounds {
+    levels: Vec<Vec<Jensen>>,
+}
+
+/// The bound of one group.
+struct Jensen {
     gamma: f64,
+    /// Λ.
+    weight: f64,
     /// m.
     mean: Vec<f64>,
     /// At least |r|.
@@ -20,11 +36,53 @@ pub(super) struct Jensen {
     slack: f64,
 }
 
-impl Jensen {
+impl Bounds {
     pub(super) fn of(gamma: f64, rows: &[&[f64]], multipliers: &[f64]) -> Self {
+        let slack = 1.0 + (2 * rows[0].len() + 8 * rows.len() + 200) as f64 * U;
+        let all: Vec<usize> = (0..rows.len()).collect();
+        let counts = GROUP_COUNTS.iter().filter(|&&n| n == 1 || n * GROUP_ROWS <= rows.len());
+        let levels = counts.map(|&count| {
+            let groups = halved(rows, all.clone(), count).into_iter();
+            let group = |places: Vec<usize>| {
+                let rows: Vec<&[f64]> = places.iter().map(|&i| rows[i]).collect();
+                let multipliers: Vec<f64> = places.iter().map(|&i| multipliers[i]).collect();
+                Jensen::of(gamma, &rows, &multipliers, slack)
+            };
+            groups.map(group).collect()
+        });
+        Bounds { levels: levels.collect() }
+    }
+
+    /// Whether one of the bounds for x passes a test; NaN, where a sum overflows, is a bound, too.
+    pub(super) fn any(&self, x: &[f64], test: impl Fn(f64) -> bool) -> bool {
+        self.levels.iter().any(|groups| test(groups.iter().map(|g| g.upper_bound(x)).sum()))
+    }
+}
+
+/// Splits places at the median of the coordinate with the largest extent, until there are `count` groups.
+fn halved(rows: &[&[f64]], mut places: Vec<usize>, count: usize) -> Vec<Vec<usize>> {
+    if count == 1 || places.len() < 2 {
+        return vec![places];
+    }
+    let extent = |column: &usize| {
+        let values = || places.iter().map(|&i| rows[i][*column]);
+        values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
+    };
+    let widest = (0..rows[0].len()).max_by(|a, b| extent(a).total_cmp(&extent(b)));
+    let column = widest.unwrap_or(0);
+    places.sort_by(|&i, &j| rows[i][column].total_cmp(&rows[j][column]));
+    let upper = places.split_off(places.len() / 2);
+    let mut groups = halved(rows, places, count / 2);
+    groups.extend(halved(rows, upper, count / 2));
+    groups
+}
+
+impl Jensen {
+    fn of(gamma: f64, rows: &[&[f64]], multipliers: &[f64], slack: f64) -> Self {
         let dim = rows[0].len();
-        let slack = 1.0 + (2 * dim + 8 * rows.len() + 100) as f64 * U;
-        let pairs = || multipliers.iter().zip(rows);
+        let weight: f64 = multipliers.iter().sum();
+        let shares: Vec<f64> = multipliers.iter().map(|lambda| lambda / weight).collect();
+        let pairs = || shares.iter().zip(rows);
         let mean: Vec<f64> = (0..dim).map(|j| pairs().map(|(l, row)| l * row[j]).sum()).collect();
         let mut offset = 0.0;
         for (j, m) in mean.iter().enumerate() {
@@ -36,15 +94,15 @@ impl Jensen {
         let spread = pairs().map(|(l, row)| l * squared_difference(row, &mean)).sum::<f64>();
         // The least normal number makes up for squares that vanish.
         let offset = offset.sqrt() * slack * slack + f64::MIN_POSITIVE.sqrt() * dim as f64;
-        Jensen { gamma, mean, offset, spread: spread * slack + f64::MIN_POSITIVE, slack }
+        Jensen { gamma, weight, mean, offset, spread: spread * slack + f64::MIN_POSITIVE, slack }
     }
 
     /// No less than Σ λᵢ·2(1 − exp(−γ|x − xᵢ|²)); NaN where a sum overflows.
-    pub(super) fn upper_bound(&self, x: &[f64]) -> f64 {
+    fn upper_bound(&self, x: &[f64]) -> f64 {
         let square = squared_difference(x, &self.mean) * self.slack + f64::MIN_POSITIVE;
         let sum = (square + 2.0 * square.sqrt() * self.offset + self.spread) * self.slack;
         let bound = feature_distance(self.gamma, sum, self.mean.len());
-        (bound.value + bound.error) * self.slack
+        self.weight * (bound.value + bound.error) * self.slack
     }
 }
 
@@ -53,17 +111,25 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_bound_is_above_the_sum_and_near_it() {
-        let rows: [&[f64]; 3] = [&[0.0, 1.0], &[2.0, -1.0], &[1e3, 1e3 + 0.1]];
-        for gamma in [1e-9, 1e-3] {
-            let weights = [0.5, 0.3, 0.2];
-            let jensen = Jensen::of(gamma, &rows, &weights);
-            for x in [[0.0, 0.0], [5.0, 5.0], [-300.0, 800.0], [1e3, 1e3]] {
+    fn bounds_are_above_the_sum_and_finer_ones_are_nearer() {
+        let spiral = |i: usize| {
+            let angle = 0.1 * i as f64;
+            [angle * angle.cos(), angle * angle.sin(), 1e3]
+        };
+        let rows: Vec<[f64; 3]> = (0..300).map(spiral).collect();
+        let rows: Vec<&[f64]> = rows.iter().map(|row| &row[..]).collect();
+        let sum = (300 * 301 / 2) as f64;
+        let multipliers: Vec<f64> = (1..=300).map(|i| f64::from(i) / sum).collect();
+        for (gamma, shares) in [(1e-9, [1.0, 1.0, 1.0]), (1e-3, [0.9, 0.99, 0.999])] {
+            let bounds = Bounds::of(gamma, &rows, &multipliers);
+            assert_eq!(bounds.levels.iter().map(Vec::len).collect::<Vec<_>>(), [1, 8, 64]);
+            for x in [[0.0, 0.0, 1e3], [25.0, 5.0, 1e3], [-30.0, 80.0, 990.0], [1e3, 1e3, 0.0]] {
                 let term = |row: &&[f64]| 2.0 * -(-gamma * squared_difference(&x, row)).exp_m1();
-                let sum: f64 = rows.iter().zip(weights).map(|(row, l)| l * term(row)).sum();
-                let bound = jensen.upper_bound(&x);
-                assert!(bound >= sum, "{bound} {sum}");
-                assert!(gamma > 1e-4 || bound <= sum * 1.01, "{bound} {sum}");
+                let sum: f64 = rows.iter().zip(&multipliers).map(|(row, l)| l * term(row)).sum();
+                for (groups, share) in bounds.levels.iter().zip(shares) {
+                    let bound: f64 = groups.iter().map(|group| group.upper_bound(&x)).sum();
+                    assert!(bound >= sum && sum >= bound * share * (1.0 - 1e-6), "{bound} {sum}");
+                }
             }
         }
     }

@@ -6,7 +6,7 @@ use super::KernelBallViolation;
 
 /// A positive semidefinite kernel K(x, y) = ⟨φ(x), φ(y)⟩.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case", tag = "name", deny_unknown_fields)]
+#[serde(rename_all = "kebab-case", tag = "name", try_from = "Parameters")]
 #[non_exhaustive]
 pub enum Kernel {
     /// exp(−γ|x − y|²), γ > 0.
@@ -27,6 +27,39 @@ pub enum Kernel {
     Linear,
     /// Row i of the source holds K(xᵢ, xⱼ) for all j: an n × n matrix, symmetric and positive semidefinite.
     Precomputed,
+}
+
+/// A kernel as JSON has it. A tagged enum would let kernels without parameters have any.
+#[derive(Deserialize)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "a kernel: an object with name, and gamma, offset and degree where it has them"
+)]
+struct Parameters {
+    name: String,
+    gamma: Option<f64>,
+    offset: Option<f64>,
+    degree: Option<u32>,
+}
+
+impl TryFrom<Parameters> for Kernel {
+    type Error = String;
+
+    fn try_from(found: Parameters) -> Result<Self, String> {
+        let Parameters { name, gamma, offset, degree } = found;
+        match (name.as_str(), gamma, offset, degree) {
+            ("gaussian", Some(gamma), None, None) => Ok(Kernel::Gaussian { gamma }),
+            ("polynomial", Some(gamma), Some(offset), Some(degree)) => {
+                Ok(Kernel::Polynomial { gamma, offset, degree })
+            }
+            ("linear", None, None, None) => Ok(Kernel::Linear),
+            ("precomputed", None, None, None) => Ok(Kernel::Precomputed),
+            _ => Err(format!(
+                "{name:?} with these parameters is no kernel: expected \"gaussian\" with gamma, \"polynomial\" with gamma, offset and \
+                 degree, or \"linear\" or \"precomputed\" alone"
+            )),
+        }
+    }
 }
 
 impl Kernel {

@@ -40,6 +40,18 @@ pub enum KernelBallViolation {
         /// The value of the entry across the diagonal.
         other: f64,
     },
+    /// A precomputed kernel is no matrix of scalar products: K(x, x) + K(y, y) − 2K(x, y) is below 0 by more than rounding explains.
+    #[error(
+        "the precomputed kernel is not positive semidefinite: by it rows {row} and {column} have the squared distance {value:?}"
+    )]
+    Indefinite {
+        /// Row, from 0.
+        row: u64,
+        /// The other row, from 0.
+        column: u64,
+        /// The squared distance.
+        value: f64,
+    },
     /// A number on the way to a distance exceeds the largest `f64`.
     #[error(
         "the squared distance of point {row} in the feature space is no number: scale the coordinates towards 1"
@@ -69,6 +81,7 @@ impl KernelBallViolation {
             KernelBallViolation::Parameter { .. } => Fault::Answer,
             KernelBallViolation::NotSquare { .. } => Fault::Points,
             KernelBallViolation::NotSymmetric { row, .. }
+            | KernelBallViolation::Indefinite { row, .. }
             | KernelBallViolation::Range { row }
             | KernelBallViolation::Outside { row, .. } => Fault::Row(row),
         }

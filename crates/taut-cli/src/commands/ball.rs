@@ -43,7 +43,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "N")]
     batch: Option<usize>,
     /// Most reads of all points, then the best ball so far is given with its gap: at least 3, 4 for the thesis'
-    /// methods; a read or two more settle the scale of extreme coordinates
+    /// methods; a read or two more settle the scale of extreme coordinates. With --kernel at least 1 and at most 10000
     #[arg(long, value_name = "N", default_value_t = BallOptions::default().max_passes)]
     max_passes: u64,
     /// Chooses the point from which the thesis' methods start

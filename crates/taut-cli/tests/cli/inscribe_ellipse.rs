@@ -85,7 +85,7 @@ fn samples_of_a_curve_are_joined_and_have_an_ellipse_by_either_method() {
     };
     folder.taut("inscribe ellipse ring.geojson -o largest.json").ends(0);
     folder
-        .taut("inscribe ellipse ring.geojson --method five-point --samples 60 -o five.json")
+        .taut("inscribe ellipse ring.geojson --method five-point --sample-count 60 -o five.json")
         .ends(0)
         .stdout_has(&["Large ellipse in a polygon of ", "five-point"]);
     let (largest, five) = (area("largest.json"), area("five.json"));
@@ -95,7 +95,55 @@ fn samples_of_a_curve_are_joined_and_have_an_ellipse_by_either_method() {
     assert!(largest <= whole && largest * 1.001 >= whole * chord * chord, "{largest}");
     assert!(five <= largest * 1.001 && five >= 0.95 * largest, "{five} for {largest}");
     folder
-        .taut("inscribe ellipse ring.geojson --method five-point --samples 5")
+        .taut("inscribe ellipse ring.geojson --method five-point --sample-count 5")
         .ends(2)
-        .stderr_has(&["samples"]);
+        .stderr_has(&["sample_count"]);
+}
+
+#[test]
+fn samples_without_edges_are_joined_for_every_shape() {
+    let folder = TestFolder::new();
+    // Samples of an ellipse with semi-axes 3 and 2, in no order.
+    let point = |i: usize| {
+        let angle = std::f64::consts::TAU * ((i * 37) % 120) as f64 / 120.0;
+        format!("{:?},{:?}\n", 3.0 * angle.cos(), 2.0 * angle.sin())
+    };
+    folder.put("points.csv", &(0..120).map(point).collect::<String>());
+    // What the polygon between the samples leaves of the area 6π, or of the circle of radius 2, is at least cos²(π/120).
+    let pi = std::f64::consts::PI;
+    for (shape, least) in [
+        ("circle", 0.0),
+        ("ellipse", 6.0 * pi * 0.998),
+        ("polygon", 6.0 * pi * 0.9),
+        ("rectangle", 12.0 * 0.99),
+        ("rectangle --oriented", 12.0 * 0.99),
+        ("triangle", 6.0 * 0.75 * 3f64.sqrt() * 0.99),
+    ] {
+        folder
+            .taut(&format!("inscribe {shape} points.csv --samples --ring ring.csv -o found.json"))
+            .ends(0);
+        folder.taut("verify found.json ring.csv").ends(0);
+        let found: serde_json::Value = serde_json::from_str(&folder.text("found.json")).unwrap();
+        match found["answer"]["radius"].as_f64() {
+            Some(radius) => assert!(radius > 1.99 && radius <= 2.0, "{radius}"),
+            None => {
+                let area = found["answer"]["area"].as_f64().unwrap();
+                assert!(area >= least && area <= 6.0 * pi, "{shape}: {area}, {least}");
+            }
+        }
+    }
+    assert!(folder.text("ring.csv").starts_with("x,y,ring\n"));
+    // Two ends: half of the samples are missing.
+    let half: String = (0..60)
+        .map(|i| {
+            let angle = pi * f64::from(i) / 60.0;
+            format!("{:?},{:?}\n", 3.0 * angle.cos(), 2.0 * angle.sin())
+        })
+        .collect();
+    folder.put("half.csv", &half);
+    folder
+        .taut("inscribe triangle half.csv --samples -o found.json")
+        .ends(2)
+        .stderr_has(&["a curve with ends"]);
+    folder.taut("inscribe triangle points.csv --ring ring.csv").ends(2);
 }

@@ -78,15 +78,15 @@ fn the_method_of_the_thesis_is_proved_with_its_gap() {
     let folder = TestFolder::new();
     folder.put("frame.csv", FRAME);
     folder
-        .taut("inscribe triangle frame.csv --method thesis --samples 100 -o sampled.json")
+        .taut("inscribe triangle frame.csv --method thesis --sample-count 100 -o sampled.json")
         .ends(0)
         .stdout_has(&["Large triangle in a polygon of 8 points\n", "\n  method", "thesis"]);
     let found: serde_json::Value = serde_json::from_str(&folder.text("sampled.json")).unwrap();
     assert!(found["certificate"]["gap"].as_f64().unwrap() > 1e-3);
     folder.taut("verify sampled.json frame.csv").ends(0).stdout_has(&["≤ largest area ≤"]);
     folder
-        .taut("inscribe triangle frame.csv --method thesis --samples 2")
+        .taut("inscribe triangle frame.csv --method thesis --sample-count 2")
         .ends(2)
-        .stderr_has(&["samples"]);
+        .stderr_has(&["sample_count"]);
     folder.taut("inscribe triangle frame.csv --method guess").ends(2);
 }

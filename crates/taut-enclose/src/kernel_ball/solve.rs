@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use taut_certify::{Kernel, KernelBall, KernelBallCertificate, PassBounds, Solution, Stop, Trace};
-use taut_points::{PointSource, PointsHash, ReadError};
+use taut_points::{InputError, PointSource, PointsHash, ReadError};
 
 use super::features::Features;
 use super::pairs::Pairs;
@@ -117,7 +117,7 @@ pub(super) fn solve(
         let objective = [upper, spread, found.own];
         let is_in_range = spread > f64::MIN_POSITIVE / f64::EPSILON && upper.is_finite();
         if !(is_in_range || upper == 0.0 && options.kernel == Kernel::Precomputed) {
-            return Err(Error::Overflow);
+            return Err(out_of_range(options.kernel));
         }
         return Ok(finish(
             source,
@@ -128,6 +128,19 @@ pub(super) fn solve(
             objective,
             trace,
         ));
+    }
+}
+
+/// The error where the radius is no normal number, or only by mistake.
+pub(super) fn out_of_range(kernel: Kernel) -> Error {
+    match kernel {
+        Kernel::Precomputed => {
+            let (name, value) = ("kernel", kernel.name().to_owned());
+            let expected =
+                "a symmetric positive semidefinite matrix with distances that are normal numbers";
+            Error::Input(InputError::Option { name, value, expected })
+        }
+        _ => Error::Overflow,
     }
 }
 
@@ -218,10 +231,14 @@ pub(super) fn finish(
         Kernel::Polynomial { degree, .. } => f64::from(degree),
         _ => 1.0,
     };
-    let room = 8.0 * relative * (upper + spread + 4.0 * degree * own);
+    // Rows that are all equal have distances of 0, without an error.
+    let room = match upper {
+        0.0 => 0.0,
+        _ => 8.0 * relative * (upper + spread + 4.0 * degree * own),
+    };
     let sum: f64 = lambda.iter().sum();
     let lambda: Vec<f64> = lambda.into_iter().map(|l| l / sum).collect();
-    let gap = (upper + 4.0 * room) / spread - 1.0;
+    let gap = if upper == 0.0 { 0.0 } else { (upper + 4.0 * room) / spread - 1.0 };
     if trace.stop == Stop::Converged && gap > options.epsilon {
         trace.stop = Stop::Rounding;
     }

@@ -15,7 +15,7 @@ use taut_points::PointSource;
 
 use super::features::Features;
 use super::screen::{First, first_pass};
-use super::solve::finish;
+use super::solve::{finish, out_of_range};
 use super::{KernelBall, KernelBallMethod, KernelBallOptions};
 use crate::Error;
 
@@ -30,25 +30,29 @@ pub(super) fn solve(
     state.mean = state.distances(first)?;
     let second = farthest(&state.mean);
     let mut lambda = BTreeMap::from([(first, 1.0)]);
-    let mut spread = 0.0;
+    let (mut spread, mut taken) = (0.0, 2);
     if second != first {
         spread = state.step(second, 0.5, spread, &mut lambda)?;
         for t in 3..=options.steps {
+            if state.passes >= options.max_passes {
+                break;
+            }
             let next = farthest(&state.mean);
             spread = state.step(next, 1.0 / (t + 2) as f64, spread, &mut lambda)?;
+            taken = t;
         }
     }
     let upper = state.mean.iter().copied().fold(0.0, f64::max) - spread;
     let is_flat = upper == 0.0 && (is_one_point || options.kernel == Kernel::Precomputed);
     if !(is_flat || upper.is_finite() && spread > f64::MIN_POSITIVE / f64::EPSILON) {
-        return Err(Error::Overflow);
+        return Err(out_of_range(options.kernel));
     }
     let gap = if upper == 0.0 { 0.0 } else { upper / spread - 1.0 };
     let trace = Trace {
         method: KernelBallMethod::Thesis.name().to_owned(),
         stop: if gap <= options.epsilon { Stop::Converged } else { Stop::PassBudget },
         passes: state.passes,
-        iterations: options.steps,
+        iterations: taken,
         core_set: lambda.len() as u64,
         ..Trace::default()
     };

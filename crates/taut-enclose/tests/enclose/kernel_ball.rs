@@ -283,3 +283,60 @@ fn a_point_that_moves_is_refused_by_the_hash_and_named_without_it() {
     let message = other.check(&points).unwrap_err().to_string();
     assert!(message.starts_with("point 50 "), "{message}");
 }
+
+fn precomputed() -> KernelBallOptions<'static> {
+    KernelBallOptions { kernel: Kernel::Precomputed, ..Default::default() }
+}
+
+#[test]
+fn equal_rows_of_a_precomputed_kernel_have_a_radius_of_0_and_no_gap() {
+    let values = [0.3; 9];
+    for method in [KernelBallMethod::WorkingSet, KernelBallMethod::Thesis] {
+        let found = proved(&values, 3, &KernelBallOptions { method, ..precomputed() });
+        assert_eq!((found.answer.squared_radius, found.certificate.gap), (0.0, 0.0));
+    }
+}
+
+#[test]
+fn matrices_that_are_no_scalar_products_are_refused() {
+    // Rows 0 and 1 would have the squared distance 1 + 1 − 2·3; the other matrix has negative squared lengths.
+    let distance = [1.0, 3.0, 0.0, 3.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+    for (values, dim) in [(&distance[..], 3), (&[-1.0, 0.0, 0.0, -1.0], 2)] {
+        let points = Points::new(values, dim).unwrap();
+        let message = match kernel_ball(&points, &precomputed()) {
+            Ok(found) => found.check(&points).unwrap_err().to_string(),
+            Err(error) => error.to_string(),
+        };
+        assert!(message.contains("positive semidefinite"), "{message}");
+    }
+}
+
+#[test]
+fn the_thesis_method_keeps_to_its_budget_of_passes() {
+    let values = normal(200, 3, 4);
+    let options =
+        KernelBallOptions { method: KernelBallMethod::Thesis, max_passes: 20, ..gaussian(0.1) };
+    let found = proved(&values, 3, &options);
+    assert_eq!((found.trace.passes, found.trace.stop), (20, Stop::PassBudget));
+    // The start takes four passes and two steps.
+    assert_eq!(found.trace.iterations, 18);
+}
+
+#[test]
+fn a_kernel_has_its_own_parameters_and_no_others_in_json() {
+    let points = Points::new(&[0.0, 1.0, 3.0], 1).unwrap();
+    let options = KernelBallOptions { kernel: Kernel::Linear, ..Default::default() };
+    let text = kernel_ball(&points, &options).unwrap().to_json();
+    assert!(taut_certify::AnySolution::from_json(&text).is_ok());
+    for wrong in [
+        r#""name":"linear","gamma":1.0"#,
+        r#""name":"linear","guess":1.0"#,
+        r#""name":"gaussian""#,
+        r#""name":"gaussian","gamma":1.0,"degree":2"#,
+        r#""name":"sigmoid""#,
+    ] {
+        let changed = text.replace(r#""name":"linear""#, wrong);
+        assert_ne!(changed, text);
+        assert!(taut_certify::AnySolution::from_json(&changed).is_err(), "{wrong}");
+    }
+}

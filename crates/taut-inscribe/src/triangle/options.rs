@@ -48,14 +48,14 @@ choice! { "method", TriangleMethod {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TriangleThesisOptions {
     /// Random points, from 3 to 4096. Default 300.
-    pub samples: u64,
+    pub sample_count: u64,
     /// Seed of the points. Default 1.
     pub seed: u64,
 }
 
 impl TriangleThesisOptions {
     /// What [`Default`] says.
-    pub const DEFAULT: Self = Self { samples: 300, seed: 1 };
+    pub const DEFAULT: Self = Self { sample_count: 300, seed: 1 };
 }
 
 impl Default for TriangleThesisOptions {
@@ -76,17 +76,11 @@ pub(super) fn check(options: &TriangleOptions<'_>) -> Result<(), InputError> {
         return wrong("max_cells", "0".to_owned(), "at least 1");
     }
     match options.method {
-        TriangleMethod::Thesis(TriangleThesisOptions { samples, .. })
-            if !(3..=SAMPLES_MAX).contains(&samples) =>
+        TriangleMethod::Thesis(TriangleThesisOptions { sample_count, .. })
+            if !(3..=SAMPLES_MAX).contains(&sample_count) =>
         {
-            wrong("samples", samples.to_string(), "from 3 to 4096")
+            wrong("sample_count", sample_count.to_string(), "a number from 3 to 4096")
         }
         _ => Ok(()),
     }
-}
-
-/// The error for a sample without a triangle.
-pub(super) fn too_few(samples: u64) -> InputError {
-    let expected = "more of them: no three of these points see each other";
-    InputError::Option { name: "samples", value: samples.to_string(), expected }
 }

@@ -66,7 +66,7 @@ pub(super) fn sampled(
 /// Points drawn evenly from the inside; fewer than asked for where that takes too many draws.
 fn points(target: &Target<'_>, levels: &Levels, options: &TriangleThesisOptions) -> Vec<[f64; 2]> {
     let mut random = Random::new(options.seed);
-    let count = options.samples as usize;
+    let count = options.sample_count as usize;
     let extent = target.frame.extent;
     let draws = (0..DRAWN_PER_SAMPLE_MAX * count).map(|_| extent.map(|x| x * random.unit()));
     draws.filter(|&p| levels.is_inside(&target.frame.edges, p)).take(count).collect()

@@ -7,13 +7,15 @@ use super::common::{Ring, solve, verify};
 use super::ellipses::{solve as solve_ellipse, verified};
 use super::triangles;
 use taut_inscribe::{
-    ConvexOptions, Error, OrientedRectangleOptions, RectangleOptions, inscribed_oriented_rectangle,
-    inscribed_polygon, inscribed_rectangle,
+    ConvexOptions, EllipseMethod, EllipseOptions, EllipseThesisOptions, Error,
+    OrientedRectangleOptions, RectangleOptions, TriangleMethod, TriangleOptions,
+    TriangleThesisOptions, inscribed_ellipse, inscribed_oriented_rectangle, inscribed_polygon,
+    inscribed_rectangle, inscribed_triangle,
 };
 use taut_points::Points;
 
 /// The rings of a file: countries by name, each a list of rings.
-fn rings(name: &str) -> Option<Vec<(String, Ring)>> {
+pub(crate) fn rings(name: &str) -> Option<Vec<(String, Ring)>> {
     let Some(folder) = std::env::var_os("TAUT_DATA") else {
         eprintln!("TAUT_DATA is not set: {name} is left out");
         return None;
@@ -58,6 +60,7 @@ fn countries_have_a_proved_circle() {
         assert!(rings.len() > 5, "{file}: {} rings", rings.len());
         let (mut solved, mut refused) = (0, 0);
         for (name, ring) in rings {
+            let begun = std::time::Instant::now();
             let found = match solve(&ring) {
                 Ok(found) => found,
                 Err(Error::NotSimple { .. }) => {
@@ -67,6 +70,7 @@ fn countries_have_a_proved_circle() {
                 Err(error) => panic!("{name}: {error}"),
             };
             solved += 1;
+            let seconds = begun.elapsed().as_secs_f64();
             let (verdict, json) = (verify(&found, &ring), found.to_json().len());
             assert!(verdict.gap <= 1.01e-9, "{name}: {verdict:?}");
             assert!(json < 200_000, "{name}: {json} bytes");
@@ -74,7 +78,7 @@ fn countries_have_a_proved_circle() {
                 let (vertices, radius) = (ring.len(), found.answer.radius);
                 let cells = found.certificate.tree.len();
                 println!(
-                    "{name}: {vertices} vertices, radius {radius}, {cells} cells, {json} bytes"
+                    "{name}: {vertices} vertices, radius {radius}, {cells} cells, {json} bytes, {seconds:.3} s"
                 );
             }
         }
@@ -240,4 +244,42 @@ fn countries_have_a_proved_oriented_rectangle() {
         let along_axes = inscribed_rectangle(&source, &options).unwrap().answer.area;
         assert!(area * (1.0 + 1e-3) >= along_axes, "{name}: {area} and {along_axes}");
     }
+}
+
+#[test]
+fn countries_have_shapes_by_the_methods_of_the_thesis() {
+    let Some(rings) = rings("countries_110m.json.xz") else { return };
+    let mut shares = [vec![], vec![], vec![]];
+    for (name, ring) in rings {
+        let source = Points::new(ring.as_flattened(), 2).unwrap();
+        let begun = std::time::Instant::now();
+        let method = TriangleMethod::Thesis(TriangleThesisOptions::DEFAULT);
+        let options = TriangleOptions { method, epsilon: 1e-2, ..Default::default() };
+        let found = inscribed_triangle(&source, &options).unwrap();
+        let verdict = found.check(&source).unwrap_or_else(|error| panic!("{name}: {error}"));
+        shares[0].push(verdict.lower / verdict.upper);
+        let mut line = format!("{name}: triangle {:.3}", verdict.lower / verdict.upper);
+        // Long countries are thinner than a spacing of 200 samples.
+        let thesis = EllipseThesisOptions { sample_count: 400, fatness: 0.5, ..Default::default() };
+        for (place, method) in
+            [(1, EllipseMethod::Thesis(thesis)), (2, EllipseMethod::FivePoint(thesis))]
+        {
+            let options = EllipseOptions { method, epsilon: 1e-2, ..Default::default() };
+            match inscribed_ellipse(&source, &options) {
+                Err(Error::NoneAmongSamples { .. }) => line += &format!(", {method} none"),
+                Err(error) => panic!("{name}: {method}: {error}"),
+                Ok(found) => {
+                    let verdict =
+                        found.check(&source).unwrap_or_else(|error| panic!("{name}: {error}"));
+                    let share = verdict.lower / verdict.upper;
+                    shares[place].push(share);
+                    line += &format!(", {method} {share:.3}");
+                }
+            }
+        }
+        println!("{line} of the bound, {:.2} s", begun.elapsed().as_secs_f64());
+    }
+    let mean = |list: &[f64]| list.iter().sum::<f64>() / list.len() as f64;
+    assert!(shares[0].len() == 14 && mean(&shares[0]) > 0.75, "{shares:?}");
+    assert!(shares[1..].iter().all(|list| list.len() > 9 && mean(list) > 0.8), "{shares:?}");
 }

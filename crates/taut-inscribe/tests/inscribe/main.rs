@@ -15,6 +15,6 @@ mod polygons;
 mod rectangles;
 mod rings;
 mod sampling;
-mod thesis;
+mod thesis_methods;
 mod triangle_mutations;
 mod triangles;

@@ -194,3 +194,21 @@ fn every_change_of_answer_or_proof_is_refused() {
     }
     assert!(refused * 100 >= tried * 97, "{refused} of {tried}");
 }
+
+#[test]
+fn a_corner_is_not_called_outside_where_no_rectangle_has_it() {
+    // The fuzzed ring whose certificate the checker refused: ranges of opposite sides that overlap.
+    let ring = vec![[1.0, 3.0], [5.0, 5.0], [3.0, 3.0], [3.0, 2.0], [1.0, 1.0], [0.0, 5.0]];
+    proved(&[ring], 0.1);
+    // Left in [4, 6], right in [4, 8], bottom in [2, 4], top in [0, 4]: the upper left corner is at (4, 2) or beyond, which is inside, and
+    // not at (4, 0), which is outside. The edge between these is no edge of the hull of the parent.
+    let ring = vec![[0.0, 0.0], [1.0, 1.0], [8.0, 1.0], [8.0, 8.0], [0.0, 8.0]];
+    let mut found = proved(std::slice::from_ref(&ring), 0.1);
+    found.certificate.gap = 1.0;
+    found.certificate.edges.clear();
+    found.certificate.tree = "bbmtlmlrmmmmm".to_owned();
+    assert!(check(&found, std::slice::from_ref(&ring)).is_ok());
+    found.certificate.tree = "bbmtlmlrm4mmm".to_owned();
+    let error = check(&found, &[ring]).unwrap_err().to_string();
+    assert!(error.contains("calls a corner outside that is inside"), "{error}");
+}

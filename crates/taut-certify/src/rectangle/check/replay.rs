@@ -115,10 +115,17 @@ impl Cell {
     }
 
     /// Where a corner of the rectangles is: 0 to 3, counterclockwise from the lower left.
+    ///
+    /// The ranges of two opposite sides may overlap, so that the corner's own ranges reach beyond the hull. There no rectangle has its
+    /// corner, and the lists do not have all edges.
     fn corner(&self, number: u8) -> Rectangle {
         let x = if matches!(number, 1 | 2) { &self.upper } else { &self.lower };
         let y = if number >= 2 { &self.upper } else { &self.lower };
-        Rectangle { low: [x.low[0], y.low[1]], high: [x.high[0], y.high[1]] }
+        let hull = self.hull();
+        Rectangle {
+            low: [x.low[0].max(hull.low[0]), y.low[1].max(hull.low[1])],
+            high: [x.high[0].min(hull.high[0]), y.high[1].min(hull.high[1])],
+        }
     }
 
     /// The two halves of a cell; `None` where rounding leaves no middle.

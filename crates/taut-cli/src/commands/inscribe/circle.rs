@@ -10,6 +10,7 @@ use taut::{CircleOptions, Monitor, Solution, inscribed_circle};
 use crate::effort::Effort;
 use crate::exit::Outcome;
 use crate::input::reading::{Opened, Reading};
+use crate::input::samples::Samples;
 use crate::pipeline::{Find, Input, Output, OutputOptions};
 use crate::reports;
 use crate::watch::Watch;
@@ -30,6 +31,8 @@ pub(super) struct Circle {
     /// Rings of vertices in order, in any format of `taut formats`, such as CSV or GeoJSON; - is standard input
     #[arg(value_name = "RING")]
     path: PathBuf,
+    #[command(flatten)]
+    samples: Samples,
     /// Proved relative gap to reach, in (0, 1): largest radius ≤ (1 + ε)·radius
     #[arg(long, value_name = "REAL", default_value = "1e-9", allow_negative_numbers = true)]
     epsilon: f64,
@@ -54,6 +57,10 @@ impl Find for Circle {
 
     fn output(&self) -> Output<'_> {
         self.output.output()
+    }
+
+    fn samples(&self) -> Option<&Samples> {
+        Some(&self.samples)
     }
 
     fn solve(

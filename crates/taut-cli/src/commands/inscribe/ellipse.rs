@@ -5,13 +5,14 @@ mod report;
 use std::path::PathBuf;
 
 use taut::certify::InscribedEllipse;
-use taut::inscribe::{EllipseFivePointOptions, EllipseMethod, EllipseOptions, inscribed_ellipse};
+use taut::inscribe::{EllipseMethod, EllipseOptions, EllipseThesisOptions, inscribed_ellipse};
 use taut::{Monitor, Solution};
 
 use crate::effort::Effort;
 use crate::exit::Outcome;
 use crate::input::choice::choice;
 use crate::input::reading::{Opened, Reading};
+use crate::input::samples::Samples;
 use crate::pipeline::{Find, Input, Output, OutputOptions};
 use crate::reports;
 use crate::watch::Watch;
@@ -22,37 +23,43 @@ use crate::watch::Watch;
 Two columns x, y are the vertices of one ring in order. A third column has the number of the ring, 0, 1, and so on, for
 polygons with holes or of several parts; inside is what an odd number of rings wind around. The last vertex of a ring may
 repeat its first. Rings may neither cross nor touch; if they do, the message names two edges by the vertices between
-which they lead, counted from 0. With --method five-point the bound is as near to the largest area as ε says, and the gap is
-that of the ellipse through samples.
+which they lead, counted from 0.
 Exit: 0 reached · 1 the check failed · 2 bad input or usage, nothing written ·
       3 stopped early by the budget of cells, or where rounding hides the gap that was asked for;
         the gap reached is reported
 Example: taut inscribe ellipse ring.csv -o ellipse.json --draw ellipse.svg &&
-         taut verify ellipse.json ring.csv")]
+         taut verify ellipse.json ring.csv
+         taut inscribe ellipse ring.csv --method thesis
+         taut inscribe ellipse points.csv --samples --ring ring.csv -o ellipse.json")]
 pub(super) struct Ellipse {
     /// Rings of vertices in order, in any format of `taut formats`, such as CSV or GeoJSON; - is standard input
     #[arg(value_name = "RING")]
     path: PathBuf,
-    /// The way to find it
+    /// The way to find it; the upper bound comes from branch and bound in any case
     #[arg(
         long, value_name = "NAME", default_value = EllipseMethod::default().name(), value_parser = choice::<EllipseMethod>()
     )]
     method: EllipseMethod,
-    /// Of five-point, samples at even distances along the boundary, from 6 to 400
-    #[arg(long, value_name = "N", default_value_t = EllipseFivePointOptions::DEFAULT.samples)]
-    samples: u64,
-    /// Of five-point, the least cosine of the angle between the normals of ellipse and boundary, in (-1, 1)
-    #[arg(long, value_name = "REAL", default_value_t = EllipseFivePointOptions::DEFAULT.normal, allow_negative_numbers = true)]
-    normal: f64,
-    /// Of five-point, the least small radius in distances of samples, at least 0
-    #[arg(long, value_name = "REAL", default_value_t = EllipseFivePointOptions::DEFAULT.fatness, allow_negative_numbers = true)]
-    fatness: f64,
-    /// Proved relative gap to reach, in (0, 1): largest area ≤ (1 + ε)·area
+    #[command(flatten)]
+    samples: Samples,
+    /// Proved relative gap to reach, in (0, 1): largest area ≤ (1 + ε)·area; of other methods that of the best ellipse known
     #[arg(long, value_name = "REAL", default_value = "1e-3", allow_negative_numbers = true)]
     epsilon: f64,
     /// Most cells of the certificate; where ε takes more, a larger gap is proved; at least 1
     #[arg(long, value_name = "N", default_value_t = EllipseOptions::default().max_cells)]
     max_cells: u64,
+    /// Of thesis and five-point, samples along the rings, 12 to 1000
+    #[arg(long, value_name = "N", default_value_t = EllipseThesisOptions::default().sample_count)]
+    sample_count: u64,
+    /// Of thesis and five-point, the least semi-axis in spacings of the samples, at least 0.5
+    #[arg(long, value_name = "REAL", default_value_t = EllipseThesisOptions::default().fatness, allow_negative_numbers = true)]
+    fatness: f64,
+    /// Of thesis and five-point, the largest angle between normals where ellipse and ring touch, in degrees below 90
+    #[arg(long, value_name = "DEGREES", default_value_t = EllipseThesisOptions::default().angle, allow_negative_numbers = true)]
+    angle: f64,
+    /// Of thesis and five-point, the seed of the order and of the perturbation of the samples
+    #[arg(long, value_name = "N", default_value_t = EllipseThesisOptions::default().seed)]
+    seed: u64,
     #[command(flatten)]
     output: OutputOptions,
     #[command(flatten)]
@@ -71,6 +78,10 @@ impl Find for Ellipse {
 
     fn output(&self) -> Output<'_> {
         self.output.output()
+    }
+
+    fn samples(&self) -> Option<&Samples> {
+        Some(&self.samples)
     }
 
     fn solve(
@@ -93,14 +104,16 @@ impl Find for Ellipse {
 
 impl Ellipse {
     fn options(&self) -> EllipseOptions<'static> {
-        let five_point = EllipseFivePointOptions {
-            samples: self.samples,
-            normal: self.normal,
+        let thesis = EllipseThesisOptions {
+            sample_count: self.sample_count,
             fatness: self.fatness,
+            angle: self.angle,
+            seed: self.seed,
         };
         EllipseOptions {
             method: match self.method {
-                EllipseMethod::FivePoint(_) => EllipseMethod::FivePoint(five_point),
+                EllipseMethod::Thesis(_) => EllipseMethod::Thesis(thesis),
+                EllipseMethod::FivePoint(_) => EllipseMethod::FivePoint(thesis),
                 other => other,
             },
             epsilon: self.epsilon,
@@ -120,7 +133,17 @@ mod tests {
         let matches = command.get_matches_from(["ellipse", "ring.csv"]);
         let found = super::Ellipse::from_arg_matches(&matches).unwrap().options();
         let expected = taut::inscribe::EllipseOptions::default();
-        assert_eq!((found.epsilon, found.max_cells), (expected.epsilon, expected.max_cells));
-        assert_eq!(found.method, expected.method);
+        assert_eq!(
+            (found.method, found.epsilon, found.max_cells),
+            (expected.method, expected.epsilon, expected.max_cells)
+        );
+        for &(name, method, _) in <taut::inscribe::EllipseMethod as taut::points::Choice>::CHOICES {
+            let command = super::Ellipse::augment_args(clap::Command::new("ellipse"));
+            let matches = command.get_matches_from(["ellipse", "ring.csv", "--method", name]);
+            assert_eq!(
+                super::Ellipse::from_arg_matches(&matches).unwrap().options().method,
+                method
+            );
+        }
     }
 }

@@ -11,6 +11,7 @@ use taut::{Monitor, Solution};
 use crate::effort::Effort;
 use crate::exit::Outcome;
 use crate::input::reading::{Opened, Reading};
+use crate::input::samples::Samples;
 use crate::pipeline::{Find, Input, Output, OutputOptions};
 use crate::watch::Watch;
 
@@ -28,6 +29,8 @@ pub(super) struct Polygon {
     /// Rings of vertices in order, in any format of `taut formats`, such as CSV or GeoJSON; - is standard input
     #[arg(value_name = "RING")]
     path: PathBuf,
+    #[command(flatten)]
+    samples: Samples,
     /// Rounds in which sides are taken out and the room is carved again
     #[arg(long, value_name = "N", default_value_t = ConvexOptions::default().rounds)]
     rounds: u64,
@@ -58,6 +61,10 @@ impl Find for Polygon {
 
     fn output(&self) -> Output<'_> {
         self.output.output()
+    }
+
+    fn samples(&self) -> Option<&Samples> {
+        Some(&self.samples)
     }
 
     fn solve(&self, ring: &Opened, watch: &Watch) -> anyhow::Result<(Solution<ConvexPolygon>, ())> {

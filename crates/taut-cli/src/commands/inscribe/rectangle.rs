@@ -12,6 +12,7 @@ use taut::{Monitor, Solution};
 use crate::effort::Effort;
 use crate::exit::Outcome;
 use crate::input::reading::{Opened, Reading};
+use crate::input::samples::Samples;
 use crate::pipeline::{self, Find, Input, Output, OutputOptions};
 use crate::reports;
 use crate::watch::Watch;
@@ -33,6 +34,8 @@ pub(super) struct Rectangle {
     /// Rings of vertices in order, in any format of `taut formats`, such as CSV or GeoJSON; - is standard input
     #[arg(value_name = "RING")]
     path: PathBuf,
+    #[command(flatten)]
+    samples: Samples,
     /// Let the sides have any direction; by default they are along the axes
     #[arg(long)]
     oriented: bool,
@@ -60,6 +63,10 @@ impl Find for Rectangle {
 
     fn output(&self) -> Output<'_> {
         self.output.output()
+    }
+
+    fn samples(&self) -> Option<&Samples> {
+        Some(&self.samples)
     }
 
     fn solve(

@@ -12,6 +12,7 @@ use crate::effort::Effort;
 use crate::exit::Outcome;
 use crate::input::choice::choice;
 use crate::input::reading::{Opened, Reading};
+use crate::input::samples::Samples;
 use crate::pipeline::{Find, Input, Output, OutputOptions};
 use crate::reports;
 use crate::watch::Watch;
@@ -22,34 +23,37 @@ use crate::watch::Watch;
 Two columns x, y are the vertices of one ring in order. A third column has the number of the ring, 0, 1, and so on, for
 polygons with holes or of several parts; inside is what an odd number of rings wind around. The last vertex of a ring may
 repeat its first. Rings may neither cross nor touch; if they do, the message names two edges by the vertices between
-which they lead, counted from 0. With --method thesis the bound is as near to the largest area as ε says, and the gap is that
-of the triangle between random points.
+which they lead, counted from 0.
 Exit: 0 reached · 1 the check failed · 2 bad input or usage, nothing written ·
       3 stopped early by the budget of cells, or where rounding hides the gap that was asked for;
         the gap reached is reported
 Example: taut inscribe triangle ring.csv -o triangle.json --draw triangle.svg &&
-         taut verify triangle.json ring.csv")]
+         taut verify triangle.json ring.csv
+         taut inscribe triangle ring.csv --method thesis
+         taut inscribe triangle points.csv --samples --ring ring.csv -o triangle.json")]
 pub(super) struct Triangle {
     /// Rings of vertices in order, in any format of `taut formats`, such as CSV or GeoJSON; - is standard input
     #[arg(value_name = "RING")]
     path: PathBuf,
-    /// The way to find it
+    /// The way to find it; the upper bound comes from branch and bound in any case
     #[arg(
         long, value_name = "NAME", default_value = TriangleMethod::default().name(), value_parser = choice::<TriangleMethod>()
     )]
     method: TriangleMethod,
-    /// Of thesis, random points, from 3 to 4096
-    #[arg(long, value_name = "N", default_value_t = TriangleThesisOptions::DEFAULT.samples)]
-    samples: u64,
-    /// Of thesis, the seed of the points
-    #[arg(long, value_name = "N", default_value_t = TriangleThesisOptions::DEFAULT.seed)]
-    seed: u64,
-    /// Proved relative gap to reach, in (0, 1): largest area ≤ (1 + ε)·area
+    #[command(flatten)]
+    samples: Samples,
+    /// Proved relative gap to reach, in (0, 1): largest area ≤ (1 + ε)·area; of other methods that of the best triangle known
     #[arg(long, value_name = "REAL", default_value = "1e-3", allow_negative_numbers = true)]
     epsilon: f64,
     /// Most cells of the certificate; where ε takes more, a larger gap is proved; at least 1
     #[arg(long, value_name = "N", default_value_t = TriangleOptions::default().max_cells)]
     max_cells: u64,
+    /// Of thesis, random points in the polygon, 3 to 4096
+    #[arg(long, value_name = "N", default_value_t = TriangleThesisOptions::default().sample_count)]
+    sample_count: u64,
+    /// Of thesis, the seed of the random points
+    #[arg(long, value_name = "N", default_value_t = TriangleThesisOptions::default().seed)]
+    seed: u64,
     #[command(flatten)]
     output: OutputOptions,
     #[command(flatten)]
@@ -68,6 +72,10 @@ impl Find for Triangle {
 
     fn output(&self) -> Output<'_> {
         self.output.output()
+    }
+
+    fn samples(&self) -> Option<&Samples> {
+        Some(&self.samples)
     }
 
     fn solve(
@@ -90,7 +98,7 @@ impl Find for Triangle {
 
 impl Triangle {
     fn options(&self) -> TriangleOptions<'static> {
-        let thesis = TriangleThesisOptions { samples: self.samples, seed: self.seed };
+        let thesis = TriangleThesisOptions { sample_count: self.sample_count, seed: self.seed };
         TriangleOptions {
             method: match self.method {
                 TriangleMethod::Thesis(_) => TriangleMethod::Thesis(thesis),
@@ -113,7 +121,18 @@ mod tests {
         let matches = command.get_matches_from(["triangle", "ring.csv"]);
         let found = super::Triangle::from_arg_matches(&matches).unwrap().options();
         let expected = taut::inscribe::TriangleOptions::default();
-        assert_eq!((found.epsilon, found.max_cells), (expected.epsilon, expected.max_cells));
-        assert_eq!(found.method, expected.method);
+        assert_eq!(
+            (found.method, found.epsilon, found.max_cells),
+            (expected.method, expected.epsilon, expected.max_cells)
+        );
+        for &(name, method, _) in <taut::inscribe::TriangleMethod as taut::points::Choice>::CHOICES
+        {
+            let command = super::Triangle::augment_args(clap::Command::new("triangle"));
+            let matches = command.get_matches_from(["triangle", "ring.csv", "--method", name]);
+            assert_eq!(
+                super::Triangle::from_arg_matches(&matches).unwrap().options().method,
+                method
+            );
+        }
     }
 }

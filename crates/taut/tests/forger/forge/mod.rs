@@ -8,9 +8,11 @@
 
 pub mod list;
 pub mod number;
+mod places;
 
-use serde_json::{Map, Number, Value};
+use serde_json::{Map, Value};
 
+use self::places::Places;
 use crate::random::Random;
 
 /// A forged document, and how it was made.
@@ -26,22 +28,6 @@ pub struct Forger {
     bases: Vec<(String, Value)>,
     own: usize,
     words: Vec<String>,
-}
-
-/// The content of a document at a place.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Sort {
-    Number,
-    Text,
-    List,
-    Object,
-}
-
-/// A place in a document.
-struct Place {
-    pointer: String,
-    class: String,
-    sort: Sort,
 }
 
 /// Words of the format that are in few documents.
@@ -117,30 +103,18 @@ impl Forger {
     }
 
     fn edit(&self, random: &mut Random, document: &mut Value) -> String {
-        let mut places = vec![];
-        for part in ["answer", "certificate"] {
-            collect(&document[part], format!("/{part}"), format!("/{part}"), &mut places);
-        }
-        let mut classes: Vec<(&str, Sort)> =
-            places.iter().map(|place| (place.class.as_str(), place.sort)).collect();
-        classes.sort_by_key(|(class, _)| *class);
-        classes.dedup();
-        let (class, sort) = *random.pick(&classes);
-        let of_class: Vec<&Place> =
-            places.iter().filter(|place| place.class == class && place.sort == sort).collect();
-        let pointer = random.pick(&of_class).pointer.clone();
+        let places = Places::of(document);
+        let (class, sort) = *random.pick(&places.classes());
+        let of_class = places.of_class(class, sort);
+        let pointer = places.pointer(*random.pick(&of_class));
         if random.chance(6) {
-            let other = random.pick(&of_class).pointer.clone();
+            let other = places.pointer(*random.pick(&of_class));
             return swap(document, &pointer, &other);
         }
         if random.chance(6) {
             return self.graft(random, document, &pointer);
         }
-        let numbers: Vec<Number> = places
-            .iter()
-            .filter(|place| place.sort == Sort::Number)
-            .filter_map(|place| document.pointer(&place.pointer)?.as_number().cloned())
-            .collect();
+        let numbers = places.numbers();
         let Some(value) = document.pointer_mut(&pointer) else { return "no edit".into() };
         let what = match value {
             Value::Number(old) => {
@@ -244,25 +218,54 @@ fn swap(document: &mut Value, a: &str, b: &str) -> String {
 
 /// Makes each stated gap smaller.
 fn claim_tighter(random: &mut Random, document: &mut Value) -> Vec<String> {
-    let mut places = vec![];
-    for part in ["answer", "certificate"] {
-        collect(&document[part], format!("/{part}"), format!("/{part}"), &mut places);
-    }
     let way = random.below(6);
     let mut edits = vec![];
-    for place in places.iter().filter(|p| p.sort == Sort::Number && p.class.ends_with("gap")) {
-        let Some(value) = document.pointer_mut(&place.pointer) else { continue };
-        let old = value.as_f64().unwrap_or(0.0);
-        let new = match way {
-            0..=2 => 0.0,
-            3 => 5e-324,
-            4 => old * (1.0 - 10f64.powi(-(random.between(1, 12) as i32))),
-            _ => old / 2.0,
+    for part in ["answer", "certificate"] {
+        let mut tighten = |path: &str, value: &mut Value| {
+            let old = value.as_f64().unwrap_or(0.0);
+            let new = match way {
+                0..=2 => 0.0,
+                3 => 5e-324,
+                4 => old * (1.0 - 10f64.powi(-(random.between(1, 12) as i32))),
+                _ => old / 2.0,
+            };
+            *value = number::value(new);
+            edits.push(format!("{path}: claims {new:e} instead of {old:e}"));
         };
-        *value = number::value(new);
-        edits.push(format!("{}: claims {new:e} instead of {old:e}", place.pointer));
+        each_gap(&mut document[part], &mut format!("/{part}"), &mut tighten);
     }
     edits
+}
+
+/// Calls a function for each number or flag whose key ends with "gap", with the path to it.
+fn each_gap(value: &mut Value, path: &mut String, call: &mut dyn FnMut(&str, &mut Value)) {
+    let length = path.len();
+    match value {
+        Value::Array(list) => {
+            for (i, value) in list.iter_mut().enumerate().filter(|(_, value)| has_parts(value)) {
+                path.push_str(&format!("/{i}"));
+                each_gap(value, path, call);
+                path.truncate(length);
+            }
+        }
+        Value::Object(map) => {
+            for (key, value) in map {
+                path.push_str(&format!("/{key}"));
+                match value {
+                    Value::Array(_) | Value::Object(_) => each_gap(value, path, call),
+                    Value::String(_) => {}
+                    _ if key.ends_with("gap") => call(path, value),
+                    _ => {}
+                }
+                path.truncate(length);
+            }
+        }
+        _ => {}
+    }
+}
+
+fn has_parts(value: &Value) -> bool {
+    matches!(value, Value::Array(_) | Value::Object(_))
 }
 
 /// The document, with values that are no JSON as they are.
@@ -280,29 +283,6 @@ fn written(document: &Value) -> String {
         text.replace_range(start..after, &raw);
     }
     text
-}
-
-fn collect(value: &Value, pointer: String, class: String, places: &mut Vec<Place>) {
-    let sort = match value {
-        Value::Number(_) | Value::Bool(_) | Value::Null => Sort::Number,
-        Value::String(_) => Sort::Text,
-        Value::Array(list) => {
-            for (i, value) in list.iter().enumerate() {
-                collect(value, format!("{pointer}/{i}"), format!("{class}/*"), places);
-            }
-            Sort::List
-        }
-        Value::Object(map) => {
-            for (key, value) in map {
-                collect(value, format!("{pointer}/{key}"), format!("{class}/{key}"), places);
-            }
-            Sort::Object
-        }
-    };
-    // The hash of the data is known to all, and any other is refused at once.
-    if !class.ends_with("points_hash") {
-        places.push(Place { pointer, class, sort });
-    }
 }
 
 fn collect_words(value: &Value, words: &mut Vec<String>) {

@@ -9,6 +9,7 @@ use super::Rectangle;
 use super::report::corner;
 use crate::exit::Outcome;
 use crate::input::reading::Opened;
+use crate::input::samples::Samples;
 use crate::output::numbers::{count, counted, exact, gap};
 use crate::pipeline::{Find, Input, Output};
 use crate::reports::{self, Claims, Field, Report, Summary, gap_and_verified, stopped};
@@ -27,6 +28,10 @@ impl Find for Oriented<'_> {
 
     fn output(&self) -> Output<'_> {
         self.0.output()
+    }
+
+    fn samples(&self) -> Option<&Samples> {
+        self.0.samples()
     }
 
     fn solve(
