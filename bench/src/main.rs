@@ -1,7 +1,7 @@
 //! taut beside its peers: the same inputs, one run, every answer checked.
 //!
 //! Each area is a command with its sections: minimum enclosing balls, Delaunay triangulations, ellipsoids, k centers,
-//! curves, surfaces, shapes inside others and the memory hierarchy; `thesis` reruns the figures and the table of the thesis.
+//! curves, surfaces, shapes inside others, balls of kernels and the memory hierarchy; `thesis` reruns the figures and the table of the thesis.
 //! The peers are installed by `bench/setup`; one that is missing is named, never skipped in silence.
 #![forbid(unsafe_code)]
 
@@ -27,6 +27,7 @@ mod prelude;
 mod process;
 mod raw;
 mod read;
+mod recognize;
 mod report;
 mod rounds;
 mod stats;
@@ -63,6 +64,8 @@ enum Command {
     Surface(Options),
     /// Shapes inside polygons and meshes: times, coverage, proofs, beside shapely, drake, V-HACD and CoACD.
     Inscribe(Options),
+    /// Balls in the feature space of a kernel, beside scikit-learn.
+    Recognize(Options),
     /// The memory hierarchy: searching, sorting, transposing, files, sets, trees and more beside peers.
     Oblivious(Options),
     /// The figures and the table of the thesis, rerun as CSV and SVG; without names it lists them.
@@ -92,6 +95,7 @@ fn main() -> anyhow::Result<()> {
         Command::Curve(options) => curve::AREA.run_all(&options),
         Command::Surface(options) => surface::AREA.run_all(&options),
         Command::Inscribe(options) => inscribe::AREA.run_all(&options),
+        Command::Recognize(options) => recognize::AREA.run_all(&options),
         Command::Oblivious(options) => oblivious::run(&options),
         Command::Thesis(arguments) => thesis::run(&arguments),
         Command::Job { job } => job::Job::perform(&job),

@@ -77,6 +77,7 @@ const PEERS: &[(&str, &str, &str)] = &[
     ("cyminiball", "cyminiball", "pypi.py NAME"),
     ("miniball-pypi", "miniball", "pypi.py miniball"),
     ("sklearn-mcd-", "sklearn", "mcd.py REST"),
+    ("one-class-", "sklearn", "recognize.py REST"),
     ("conic-", "cvxpy", "conic.py REST"),
     ("set-cover", "highspy", "centers.py NAME"),
     ("medoids", "sklearn_extra.cluster", "centers.py NAME"),

@@ -7,7 +7,7 @@ use crate::BodyProof;
 /// Most facets of an entry: four constraints of space always do.
 const COMBINED_FACETS_MAX: usize = 4;
 
-/// Checks that each triangle is separated from a body, by one facet or by the entry of the proof.
+/// Checks that each triangle is separated from a body, by one facet or by the entry of the proof; by one facet a block of them at once.
 pub(super) fn is_empty(
     body: usize,
     found: &ConvexBody,
@@ -17,22 +17,34 @@ pub(super) fn is_empty(
     let mut entries = proof.combined.iter().enumerate().peekable();
     // Neighbors in the list are mostly neighbors in space: the facets that separated last are tried first.
     let mut order: Vec<usize> = (0..found.normals.len()).collect();
-    for row in 0..boxes.floors.len() {
-        let [low, high] = [&boxes.floors[row], &boxes.ceilings[row]];
-        let separates = |&facet: &usize| {
-            let (normal, offset) = (found.normals[facet], found.offsets[facet]);
-            (0..3).all(|corner| least(normal, low[corner], high[corner]) >= offset)
-        };
-        match entries.next_if(|(_, entry)| entry.first() == Some(&(row as u64))) {
-            Some((position, entry)) => combined(body, position, found, entry, low, high)?,
-            None => {
-                let Some(place) = order.iter().position(separates) else {
-                    return Err(match row.checked_sub(boxes.rows) {
-                        None => BodiesViolation::Reaches { row: row as u64, body },
-                        Some(cap) => BodiesViolation::CapReaches { cap: cap as u64, body },
-                    });
-                };
-                order[..=place].rotate_right(1);
+    for (rows, &low, &high) in boxes.blocks() {
+        let of_block =
+            |&facet: &usize| least(found.normals[facet], low, high) >= found.offsets[facet];
+        let has_entry = entries.peek().is_some_and(|(_, entry)| match entry.first() {
+            Some(&row) => row < rows.end as u64,
+            None => true,
+        });
+        if !has_entry && let Some(place) = order.iter().position(of_block) {
+            order[..=place].rotate_right(1);
+            continue;
+        }
+        for row in rows {
+            let [low, high] = [&boxes.floors[row], &boxes.ceilings[row]];
+            let separates = |&facet: &usize| {
+                let (normal, offset) = (found.normals[facet], found.offsets[facet]);
+                (0..3).all(|corner| least(normal, low[corner], high[corner]) >= offset)
+            };
+            match entries.next_if(|(_, entry)| entry.first() == Some(&(row as u64))) {
+                Some((position, entry)) => combined(body, position, found, entry, low, high)?,
+                None => {
+                    let Some(place) = order.iter().position(separates) else {
+                        return Err(match row.checked_sub(boxes.rows) {
+                            None => BodiesViolation::Reaches { row: row as u64, body },
+                            Some(cap) => BodiesViolation::CapReaches { cap: cap as u64, body },
+                        });
+                    };
+                    order[..=place].rotate_right(1);
+                }
             }
         }
     }

@@ -11,13 +11,19 @@ const EXPONENTS: std::ops::RangeInclusive<i32> = -300..=310;
 /// Coordinates in units are below this, so that whole numbers hold them.
 const UNITS_MAX: f64 = (1u64 << 61) as f64;
 
+/// Triangles of a block. Those that follow each other in a list are mostly near each other, and what is known of the box of a block holds
+/// for all of them: most blocks are looked at once for a body.
+const BLOCK_ROWS: usize = 16;
+
 /// For each corner of each triangle and then of each cap the floors and the ceilings of its coordinates, in units from the origin:
-/// in 32 bits, as most of the time of a check goes into reading them for each body.
+/// in 32 bits, as much of the time of a check goes into reading them for each body.
 pub(super) struct Boxes {
     /// How many triangles are those of the mesh.
     pub(super) rows: usize,
     pub(super) floors: Vec<[[i32; 3]; 3]>,
     pub(super) ceilings: Vec<[[i32; 3]; 3]>,
+    /// The least floors and the largest ceilings of each block of triangles.
+    blocks: Vec<[[i32; 3]; 2]>,
 }
 
 /// 2^exponent, for an exponent of normal numbers.
@@ -43,7 +49,32 @@ impl Boxes {
             floors.push(low);
             ceilings.push(high);
         }
-        Ok(Boxes { rows, floors, ceilings })
+        Ok(Boxes::around(rows, floors, ceilings))
+    }
+
+    pub(super) fn around(
+        rows: usize,
+        floors: Vec<[[i32; 3]; 3]>,
+        ceilings: Vec<[[i32; 3]; 3]>,
+    ) -> Self {
+        let extreme = |block: &[[[i32; 3]; 3]], pick: fn(i32, i32) -> i32| {
+            let corners = block.as_flattened().iter().copied();
+            corners.reduce(|p, q| [0, 1, 2].map(|c| pick(p[c], q[c]))).unwrap_or_default()
+        };
+        let pairs = floors.chunks(BLOCK_ROWS).zip(ceilings.chunks(BLOCK_ROWS));
+        let blocks =
+            pairs.map(|(low, high)| [extreme(low, i32::min), extreme(high, i32::max)]).collect();
+        Boxes { rows, floors, ceilings, blocks }
+    }
+
+    /// The blocks: their triangles, the least floors, and the largest ceilings.
+    pub(super) fn blocks(
+        &self,
+    ) -> impl Iterator<Item = (std::ops::Range<usize>, &[i32; 3], &[i32; 3])> {
+        self.blocks.iter().enumerate().map(|(block, [low, high])| {
+            let first = block * BLOCK_ROWS;
+            (first..self.floors.len().min(first + BLOCK_ROWS), low, high)
+        })
     }
 }
 

@@ -8,15 +8,23 @@ use super::grid::Boxes;
 /// Whether the ray crosses an odd number of triangles. False for a point on a triangle.
 pub(super) fn is_inside(point: [i64; 3], boxes: &Boxes) -> bool {
     let mut is_odd = false;
-    for triangle in &boxes.floors {
-        // Most triangles are all above or all below the ray.
-        let sides = triangle.map(|corner| i64::from(corner[1]) > point[1]);
-        if sides == [true; 3] || sides == [false; 3] {
+    for (rows, low, high) in boxes.blocks() {
+        // Blocks beside the moved ray, or behind its start, have no triangle that it crosses.
+        let [low, high] = [low, high].map(|corner| corner.map(i64::from));
+        let is_beside = |c: usize| low[c] > point[c] || high[c] <= point[c];
+        if is_beside(1) || is_beside(2) || high[0] < point[0] {
             continue;
         }
-        match crosses(point, &triangle.map(|corner| corner.map(i64::from))) {
-            Some(crosses) => is_odd ^= crosses,
-            None => return false,
+        for triangle in &boxes.floors[rows] {
+            // Most triangles are all above or all below the ray.
+            let sides = triangle.map(|corner| i64::from(corner[1]) > point[1]);
+            if sides == [true; 3] || sides == [false; 3] {
+                continue;
+            }
+            match crosses(point, &triangle.map(|corner| corner.map(i64::from))) {
+                Some(crosses) => is_odd ^= crosses,
+                None => return false,
+            }
         }
     }
     is_odd
@@ -69,7 +77,7 @@ mod tests {
 
     fn inside(point: [i64; 3], floors: &[[[i32; 3]; 3]]) -> bool {
         let rows = floors.len();
-        is_inside(point, &Boxes { rows, floors: floors.to_vec(), ceilings: floors.to_vec() })
+        is_inside(point, &Boxes::around(rows, floors.to_vec(), floors.to_vec()))
     }
 
     #[test]
@@ -114,5 +122,39 @@ mod tests {
         for p in [[-5, 0, 0], [5, 0, 0], [-9, 4, 0], [-9, 1, 0], [-9, 0, -4], [-3, 1, 1]] {
             assert!(!inside(p, &mesh), "{p:?}");
         }
+    }
+
+    #[test]
+    fn blocks_change_nothing() {
+        // Random closed meshes: the boundary triangles of random tetrahedra, whose insides are combined by parity.
+        let mut state = 5u64;
+        let mut below = |bound: u64| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            ((state >> 33) % bound) as i32
+        };
+        let faces = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+        let mut mesh = vec![];
+        for _ in 0..60 {
+            let at = [0; 3].map(|_| below(24));
+            let corners = [0; 4].map(|_| at.map(|x| x + below(9)));
+            mesh.extend(faces.map(|face: [usize; 3]| face.map(|k| corners[k])));
+        }
+        let parity = |point: [i64; 3]| {
+            let mut is_odd = false;
+            for triangle in &mesh {
+                match crosses(point, &triangle.map(|corner| corner.map(i64::from))) {
+                    Some(crosses) => is_odd ^= crosses,
+                    None => return false,
+                }
+            }
+            is_odd
+        };
+        let mut found = 0;
+        for _ in 0..4000 {
+            let point = [0; 3].map(|_| i64::from(below(36)) - 2);
+            assert_eq!(inside(point, &mesh), parity(point), "{point:?}");
+            found += u32::from(parity(point));
+        }
+        assert!(found > 100, "{found}");
     }
 }

@@ -1,0 +1,16 @@
+//! Balls in the feature space of a kernel beside scikit-learn.
+
+mod kernel;
+
+use crate::prelude::*;
+
+/// All sections. One thread, as scikit-learn's solver has one.
+pub(crate) const AREA: Area<Run> = Area {
+    name: "recognize",
+    sections: &[runs("kernel", kernel::balls)
+        .about("Hard and soft balls of a Gaussian kernel, beside scikit-learn's OneClassSVM.")],
+    runs: 3,
+    threads: &[1],
+    limit: 300,
+    peer_budget: 300,
+};
