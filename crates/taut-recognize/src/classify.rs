@@ -1,1 +1,1 @@
-//! Classifiers behind one trait: learn from labelled points, then tell the label of new ones.
+//! Classifiers behind one trait: learn from labeled points, then tell the label of new ones.

@@ -87,6 +87,6 @@ fn the_method_of_the_thesis_is_proved_with_its_gap() {
     folder
         .taut("inscribe triangle frame.csv --method thesis --sample-count 2")
         .ends(2)
-        .stderr_has(&["sample_count"]);
+        .stderr_has(&["sample-count"]);
     folder.taut("inscribe triangle frame.csv --method guess").ends(2);
 }
