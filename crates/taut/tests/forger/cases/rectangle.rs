@@ -11,7 +11,7 @@ pub fn all() -> Vec<Case> {
         let ways = [
             ("1e-3", base.clone()),
             ("1e-1", RectangleOptions { epsilon: 1e-1, ..base.clone() }),
-            ("1e-9", RectangleOptions { epsilon: 1e-6, max_cells: 3000, ..base.clone() }),
+            ("1e-9", RectangleOptions { epsilon: 1e-6, max_cells: 1000, ..base.clone() }),
             ("one cell", RectangleOptions { max_cells: 1, ..base }),
         ];
         let solve = |(way, options): (&str, RectangleOptions<'_>)| -> (String, _) {
