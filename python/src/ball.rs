@@ -4,9 +4,9 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use taut::certify::Kernel;
 use taut::enclose::{KernelBallMethod, KernelBallOptions};
-use taut::{BallMethod, BallOptions, Items};
+use taut::{BallMethod, BallOptions};
 
-use crate::found::{Found, solve};
+use crate::found::{Found, solve, solve_points};
 use crate::items::{items_of_name, raise};
 use crate::numbers::whole;
 
@@ -82,12 +82,7 @@ pub(crate) fn kernel_ball(
         ..Default::default()
     };
     let options = KernelBallOptions { steps: steps.unwrap_or(base.steps), ..base };
-    solve(
-        py,
-        rows,
-        |source, monitor| {
-            taut::enclose::kernel_ball(source, &KernelBallOptions { monitor: *monitor, ..options })
-        },
-        |error, columns| raise(error, Items::Points, columns),
-    )
+    solve_points(py, rows, |source, monitor| {
+        taut::enclose::kernel_ball(source, &KernelBallOptions { monitor: *monitor, ..options })
+    })
 }

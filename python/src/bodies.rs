@@ -1,14 +1,12 @@
 //! `taut.inscribed_bodies` and `taut.inscribed_dops`, behind their Python signatures.
 
 use pyo3::prelude::*;
-use taut::Items;
 use taut::inscribe::{
     BodiesMethod, BodiesOptions, BodiesThesisOptions, BodyShape, Objective, ThesisSeeds,
 };
 
 use crate::choice::choice;
-use crate::found::{Found, solve};
-use crate::items::raise;
+use crate::found::{Found, solve_points};
 use crate::numbers::whole;
 
 /// Convex bodies inside the mesh whose triangles are the rows of an array. `facets` is the most facets of a body, if they are free,
@@ -52,25 +50,20 @@ pub(crate) fn inscribed_bodies(
         other => other,
     };
     let seed = whole("seed", seed, "from 0 to 2^64 - 1")?;
-    solve(
-        py,
-        rows,
-        |source, monitor| {
-            let options = BodiesOptions {
-                shape,
-                method,
-                objective,
-                count,
-                disjoint,
-                at: &at,
-                coverage,
-                close_holes,
-                events,
-                seed,
-                monitor: *monitor,
-            };
-            taut::inscribe::inscribed_bodies(source, &options)
-        },
-        |error, columns| raise(error, Items::Points, columns),
-    )
+    solve_points(py, rows, |source, monitor| {
+        let options = BodiesOptions {
+            shape,
+            method,
+            objective,
+            count,
+            disjoint,
+            at: &at,
+            coverage,
+            close_holes,
+            events,
+            seed,
+            monitor: *monitor,
+        };
+        taut::inscribe::inscribed_bodies(source, &options)
+    })
 }

@@ -5,7 +5,7 @@ use taut::reconstruct::{CurveThesisOptions, Ends};
 use taut::{CurveMethod, CurveOptions, Items};
 
 use crate::choice::choice;
-use crate::found::{Found, solve};
+use crate::found::{Found, solve_points};
 use crate::items::raise;
 use crate::numbers::whole;
 
@@ -35,10 +35,7 @@ pub(crate) fn curve(
         threads: whole("threads", threads, "1 to 1024, or None")?,
         ..CurveOptions::default()
     };
-    solve(
-        py,
-        rows,
-        |source, monitor| taut::curve(source, &CurveOptions { monitor: *monitor, ..options }),
-        |error, columns| raise(error, Items::Points, columns),
-    )
+    solve_points(py, rows, |source, monitor| {
+        taut::curve(source, &CurveOptions { monitor: *monitor, ..options })
+    })
 }

@@ -1,11 +1,10 @@
 //! `taut.delaunay` and `taut.spatial_order`, behind their Python signatures.
 
 use pyo3::prelude::*;
-use taut::{DelaunayOptions, Items, OrderOptions};
+use taut::{DelaunayOptions, OrderOptions};
 
 use crate::choice::choice;
-use crate::found::{Found, solve};
-use crate::items::raise;
+use crate::found::{Found, solve_points};
 use crate::numbers::whole;
 
 /// The Delaunay triangulation of the rows of an array.
@@ -23,12 +22,9 @@ pub(crate) fn delaunay(
         seed: whole("seed", seed, "0 to 2**64 - 1")?,
         ..DelaunayOptions::default()
     };
-    solve(
-        py,
-        rows,
-        |source, monitor| taut::delaunay(source, &DelaunayOptions { monitor: *monitor, ..options }),
-        |error, columns| raise(error, Items::Points, columns),
-    )
+    solve_points(py, rows, |source, monitor| {
+        taut::delaunay(source, &DelaunayOptions { monitor: *monitor, ..options })
+    })
 }
 
 /// The rows of an array in the order of a curve through them.
@@ -40,12 +36,7 @@ pub(crate) fn spatial_order(
 ) -> PyResult<Found> {
     let curve = choice("curve", curve)?;
     let options = OrderOptions { curve, ..OrderOptions::default() };
-    solve(
-        py,
-        rows,
-        |source, monitor| {
-            taut::spatial_order(source, &OrderOptions { monitor: *monitor, ..options })
-        },
-        |error, columns| raise(error, Items::Points, columns),
-    )
+    solve_points(py, rows, |source, monitor| {
+        taut::spatial_order(source, &OrderOptions { monitor: *monitor, ..options })
+    })
 }

@@ -1,11 +1,9 @@
 //! `taut.bounding_dop`, behind its Python signature.
 
 use pyo3::prelude::*;
-use taut::Items;
 use taut::enclose::DopOptions;
 
-use crate::found::{Found, solve};
-use crate::items::raise;
+use crate::found::{Found, solve_points};
 use crate::numbers::whole;
 
 /// The bounding k-dop of the points that are the rows of an array.
@@ -16,12 +14,7 @@ pub(crate) fn bounding_dop(
     directions: &Bound<'_, PyAny>,
 ) -> PyResult<Found> {
     let directions = whole("directions", directions, "6, 14, 18 or 26")?;
-    solve(
-        py,
-        rows,
-        |source, monitor| {
-            taut::enclose::bounding_dop(source, &DopOptions { directions, monitor: *monitor })
-        },
-        |error, columns| raise(error, Items::Points, columns),
-    )
+    solve_points(py, rows, |source, monitor| {
+        taut::enclose::bounding_dop(source, &DopOptions { directions, monitor: *monitor })
+    })
 }

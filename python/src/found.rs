@@ -4,9 +4,9 @@ use pyo3::create_exception;
 use pyo3::exceptions::{PyException, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use taut::certify::{Answer, AnySolution, CheckError, Solution, with_solution};
-use taut::{Monitor, PointSource};
+use taut::{Error, Items, Monitor, PointSource};
 
-use crate::items::{items_of_name, words};
+use crate::items::{items_of_name, raise, words};
 use crate::object::plain;
 use crate::picture::picture;
 use crate::rows::Rows;
@@ -39,6 +39,19 @@ where
     let source = rows.source()?;
     let found = interruptible(py, |monitor| solver(source.as_ref(), monitor))?;
     Ok(Found::from(found.map_err(|error| raise(error, source.dim()))?))
+}
+
+/// Solves for the points that are the rows of an array.
+pub(crate) fn solve_points<A: Answer, E: Into<Error> + Send>(
+    py: Python<'_>,
+    rows: &Bound<'_, PyAny>,
+    solver: impl FnOnce(&dyn PointSource, &Monitor<'_>) -> Result<Solution<A>, E> + Send,
+) -> PyResult<Found>
+where
+    AnySolution: From<Solution<A>>,
+    Solution<A>: Send,
+{
+    solve(py, rows, solver, |error, columns| raise(error, Items::Points, columns))
 }
 
 impl<A: Answer> From<Solution<A>> for Found

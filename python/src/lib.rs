@@ -10,11 +10,9 @@ mod bodies;
 mod body_mesh;
 mod centers;
 mod choice;
-mod circle;
 mod curve;
 mod delaunay;
 mod dop;
-mod ellipse;
 mod ellipsoid;
 mod farthest_first;
 mod files;
@@ -25,15 +23,12 @@ mod items;
 mod names;
 mod numbers;
 mod object;
-mod oriented;
 mod picture;
-mod polygon;
-mod rectangle;
+mod planar;
 mod robust;
 mod rows;
 mod sphere_tree;
 mod surface;
-mod triangle;
 mod work;
 
 use pyo3::prelude::*;
@@ -50,15 +45,11 @@ mod _native {
     #[pymodule_export]
     use crate::centers::centers;
     #[pymodule_export]
-    use crate::circle::inscribed_circle;
-    #[pymodule_export]
     use crate::curve::curve;
     #[pymodule_export]
     use crate::delaunay::{delaunay, spatial_order};
     #[pymodule_export]
     use crate::dop::bounding_dop;
-    #[pymodule_export]
-    use crate::ellipse::inscribed_ellipse;
     #[pymodule_export]
     use crate::ellipsoid::{ellipsoid, ellipsoids, norms};
     #[pymodule_export]
@@ -74,19 +65,16 @@ mod _native {
     #[pymodule_export]
     use crate::names::names;
     #[pymodule_export]
-    use crate::oriented::inscribed_oriented_rectangle;
-    #[pymodule_export]
-    use crate::polygon::inscribed_polygon;
-    #[pymodule_export]
-    use crate::rectangle::inscribed_rectangle;
+    use crate::planar::{
+        inscribed_circle, inscribed_ellipse, inscribed_oriented_rectangle, inscribed_polygon,
+        inscribed_rectangle, inscribed_triangle,
+    };
     #[pymodule_export]
     use crate::robust::robust_ellipsoid;
     #[pymodule_export]
     use crate::sphere_tree::sphere_tree;
     #[pymodule_export]
     use crate::surface::surface;
-    #[pymodule_export]
-    use crate::triangle::inscribed_triangle;
 
     #[pymodule_export]
     #[allow(non_upper_case_globals)]

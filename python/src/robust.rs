@@ -3,7 +3,7 @@
 use pyo3::prelude::*;
 use taut::{Items, RobustMethod, RobustOptions};
 
-use crate::found::{Found, solve};
+use crate::found::{Found, solve_points};
 use crate::items::raise;
 use crate::numbers::whole;
 
@@ -26,12 +26,7 @@ pub(crate) fn robust_ellipsoid(
         threads: whole("threads", threads, "1 to 1024, or None")?,
         ..RobustOptions::default()
     };
-    solve(
-        py,
-        rows,
-        |source, monitor| {
-            taut::robust_ellipsoid(source, &RobustOptions { monitor: *monitor, ..options })
-        },
-        |error, columns| raise(error, Items::Points, columns),
-    )
+    solve_points(py, rows, |source, monitor| {
+        taut::robust_ellipsoid(source, &RobustOptions { monitor: *monitor, ..options })
+    })
 }

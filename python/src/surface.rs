@@ -8,8 +8,7 @@ use taut::reconstruct::{Denoise, HullOptions, Positions, SurfaceMode};
 use taut::{Items, SurfaceMethod, SurfaceOptions};
 
 use crate::choice::choice;
-use crate::found::{Found, solve};
-use crate::items::raise;
+use crate::found::{Found, solve_points};
 use crate::numbers::whole;
 
 /// The surface through the rows of an array.
@@ -89,12 +88,7 @@ pub(crate) fn surface(
         threads: whole("threads", threads, "1 to 1024, or None")?,
         ..SurfaceOptions::default()
     };
-    solve(
-        py,
-        rows,
-        |source, monitor| {
-            taut::surface(source, &SurfaceOptions { monitor: *monitor, ..options.clone() })
-        },
-        |error, columns| raise(error, Items::Points, columns),
-    )
+    solve_points(py, rows, |source, monitor| {
+        taut::surface(source, &SurfaceOptions { monitor: *monitor, ..options.clone() })
+    })
 }
