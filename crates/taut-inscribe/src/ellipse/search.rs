@@ -3,12 +3,15 @@
 //! *Idea.* The cell of the largest bound is split until that is within the gap. Each cell has the edges that may be nearest to one
 //! of its ellipses, out of those of its parent. Middles of cells and the steps of the linear programs are starts of local
 //! [`ascent`](super::ascent).
+//! *Threads.* Some cells of the largest bounds are split at once, and their children are examined side by side against the best ellipse
+//! known before; how many are split does not depend on the number of threads, and so neither does the answer.
 //! *Cells of shapes alone* are split until an ellipse changes little in them; then a frame gives them centers, skewed as the shapes.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
-use std::rc::Rc;
+use std::sync::Arc;
 
+use rayon::prelude::*;
 use taut_points::Cancelled;
 
 use super::ascent::Ellipse;
@@ -23,8 +26,8 @@ use crate::levels::Levels;
 use crate::polygon::Segment;
 use crate::units::Units;
 
-/// Cells between two looks at the monitor.
-const CELLS_BETWEEN_LOOKS: u64 = 256;
+/// Cells that are split at once. More keep more threads busy, and split more cells that a better ellipse would have closed.
+const BATCH_CELLS: usize = 16;
 
 /// Half the extent of the shapes of a cell, from its middle, below which it has a frame.
 const FRAME_SHAPE_MAX: f64 = 0.51;
@@ -81,9 +84,22 @@ struct Waiting {
     node: usize,
     cell: Cell,
     next: Next,
-    list: Rc<[u32]>,
+    list: Arc<[u32]>,
     /// Whether the cell, which no edge meets, is known to be inside.
     is_inside: bool,
+}
+
+/// What is known of a cell after it was examined.
+struct Examined {
+    cell: Cell,
+    reason: Reason,
+    /// The bound of sizes; `None` for a cell outside of the polygon.
+    bound: Option<f64>,
+    next: Next,
+    list: Arc<[u32]>,
+    is_inside: bool,
+    /// An ellipse that is larger than the best one was.
+    larger: Option<Ellipse>,
 }
 
 /// What is done to a cell next.
@@ -164,25 +180,21 @@ pub(super) fn search(
     search.stuck = beyond;
     let power = |exponent: i32| f64::from_bits(((1023 + exponent) as u64) << 52);
     let [s, low, high] = root.map(power);
-    let list: Rc<[u32]> = (0..units.edges.len() as u32).collect();
-    search.add(Cell { s: [-s, s], t: [low, high], frame: None }, &list, false);
-    let mut opened = 0;
+    let list: Arc<[u32]> = (0..units.edges.len() as u32).collect();
+    let cell = Cell { s: [-s, s], t: [low, high], frame: None };
+    let examined = search.examine(cell, &list, false);
+    search.add(examined);
     let is_complete = loop {
-        if opened % CELLS_BETWEEN_LOOKS == 0 {
-            options.monitor.check()?;
-        }
-        opened += 1;
-        if search.nodes.len() as u64 + 2 > options.max_cells {
+        options.monitor.check()?;
+        let room = options.max_cells.saturating_sub(search.nodes.len() as u64) / 2;
+        if room == 0 {
             break search.waiting.peek().is_none_or(|top| top.bound <= search.goal());
         }
-        match search.waiting.pop() {
-            None => break true,
-            Some(top) if top.bound <= search.goal() => {
-                search.stuck = search.stuck.max(top.bound);
-                break true;
-            }
-            Some(top) => search.open(top),
+        let batch = search.batch(BATCH_CELLS.min(room as usize));
+        if batch.is_empty() {
+            break true;
         }
+        search.open(batch);
     };
     Ok(search.found(root, directions, is_complete))
 }
@@ -215,16 +227,14 @@ impl Search<'_> {
         ([s as i32, low as i32, high as i32], beyond * (1.0 + 1e-14))
     }
 
-    /// Takes an ellipse of a list of edges, and what it climbs to, if that is the best so far.
-    fn consider(&mut self, ellipse: Ellipse) {
+    /// The ellipse among all edges in the place of one among a list of them, if it is larger than the best so far.
+    fn larger(&self, ellipse: Ellipse) -> Option<Ellipse> {
         let least = self.size() * (1.0 + START_GAIN);
         let edges = &self.units.edges;
-        if ellipse.size > least && self.levels.is_inside(edges, ellipse.center) {
-            let all = Ellipse::of(ellipse.shape, ellipse.center, edges);
-            if all.size > least {
-                self.climb(all);
-            }
+        if ellipse.size <= least || !self.levels.is_inside(edges, ellipse.center) {
+            return None;
         }
+        Some(Ellipse::of(ellipse.shape, ellipse.center, edges)).filter(|all| all.size > least)
     }
 
     /// Takes an ellipse with its center inside and what it climbs to, if that is the best so far.
@@ -240,36 +250,67 @@ impl Search<'_> {
         }
     }
 
-    /// Makes a node of a cell.
-    fn add(&mut self, cell: Cell, parents: &Rc<[u32]>, is_inside: bool) -> usize {
-        let node = self.nodes.len();
-        self.nodes.push(Node::Leaf(Reason::Widths));
-        let bound = cell.width_bound(&self.widths);
-        match cell.frame {
-            None => {
-                let [s, t] = cell.half_shape();
-                let next = match () {
-                    () if s > FRAME_SHAPE_MAX && s > t => Next::Split(Axis::S),
-                    () if t > FRAME_SHAPE_MAX => Next::Split(Axis::T),
-                    () => Next::Frame,
-                };
-                self.wait(Waiting { bound, node, cell, next, list: parents.clone(), is_inside });
+    /// The cells to be split next, of the largest bounds.
+    fn batch(&mut self, most: usize) -> Vec<Waiting> {
+        let mut batch = vec![];
+        while batch.len() < most
+            && let Some(top) = self.waiting.pop()
+        {
+            if top.bound <= self.goal() {
+                self.stuck = self.stuck.max(top.bound);
+                break;
             }
-            Some(_) if bound <= self.goal() => self.stuck = self.stuck.max(bound),
-            Some(frame) => self.examine(node, cell, &frame, parents, is_inside),
+            batch.push(top);
+        }
+        batch
+    }
+
+    /// Makes a node of a cell, and keeps it to be split if its bound does not close it.
+    fn add(&mut self, examined: Examined) -> usize {
+        let Examined { cell, reason, bound, next, list, is_inside, larger } = examined;
+        let node = self.nodes.len();
+        self.nodes.push(Node::Leaf(reason));
+        if let Some(larger) = larger.filter(|larger| larger.size > self.size()) {
+            self.climb(larger);
+        }
+        let Some(bound) = bound else { return node };
+        match next {
+            Next::Nothing => self.stuck = self.stuck.max(bound),
+            _ if bound <= self.goal() => self.stuck = self.stuck.max(bound),
+            _ => self.waiting.push(Waiting { bound, node, cell, next, list, is_inside }),
         }
         node
     }
 
-    fn wait(&mut self, waiting: Waiting) {
-        match waiting.next {
-            Next::Nothing => self.stuck = self.stuck.max(waiting.bound),
-            _ => self.waiting.push(waiting),
+    /// Finds a reason for a cell, and what is done to it next.
+    fn examine(&self, cell: Cell, parents: &Arc<[u32]>, is_inside: bool) -> Examined {
+        let bound = cell.width_bound(&self.widths);
+        let by_widths = |next| {
+            let (reason, list) = (Reason::Widths, parents.clone());
+            Examined { cell, reason, bound: Some(bound), next, list, is_inside, larger: None }
+        };
+        match cell.frame {
+            None => {
+                let [s, t] = cell.half_shape();
+                by_widths(match () {
+                    () if s > FRAME_SHAPE_MAX && s > t => Next::Split(Axis::S),
+                    () if t > FRAME_SHAPE_MAX => Next::Split(Axis::T),
+                    () => Next::Frame,
+                })
+            }
+            Some(_) if bound <= self.goal() => by_widths(Next::Nothing),
+            Some(frame) => self.examine_centers(cell, &frame, parents, is_inside),
         }
     }
 
     /// Finds a reason for a cell with centers, and how to split it.
-    fn examine(&mut self, node: usize, cell: Cell, frame: &Frame, parents: &[u32], inside: bool) {
+    fn examine_centers(
+        &self,
+        cell: Cell,
+        frame: &Frame,
+        parents: &Arc<[u32]>,
+        inside: bool,
+    ) -> Examined {
         let units = self.units;
         let edge = |number: u32| units.edges[number as usize];
         let view = View::of(&cell, frame);
@@ -284,19 +325,20 @@ impl Search<'_> {
         let most = ((distance + view.reach()) * view.factor).min(KEPT * self.goal());
         let kept = view.factor * most.max(distance) + view.reach();
         let places: Vec<usize> = (0..all.len()).filter(|&i| all[i].length <= kept).collect();
-        let list: Rc<[u32]> = places.iter().map(|&i| parents[i]).collect();
+        let list: Arc<[u32]> = places.iter().map(|&i| parents[i]).collect();
         let mut is_inside = inside;
         if !inside && !list.iter().any(|&number| meets(edge(number), frame)) {
             is_inside = self.levels.is_inside(&units.edges, view.middle);
             if !is_inside {
-                self.nodes[node] = Node::Leaf(Reason::Outside);
-                return;
+                let (reason, bound, next) = (Reason::Outside, None, Next::Nothing);
+                return Examined { cell, reason, bound, next, list, is_inside, larger: None };
             }
         }
-        self.consider(Ellipse { shape: view.shape, center: view.middle, size: distance });
+        let middle = Ellipse { shape: view.shape, center: view.middle, size: distance };
+        let mut larger = self.larger(middle);
         let least = LEAST_LENGTH * self.answer_size.unwrap_or(self.size());
         // There is a nearest edge, as each list has one.
-        let Some(&single) = parents.get(first) else { return };
+        let single = parents[first];
         let mut bound = cell.edge_bound(&[(edge(single), 1.0)], least);
         let mut reason = Reason::Edges(vec![(single, 1)]);
         let by_widths = cell.width_bound(&self.widths);
@@ -310,7 +352,8 @@ impl Search<'_> {
             if found.value > self.size() * (1.0 + START_GAIN) {
                 let (shape, center) = view.stepped(frame, found.step);
                 let some: Vec<Segment> = list.iter().map(|&number| edge(number)).collect();
-                self.consider(Ellipse::of(shape, center, &some));
+                let stepped = self.larger(Ellipse::of(shape, center, &some));
+                larger = [larger, stepped].into_iter().flatten().max_by(by_size);
             }
             for bits in WEIGHT_BITS {
                 let whole = |&(i, weight): &(usize, f64)| {
@@ -330,30 +373,37 @@ impl Search<'_> {
                 }
             }
         }
-        self.nodes[node] = Node::Leaf(reason);
         let mut axes =
             [Axis::S, Axis::T, Axis::X, Axis::Y].into_iter().zip(changes).collect::<Vec<_>>();
         axes.sort_by(|one, other| other.1.total_cmp(&one.1));
         let axis = axes.into_iter().map(|axis| axis.0).find(|&axis| cell.halves(axis).is_some());
         let next = axis.map_or(Next::Nothing, Next::Split);
-        self.wait(Waiting { bound, node, cell, next, list, is_inside });
+        Examined { cell, reason, bound: Some(bound), next, list, is_inside, larger }
     }
 
-    /// Puts the children of a cell in its place.
-    fn open(&mut self, waiting: Waiting) {
-        let Waiting { node, cell, next, list, is_inside, .. } = waiting;
-        match next {
-            Next::Split(axis) => {
-                let Some([below, above]) = cell.halves(axis) else { return };
-                let children = [below, above].map(|cell| self.add(cell, &list, is_inside));
-                self.nodes[node] = Node::Split(axis, children);
+    /// Puts children in the place of cells.
+    fn open(&mut self, batch: Vec<Waiting>) {
+        let this = &*self;
+        let children: Vec<Vec<Examined>> = batch
+            .par_iter()
+            .map(|Waiting { cell, next, list, is_inside, .. }| match next {
+                Next::Split(axis) => {
+                    let halves = cell.halves(*axis).into_iter().flatten();
+                    halves.map(|half| this.examine(half, list, *is_inside)).collect()
+                }
+                Next::Frame => vec![this.examine(this.framed(cell), list, false)],
+                Next::Nothing => vec![],
+            })
+            .collect();
+        for (Waiting { node, next, bound, .. }, examined) in batch.into_iter().zip(children) {
+            let added: Vec<usize> = examined.into_iter().map(|child| self.add(child)).collect();
+            match (next, &added[..]) {
+                (Next::Split(axis), &[below, above]) => {
+                    self.nodes[node] = Node::Split(axis, [below, above]);
+                }
+                (Next::Frame, &[child]) => self.nodes[node] = Node::Framed(child),
+                _ => self.stuck = self.stuck.max(bound),
             }
-            Next::Frame => {
-                let framed = self.framed(&cell);
-                let child = self.add(framed, &list, false);
-                self.nodes[node] = Node::Framed(child);
-            }
-            Next::Nothing => {}
         }
     }
 
@@ -382,6 +432,10 @@ impl Search<'_> {
         let (best, ascents) = (self.best, self.ascents);
         Found { best, upper, log, root, directions, ascents, is_complete }
     }
+}
+
+fn by_size(one: &Ellipse, other: &Ellipse) -> Ordering {
+    one.size.total_cmp(&other.size)
 }
 
 /// The largest of the circles around middles of lines, in descending order.

@@ -1,6 +1,6 @@
 //! Cells: a box for each corner of the triangle. Corner 0 is a lowest one, and corners are counterclockwise.
 
-use std::rc::Rc;
+use std::sync::Arc;
 
 use super::gauge::{Triangle, minus};
 use super::lines::Lines;
@@ -14,7 +14,7 @@ const NEUTRAL_SHARE: f64 = 0.3;
 pub(super) const ROWS: usize = 9;
 
 /// The boxes of the three corners.
-pub(super) type Cell = [Rc<Tile>; 3];
+pub(super) type Cell = [Arc<Tile>; 3];
 
 /// The triangle of the middles of the boxes.
 pub(super) fn middle(cell: &Cell) -> Triangle {

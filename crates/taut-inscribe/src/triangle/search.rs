@@ -2,13 +2,16 @@
 //!
 //! *Idea.* The cell of the largest bound is split until that is within the gap. Each cell has the groups of edges that may enter one of
 //! its triangles, out of those of its parent. Steps of the linear programs are starts of local [`ascent`](super::ascent).
+//! *Threads.* Some cells of the largest bounds are split at once, and their children are examined side by side against the best triangle
+//! known before; how many are split does not depend on the number of threads, and so neither does the answer.
 //! *Order of reasons*, the cheapest first: corner 0 is not a lowest one, a box is outside, the boxes bound the area, an edge enters all
 //! triangles, the mean of the middles is in all triangles and outside, conditions with weights bound the area.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
-use std::rc::Rc;
+use std::sync::Arc;
 
+use rayon::prelude::*;
 use taut_points::Cancelled;
 
 use super::ascent::Candidate;
@@ -22,8 +25,8 @@ use super::tree::{self, Leaf, Log, Node, Reason};
 use super::{TriangleOptions, starts};
 use crate::program::{self, Column};
 
-/// Cells between two looks at the monitor.
-const CELLS_BETWEEN_LOOKS: u64 = 256;
+/// Cells that are split at once. More keep more threads busy, and split more cells that a better triangle would have closed.
+const BATCH_CELLS: usize = 16;
 
 /// How much larger than the area sought that of the boxes alone may be for conditions to be worth their cost.
 const WEIGHED_MAX: f64 = 6.0;
@@ -61,7 +64,18 @@ struct Waiting {
     node: usize,
     cell: Cell,
     /// The groups of edges that may enter.
-    list: Rc<[u32]>,
+    list: Arc<[u32]>,
+}
+
+/// What is known of a cell after it was examined.
+struct Examined {
+    cell: Cell,
+    reason: Reason,
+    /// The bound of the area; `None` for a cell that holds no triangle of the polygon.
+    bound: Option<f64>,
+    list: Arc<[u32]>,
+    /// A triangle that is larger than the best one was.
+    larger: Option<Candidate>,
 }
 
 impl Ord for Waiting {
@@ -127,25 +141,20 @@ pub(super) fn search(
     if search.reported.is_none() {
         return Ok(search.found(false));
     }
-    let list: Rc<[u32]> = Rc::new([target.groups.root()]);
-    search.add([root.clone(), root.clone(), root], &list);
-    let mut opened = 0;
+    let list: Arc<[u32]> = Arc::new([target.groups.root()]);
+    let examined = search.examine([root.clone(), root.clone(), root], &list);
+    search.add(examined);
     let is_complete = loop {
-        if opened % CELLS_BETWEEN_LOOKS == 0 {
-            options.monitor.check()?;
-        }
-        opened += 1;
-        if search.nodes.len() as u64 + 2 > options.max_cells {
+        options.monitor.check()?;
+        let room = options.max_cells.saturating_sub(search.nodes.len() as u64) / 2;
+        if room == 0 {
             break search.waiting.peek().is_none_or(|top| top.bound <= search.goal());
         }
-        match search.waiting.pop() {
-            None => break true,
-            Some(top) if top.bound <= search.goal() => {
-                search.stuck = search.stuck.max(top.bound);
-                break true;
-            }
-            Some(top) => search.open(top),
+        let batch = search.batch(BATCH_CELLS.min(room as usize));
+        if batch.is_empty() {
+            break true;
         }
+        search.open(batch);
     };
     Ok(search.found(is_complete))
 }
@@ -157,15 +166,11 @@ impl Search<'_> {
         reported * (1.0 + self.epsilon) * (1.0 - GOAL_SLACK)
     }
 
-    /// Takes a triangle, scaled until no edge enters, and what it climbs to, if that is the best so far.
-    fn consider(&mut self, triangle: &Triangle) {
+    /// A triangle, scaled until no edge enters, if that is larger than the best so far.
+    fn larger(&self, triangle: &Triangle) -> Option<Candidate> {
         let least = self.best * (1.0 + START_GAIN);
-        if let Some(found) = Candidate::of(triangle, &self.target.groups, SCALE_MAX)
-            && found.doubled > least
-            && self.tiles.is_inside(centroid(&found.corners))
-        {
-            self.climb(found);
-        }
+        Candidate::of(triangle, &self.target.groups, SCALE_MAX)
+            .filter(|found| found.doubled > least && self.tiles.is_inside(centroid(&found.corners)))
     }
 
     /// Takes a triangle that no edge enters, and what it climbs to, if that is the best so far.
@@ -183,58 +188,82 @@ impl Search<'_> {
         }
     }
 
-    /// Makes a node of a cell, with a reason, and keeps it to be split if that does not close it.
-    fn add(&mut self, cell: Cell, parents: &Rc<[u32]>) -> usize {
-        let node = self.nodes.len();
-        self.nodes.push(Node::Leaf(Reason::Area));
+    /// The cells to be split next, of the largest bounds.
+    fn batch(&mut self, most: usize) -> Vec<Waiting> {
+        let mut batch = vec![];
+        while batch.len() < most
+            && let Some(top) = self.waiting.pop()
+        {
+            if top.bound <= self.goal() {
+                self.stuck = self.stuck.max(top.bound);
+                break;
+            }
+            batch.push(top);
+        }
+        batch
+    }
+
+    /// Looks for a reason that closes a cell, and for a larger triangle.
+    fn examine(&self, cell: Cell, parents: &Arc<[u32]>) -> Examined {
+        let closed = |cell, reason| {
+            let list = parents.clone();
+            Examined { cell, reason, bound: None, list, larger: None }
+        };
         if cell::is_disordered(&cell) {
-            self.nodes[node] = Node::Leaf(Reason::Disordered);
-            return node;
+            return closed(cell, Reason::Disordered);
         }
         if cell.iter().any(|tile| tile.is_outside) {
-            self.nodes[node] = Node::Leaf(Reason::Outside);
-            return node;
+            return closed(cell, Reason::Outside);
         }
         let bound = doubled_area(&cell, &[], self.error);
         if bound <= self.goal() {
-            self.stuck = self.stuck.max(bound);
-            return node;
+            return Examined { bound: Some(bound), ..closed(cell, Reason::Area) };
         }
         let lines = cell::lines(&cell);
         let (kept, conditions) =
             match rows::examine(&self.target.groups, &lines, parents, self.error) {
                 Entered::Surely(edge, share) => {
-                    self.nodes[node] = Node::Leaf(Reason::Entered(Leaf::Point(edge, share)));
-                    return node;
+                    return closed(cell, Reason::Entered(Leaf::Point(edge, share)));
                 }
                 Entered::Perhaps(kept, conditions) => (kept, conditions),
             };
         let mean = centroid(&cell::middle(&cell));
         if lines.iter().all(|side| side.range(mean)[0] > self.error) && !self.tiles.is_inside(mean)
         {
-            self.nodes[node] = Node::Leaf(Reason::MeanOutside);
-            return node;
+            return closed(cell, Reason::MeanOutside);
         }
         let list = if kept[..] == parents[..] { parents.clone() } else { kept.into() };
-        let bound = match bound <= WEIGHED_MAX * self.goal() {
-            true => self.weigh(node, &cell, conditions, bound),
-            false => bound,
-        };
-        match bound <= self.goal() {
-            true => self.stuck = self.stuck.max(bound),
-            false => self.waiting.push(Waiting { bound, node, cell, list }),
+        let mut found = Examined { bound: Some(bound), list, ..closed(cell, Reason::Area) };
+        if bound <= WEIGHED_MAX * self.goal() {
+            self.weigh(&mut found, conditions, bound);
+        }
+        found
+    }
+
+    /// Makes a node of a cell, and keeps it to be split if its bound does not close it.
+    fn add(&mut self, examined: Examined) -> usize {
+        let Examined { cell, reason, bound, list, larger } = examined;
+        let node = self.nodes.len();
+        self.nodes.push(Node::Leaf(reason));
+        if let Some(larger) = larger.filter(|larger| larger.doubled > self.best) {
+            self.climb(larger);
+        }
+        match bound {
+            None => {}
+            Some(bound) if bound <= self.goal() => self.stuck = self.stuck.max(bound),
+            Some(bound) => self.waiting.push(Waiting { bound, node, cell, list }),
         }
         node
     }
 
-    /// Looks for weights that bound the area in a cell, and for a larger triangle; returns the bound.
+    /// Looks for weights that bound the area in a cell, and for a larger triangle.
     fn weigh(
-        &mut self,
-        node: usize,
-        cell: &Cell,
+        &self,
+        examined: &mut Examined,
         mut conditions: Vec<(f64, Condition)>,
         mut bound: f64,
-    ) -> f64 {
+    ) {
+        let cell = &examined.cell;
         if conditions.len() > CONDITIONS_MAX {
             conditions.select_nth_unstable_by(CONDITIONS_MAX, |one, other| {
                 other.0.total_cmp(&one.0).then(one.1.key().cmp(&other.1.key()))
@@ -261,7 +290,7 @@ impl Search<'_> {
                     step[corner][k] += found.step[2 * corner + k] * half[corner][k];
                 }
             }
-            self.consider(&step);
+            examined.larger = self.larger(&step);
         }
         let weighted: Vec<(Condition, f64)> =
             found.parts.iter().map(|&(i, weight)| (all[i].1, weight)).collect();
@@ -281,32 +310,50 @@ impl Search<'_> {
             if let Some((leaf, value)) = leaf
                 && (value < bound || value <= goal)
             {
-                self.nodes[node] = Node::Leaf(Reason::Rows(leaf));
+                examined.reason = Reason::Rows(leaf);
                 (bound, is_closed) = (value, value <= goal);
             }
         }
-        bound
+        examined.bound = Some(bound);
     }
 
-    /// Puts the children of a cell in its place.
-    fn open(&mut self, waiting: Waiting) {
-        let Waiting { node, cell, list, bound } = waiting;
-        let mut order: Vec<(usize, f64)> =
-            cell::influences(&cell).into_iter().enumerate().collect();
-        order.sort_by(|one, other| other.1.total_cmp(&one.1));
-        for (coordinate, _) in order {
-            let (corner, axis) = (coordinate / 2, coordinate % 2);
-            if let Some(halves) = self.tiles.halves(&cell[corner], axis) {
-                let children = halves.map(|half| {
-                    let mut child = cell.clone();
-                    child[corner] = half;
-                    self.add(child, &list)
-                });
-                self.nodes[node] = Node::Split(coordinate as u8, children);
-                return;
+    /// Puts children in the place of cells.
+    fn open(&mut self, batch: Vec<Waiting>) {
+        let mut split = vec![];
+        for waiting in batch {
+            match self.split(&waiting.cell) {
+                Some((coordinate, cells)) => split.push((waiting, coordinate, cells)),
+                None => self.stuck = self.stuck.max(waiting.bound),
             }
         }
-        self.stuck = self.stuck.max(bound);
+        let this = &*self;
+        let children: Vec<(usize, u8, [Examined; 2])> = split
+            .into_par_iter()
+            .map(|(Waiting { node, list, .. }, coordinate, [below, above])| {
+                let examine = |cell| this.examine(cell, &list);
+                let (below, above) = rayon::join(|| examine(below), || examine(above));
+                (node, coordinate, [below, above])
+            })
+            .collect();
+        for (node, coordinate, examined) in children {
+            let children = examined.map(|child| self.add(child));
+            self.nodes[node] = Node::Split(coordinate, children);
+        }
+    }
+
+    /// The halves of a cell by the coordinate of the largest influence that has halves, and that coordinate.
+    fn split(&mut self, cell: &Cell) -> Option<(u8, [Cell; 2])> {
+        let mut order: Vec<(usize, f64)> = cell::influences(cell).into_iter().enumerate().collect();
+        order.sort_by(|one, other| other.1.total_cmp(&one.1));
+        order.into_iter().find_map(|(coordinate, _)| {
+            let (corner, axis) = (coordinate / 2, coordinate % 2);
+            let halves = self.tiles.halves(&cell[corner], axis)?.map(|half| {
+                let mut child = cell.clone();
+                child[corner] = half;
+                child
+            });
+            Some((coordinate as u8, halves))
+        })
     }
 
     /// The tree in the form of the certificate, and what it proves.

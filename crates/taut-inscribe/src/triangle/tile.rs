@@ -3,9 +3,8 @@
 //! *Idea.* Many cells have the same box for one of their corners, so that boxes are kept by their coordinates. Each box has the edges
 //! that may meet it, out of those of the box that it is half of.
 
-use std::cell::OnceCell;
 use std::collections::HashMap;
-use std::rc::Rc;
+use std::sync::{Arc, OnceLock};
 
 use super::frame::Frame;
 use super::gauge::turn;
@@ -31,7 +30,7 @@ pub(super) struct Tile {
     edges: Vec<u32>,
     /// Whether it is outside of the polygon.
     pub(super) is_outside: bool,
-    hull: OnceCell<Hull>,
+    hull: OnceLock<Hull>,
 }
 
 /// The convex hull of the part of the polygon in a box.
@@ -70,7 +69,7 @@ impl Hull {
 pub(super) struct Tiles<'a> {
     pub(super) frame: &'a Frame,
     levels: Levels,
-    known: HashMap<[u64; 4], Rc<Tile>>,
+    known: HashMap<[u64; 4], Arc<Tile>>,
     listed: usize,
 }
 
@@ -85,14 +84,14 @@ impl<'a> Tiles<'a> {
     }
 
     /// The box of all positions.
-    pub(super) fn root(&self) -> Rc<Tile> {
+    pub(super) fn root(&self) -> Arc<Tile> {
         let [low, high] = self.frame.root();
         let edges = (0..self.frame.edges.len() as u32).collect();
-        Rc::new(Tile { low, high, edges, is_outside: false, hull: OnceCell::new() })
+        Arc::new(Tile { low, high, edges, is_outside: false, hull: OnceLock::new() })
     }
 
     /// The two halves of a box along an axis; `None` where rounding leaves no middle.
-    pub(super) fn halves(&mut self, tile: &Tile, axis: usize) -> Option<[Rc<Tile>; 2]> {
+    pub(super) fn halves(&mut self, tile: &Tile, axis: usize) -> Option<[Arc<Tile>; 2]> {
         let (low, high) = (tile.low, tile.high);
         let at = 0.5 * low[axis] + 0.5 * high[axis];
         let (mut below, mut above) = (high, low);
@@ -102,14 +101,14 @@ impl<'a> Tiles<'a> {
     }
 
     /// A box in another one.
-    fn part(&mut self, parent: &Tile, low: [f64; 2], high: [f64; 2]) -> Rc<Tile> {
+    fn part(&mut self, parent: &Tile, low: [f64; 2], high: [f64; 2]) -> Arc<Tile> {
         let key = [low[0], low[1], high[0], high[1]].map(f64::to_bits);
         if let Some(tile) = self.known.get(&key) {
             return tile.clone();
         }
         let meets = |edge: &&u32| self.clip(**edge, low, high).is_some();
         let edges: Vec<u32> = parent.edges.iter().filter(meets).copied().collect();
-        let mut tile = Tile { low, high, edges, is_outside: false, hull: OnceCell::new() };
+        let mut tile = Tile { low, high, edges, is_outside: false, hull: OnceLock::new() };
         tile.is_outside = match (tile.edges.is_empty(), parent.edges.is_empty()) {
             (false, _) => false,
             (true, true) => parent.is_outside,
@@ -120,7 +119,7 @@ impl<'a> Tiles<'a> {
             self.listed = 0;
         }
         self.listed += tile.edges.len() + 16;
-        let tile = Rc::new(tile);
+        let tile = Arc::new(tile);
         self.known.insert(key, tile.clone());
         tile
     }
