@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 use taut::certify::SurfaceMethod as Kind;
 use taut::reconstruct::thesis::{AlphaFilter, Extent, Priority, ThesisOptions};
 use taut::reconstruct::{Denoise, HullOptions, Positions, SurfaceMode};
-use taut::{Items, SurfaceMethod, SurfaceOptions};
+use taut::{SurfaceMethod, SurfaceOptions};
 
 use crate::choice::choice;
 use crate::found::{Found, solve_points};
