@@ -25,7 +25,6 @@ const LAYERS: [(&str, i32); 16] = [
     ("taut-reference", 1),
     ("taut-inscribe", 2),
     ("taut-recognize", 2),
-    ("taut-recognize", 2),
     ("taut-reconstruct", 2),
     ("taut-draw", 3),
     ("taut", 3),
