@@ -2,9 +2,11 @@
 //!
 //! *Idea.* In the space of the points, the ball of a Gaussian kernel is a set with several components; each is a cluster. Two points are
 //! in one cluster if the segment between them stays inside, which is tested at some points of it, or a chain of such segments joins
-//! them. Only segments between near neighbors are tested.
+//! them. Tested are segments between near neighbors, then those between the nearest points of any two of the parts that these leave.
 //! *Guarantee.* None: a gap between two tested points of a segment is not seen.
 //! *Reference.* Ben-Hur, Horn, Siegelmann and Vapnik, Support vector clustering, JMLR 2, 2001.
+
+use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 use taut_points::{InputError, Monitor, Points, on_threads};
@@ -107,57 +109,106 @@ fn find(points: Points<'_, f64>, options: &ClusterOptions<'_>) -> Result<Cluster
     };
     let inside: Vec<usize> =
         (0..points.len()).into_par_iter().filter(|&i| is_inside(points.row(i))).collect();
-    let joined = |&i: &usize| {
-        monitor.check().map_err(InputError::from)?;
-        let x = points.row(i);
-        let mut others: Vec<(f64, usize)> = inside
-            .iter()
-            .filter(|&&j| j != i)
-            .map(|&j| (squared_distance(x, points.row(j)), j))
-            .collect();
-        let near = options.neighbors.min(others.len());
-        if near < others.len() {
-            others.select_nth_unstable_by(near, |a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        }
-        let is_joined = |j: usize| {
-            (1..=options.samples).all(|k| {
-                let t = k as f64 / (options.samples + 1) as f64;
-                let between = x.iter().zip(points.row(j)).map(|(x, y)| x + t * (y - x));
-                is_inside(&between.collect::<Vec<_>>())
-            })
-        };
-        Ok(others[..near].iter().map(|other| other.1).filter(|&j| is_joined(j)).collect())
+    let is_joined = |i: usize, j: usize| {
+        let (x, y) = (points.row(i), points.row(j));
+        (1..=options.samples).all(|k| {
+            let t = k as f64 / (options.samples + 1) as f64;
+            is_inside(&x.iter().zip(y).map(|(x, y)| x + t * (y - x)).collect::<Vec<_>>())
+        })
     };
-    let edges: Vec<Result<Vec<usize>, Error>> = inside.par_iter().map(joined).collect();
-    let edges = edges.into_iter().collect::<Result<Vec<_>, _>>()?;
-    Ok(components(points.len(), &inside, &edges))
+    let near = |&i: &usize| {
+        monitor.check().map_err(InputError::from)?;
+        let others = nearest(points, i, &inside, options.neighbors);
+        Ok(others.into_iter().filter(|&j| is_joined(i, j)).map(|j| (i, j)).collect::<Vec<_>>())
+    };
+    let edges: Vec<Result<Vec<(usize, usize)>, Error>> = inside.par_iter().map(near).collect();
+    let mut forest = Forest((0..points.len()).collect());
+    for edges in edges {
+        edges?.into_iter().for_each(|(i, j)| forest.join(i, j));
+    }
+    let between = between_parts(points, &inside, &mut forest);
+    let kept: Vec<bool> = between.par_iter().map(|&(i, j)| is_joined(i, j)).collect();
+    for (&(i, j), _) in between.iter().zip(kept).filter(|pair| pair.1) {
+        forest.join(i, j);
+    }
+    Ok(forest.clusters(&inside))
 }
 
-/// The components of a graph, in the order of their first points.
-fn components(points: usize, inside: &[usize], edges: &[Vec<usize>]) -> Clustering {
-    let mut parent: Vec<usize> = (0..points).collect();
-    fn root(parent: &mut [usize], mut i: usize) -> usize {
-        while parent[i] != i {
-            parent[i] = parent[parent[i]];
-            i = parent[i];
+/// The nearest points of point `i` among some others.
+fn nearest(points: Points<'_, f64>, i: usize, others: &[usize], count: usize) -> Vec<usize> {
+    let x = points.row(i);
+    let others = others.iter().filter(|&&j| j != i);
+    let mut others: Vec<(f64, usize)> =
+        others.map(|&j| (squared_distance(x, points.row(j)), j)).collect();
+    let count = count.min(others.len());
+    if count < others.len() {
+        others.select_nth_unstable_by(count, |a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    }
+    others[..count].iter().map(|other| other.1).collect()
+}
+
+/// For any two parts their nearest points, the first of equal ones.
+fn between_parts(
+    points: Points<'_, f64>,
+    inside: &[usize],
+    forest: &mut Forest,
+) -> Vec<(usize, usize)> {
+    let roots: Vec<usize> = inside.iter().map(|&i| forest.root(i)).collect();
+    let from = |at: usize| {
+        let mut nearest: BTreeMap<usize, (f64, usize)> = BTreeMap::new();
+        for (&j, &root) in inside.iter().zip(&roots).filter(|other| *other.1 > roots[at]) {
+            let square = squared_distance(points.row(inside[at]), points.row(j));
+            let best = nearest.entry(root).or_insert((square, j));
+            if square < best.0 {
+                *best = (square, j);
+            }
+        }
+        nearest
+    };
+    let all: Vec<BTreeMap<usize, (f64, usize)>> =
+        (0..inside.len()).into_par_iter().map(from).collect();
+    let mut best: BTreeMap<(usize, usize), (f64, (usize, usize))> = BTreeMap::new();
+    for (at, nearest) in all.into_iter().enumerate() {
+        for (root, (square, j)) in nearest {
+            let pair = (square, (inside[at], j));
+            let best = best.entry((roots[at], root)).or_insert(pair);
+            if square < best.0 {
+                *best = pair;
+            }
+        }
+    }
+    best.into_values().map(|best| best.1).collect()
+}
+
+/// Trees of points; the root of each is its first point.
+struct Forest(Vec<usize>);
+
+impl Forest {
+    fn root(&mut self, mut i: usize) -> usize {
+        while self.0[i] != i {
+            self.0[i] = self.0[self.0[i]];
+            i = self.0[i];
         }
         i
     }
-    for (&i, edges) in inside.iter().zip(edges) {
-        for &j in edges {
-            let (a, b) = (root(&mut parent, i), root(&mut parent, j));
-            parent[a.max(b)] = a.min(b);
+
+    fn join(&mut self, i: usize, j: usize) {
+        let (a, b) = (self.root(i), self.root(j));
+        self.0[a.max(b)] = a.min(b);
+    }
+
+    /// The trees of some points, in the order of their roots.
+    fn clusters(mut self, inside: &[usize]) -> Clustering {
+        let count = self.0.len();
+        let (mut clusters, mut numbers) = (vec![None; count], vec![None; count]);
+        let mut count = 0;
+        for &i in inside {
+            let own = *numbers[self.root(i)].get_or_insert_with(|| {
+                count += 1;
+                count - 1
+            });
+            clusters[i] = Some(own);
         }
+        Clustering { clusters, count }
     }
-    let (mut clusters, mut number, mut count) = (vec![None; points], vec![None; points], 0);
-    for &i in inside {
-        // The root of a component is its first point.
-        let root = root(&mut parent, i);
-        let own = *number[root].get_or_insert_with(|| {
-            count += 1;
-            count - 1
-        });
-        clusters[i] = Some(own);
-    }
-    Clustering { clusters, count }
 }
