@@ -53,7 +53,7 @@ pub struct Prediction {
 
 /// The JSON of a model.
 #[derive(Serialize)]
-struct Written<'a> {
+struct SavedModel<'a> {
     format: &'a str,
     version: u64,
     model: &'a Model,
@@ -68,7 +68,7 @@ struct Head {
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Read {
+struct LoadedModel {
     #[serde(rename = "format")]
     _format: String,
     #[serde(rename = "version")]
@@ -131,9 +131,11 @@ impl Model {
         let [low, high] = NEAREST_KERNEL_RANGE;
         let doubtful = |learned: &Learned| {
             let value = learned.nearest_kernel?;
+            // Of machines a wide kernel is the linear limit, which is no worse.
+            let is_svm = matches!(learned.fitted, Fitted::Svm(_));
             let why = match value {
                 value if value < low => "so narrow that each point is alone; take a wider one",
-                value if value > high => {
+                value if value > high && !is_svm => {
                     "so wide that all points are nearly the same; take a narrower one"
                 }
                 _ => return None,
@@ -185,7 +187,7 @@ impl Model {
 
     /// The model as JSON.
     pub fn to_json(&self) -> String {
-        let written = Written { format: FORMAT, version: VERSION, model: self };
+        let written = SavedModel { format: FORMAT, version: VERSION, model: self };
         serde_json::to_string(&written).expect("numbers, names and lists can be written")
     }
 
@@ -204,7 +206,7 @@ impl Model {
             Some(found) => return Err(Error::Version { found, known: VERSION }),
             None => return Err(no_model("it has no `version`".to_owned())),
         }
-        let Read { model, .. } =
+        let LoadedModel { model, .. } =
             serde_json::from_str(json).map_err(|error| no_model(error.to_string()))?;
         model.check().map_err(|problem| no_model(problem.to_owned()))?;
         Ok(model)
