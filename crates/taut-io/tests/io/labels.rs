@@ -94,7 +94,8 @@ fn numbers_of_other_formats_are_labels_too() {
 #[test]
 fn columns_are_selected_by_any_name() {
     let names = ["x, y", "1-2"].map(str::to_owned);
-    let options = ReadOptions { columns: Some(Columns::of_names(names)), ..Default::default() };
+    let (columns, header) = (Some(Columns::of_names(names)), Header::Present);
+    let options = ReadOptions { columns, header, ..Default::default() };
     let input = text_with("t.csv", "z,1-2,\"x, y\"\n1,2,3\n", &options).unwrap();
     assert_eq!(values(&input), [3.0, 2.0]);
 }
