@@ -3,8 +3,8 @@
 use clap::{Parser, Subcommand};
 
 use crate::commands::{
-    ball, centers, completions, curve, delaunay, dop, draw, ellipsoid, formats, generate, inscribe,
-    man, memory, surface, tour, verify,
+    ball, centers, classify, completions, curve, delaunay, dop, draw, ellipsoid, formats, generate,
+    inscribe, man, memory, surface, tour, verify,
 };
 use crate::exit::Outcome;
 
@@ -31,6 +31,7 @@ enum Command {
     Curve(curve::Args),
     Surface(surface::Args),
     Inscribe(inscribe::Args),
+    Classify(classify::Args),
     Verify(verify::Args),
     Draw(draw::Args),
     Memory(memory::Args),
@@ -52,6 +53,7 @@ impl Cli {
             Command::Curve(args) => args.run(),
             Command::Surface(args) => args.run(),
             Command::Inscribe(args) => args.run(),
+            Command::Classify(args) => args.run(),
             Command::Verify(args) => args.run(),
             Command::Draw(args) => args.run(),
             Command::Memory(args) => args.run(),

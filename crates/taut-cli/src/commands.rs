@@ -2,6 +2,7 @@
 
 pub(crate) mod ball;
 pub(crate) mod centers;
+pub(crate) mod classify;
 pub(crate) mod completions;
 pub(crate) mod curve;
 pub(crate) mod delaunay;

@@ -71,6 +71,23 @@ impl fmt::Display for Columns {
 }
 
 impl Columns {
+    /// A selection of columns by their names, which may be any text.
+    pub fn of_names(names: impl IntoIterator<Item = String>) -> Self {
+        Columns { parts: names.into_iter().map(Part::Name).collect() }
+    }
+
+    /// The selection of one column, by digits as its number, or else by its name.
+    pub(crate) fn of_label(label: &str) -> Self {
+        let is_number = !label.is_empty() && label.bytes().all(|b| b.is_ascii_digit());
+        let number = label.parse().ok().filter(|_| is_number);
+        Columns { parts: vec![number.map_or_else(|| Part::Name(label.to_owned()), Part::Number)] }
+    }
+
+    /// The selection with further columns after its own.
+    pub(crate) fn with(&self, more: &Columns) -> Self {
+        Columns { parts: [self.parts.as_slice(), &more.parts].concat() }
+    }
+
     /// Returns true if a column is selected by its name, so that the file must have names.
     pub(crate) fn has_names(&self) -> bool {
         self.parts.iter().any(|part| matches!(part, Part::Name(_)))

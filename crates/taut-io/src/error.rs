@@ -260,6 +260,12 @@ pub enum Error {
         /// The value.
         value: String,
     },
+    /// A row has no label.
+    #[error("{place}: the label is missing: fill it in, or remove that row")]
+    NoLabel {
+        /// Where.
+        place: Place,
+    },
     /// A number other than 0 that would be read as 0.
     #[error("{place}: `{value}` {}: write 0, or scale that column", crate::number::UNDERFLOW)]
     Underflow {

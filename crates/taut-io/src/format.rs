@@ -163,6 +163,11 @@ impl Format {
         self.entry().uses.iter().any(|(_, access, _)| *access != Access::Read)
     }
 
+    /// Returns true if a column of labels can be any text.
+    pub(crate) fn has_text_labels(self) -> bool {
+        matches!(self, Format::Csv | Format::Tsv | Format::Whitespace)
+    }
+
     /// Returns true if its points can be those of one feature among several.
     pub(crate) fn has_features(self) -> bool {
         matches!(self, Format::GeoJson | Format::Svg | Format::Wkt)

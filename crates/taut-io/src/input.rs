@@ -10,7 +10,7 @@ use taut_points::PointSource;
 use crate::device::refuse_device;
 use crate::error::shown_path;
 use crate::read::{self, Decoded};
-use crate::{Compression, Content, Error, Format, Place, ReadOptions, compress};
+use crate::{Columns, Compression, Content, Error, Format, Place, ReadOptions, compress, labels};
 
 /// Points of a file, and what is known of it.
 pub struct Input {
@@ -18,6 +18,8 @@ pub struct Input {
     pub source: Box<dyn PointSource>,
     /// A name for each coordinate; empty where the file has none.
     pub columns: Vec<String>,
+    /// The label of each point, if [`ReadOptions::label`] asked for them.
+    pub labels: Vec<String>,
     /// The format that was read.
     pub format: Format,
     /// The file as shown to people; `standard input` for `-`.
@@ -44,7 +46,7 @@ impl Input {
     pub(crate) fn of_mesh(source: Box<dyn PointSource>, format: Format, path: String) -> Self {
         let names = ["ax", "ay", "az", "bx", "by", "bz", "cx", "cy", "cz"];
         let columns = names.map(str::to_owned).to_vec();
-        Input { source, columns, format, path, numbers: None }
+        Input { source, columns, labels: Vec::new(), format, path, numbers: None }
     }
 
     /// Where coordinate `column` of point `row` (both from 0, as solvers count) stands in the file.
@@ -237,7 +239,13 @@ fn open_medium(
     if options.feature.is_some() && !format.has_features() {
         return Err(Error::NoFeatures { path: display.to_owned(), format });
     }
-    let job = Job { path: display, format, options };
-    let Decoded { source, columns, numbers } = read::read(&job, medium)?;
-    Ok(Input { source, columns, format, path: display.to_owned(), numbers })
+    let label = options.label.as_deref().map(Columns::of_label);
+    let with_label = labels::selecting(options, label.as_ref(), format);
+    let job = Job { path: display, format, options: with_label.as_ref().unwrap_or(options) };
+    let mut decoded = read::read(&job, medium)?;
+    if let Some(label) = label.filter(|_| !format.has_text_labels()) {
+        decoded = labels::split(decoded, &label, display, with_label.is_some())?;
+    }
+    let Decoded { source, columns, numbers, labels } = decoded;
+    Ok(Input { source, columns, labels, format, path: display.to_owned(), numbers })
 }

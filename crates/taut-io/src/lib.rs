@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | points of a file or of standard input | [`open`] | every point or an error that names file, row, column and value |
 //! | points of bytes in memory | [`open_bytes`] | the same |
+//! | points with a label each | [`open`] with [`ReadOptions::label`] | the same; labels of text files may be any text |
 //! | a file | [`create`] | the earlier file stays as it was until [`AtomicFile::commit`] |
 //! | a folder of files | [`create_folder`] | the earlier folder stays as it was until [`AtomicFolder::commit`] |
 //! | points as a file | [`write_points`] | block by block, so the points may be larger than memory |
@@ -43,6 +44,7 @@ mod device;
 mod error;
 mod format;
 mod input;
+mod labels;
 mod limits;
 mod mesh;
 mod npy_header;

@@ -13,6 +13,9 @@ pub struct ReadOptions {
     pub format: Option<Format>,
     /// The columns that are coordinates, in this order; by default all (of parquet and arrow: all numeric ones).
     pub columns: Option<Columns>,
+    /// A column of labels, by name or by number from 0: no coordinate, whatever the selection. In CSV, TSV and whitespace labels are
+    /// any text; in other formats they are numbers. They are in [`Input::labels`](crate::Input::labels).
+    pub label: Option<String>,
     /// States whether the first row of a text file holds names. Default [`Header::Auto`].
     pub header: Header,
     /// Most bytes of points held in memory; what is larger stays in its file or goes to a temporary one. Default: all.

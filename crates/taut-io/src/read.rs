@@ -46,6 +46,8 @@ pub(crate) struct Decoded {
     pub(crate) columns: Vec<String>,
     /// The column of the file for each coordinate; the same numbers where none.
     pub(crate) numbers: Option<Vec<usize>>,
+    /// The texts of the column of labels, where the reader knows of it.
+    pub(crate) labels: Vec<String>,
 }
 
 /// The format whose files begin with these bytes.
@@ -128,7 +130,7 @@ fn in_place(
         }
         _ => Box::new(MappedSource::open(path, offset, n, dim, scalar)?),
     };
-    Ok(Decoded { source, columns: Vec::new(), numbers: None })
+    Ok(Decoded { source, columns: Vec::new(), numbers: None, labels: Vec::new() })
 }
 
 /// The first line of what a decoder says; some go on with a trace of calls.

@@ -14,6 +14,9 @@ pub enum Error {
     Delaunay(taut_delaunay::Error),
     /// A circle in a polygon was asked for.
     Inscribe(taut_inscribe::Error),
+    /// A classifier or an error rate was asked for.
+    #[cfg(feature = "recognize")]
+    Recognize(taut_recognize::Error),
     /// Curves or a surface were asked for.
     #[cfg(feature = "reconstruct")]
     Reconstruct(taut_reconstruct::Error),
@@ -26,6 +29,8 @@ impl std::fmt::Display for Error {
             Error::Enclose(error) => error.fmt(f),
             Error::Delaunay(error) => error.fmt(f),
             Error::Inscribe(error) => error.fmt(f),
+            #[cfg(feature = "recognize")]
+            Error::Recognize(error) => error.fmt(f),
             #[cfg(feature = "reconstruct")]
             Error::Reconstruct(error) => error.fmt(f),
         }
@@ -39,6 +44,8 @@ impl std::error::Error for Error {
             Error::Enclose(error) => error.source(),
             Error::Delaunay(error) => error.source(),
             Error::Inscribe(error) => error.source(),
+            #[cfg(feature = "recognize")]
+            Error::Recognize(error) => error.source(),
             #[cfg(feature = "reconstruct")]
             Error::Reconstruct(error) => error.source(),
         }
@@ -74,6 +81,17 @@ impl From<taut_inscribe::Error> for Error {
         match error {
             taut_inscribe::Error::Input(error) => Error::Input(error),
             other => Error::Inscribe(other),
+        }
+    }
+}
+
+#[cfg(feature = "recognize")]
+impl From<taut_recognize::Error> for Error {
+    fn from(error: taut_recognize::Error) -> Self {
+        match error {
+            taut_recognize::Error::Input(error) => Error::Input(error),
+            taut_recognize::Error::Enclose(error) => error.into(),
+            other => Error::Recognize(other),
         }
     }
 }

@@ -28,6 +28,7 @@
 //! | the curves that noisy points were sampled from | [`curve()`] | no crossings; each point within the band told or named as an outlier; whether sampling was dense enough | [mod@reconstruct] |
 //! | the curves through points without noise, a short tour through points | [`curve()`] with a [`CurveMethod`] | what each is known for, a bound beside the tour | [mod@reconstruct] |
 //! | the surface that points of space were sampled from | [`surface()`] | an oriented manifold of Delaunay triangles, or where it is none | [mod@reconstruct] |
+//! | classes of points, learned from labeled ones, and error rates | [`recognize::classify::train`], [mod@recognize] | the same bits for any number of threads | [mod@recognize] |
 //! | a second opinion on any answer | [`Solution::check`] | a proved bracket, or the first violation | [`certify`] |
 //! | an answer of yesterday | [`AnySolution::from_json`] | the same bits | [`certify`] |
 //! | points to try with | [`points::generate()`] | point i depends on the seed and i alone | [`points`] |
@@ -116,8 +117,9 @@
 //! façade can be used on its own. Files are read and written by `taut-io`, pictures drawn by `taut-draw`, and the command `taut`
 //! is the crate `taut-cli`.
 //!
-//! Two cargo features, both on by default, switch areas off: `reconstruct` (curves and surfaces) and `conic` (inscribed
-//! ellipsoids and the methods of the thesis for balls, which need a conic solver).
+//! Three cargo features, all on by default, switch areas off: `reconstruct` (curves and surfaces), `recognize` (classifiers,
+//! their evaluation, and hands) and `conic` (inscribed ellipsoids and the methods of the thesis for balls, which need a conic
+//! solver).
 //!
 //! Not for: distances other than Euclidean, or weights other than those of centers.
 #![forbid(unsafe_code)]
@@ -133,6 +135,8 @@ pub use taut_enclose as enclose;
 pub use taut_inscribe as inscribe;
 pub use taut_oblivious as oblivious;
 pub use taut_points as points;
+#[cfg(feature = "recognize")]
+pub use taut_recognize as recognize;
 #[cfg(feature = "reconstruct")]
 pub use taut_reconstruct as reconstruct;
 
@@ -153,7 +157,7 @@ pub use taut_reconstruct::{
 };
 
 /// The Rust in the pages for people, compiled and run with the tests.
-#[cfg(all(doctest, feature = "conic", feature = "reconstruct"))]
+#[cfg(all(doctest, feature = "conic", feature = "recognize", feature = "reconstruct"))]
 mod pages {
     #[doc = include_str!("../../../README.md")]
     struct Readme;
@@ -165,6 +169,8 @@ mod pages {
     struct Centers;
     #[doc = include_str!("../../../docs/circle.md")]
     struct Circle;
+    #[doc = include_str!("../../../docs/classify.md")]
+    struct Classify;
     #[doc = include_str!("../../../docs/curve.md")]
     struct Curve;
     #[doc = include_str!("../../../docs/delaunay.md")]

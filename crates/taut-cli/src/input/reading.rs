@@ -82,6 +82,7 @@ impl Reading {
         Ok(ReadOptions {
             format: self.format.or(raw.map(|_| Format::Raw)),
             columns: self.columns.clone(),
+            label: None,
             header: self.header,
             memory: self.memory,
             feature: self.select.clone(),
@@ -96,6 +97,27 @@ impl Reading {
             writing::print_error("reading points from the terminal; Ctrl-D ends them");
         }
         Ok(Opened { input: taut_io::open(path, &self.options()?)? })
+    }
+
+    /// Opens the points of `path`, with a column of labels if one is named, and with the columns of these names where the file has
+    /// names and no others were asked for.
+    pub(crate) fn open_labeled(
+        &self,
+        path: &Path,
+        label: Option<&str>,
+        names: &[String],
+    ) -> anyhow::Result<Opened> {
+        let mut options = self.options()?;
+        options.label = label.map(str::to_owned);
+        if options.columns.is_none() && !names.is_empty() {
+            let columns = Some(Columns::of_names(names.iter().cloned()));
+            match taut_io::open(path, &ReadOptions { columns, ..options.clone() }) {
+                // A file without names has its columns in the order of the model; a stream cannot be read twice.
+                Err(taut_io::Error::NoNames { .. }) if !writing::is_stream(path) => {}
+                opened => return Ok(Opened { input: opened? }),
+            }
+        }
+        Ok(Opened { input: taut_io::open(path, &options)? })
     }
 
     /// Opens the triangles of the mesh of `path`, a row for each.
@@ -130,6 +152,11 @@ impl Opened {
     /// The file as shown to people.
     pub(crate) fn name(&self) -> &str {
         &self.input.path
+    }
+
+    /// The label of each point, where they were asked for.
+    pub(crate) fn labels(&self) -> &[String] {
+        &self.input.labels
     }
 
     /// Names of the first `dim` coordinates, as far as the file has some.

@@ -4,6 +4,7 @@ mod bad_input;
 mod ball;
 mod ball_kernel;
 mod centers;
+mod classify;
 mod curve;
 mod delaunay;
 mod dop;

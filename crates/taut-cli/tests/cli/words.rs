@@ -2,7 +2,7 @@
 
 use crate::test_folder::TestFolder;
 
-const COMMANDS: [&str; 16] = [
+const COMMANDS: [&str; 17] = [
     "ball",
     "ellipsoid",
     "centers",
@@ -11,6 +11,7 @@ const COMMANDS: [&str; 16] = [
     "curve",
     "surface",
     "inscribe",
+    "classify",
     "verify",
     "draw",
     "memory",

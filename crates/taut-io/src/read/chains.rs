@@ -109,5 +109,5 @@ pub(super) fn decode(
         sink.push(&row)
     })?;
     let columns = numbers.iter().map(|&number| names[number].clone()).collect();
-    Ok(Decoded { source: sink.finish()?, columns, numbers: Some(numbers) })
+    Ok(Decoded { source: sink.finish()?, columns, numbers: Some(numbers), labels: Vec::new() })
 }

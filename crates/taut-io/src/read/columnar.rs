@@ -114,8 +114,13 @@ impl Plan {
         let sink = sink.ok_or_else(|| Error::NoRows { path: job.path.to_owned() })?;
         let source = sink.finish()?;
         Ok(match self.list {
-            true => Decoded { source, columns: Vec::new(), numbers: None },
-            false => Decoded { source, columns: self.names, numbers: Some(self.numbers) },
+            true => Decoded { source, columns: Vec::new(), numbers: None, labels: Vec::new() },
+            false => Decoded {
+                source,
+                columns: self.names,
+                numbers: Some(self.numbers),
+                labels: Vec::new(),
+            },
         })
     }
 

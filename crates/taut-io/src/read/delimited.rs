@@ -12,6 +12,7 @@ use super::Decoded;
 use super::lines::Lines;
 use super::rows::{Delimiter, Rows, is_number, shown, split};
 use crate::input::Job;
+use crate::labels;
 use crate::sink::Sink;
 use crate::{Columns, Error, Format, Header};
 
@@ -27,13 +28,28 @@ pub(super) fn read(job: &Job<'_>, stream: Box<dyn BufRead>) -> Result<Decoded, E
     };
     let first = split(text, delimiter);
     let mut rows = Rows::new(job, delimiter, 0, first.len());
-    let header = is_header(job, &first, line)?;
+    let label = job.options.label.as_deref().map(Columns::of_label);
+    let header = match &label {
+        Some(label) => is_header_beside(job, label, &first, line)?,
+        None => is_header(job, &first, line)?,
+    };
     if header {
         rows.names = first.iter().map(|name| String::from_utf8_lossy(name).into_owned()).collect();
         rows.why = "as in the header";
     }
     if let Some(columns) = &job.options.columns {
         rows.numbers = Some(columns.resolve(job.path, &rows.names, rows.width)?);
+    }
+    if let Some(label) = &label {
+        let column = label.resolve(job.path, &rows.names, rows.width)?[0];
+        let numbers = rows.numbers.take();
+        let others = || (0..rows.width).filter(|&other| other != column).collect();
+        let numbers = numbers.map_or_else(others, |mut numbers: Vec<usize>| {
+            numbers.retain(|&other| other != column);
+            numbers
+        });
+        labels::check_others(numbers.len(), label)?;
+        (rows.numbers, rows.label) = (Some(numbers), Some(column));
     }
     let mut sink = Sink::new(job, rows.dim());
     if !header {
@@ -43,7 +59,7 @@ pub(super) fn read(job: &Job<'_>, stream: Box<dyn BufRead>) -> Result<Decoded, E
         rows.push(next, &mut sink)?;
     }
     let (columns, numbers) = (rows.coordinate_names(), rows.numbers.take());
-    Ok(Decoded { source: sink.finish()?, columns, numbers })
+    Ok(Decoded { source: sink.finish()?, columns, numbers, labels: rows.labels })
 }
 
 fn find_delimiter(line: &[u8]) -> Delimiter {
@@ -107,6 +123,34 @@ fn is_header(job: &Job<'_>, first: &[Cow<'_, [u8]>], line: u64) -> Result<bool, 
             column,
             value: shown(&first[column]),
         }),
+    }
+}
+
+/// Tests whether the first row holds names, where one column holds labels, which may be any text.
+fn is_header_beside(
+    job: &Job<'_>,
+    label: &Columns,
+    first: &[Cow<'_, [u8]>],
+    line: u64,
+) -> Result<bool, Error> {
+    match job.options.header {
+        Header::Present => return Ok(true),
+        Header::Absent => return Ok(false),
+        // A label with a name is in a file with names.
+        Header::Auto if label.has_names() => return Ok(true),
+        Header::Auto => {}
+    }
+    let label = label.resolve(job.path, &[], first.len())?[0];
+    let others = || (0..first.len()).filter(|&column| column != label);
+    let text = others().find(|&column| !is_number(&first[column]));
+    let Some(column) = text else { return Ok(false) };
+    let (path, value) = (job.path.to_owned(), shown(&first[column]));
+    if let Some(column) = others().find(|&column| is_failed_value(&first[column])) {
+        return Err(Error::DoubtfulHeader { path, line, column, value: shown(&first[column]) });
+    }
+    match others().any(|column| is_number(&first[column])) {
+        true => Err(Error::MixedHeader { path, line, column, value }),
+        false => Ok(true),
     }
 }
 

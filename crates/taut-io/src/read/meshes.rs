@@ -24,5 +24,5 @@ pub(super) fn read(job: &Job<'_>, medium: Medium) -> Result<Decoded, Error> {
         sink.push(&row)?;
     }
     let columns = numbers.iter().map(|&number| names[number].clone()).collect();
-    Ok(Decoded { source: sink.finish()?, columns, numbers: Some(numbers) })
+    Ok(Decoded { source: sink.finish()?, columns, numbers: Some(numbers), labels: Vec::new() })
 }

@@ -229,7 +229,12 @@ impl<'a, T: Scalar> Decoder<'a, T> {
         if rest > 0 {
             return Err(self.header.count(self.job, self.bytes_read().saturating_add(rest)));
         }
-        Ok(Decoded { source: sink.finish()?, columns: Vec::new(), numbers: self.numbers })
+        Ok(Decoded {
+            source: sink.finish()?,
+            columns: Vec::new(),
+            numbers: self.numbers,
+            labels: Vec::new(),
+        })
     }
 
     /// C order: point after point.

@@ -97,5 +97,5 @@ fn decode_as<T: Scalar>(
         read += 1;
     }
     let sink = sink.ok_or_else(|| Error::NoRows { path: job.path.to_owned() })?;
-    Ok(Decoded { source: sink.finish()?, columns: Vec::new(), numbers })
+    Ok(Decoded { source: sink.finish()?, columns: Vec::new(), numbers, labels: Vec::new() })
 }

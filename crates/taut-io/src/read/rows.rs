@@ -125,6 +125,9 @@ pub(super) struct Rows<'a> {
     pub(super) names: Vec<String>,
     /// The columns that are coordinates; all where none.
     pub(super) numbers: Option<Vec<usize>>,
+    /// The column of labels; with one, `numbers` are there.
+    pub(super) label: Option<usize>,
+    pub(super) labels: Vec<String>,
     row: Vec<f64>,
 }
 
@@ -138,6 +141,8 @@ impl<'a> Rows<'a> {
             why: "as in the first row",
             names: Vec::new(),
             numbers: None,
+            label: None,
+            labels: Vec::new(),
             row: Vec::new(),
         }
     }
@@ -185,16 +190,24 @@ impl<'a> Rows<'a> {
         }
         let fields = &fields[self.skip..];
         self.row.clear();
+        let place_in = |column: usize| Place {
+            path: self.job.path.to_owned(),
+            row,
+            line: Some(line_number),
+            column,
+            name: self.names.get(column).cloned(),
+        };
+        if let Some(column) = self.label {
+            let label = String::from_utf8_lossy(fields[column].trim_ascii()).into_owned();
+            if label.is_empty() {
+                return Err(Error::NoLabel { place: place_in(column) });
+            }
+            self.labels.push(label);
+        }
         for at in 0..self.dim() {
             let column = self.numbers.as_ref().map_or(at, |numbers| numbers[at]);
             let text = &fields[column];
-            let place = || Place {
-                path: self.job.path.to_owned(),
-                row,
-                line: Some(line_number),
-                column,
-                name: self.names.get(column).cloned(),
-            };
+            let place = || place_in(column);
             match number::parse(text.trim_ascii()) {
                 Ok(value) if value.is_finite() => self.row.push(value),
                 Ok(_) => return Err(Error::NonFinite { place: place(), value: shown(text) }),

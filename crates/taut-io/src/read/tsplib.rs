@@ -53,7 +53,7 @@ pub(super) fn read(job: &Job<'_>, stream: Box<dyn BufRead>) -> Result<Decoded, E
         });
     }
     let (columns, numbers) = (rows.coordinate_names(), rows.numbers.take());
-    Ok(Decoded { source: sink.finish()?, columns, numbers })
+    Ok(Decoded { source: sink.finish()?, columns, numbers, labels: Vec::new() })
 }
 
 /// Reads up to the coordinates and returns what DIMENSION says; refuses coordinates on a sphere.

@@ -64,7 +64,7 @@ pub(super) fn read(job: &Job<'_>, stream: Box<dyn BufRead>) -> Result<Decoded, E
         });
     }
     let (columns, numbers) = (rows.coordinate_names(), rows.numbers.take());
-    Ok(Decoded { source: sink.finish()?, columns, numbers })
+    Ok(Decoded { source: sink.finish()?, columns, numbers, labels: Vec::new() })
 }
 
 /// Returns true if a line holds a point: at least three numbers, and nothing else but a symbol before them.

@@ -12,6 +12,7 @@ mod create;
 mod damaged;
 mod data;
 mod geojson;
+mod labels;
 mod mesh;
 mod parsers;
 mod polylines;
