@@ -1,0 +1,202 @@
+//! The plausibility gate: what may have changed the features without a failure before.
+//!
+//! *Problem.* A ring cuts a finger, a bandage widens it, fingers that touch move a valley: five tips and four valleys
+//! are found all the same, and features are wrong by up to two thirds.
+//! *Idea.* Each trap leaves a mark that a free hand does not have: a second piece, a hole, a flat tip, a step in the
+//! width, a valley that is not round, a proportion that hands do not have.
+//! *Limits.* The gate says "may be wrong", not "is wrong": it refuses some free hands too.
+
+use super::Failure;
+use super::components::{Component, LargestComponent};
+use super::failure::{Edge, FingerName, Sign};
+use super::features::Measured;
+use super::landmarks::Landmarks;
+use super::outline::{Outline, distance};
+use super::profile::Axis;
+
+mod shape;
+
+/// The image and what was found in it.
+pub(super) struct Sheet<'a> {
+    pub(super) width: usize,
+    pub(super) height: usize,
+    pub(super) mm_per_pixel: f64,
+    pub(super) component: &'a LargestComponent,
+}
+
+/// The least area of a second object in mm²: dust has 3 at most, the tip of a little finger beyond a ring 60.
+const PIECE_MIN_MM2: f64 = 8.0;
+
+/// The largest area of a piece of a finger in mm²; a second hand is larger.
+const PIECE_MAX_MM2: f64 = 2500.0;
+
+/// The least area of a hole that is a concern in mm²; dust within a hand makes smaller ones.
+const HOLE_MIN_MM2: f64 = 4.0;
+
+/// How close the outline comes to an edge that cuts it, in pixels: smoothing moves it away by less than one.
+const EDGE_PIXELS: f64 = 1.5;
+
+/// The width 2 mm below a tip over that at 70 % of the length: 0.55 to 0.72 for round tips, 0.95 for flat ones.
+const FLAT_TIP: f64 = 0.80;
+
+/// The largest change of the width along 3 mm beyond that of its surroundings, in mm.
+const WIDTH_STEP_MM: f64 = 0.36;
+
+/// The distance between the two sides of a valley 2.5 mm along the outline from its bottom, at least, in mm.
+const VALLEY_GAP_MM: f64 = 1.3;
+
+/// The tip may be so far from the axis, in widths of the finger.
+const TIP_OFFSET: f64 = 0.25;
+
+/// Returns everything about a measured hand that no free hand shows.
+pub(super) fn concerns(
+    landmarks: &Landmarks,
+    axes: &[Axis; 5],
+    measured: &Measured,
+    sheet: &Sheet<'_>,
+) -> Vec<Failure> {
+    let mut found = vec![];
+    found.extend(cut_off(landmarks, measured, sheet));
+    found.extend(second_piece(landmarks, sheet));
+    found.extend(hole(sheet));
+    for k in 0..4 {
+        if valley_gap(landmarks, k, sheet.mm_per_pixel) < VALLEY_GAP_MM {
+            let (first, second) = (FingerName::ALL[k], FingerName::ALL[k + 1]);
+            found.push(Failure::FingersTouching { first, second });
+        }
+    }
+    for (axis, finger) in axes.iter().zip(FingerName::ALL) {
+        let sign = finger_sign(axis, finger, sheet.mm_per_pixel);
+        found.extend(sign.map(|sign| Failure::RingOrBandage { finger, sign }));
+    }
+    found.extend(shape::concerns(landmarks, axes, measured, sheet.mm_per_pixel));
+    found
+}
+
+/// Returns the reason for which no landmarks were found, if it is another than that there are too few.
+pub(super) fn explain(failure: Failure, sheet: &Sheet<'_>) -> Failure {
+    if !matches!(failure, Failure::TooFewTips { .. } | Failure::ThumbUnclear { .. }) {
+        return failure;
+    }
+    // The wrist is at the edge with the longest contact; a hand at another one is cut off.
+    let contact = Edge::ALL.map(|edge| (contact(sheet, edge), edge));
+    let wrist = contact.iter().max_by_key(|(length, _)| *length).map(|(_, edge)| *edge);
+    let cut = contact.iter().filter(|(length, edge)| *length > 0 && Some(*edge) != wrist);
+    if let Some((_, edge)) = cut.max_by_key(|(length, _)| *length) {
+        return Failure::CutOff { edge: *edge };
+    }
+    hole(sheet).unwrap_or(failure)
+}
+
+/// Returns how many pixels of the component are at an edge of the image.
+fn contact(sheet: &Sheet<'_>, edge: Edge) -> usize {
+    let mask = &sheet.component.mask;
+    let (width, height) = (sheet.width as i64, sheet.height as i64);
+    let count = |length: i64, pixel: &dyn Fn(i64) -> (i64, i64)| {
+        (0..length).map(pixel).filter(|&(x, y)| mask.contains(x, y)).count()
+    };
+    match edge {
+        Edge::Left => count(height, &|y| (0, y)),
+        Edge::Right => count(height, &|y| (width - 1, y)),
+        Edge::Top => count(width, &|x| (x, 0)),
+        Edge::Bottom => count(width, &|x| (x, height - 1)),
+    }
+}
+
+/// Tests whether the outline meets an edge of the image above the wrist.
+fn cut_off(landmarks: &Landmarks, measured: &Measured, sheet: &Sheet<'_>) -> Option<Failure> {
+    let palm = measured.circles[9];
+    let valleys = landmarks.valley_points();
+    let knuckles = [0, 1].map(|c| 0.5 * (valleys[1][c] + valleys[2][c]));
+    let up = [0, 1].map(|c| knuckles[c] - palm.center[c]);
+    let length = (up[0] * up[0] + up[1] * up[1]).sqrt().max(f64::MIN_POSITIVE);
+    let (width, height) = (sheet.width as f64, sheet.height as f64);
+    let edge = landmarks.outline.points().iter().find_map(|&[x, y]| {
+        let along = ((x - palm.center[0]) * up[0] + (y - palm.center[1]) * up[1]) / length;
+        if along < -palm.radius {
+            return None;
+        }
+        let gaps = [(x, Edge::Left), (width - x, Edge::Right), (y, Edge::Top), (height - y, Edge::Bottom)];
+        gaps.into_iter().find(|(gap, _)| *gap < EDGE_PIXELS).map(|(_, edge)| edge)
+    })?;
+    Some(Failure::CutOff { edge })
+}
+
+/// Finds a second object: the piece of a finger beyond a ring, or something else.
+fn second_piece(landmarks: &Landmarks, sheet: &Sheet<'_>) -> Option<Failure> {
+    let square = sheet.mm_per_pixel * sheet.mm_per_pixel;
+    let area = |object: &Component| object.area as f64 * square;
+    let object = sheet.component.others.iter().find(|object| area(object) >= PIECE_MIN_MM2)?;
+    let tips = landmarks.tip_points();
+    let nearest = (0..5).min_by(|&a, &b| {
+        distance(tips[a], object.center).total_cmp(&distance(tips[b], object.center))
+    })?;
+    // A piece is at most a finger's length beyond the stump's tip.
+    const PIECE_DISTANCE_MM: f64 = 70.0;
+    let gap = distance(tips[nearest], object.center) * sheet.mm_per_pixel;
+    Some(if area(object) <= PIECE_MAX_MM2 && gap <= PIECE_DISTANCE_MM {
+        Failure::RingOrBandage { finger: FingerName::ALL[nearest], sign: Sign::SecondPiece }
+    } else {
+        Failure::SecondObject { area_mm2: area(object) }
+    })
+}
+
+fn hole(sheet: &Sheet<'_>) -> Option<Failure> {
+    let hole = sheet.component.holes.first()?;
+    let area_mm2 = hole.area as f64 * sheet.mm_per_pixel * sheet.mm_per_pixel;
+    (area_mm2 >= HOLE_MIN_MM2).then_some(Failure::Hole { area_mm2 })
+}
+
+/// Returns the distance in mm between the sides of a valley, 2.5 mm along the outline from its bottom.
+pub(super) fn valley_gap(landmarks: &Landmarks, valley: usize, mm_per_pixel: f64) -> f64 {
+    const ARC_MM: f64 = 2.5;
+    let outline: &Outline = &landmarks.outline;
+    let arc = ARC_MM / mm_per_pixel / outline.step();
+    let place = landmarks.valleys[valley];
+    distance(outline.at(place - arc), outline.at(place + arc)) * mm_per_pixel
+}
+
+/// Looks for a sign that something covers a finger.
+fn finger_sign(axis: &Axis, finger: FingerName, mm_per_pixel: f64) -> Option<Sign> {
+    let [tip_ratio, offset] = tip_measures(axis, mm_per_pixel)?;
+    if tip_ratio > FLAT_TIP {
+        return Some(Sign::FlatTip);
+    }
+    if offset > TIP_OFFSET {
+        return Some(Sign::SkewTip);
+    }
+    (width_step(axis, finger, mm_per_pixel) > WIDTH_STEP_MM).then_some(Sign::WidthStep)
+}
+
+/// Returns the width 2 mm below the tip over that at 70 %, and the tip's distance from the axis over that width.
+pub(super) fn tip_measures(axis: &Axis, mm_per_pixel: f64) -> Option<[f64; 2]> {
+    const DEPTH_MM: f64 = 2.0;
+    let top = axis.top() - DEPTH_MM / mm_per_pixel;
+    let widths = axis.widths(&[top, 0.7 * axis.length]);
+    let (near_tip, below) = (widths[0]?, widths[1]?);
+    Some([near_tip / below, axis.tip_offset().abs() / below])
+}
+
+/// Returns the largest change of the width along 3 mm, beyond a third of the change along 9 mm, in mm.
+pub(super) fn width_step(axis: &Axis, finger: FingerName, mm_per_pixel: f64) -> f64 {
+    /// Distance between stations in mm.
+    const STATION_MM: f64 = 0.5;
+    /// Stations from the middle to the ends of the short and of the long piece.
+    const REACH: [usize; 2] = [3, 9];
+    /// The part of a finger with straight sides, as a share of its length at the base and in mm at the tip.
+    const TIP_MM: f64 = 8.0;
+    let base = if finger == FingerName::Thumb { 0.32 } else { 0.06 };
+    let (low, high) = (base * axis.length, axis.length - TIP_MM / mm_per_pixel);
+    let step = STATION_MM / mm_per_pixel;
+    let count = ((high - low) / step).max(0.0) as usize;
+    let stations: Vec<f64> = (0..count).map(|k| high - k as f64 * step).collect();
+    let widths = axis.widths(&stations);
+    let change = |middle: usize, reach: usize| Some(widths[middle + reach]? - widths[middle - reach]?);
+    (REACH[1]..count.saturating_sub(REACH[1]))
+        .filter_map(|middle| {
+            let ratio = REACH[0] as f64 / REACH[1] as f64;
+            Some((change(middle, REACH[0])? - ratio * change(middle, REACH[1])?).abs())
+        })
+        .fold(0.0, f64::max)
+        * mm_per_pixel
+}
