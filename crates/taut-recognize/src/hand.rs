@@ -18,18 +18,20 @@ pub mod components;
 pub mod distance;
 pub mod failure;
 pub mod features;
-mod gate;
+pub mod gate;
 pub mod landmarks;
 pub mod mask;
 pub mod outline;
 pub mod profile;
 pub mod read;
+pub mod refine;
 pub mod synthetic;
 pub mod thesis;
 
 use std::path::Path;
 
 pub use failure::{Edge, Failure, FingerName, Sign};
+pub use gate::{Evidence, PROPORTION_NAMES, PROPORTIONS};
 pub use features::{FEATURE_NAMES, FEATURES, IndexBase};
 pub use profile::{PROFILE, profile_names};
 pub use read::{ImageError, RgbImage};
@@ -168,6 +170,8 @@ pub struct Hand {
     pub landmarks: Landmarks,
     /// The ten circles, in pixels: thumb, then lower and upper half of each finger, then the whole hand.
     pub circles: [Circle; 10],
+    /// What the plausibility gate measured.
+    pub evidence: Evidence,
     /// Why the features may be wrong; empty unless [`Gate::Report`] was asked for.
     pub concerns: Vec<Failure>,
 }
@@ -231,17 +235,18 @@ impl Hand {
         };
         let landmarks = find_landmarks(&outline, found.component.area as f64)
             .map_err(|failure| gate::explain(failure, &sheet))?;
-        let too_thin = || Failure::TooFewTips { found: 5 };
+        let landmarks = refine::refined(&landmarks, found.component.area as f64);
         let measured = features::measure(&landmarks, options, mm_per_pixel)
-            .ok_or_else(|| gate::explain(too_thin(), &sheet))?;
+            .ok_or_else(|| gate::explain(Failure::Unmeasurable, &sheet))?;
         let axes = profile::axes(&landmarks);
         let profile = profile::profile(&landmarks, &axes, &measured, mm_per_pixel)
-            .ok_or_else(|| gate::explain(too_thin(), &sheet))?;
+            .ok_or_else(|| gate::explain(Failure::Unmeasurable, &sheet))?;
         let side = match options.view {
             View::Palm => landmarks.side,
             View::Back => landmarks.side.other(),
         };
-        let mut concerns = gate::concerns(&landmarks, &axes, &measured, &sheet);
+        let evidence = gate::Evidence::new(&landmarks, &axes, &measured, mm_per_pixel);
+        let mut concerns = gate::concerns(&landmarks, &evidence, &measured, &sheet);
         if options.side.is_some_and(|wanted| wanted != side) {
             concerns.insert(0, Failure::OtherHand);
         }
@@ -256,6 +261,7 @@ impl Hand {
             profile,
             landmarks,
             circles: measured.circles,
+            evidence,
             concerns,
         })
     }

@@ -87,6 +87,9 @@ pub enum Failure {
         /// Tips found.
         found: usize,
     },
+    /// The outline has tips and valleys, but a finger between them has no width or no circle.
+    #[error("tips and valleys are found, but a finger cannot be measured")]
+    Unmeasurable,
     /// Two fingers touch, or are too close for their valley to be found.
     #[error("{first} and {second} touch: spread the fingers")]
     FingersTouching {
@@ -122,14 +125,30 @@ pub enum Failure {
         area_mm2: f64,
     },
     /// The thumb could be at either end of the row of fingers.
-    #[error("the thumb cannot be told from the little finger: the ratio of their valleys is {ratio:.2}")]
+    #[error("the thumb cannot be told from the little finger: the ratio of their distances is {ratio:.2}")]
     ThumbUnclear {
-        /// The distance of the first two valleys over that of the last two.
+        /// The distances of the first two valleys and tips over those of the last two.
         ratio: f64,
     },
     /// The hand is the other one than was asked for.
     #[error("the picture shows the other hand")]
     OtherHand,
+    /// The proportions are not those of hands: a part is covered or joined to another one.
+    #[error("the proportions of the hand are not those of hands: the distance is {distance:.1}, the limit {limit:.1}")]
+    Proportions {
+        /// The Mahalanobis distance from the mean of hands.
+        distance: f64,
+        /// The largest distance that is accepted.
+        limit: f64,
+    },
+    /// A valley has a corner that skin does not have: something joins the two fingers.
+    #[error("something joins {first} and {second}, or they touch: their valley is not round")]
+    JoinedFingers {
+        /// The finger nearer to the thumb.
+        first: FingerName,
+        /// The other one.
+        second: FingerName,
+    },
     /// A measure is outside the range of human hands: the outline is not that of a free hand, or the resolution wrong.
     #[error("{measure} is {value:.2}, outside the range of human hands, {low:.2} to {high:.2}")]
     Implausible {

@@ -16,6 +16,8 @@ use super::profile::Axis;
 
 mod shape;
 
+pub use shape::{PROPORTION_NAMES, PROPORTIONS};
+
 /// The image and what was found in it.
 pub(super) struct Sheet<'a> {
     pub(super) width: usize,
@@ -48,10 +50,48 @@ const VALLEY_GAP_MM: f64 = 1.3;
 /// The tip may be so far from the axis, in widths of the finger.
 const TIP_OFFSET: f64 = 0.25;
 
+/// What the gate measured on a hand.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Evidence {
+    /// The width 2 mm below each tip over that at 70 % of the length: 0.55 to 0.72 for round tips, 0.95 for flat ones.
+    pub tip_ratio: [f64; 5],
+    /// The distance of each tip from the axis of its finger, over the width at 70 % of the length.
+    pub tip_offset: [f64; 5],
+    /// The largest change of each finger's width along 3 mm beyond that of its surroundings, in mm.
+    pub width_step: [f64; 5],
+    /// The distance between the sides of each valley, 2.5 mm along the outline from its bottom, in mm.
+    pub valley_gap: [f64; 4],
+    /// The largest change of direction along 1.5 mm of the outline near each valley, in radians.
+    pub valley_turn: [f64; 4],
+    /// Proportions of the hand, in the order of [`PROPORTION_NAMES`].
+    pub proportions: [f64; PROPORTIONS],
+}
+
+impl Evidence {
+    pub(super) fn new(
+        landmarks: &Landmarks,
+        axes: &[Axis; 5],
+        measured: &Measured,
+        mm_per_pixel: f64,
+    ) -> Self {
+        let tips = [0, 1, 2, 3, 4].map(|k| tip_measures(&axes[k], mm_per_pixel));
+        Self {
+            tip_ratio: tips.map(|[ratio, _]| ratio),
+            tip_offset: tips.map(|[_, offset]| offset),
+            width_step: std::array::from_fn(|k| {
+                width_step(&axes[k], FingerName::ALL[k], mm_per_pixel)
+            }),
+            valley_gap: std::array::from_fn(|k| valley_gap(landmarks, k, mm_per_pixel)),
+            valley_turn: std::array::from_fn(|k| valley_turn(landmarks, k, mm_per_pixel)),
+            proportions: shape::proportions(landmarks, axes, measured),
+        }
+    }
+}
+
 /// Returns everything about a measured hand that no free hand shows.
 pub(super) fn concerns(
     landmarks: &Landmarks,
-    axes: &[Axis; 5],
+    evidence: &Evidence,
     measured: &Measured,
     sheet: &Sheet<'_>,
 ) -> Vec<Failure> {
@@ -60,16 +100,24 @@ pub(super) fn concerns(
     found.extend(second_piece(landmarks, sheet));
     found.extend(hole(sheet));
     for k in 0..4 {
-        if valley_gap(landmarks, k, sheet.mm_per_pixel) < VALLEY_GAP_MM {
-            let (first, second) = (FingerName::ALL[k], FingerName::ALL[k + 1]);
+        let (first, second) = (FingerName::ALL[k], FingerName::ALL[k + 1]);
+        if evidence.valley_gap[k] < VALLEY_GAP_MM {
             found.push(Failure::FingersTouching { first, second });
         }
     }
-    for (axis, finger) in axes.iter().zip(FingerName::ALL) {
-        let sign = finger_sign(axis, finger, sheet.mm_per_pixel);
+    for (k, finger) in FingerName::ALL.into_iter().enumerate() {
+        let sign = if evidence.tip_ratio[k] > FLAT_TIP {
+            Some(Sign::FlatTip)
+        } else if evidence.tip_offset[k] > TIP_OFFSET {
+            Some(Sign::SkewTip)
+        } else if evidence.width_step[k] > WIDTH_STEP_MM {
+            Some(Sign::WidthStep)
+        } else {
+            None
+        };
         found.extend(sign.map(|sign| Failure::RingOrBandage { finger, sign }));
     }
-    found.extend(shape::concerns(landmarks, axes, measured, sheet.mm_per_pixel));
+    found.extend(shape::concerns(evidence, measured));
     found
 }
 
@@ -148,7 +196,7 @@ fn hole(sheet: &Sheet<'_>) -> Option<Failure> {
 }
 
 /// Returns the distance in mm between the sides of a valley, 2.5 mm along the outline from its bottom.
-pub(super) fn valley_gap(landmarks: &Landmarks, valley: usize, mm_per_pixel: f64) -> f64 {
+fn valley_gap(landmarks: &Landmarks, valley: usize, mm_per_pixel: f64) -> f64 {
     const ARC_MM: f64 = 2.5;
     let outline: &Outline = &landmarks.outline;
     let arc = ARC_MM / mm_per_pixel / outline.step();
@@ -156,47 +204,68 @@ pub(super) fn valley_gap(landmarks: &Landmarks, valley: usize, mm_per_pixel: f64
     distance(outline.at(place - arc), outline.at(place + arc)) * mm_per_pixel
 }
 
-/// Looks for a sign that something covers a finger.
-fn finger_sign(axis: &Axis, finger: FingerName, mm_per_pixel: f64) -> Option<Sign> {
-    let [tip_ratio, offset] = tip_measures(axis, mm_per_pixel)?;
-    if tip_ratio > FLAT_TIP {
-        return Some(Sign::FlatTip);
-    }
-    if offset > TIP_OFFSET {
-        return Some(Sign::SkewTip);
-    }
-    (width_step(axis, finger, mm_per_pixel) > WIDTH_STEP_MM).then_some(Sign::WidthStep)
+/// Returns the largest change of direction along 1.5 mm of the outline within 6 mm of a valley, in radians; to the
+/// outside, as the bottom of a valley has it.
+fn valley_turn(landmarks: &Landmarks, valley: usize, mm_per_pixel: f64) -> f64 {
+    const REACH_MM: f64 = 6.0;
+    const ARC_MM: f64 = 1.5;
+    const CHORD_MM: f64 = 0.8;
+    let outline = &landmarks.outline;
+    let places = |mm: f64| mm / mm_per_pixel / outline.step();
+    let (arc, chord, reach) = (places(ARC_MM), places(CHORD_MM), places(REACH_MM));
+    let tangent = |place: f64| {
+        let (a, b) = (outline.at(place - 0.5 * chord), outline.at(place + 0.5 * chord));
+        [b[0] - a[0], b[1] - a[1]]
+    };
+    // Landmarks of a right hand go against the outline's own direction.
+    let sign = if landmarks.side == super::Side::Left { -1.0 } else { 1.0 };
+    let middle = landmarks.valleys[valley];
+    (-(reach as i64)..=reach as i64)
+        .map(|k| {
+            let place = middle + k as f64;
+            let (a, b) = (tangent(place - 0.5 * arc), tangent(place + 0.5 * arc));
+            sign * (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1])
+        })
+        .fold(0.0, f64::max)
 }
 
-/// Returns the width 2 mm below the tip over that at 70 %, and the tip's distance from the axis over that width.
-pub(super) fn tip_measures(axis: &Axis, mm_per_pixel: f64) -> Option<[f64; 2]> {
+/// Returns the width 2 mm below the tip over that at 70 %, and the tip's distance from the axis over that width;
+/// infinite if the finger has no such width.
+fn tip_measures(axis: &Axis, mm_per_pixel: f64) -> [f64; 2] {
     const DEPTH_MM: f64 = 2.0;
     let top = axis.top() - DEPTH_MM / mm_per_pixel;
-    let widths = axis.widths(&[top, 0.7 * axis.length]);
-    let (near_tip, below) = (widths[0]?, widths[1]?);
-    Some([near_tip / below, axis.tip_offset().abs() / below])
+    match axis.widths(&[top, 0.7 * axis.length])[..] {
+        [Some(near_tip), Some(below)] if below > 0.0 => {
+            [near_tip / below, axis.tip_offset().abs() / below]
+        }
+        _ => [f64::INFINITY; 2],
+    }
 }
 
-/// Returns the largest change of the width along 3 mm, beyond a third of the change along 9 mm, in mm.
-pub(super) fn width_step(axis: &Axis, finger: FingerName, mm_per_pixel: f64) -> f64 {
+/// Returns the largest change of the width along 3 mm, beyond that along the 3 mm before or after it, in mm.
+fn width_step(axis: &Axis, finger: FingerName, mm_per_pixel: f64) -> f64 {
     /// Distance between stations in mm.
     const STATION_MM: f64 = 0.5;
-    /// Stations from the middle to the ends of the short and of the long piece.
-    const REACH: [usize; 2] = [3, 9];
-    /// The part of a finger with straight sides, as a share of its length at the base and in mm at the tip.
-    const TIP_MM: f64 = 8.0;
-    let base = if finger == FingerName::Thumb { 0.32 } else { 0.06 };
+    /// Stations in 3 mm.
+    const SPAN: usize = 6;
+    /// Above this the finger's end is round, in mm from the tip.
+    const TIP_MM: f64 = 7.0;
+    // Below this the webs begin, and the ball of the thumb.
+    let base = if finger == FingerName::Thumb { 0.40 } else { 0.12 };
     let (low, high) = (base * axis.length, axis.length - TIP_MM / mm_per_pixel);
     let step = STATION_MM / mm_per_pixel;
     let count = ((high - low) / step).max(0.0) as usize;
     let stations: Vec<f64> = (0..count).map(|k| high - k as f64 * step).collect();
     let widths = axis.widths(&stations);
-    let change = |middle: usize, reach: usize| Some(widths[middle + reach]? - widths[middle - reach]?);
-    (REACH[1]..count.saturating_sub(REACH[1]))
-        .filter_map(|middle| {
-            let ratio = REACH[0] as f64 / REACH[1] as f64;
-            Some((change(middle, REACH[0])? - ratio * change(middle, REACH[1])?).abs())
-        })
-        .fold(0.0, f64::max)
-        * mm_per_pixel
+    let change = |from: usize| {
+        let ends = (widths.get(from).copied().flatten(), widths.get(from + SPAN).copied().flatten());
+        Some(ends.1? - ends.0?)
+    };
+    let residual = |from: usize| {
+        let own = change(from)?;
+        let before = from.checked_sub(SPAN).and_then(change);
+        let around = [before, change(from + SPAN)].into_iter().flatten();
+        around.map(|other| (own - other).abs()).reduce(f64::min)
+    };
+    (0..count).filter_map(residual).fold(0.0, f64::max) * mm_per_pixel
 }

@@ -15,7 +15,7 @@ use super::failure::Failure;
 use super::outline::{Outline, distance, gaussian_weights};
 
 /// The window L of the angle function in square roots of the hand's area: half a finger of most hands.
-const WINDOW: f64 = 0.216;
+pub(super) const WINDOW: f64 = 0.216;
 
 /// The Gaussian that smooths the angle function, in windows: 4 pixels at 90 dots per inch.
 const SMOOTHING: f64 = 0.04;
@@ -35,9 +35,10 @@ const TIP_DISTANCE: [f64; 2] = [1.2, 9.0];
 /// Minima of the angle function that are considered, sharpest first: five tips, two corners of the wrist, and noise.
 const CANDIDATES_MAX: usize = 20;
 
-/// The least ratio of the distance between the thumb's two valleys to that of the little finger's two; 1.57 is the least
-/// among 278 hands.
-const THUMB_RATIO_MIN: f64 = 1.2;
+/// The least ratio of the thumb's distances to those of the little finger: of the first two valleys to the last two,
+/// times that of the tips. Among 278 hands the valleys alone have at least 1.57, but a little finger that is spread far
+/// comes near to 1.
+const THUMB_RATIO_MIN: f64 = 1.25;
 
 /// The outline of a hand with its landmarks, in the order from the thumb to the little finger.
 #[derive(Clone, Debug, PartialEq)]
@@ -91,7 +92,8 @@ pub fn find_landmarks(outline: &Outline, area: f64) -> Result<Landmarks, Failure
         std::array::from_fn(|k| refine(&angles, chain[k], sign(k % 2 == 0), window));
     let extrema: [f64; 9] = std::array::from_fn(|k| angles[chain[k] % count]);
     let points = places.map(|place| outline.at(place));
-    let ratio = distance(points[1], points[3]) / distance(points[5], points[7]);
+    let ratio = distance(points[1], points[3]) / distance(points[5], points[7])
+        * (distance(points[0], points[2]) / distance(points[6], points[8]));
     let (outline, places, extrema, side) = if ratio >= THUMB_RATIO_MIN {
         (outline.clone(), places, extrema, Side::Left)
     } else if ratio <= 1.0 / THUMB_RATIO_MIN {

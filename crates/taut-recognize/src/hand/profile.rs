@@ -55,7 +55,7 @@ impl Axis {
         let tip = outline.at(finger.tip);
         let ends = finger.base.map(|place| outline.at(place));
         // Sides go on beyond the ends, as cross-sections of a bent finger may cross the outline there.
-        let beyond = 0.2 * (finger.base[1] - finger.base[0]);
+        let beyond = 0.35 * (finger.base[1] - finger.base[0]);
         let mut before = outline.piece(finger.base[0] - beyond, finger.tip);
         before.reverse();
         let after = outline.piece(finger.tip, finger.base[1] + beyond);
@@ -103,7 +103,9 @@ impl Axis {
                     while at + 1 < side.len() && side[at + 1][0] > station {
                         at += 1;
                     }
-                    let (a, b) = (side.get(at)?, side.get(at + 1)?);
+                    let a = side.get(at)?;
+                    // A side that ends above the distance goes on along the axis.
+                    let Some(b) = side.get(at + 1) else { return Some(a[1]) };
                     if a[0] <= station {
                         return None;
                     }
@@ -132,9 +134,35 @@ impl Axis {
         self.sides[0].first().map_or(0.0, |tip| tip[1])
     }
 
+    /// Returns the medial line of the last part of the finger: its coordinate across the axis at 0, and its slope.
+    pub(super) fn distal_line(&self) -> Option<[f64; 2]> {
+        /// The part of the length: beyond the last joint, and below the round end.
+        const DISTAL: [f64; 2] = [0.74, 0.89];
+        const STATIONS: u32 = 14;
+        let stations: Vec<f64> = (0..=STATIONS)
+            .map(|k| {
+                let share = f64::from(k) / f64::from(STATIONS);
+                self.length * (DISTAL[1] + (DISTAL[0] - DISTAL[1]) * share)
+            })
+            .collect();
+        fit_line(&stations, &self.sections(&stations)).map(|(offset, slope)| [offset, slope])
+    }
+
+    /// Returns the direction from the base to the tip.
+    pub(super) fn direction(&self) -> [f64; 2] {
+        self.direction
+    }
+
+    /// Returns the coordinates of a point along and across the axis.
+    pub(super) fn local(&self, p: [f64; 2]) -> [f64; 2] {
+        let (x, y) = (p[0] - self.origin[0], p[1] - self.origin[1]);
+        let [u, v] = self.direction;
+        [x * u + y * v, y * u - x * v]
+    }
+
     /// Returns the coordinate of a point along the axis, 0 at the level of the lower ends.
     pub(super) fn along(&self, p: [f64; 2]) -> f64 {
-        (p[0] - self.origin[0]) * self.direction[0] + (p[1] - self.origin[1]) * self.direction[1]
+        self.local(p)[0]
     }
 }
 

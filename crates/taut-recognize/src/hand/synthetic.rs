@@ -108,6 +108,8 @@ pub enum Defect {
     Adducted {
         /// The finger nearer to the thumb.
         first: FingerName,
+        /// Whether they touch above their web.
+        is_touching: bool,
     },
 }
 
@@ -120,7 +122,7 @@ pub struct Truth {
     pub mask: Mask,
     /// Where the axes of the fingers meet the outline, thumb first, in pixels.
     pub tips: [[f64; 2]; 5],
-    /// The lowest points between neighboring fingers along the bisector of their axes, in pixels.
+    /// The middles of the lowest parts between neighboring fingers along the bisector of their axes, in pixels.
     pub valleys: [[f64; 2]; 4],
     /// The thirty features of the outline before pixels, with the true tips and valleys; without the defect, if there
     /// is one. `None` for hands that are cut off, whose outline is not on the page.
@@ -205,18 +207,22 @@ impl Generator {
         // Every fifth scan is one of those that were made difficult on purpose (thesis, 7.3).
         let is_hard = scan % 5 == 4;
         let page = pose::Page::new(self.side, self.dots_per_inch.clamp(40.0, 600.0));
-        let mut pose = Pose::draw(&owner, is_hard, &mut self.stream(person, scan, purpose::POSE));
+        let mut pose = Pose::draw(&owner, &page, is_hard, &mut self.stream(person, scan, purpose::POSE));
         let has_sleeve = random.share() < self.rates.sleeve;
         let free = pose.clone();
-        let defect = kind.map(|kind| pose.damage(kind, &page, &mut random));
+        let mut defect = kind.map(|kind| pose.damage(kind, &page, &mut random));
         // Shifting moves the hand itself; for all other defects the truth is the free hand.
         let honest = if kind == Some(DefectKind::Shifted) { &pose } else { &free };
-        let outline = truth::Outlined::new(honest, &owner, &page);
-        let lying = if kind == Some(DefectKind::Adducted) {
-            truth::Outlined::new(&pose, &owner, &page)
-        } else {
-            outline.clone()
-        };
+        let mut outline = truth::Outlined::new(honest, &owner, &page);
+        let mut lying = outline.clone();
+        if let Some(Defect::Adducted { first, is_touching }) = &mut defect {
+            lying = truth::Outlined::new(&pose, &owner, &page);
+            *is_touching = lying.is_touching(*first as usize);
+            // Fingers that only lie close have their own truth.
+            if !*is_touching {
+                outline = lying.clone();
+            }
+        }
         let paint = self.stream(person, scan, purpose::PAINT);
         let image = paint::paint(&lying, &owner, &page, defect, has_sleeve, random, paint);
         Scan { image, truth: outline.into_truth(self.side, defect, has_sleeve) }

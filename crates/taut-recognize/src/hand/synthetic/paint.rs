@@ -73,7 +73,7 @@ pub(super) fn paint(
     };
     for y in 0..height {
         for x in 0..width {
-            let distance = f64::from(hand.field[y * width + x]);
+            let distance = normalized(hand, x, y, page);
             let chill = background_noise(key, x, y);
             let shade = shadow_at(shadow, x, y, page);
             let mut color: [f64; 3] =
@@ -111,6 +111,21 @@ pub(super) fn paint(
     }
     sprinkle(&mut pixels, page, &mut noise);
     RgbImage::from_parts(pixels, width, height, page.dots_per_inch)
+}
+
+/// Returns the distance of a pixel from the outline in pixels: near it the field over its slope, as the field is flat
+/// between the sides of a narrow valley.
+fn normalized(hand: &Outlined, x: usize, y: usize, page: &Page) -> f64 {
+    const SLOPE_MIN: f64 = 0.25;
+    let field = |x: usize, y: usize| f64::from(hand.field[y * page.width + x]);
+    let own = field(x, y);
+    let is_inner = x > 0 && y > 0 && x + 1 < page.width && y + 1 < page.height;
+    if own.abs() > 2.0 * BLUR_PIXELS || !is_inner {
+        return own;
+    }
+    let slope = [field(x + 1, y) - field(x - 1, y), field(x, y + 1) - field(x, y - 1)];
+    let slope = 0.5 * (slope[0] * slope[0] + slope[1] * slope[1]).sqrt();
+    own / slope.max(SLOPE_MIN)
 }
 
 /// Returns how much of a lifted finger is on the glass: all up to 60 % of its length, nothing from 74 % on.

@@ -11,6 +11,9 @@ const PAGE_INCHES: [f64; 2] = [8.5, 11.7];
 /// The joint of a finger is so far below its web, in mm.
 pub(super) const KNUCKLE_MM: f64 = 22.0;
 
+/// How far the wrist is from the middle of the page, so that thumb and little finger are as far from its sides, in mm.
+const THUMB_SHIFT_MM: f64 = 18.0;
+
 /// The page in pixels, and how the frame of a hand lies on it.
 #[derive(Clone, Debug)]
 pub(super) struct Page {
@@ -52,7 +55,12 @@ pub(super) struct Pose {
 
 impl Pose {
     /// Draws a pose; a hard one has any stretch.
-    pub(super) fn draw(person: &Person, is_hard: bool, random: &mut Stream) -> Self {
+    pub(super) fn draw(
+        person: &Person,
+        page: &Page,
+        is_hard: bool,
+        random: &mut Stream,
+    ) -> Self {
         let stretch = if is_hard { random.between(0.25, 1.0) } else { random.between(0.45, 0.9) };
         // Thumbs vary less: lengths and areas of thumb and index finger hang on it, and real ones repeat within 0.36 of
         // the spread between people.
@@ -83,9 +91,10 @@ impl Pose {
             breadths,
             bends,
             palm_breadth: person.body[2] * (1.0 + 0.3 * (pressure - 1.0) + 0.01 * (stretch - 0.65)),
-            rotation: turn(9.0 * random.normal()),
+            rotation: turn(6.0 * random.normal()),
             wrist: [
-                (9.0 * random.normal()).clamp(-22.0, 22.0),
+                // A hand with its thumb is in the middle of the page.
+                page.mirror * THUMB_SHIFT_MM + (9.0 * random.normal()).clamp(-14.0, 14.0),
                 55.0 + (12.0 * random.normal()).clamp(-30.0, 24.0),
             ],
         }
@@ -121,13 +130,13 @@ impl Pose {
                 Defect::Joined { first, range }
             }
             DefectKind::Adducted => {
-                let gap = random.between(-2.5, 0.5);
+                let gap = random.between(-5.0, 0.0);
                 let k = first as usize;
                 let shift = self.directions[k + 1] - self.directions[k] - gap;
                 for direction in &mut self.directions[k + 1..] {
                     *direction -= shift;
                 }
-                Defect::Adducted { first }
+                Defect::Adducted { first, is_touching: true }
             }
         }
     }

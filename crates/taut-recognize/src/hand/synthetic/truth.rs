@@ -1,7 +1,7 @@
 //! The outline of a synthetic hand before pixels, and what follows from it.
 
 use super::person::Person;
-use super::pose::{Page, Pose};
+use super::pose::{KNUCKLE_MM, Page, Pose};
 use super::random::length;
 use super::shape::{Body, Strip};
 use super::{Defect, Side, Truth};
@@ -22,6 +22,9 @@ const STEEPNESS: f64 = 1.5;
 
 /// A part whose distance is above this changes nothing: the largest radius of a joint.
 const JOINT_MM: f64 = 10.0;
+
+/// Fingers whose outlines meet so far above their web touch, in mm; skin fills less.
+const TOUCHING_MM: f64 = 5.0;
 
 /// A hand on a page as a field of distances.
 #[derive(Clone)]
@@ -49,6 +52,28 @@ impl Outlined {
         let is_cut_off = (0..width).any(|x| is_out(x, 0) || is_out(x, height - 1))
             || (0..height).any(|y| is_out(0, y) || is_out(width - 1, y));
         Self { pose: pose.clone(), strips, field, page: page.clone(), is_cut_off }
+    }
+
+    /// Tests whether a finger touches the next one above their web: the outline has no point between their axes, in the
+    /// lowest 5 mm above the web.
+    pub(super) fn is_touching(&self, first: usize) -> bool {
+        let (a, b) = (&self.strips[first], &self.strips[first + 1]);
+        let level = KNUCKLE_MM + TOUCHING_MM;
+        let [p, q] = [a, b].map(|strip| {
+            let end = strip.point(level, strip.axis(level)[0]);
+            self.pose.to_page(&self.page, end)
+        });
+        let steps = length(q[0] - p[0], q[1] - p[1]) as usize + 1;
+        !(0..=steps).any(|step| {
+            let share = step as f64 / steps as f64;
+            let [x, y] = [0, 1].map(|c| p[c] + share * (q[c] - p[c]));
+            let is_on_page = x >= 0.0 && y >= 0.0;
+            let (x, y) = (x as usize, y as usize);
+            is_on_page
+                && x < self.page.width
+                && y < self.page.height
+                && self.field[y * self.page.width + x] > 0.0
+        })
     }
 
     /// Returns what is known of the scan.
@@ -103,9 +128,19 @@ impl Outlined {
                 let p = outline.at(place);
                 p[0] * bisector[0] + p[1] * bisector[1]
             };
+            // The mean of the places within 0.9 mm of the lowest point, weighted by how far they are below.
             let steps = (places[k + 1] - places[k]) as usize;
-            let candidates = (1..steps).map(|step| places[k] + step as f64);
-            candidates.min_by(|&a, &b| along(a).total_cmp(&along(b))).unwrap_or(places[k])
+            let heights: Vec<f64> =
+                (0..steps).map(|step| along(places[k] + step as f64)).collect();
+            let size = length(bisector[0], bisector[1]);
+            let least = heights.iter().copied().fold(f64::INFINITY, f64::min);
+            let limit = least + 0.9 * self.page.pixels_per_mm * size;
+            let (mut weights, mut moment) = (0.0, 0.0);
+            for (step, height) in heights.iter().enumerate().filter(|(_, h)| **h < limit) {
+                weights += limit - height;
+                moment += (limit - height) * step as f64;
+            }
+            places[k] + moment / weights
         });
         Some(Landmarks {
             outline,
@@ -118,11 +153,15 @@ impl Outlined {
     }
 }
 
-/// Returns the sample of an outline that is nearest to a point.
+/// Returns the place of an outline that is nearest to a point, to a tenth of a sample.
 fn nearest(outline: &Outline, p: [f64; 2]) -> f64 {
-    let square = |q: &[f64; 2]| (q[0] - p[0]) * (q[0] - p[0]) + (q[1] - p[1]) * (q[1] - p[1]);
-    let points = outline.points().iter().enumerate();
-    points.min_by(|a, b| square(a.1).total_cmp(&square(b.1))).map_or(0.0, |(place, _)| place as f64)
+    let square = |q: [f64; 2]| (q[0] - p[0]) * (q[0] - p[0]) + (q[1] - p[1]) * (q[1] - p[1]);
+    let best = |places: &mut dyn Iterator<Item = f64>| {
+        let key = |place: f64| square(outline.at(place));
+        places.min_by(|&a, &b| key(a).total_cmp(&key(b))).unwrap_or(0.0)
+    };
+    let coarse = best(&mut (0..outline.points().len()).map(|place| place as f64));
+    best(&mut (-10..=10).map(|tenth| coarse + f64::from(tenth) / 10.0))
 }
 
 /// Evaluates the distances of all pixels; tiles that the outline does not come near are filled at once.
