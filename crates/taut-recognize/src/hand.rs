@@ -31,8 +31,8 @@ pub mod thesis;
 use std::path::Path;
 
 pub use failure::{Edge, Failure, FingerName, Sign};
-pub use gate::{Evidence, PROPORTION_NAMES, PROPORTIONS};
 pub use features::{FEATURE_NAMES, FEATURES, IndexBase};
+pub use gate::{Evidence, PROPORTION_NAMES, PROPORTIONS};
 pub use profile::{PROFILE, profile_names};
 pub use read::{ImageError, RgbImage};
 
@@ -42,6 +42,7 @@ use components::{LargestComponent, largest_component};
 use landmarks::{Landmarks, find_landmarks};
 use mask::Mask;
 use outline::{Outline, follow_cracks};
+use thesis::thesis_boundary;
 
 /// Millimeters in an inch.
 const MM_PER_INCH: f64 = 25.4;
@@ -107,6 +108,16 @@ pub enum Threshold {
     Fixed(f64),
 }
 
+/// How the outline of the hand is traced.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub enum Tracing {
+    /// Where b* crosses the threshold between two pixels.
+    #[default]
+    SubPixel,
+    /// Through the centers of the cleaned boundary pixels, as the thesis has it.
+    Thesis,
+}
+
 /// What becomes of features that cannot be relied on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum Gate {
@@ -122,6 +133,8 @@ pub enum Gate {
 pub struct HandOptions {
     /// How the threshold of b* is chosen. Default: from each image.
     pub threshold: Threshold,
+    /// How the outline is traced. Default: where b* crosses the threshold.
+    pub tracing: Tracing,
     /// Dots per inch, in place of the value of the file. Range 20 to 2400, default that of the file.
     pub dots_per_inch: Option<f64>,
     /// Where the index finger ends on the thumb's side. Default: at the valley, as in the thesis.
@@ -132,7 +145,7 @@ pub struct HandOptions {
     pub side: Option<Side>,
     /// What becomes of features that cannot be relied on. Default: they are refused.
     pub gate: Gate,
-    /// The tolerance of the radii of inscribed circles in millimeters. Range (0, 1], default 0.015.
+    /// The tolerance of the radii of inscribed circles in millimeters. Range 1e-6 to 1, default 0.015.
     pub circle_tolerance: f64,
     /// The largest number of pixels of an image that is decoded. Default 100 million.
     pub pixels_max: u64,
@@ -142,6 +155,7 @@ impl Default for HandOptions {
     fn default() -> Self {
         Self {
             threshold: Threshold::default(),
+            tracing: Tracing::default(),
             dots_per_inch: None,
             index_base: IndexBase::default(),
             view: View::default(),
@@ -225,8 +239,7 @@ impl Hand {
     pub fn from_rgb(image: &RgbImage, options: &HandOptions) -> Result<Self, HandError> {
         let (mm_per_pixel, dots_per_inch) = resolution(image, options)?;
         let found = segment(image, options, mm_per_pixel)?;
-        let outline = trace(image, &found)
-            .ok_or(Failure::NoHand { area_mm2: 0.0 })?;
+        let outline = trace(image, &found, options.tracing)?;
         let sheet = gate::Sheet {
             width: image.width(),
             height: image.height(),
@@ -270,11 +283,11 @@ impl Hand {
 /// Checks the options; returns millimeters per pixel and dots per inch.
 fn resolution(image: &RgbImage, options: &HandOptions) -> Result<(f64, f64), HandError> {
     let refuse = |name, value, expected| Err(HandError::Option { name, value, expected });
-    if !(options.circle_tolerance > 0.0 && options.circle_tolerance <= 1.0) {
-        return refuse("circle_tolerance", options.circle_tolerance, "above 0 and at most 1 mm");
+    if !(1e-6..=1.0).contains(&options.circle_tolerance) {
+        return refuse("circle_tolerance", options.circle_tolerance, "1e-6 to 1 mm");
     }
     if let Threshold::Fixed(value) = options.threshold
-        && !(value.abs() <= 100.0)
+        && !(-100.0..=100.0).contains(&value)
     {
         return refuse("threshold", value, "a b* from −100 to 100");
     }
@@ -336,14 +349,29 @@ fn check_contrast(found: &AdaptiveThreshold, image_mm2: f64) -> Result<(), Failu
     Ok(())
 }
 
-/// Traces the outline of the hand where b* crosses the threshold between two pixels.
-fn trace(image: &RgbImage, found: &Segment) -> Option<Outline> {
-    let cracks = follow_cracks(&found.component.mask);
+/// Traces the outline of the hand.
+fn trace(image: &RgbImage, found: &Segment, tracing: Tracing) -> Result<Outline, Failure> {
     let sigma = (SMOOTHING * (found.component.area as f64).sqrt()).max(SMOOTHING_PIXELS_MIN);
-    // Cracks are more than the arc length by the factor 4/π in the mean over all directions.
+    // Cracks are more than the arc length by the factor 4/π in the mean over all directions, and boundary pixels are
+    // about as many as cracks along a diagonal.
     let sigma = sigma * 4.0 / std::f64::consts::PI;
-    Outline::new(&cracks, sigma, |[x, y]| {
-        let (x, y) = (usize::try_from(x).ok()?, usize::try_from(y).ok()?);
-        Some(lab_b(image.get(x, y)?) - found.threshold)
-    })
+    match tracing {
+        Tracing::SubPixel => {
+            let cracks = follow_cracks(&found.component.mask);
+            let outline = Outline::new(&cracks, sigma, |[x, y]| {
+                let (x, y) = (usize::try_from(x).ok()?, usize::try_from(y).ok()?);
+                Some(lab_b(image.get(x, y)?) - found.threshold)
+            });
+            outline.ok_or(Failure::NoHand { area_mm2: 0.0 })
+        }
+        Tracing::Thesis => {
+            let mut boundary =
+                thesis_boundary(&found.component.mask).ok_or(Failure::BrokenBoundary)?;
+            // Landmarks expect the direction of the cracks, which is clockwise on the screen.
+            boundary.reverse();
+            let centers: Vec<[f64; 2]> =
+                boundary.iter().map(|pixel| pixel.map(|c| c as f64 + 0.5)).collect();
+            Ok(Outline::smoothed(&centers, sigma))
+        }
+    }
 }

@@ -100,7 +100,7 @@ fn the_cracks_enclose_the_area_of_the_set() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(40))]
+    #![proptest_config(ProptestConfig { failure_persistence: None, cases: 40, ..ProptestConfig::default() })]
 
     /// The largest circle of a star-shaped polygon against the distance transform of its pixels at a large scale: a
     /// pixel's center inside is within √½ of every point of its square, and the transform measures to a center outside,

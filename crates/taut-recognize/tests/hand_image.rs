@@ -122,7 +122,10 @@ fn damaged_and_foreign_files_are_typed() {
     let large = DynamicImage::from(image::RgbImage::new(1001, 1000));
     let found = decode(&encode(&large, ImageFormat::Png));
     assert_eq!(found, Err(ImageError::TooLarge { width: 1001, height: 1000, limit: LIMIT }));
-    assert_eq!(RgbImage::new(vec![0; 5], 1, 2, None), Err(ImageError::WrongSize { bytes: 5, width: 1, height: 2 }));
+    assert_eq!(
+        RgbImage::new(vec![0; 5], 1, 2, None),
+        Err(ImageError::WrongSize { bytes: 5, width: 1, height: 2 })
+    );
     assert_eq!(RgbImage::new(vec![], 0, 2, None), Err(ImageError::Empty));
     let missing = Hand::from_file("no such file.png", &HandOptions::default());
     assert!(matches!(missing, Err(HandError::Image(ImageError::Io { .. }))));

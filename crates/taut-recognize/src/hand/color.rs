@@ -65,8 +65,7 @@ fn lab_function(u: f64) -> f64 {
 pub fn lab_b(rgb: [u8; 3]) -> f64 {
     let levels = linear_levels();
     let linear = rgb.map(|level| levels[usize::from(level)]);
-    let weighted =
-        |row: &[f64; 3]| row[0] * linear[0] + row[1] * linear[1] + row[2] * linear[2];
+    let weighted = |row: &[f64; 3]| row[0] * linear[0] + row[1] * linear[1] + row[2] * linear[2];
     let (y, z) = (weighted(&XYZ_OF_RGB[1]), weighted(&XYZ_OF_RGB[2]));
     200.0 * (lab_function(y) - lab_function(z / WHITE_XZ[1]))
 }

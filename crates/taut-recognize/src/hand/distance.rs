@@ -131,8 +131,7 @@ impl Envelope {
         let start = loop {
             let Some(last) = self.parabolas.last() else { break i64::MIN };
             // (x − c)² + h < (x − c')² + h' from here on, with c' < c: the least whole x beyond the crossing.
-            let numerator =
-                column * column + height - last.column * last.column - last.height;
+            let numerator = column * column + height - last.column * last.column - last.height;
             let start = numerator.div_euclid(2 * (column - last.column)) + 1;
             if start > last.start {
                 break start;

@@ -74,7 +74,9 @@ pub enum Failure {
         area_mm2: f64,
     },
     /// Hand and background differ too little in b*.
-    #[error("low contrast: the colors of hand and background differ by {contrast:.1} in b*, {separation:.1} of their spread")]
+    #[error(
+        "low contrast: the colors of hand and background differ by {contrast:.1} in b*, {separation:.1} of their spread"
+    )]
     LowContrast {
         /// The difference of the medians of b*.
         contrast: f64,
@@ -90,6 +92,9 @@ pub enum Failure {
     /// The outline has tips and valleys, but a finger between them has no width or no circle.
     #[error("tips and valleys are found, but a finger cannot be measured")]
     Unmeasurable,
+    /// The boundary pixels are not one closed curve; only with the tracing of the thesis.
+    #[error("the boundary pixels are not one closed curve")]
+    BrokenBoundary,
     /// Two fingers touch, or are too close for their valley to be found.
     #[error("{first} and {second} touch: spread the fingers")]
     FingersTouching {
@@ -125,7 +130,9 @@ pub enum Failure {
         area_mm2: f64,
     },
     /// The thumb could be at either end of the row of fingers.
-    #[error("the thumb cannot be told from the little finger: the ratio of their distances is {ratio:.2}")]
+    #[error(
+        "the thumb cannot be told from the little finger: the ratio of their distances is {ratio:.2}"
+    )]
     ThumbUnclear {
         /// The distances of the first two valleys and tips over those of the last two.
         ratio: f64,
@@ -134,7 +141,9 @@ pub enum Failure {
     #[error("the picture shows the other hand")]
     OtherHand,
     /// The proportions are not those of hands: a part is covered or joined to another one.
-    #[error("the proportions of the hand are not those of hands: the distance is {distance:.1}, the limit {limit:.1}")]
+    #[error(
+        "the proportions of the hand are not those of hands: the distance is {distance:.1}, the limit {limit:.1}"
+    )]
     Proportions {
         /// The Mahalanobis distance from the mean of hands.
         distance: f64,

@@ -115,7 +115,11 @@ pub struct Measured {
 
 /// Measures the thirty features; `None` if a piece of a finger is too thin for a circle.
 #[must_use]
-pub fn measure(landmarks: &Landmarks, options: &HandOptions, mm_per_pixel: f64) -> Option<Measured> {
+pub fn measure(
+    landmarks: &Landmarks,
+    options: &HandOptions,
+    mm_per_pixel: f64,
+) -> Option<Measured> {
     let outline = &landmarks.outline;
     let fingers = fingers(landmarks, options.index_base);
     let tolerance = options.circle_tolerance / mm_per_pixel;

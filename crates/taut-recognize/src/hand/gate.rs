@@ -14,6 +14,7 @@ use super::landmarks::Landmarks;
 use super::outline::{Outline, distance};
 use super::profile::Axis;
 
+mod model;
 mod shape;
 
 pub use shape::{PROPORTION_NAMES, PROPORTIONS};
@@ -41,11 +42,12 @@ const EDGE_PIXELS: f64 = 1.5;
 /// The width 2 mm below a tip over that at 70 % of the length: 0.55 to 0.72 for round tips, 0.95 for flat ones.
 const FLAT_TIP: f64 = 0.80;
 
-/// The largest change of the width along 3 mm beyond that of its surroundings, in mm.
-const WIDTH_STEP_MM: f64 = 0.36;
+/// The largest change of the width along 3 mm beyond that of its surroundings, in mm: free fingers have 0.15 in the
+/// median. The thumb is short and its joint thick.
+const WIDTH_STEP_MM: [f64; 5] = [0.75, 0.45, 0.45, 0.45, 0.45];
 
 /// The distance between the two sides of a valley 2.5 mm along the outline from its bottom, at least, in mm.
-const VALLEY_GAP_MM: f64 = 1.3;
+const VALLEY_GAP_MM: f64 = 0.5;
 
 /// The tip may be so far from the axis, in widths of the finger.
 const TIP_OFFSET: f64 = 0.25;
@@ -74,6 +76,8 @@ impl Evidence {
         measured: &Measured,
         mm_per_pixel: f64,
     ) -> Self {
+        let gaps = std::array::from_fn(|k| valley_gap(landmarks, k, mm_per_pixel));
+        let turns = std::array::from_fn(|k| valley_turn(landmarks, k, mm_per_pixel));
         let tips = [0, 1, 2, 3, 4].map(|k| tip_measures(&axes[k], mm_per_pixel));
         Self {
             tip_ratio: tips.map(|[ratio, _]| ratio),
@@ -81,9 +85,9 @@ impl Evidence {
             width_step: std::array::from_fn(|k| {
                 width_step(&axes[k], FingerName::ALL[k], mm_per_pixel)
             }),
-            valley_gap: std::array::from_fn(|k| valley_gap(landmarks, k, mm_per_pixel)),
-            valley_turn: std::array::from_fn(|k| valley_turn(landmarks, k, mm_per_pixel)),
-            proportions: shape::proportions(landmarks, axes, measured),
+            valley_gap: gaps,
+            valley_turn: turns,
+            proportions: shape::proportions(landmarks, axes, measured, &gaps, &turns),
         }
     }
 }
@@ -110,7 +114,7 @@ pub(super) fn concerns(
             Some(Sign::FlatTip)
         } else if evidence.tip_offset[k] > TIP_OFFSET {
             Some(Sign::SkewTip)
-        } else if evidence.width_step[k] > WIDTH_STEP_MM {
+        } else if evidence.width_step[k] > WIDTH_STEP_MM[k] {
             Some(Sign::WidthStep)
         } else {
             None
@@ -164,7 +168,8 @@ fn cut_off(landmarks: &Landmarks, measured: &Measured, sheet: &Sheet<'_>) -> Opt
         if along < -palm.radius {
             return None;
         }
-        let gaps = [(x, Edge::Left), (width - x, Edge::Right), (y, Edge::Top), (height - y, Edge::Bottom)];
+        let gaps =
+            [(x, Edge::Left), (width - x, Edge::Right), (y, Edge::Top), (height - y, Edge::Bottom)];
         gaps.into_iter().find(|(gap, _)| *gap < EDGE_PIXELS).map(|(_, edge)| edge)
     })?;
     Some(Failure::CutOff { edge })
@@ -242,30 +247,35 @@ fn tip_measures(axis: &Axis, mm_per_pixel: f64) -> [f64; 2] {
     }
 }
 
-/// Returns the largest change of the width along 3 mm, beyond that along the 3 mm before or after it, in mm.
+/// Returns the largest change of the width along 3 mm, beyond a third of that along the 9 mm around it, in mm.
 fn width_step(axis: &Axis, finger: FingerName, mm_per_pixel: f64) -> f64 {
     /// Distance between stations in mm.
     const STATION_MM: f64 = 0.5;
-    /// Stations in 3 mm.
-    const SPAN: usize = 6;
+    /// Stations from the middle to the ends of 3 and of 9 mm.
+    const REACH: [usize; 2] = [3, 9];
     /// Above this the finger's end is round, in mm from the tip.
     const TIP_MM: f64 = 7.0;
+    /// The sides of a finger are straight from here on, in mm above the higher one of its valleys.
+    const SHOULDER_MM: f64 = 2.0;
     // Below this the webs begin, and the ball of the thumb.
-    let base = if finger == FingerName::Thumb { 0.40 } else { 0.12 };
-    let (low, high) = (base * axis.length, axis.length - TIP_MM / mm_per_pixel);
+    let base = match finger {
+        FingerName::Thumb => 0.30,
+        FingerName::Index => 0.15,
+        _ => 0.08,
+    };
+    let low = (base * axis.length).max(axis.shoulder + SHOULDER_MM / mm_per_pixel);
+    let high = axis.length - TIP_MM / mm_per_pixel;
     let step = STATION_MM / mm_per_pixel;
     let count = ((high - low) / step).max(0.0) as usize;
     let stations: Vec<f64> = (0..count).map(|k| high - k as f64 * step).collect();
     let widths = axis.widths(&stations);
-    let change = |from: usize| {
-        let ends = (widths.get(from).copied().flatten(), widths.get(from + SPAN).copied().flatten());
-        Some(ends.1? - ends.0?)
-    };
-    let residual = |from: usize| {
-        let own = change(from)?;
-        let before = from.checked_sub(SPAN).and_then(change);
-        let around = [before, change(from + SPAN)].into_iter().flatten();
-        around.map(|other| (own - other).abs()).reduce(f64::min)
-    };
-    (0..count).filter_map(residual).fold(0.0, f64::max) * mm_per_pixel
+    let change =
+        |middle: usize, reach: usize| Some(widths[middle + reach]? - widths[middle - reach]?);
+    let ratio = REACH[0] as f64 / REACH[1] as f64;
+    (REACH[1]..count.saturating_sub(REACH[1]))
+        .filter_map(|middle| {
+            Some((change(middle, REACH[0])? - ratio * change(middle, REACH[1])?).abs())
+        })
+        .fold(0.0, f64::max)
+        * mm_per_pixel
 }

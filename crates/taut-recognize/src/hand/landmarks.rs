@@ -176,8 +176,9 @@ fn best_chain(angles: &[f64], candidates: &[usize], window: usize) -> Option<[us
         let angle = angles[(candidates[a] + deepest) % count];
         (angle > VALLEY_ANGLE_MIN).then_some((angle, deepest))
     };
-    let valleys: Vec<Vec<_>> =
-        (0..k).map(|a| (0..k).map(|b| if a == b { None } else { valley(a, b) }).collect()).collect();
+    let valleys: Vec<Vec<_>> = (0..k)
+        .map(|a| (0..k).map(|b| if a == b { None } else { valley(a, b) }).collect())
+        .collect();
     let mut best: Option<(f64, [usize; 5])> = None;
     for start in 0..k {
         let cost = |c: usize| -0.5 * angles[candidates[c]];

@@ -13,12 +13,8 @@ use super::mask::Mask;
 const STEP: [[i64; 2]; 4] = [[1, 0], [0, 1], [-1, 0], [0, -1]];
 
 /// The pixel ahead inside and the one ahead outside, relative to a corner, for each direction.
-const AHEAD: [[[i64; 2]; 2]; 4] = [
-    [[0, 0], [0, -1]],
-    [[-1, 0], [0, 0]],
-    [[-1, -1], [-1, 0]],
-    [[0, -1], [-1, -1]],
-];
+const AHEAD: [[[i64; 2]; 2]; 4] =
+    [[[0, 0], [0, -1]], [[-1, 0], [0, 0]], [[-1, -1], [-1, 0]], [[0, -1], [-1, -1]]];
 
 /// One edge between a pixel of a set and one outside.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -98,7 +94,17 @@ impl Outline {
                 })
             })
             .collect();
-        Some(Self::sample(&smooth(&rough, sigma)))
+        // The corner itself is between two cracks: followed the other way round, the curve begins at the same point.
+        let mut curve = smooth(&rough, sigma);
+        let corner = between(curve[curve.len() - 1], curve[0], 0.5);
+        curve.insert(0, corner);
+        Some(Self::sample(&curve))
+    }
+
+    /// Samples the closed polygon through some points, smoothed by a Gaussian of `sigma` points.
+    #[must_use]
+    pub fn smoothed(points: &[[f64; 2]], sigma: f64) -> Self {
+        Self::sample(&smooth(points, sigma))
     }
 
     /// Samples a closed polygon at equal arc lengths of about 1.

@@ -26,7 +26,9 @@ pub fn profile_names() -> Vec<String> {
         names.push(format!("{finger} bend"));
         names.extend((1..=WIDTHS).map(|k| format!("{finger} width at {k}0 %")));
     }
-    for pair in ["thumb–index to index–middle", "index–middle to middle–ring", "middle–ring to ring–little"] {
+    for pair in
+        ["thumb–index to index–middle", "index–middle to middle–ring", "middle–ring to ring–little"]
+    {
         names.push(format!("valley distance {pair}"));
     }
     names.push("valley offset at middle".to_owned());
@@ -41,6 +43,8 @@ pub(super) struct Axis {
     direction: [f64; 2],
     /// The distance along the axis from the level of the lower ends to the tip, in pixels.
     pub(super) length: f64,
+    /// How far the higher one of the lower ends is above their mean level, in pixels.
+    pub(super) shoulder: f64,
     /// The two sides from the tip on, in coordinates along and across the axis.
     sides: [Vec<[f64; 2]>; 2],
 }
@@ -61,17 +65,18 @@ impl Axis {
         let after = outline.piece(finger.tip, finger.base[1] + beyond);
         let mut origin = between(ends[0], ends[1], 0.5);
         let mut direction = unit([tip[0] - origin[0], tip[1] - origin[1]]);
-        let mut axis = Self { origin, direction, length: 0.0, sides: [vec![], vec![]] };
+        let mut axis =
+            Self { origin, direction, length: 0.0, shoulder: 0.0, sides: [vec![], vec![]] };
         for fit in 0..FITS {
             let along = |p: [f64; 2]| {
                 let (x, y) = (p[0] - origin[0], p[1] - origin[1]);
                 [x * direction[0] + y * direction[1], y * direction[0] - x * direction[1]]
             };
             let level = 0.5 * (along(ends[0])[0] + along(ends[1])[0]);
-            axis.origin =
-                [origin[0] + level * direction[0], origin[1] + level * direction[1]];
+            axis.origin = [origin[0] + level * direction[0], origin[1] + level * direction[1]];
             axis.direction = direction;
             axis.length = along(tip)[0] - level;
+            axis.shoulder = (along(ends[0])[0] - level).abs();
             let shift = |p: &[f64; 2]| {
                 let [t, v] = along(*p);
                 [t - level, v]

@@ -64,7 +64,9 @@ pub enum ImageError {
     #[error("the image does not give its resolution: set `dots_per_inch`")]
     NoResolution,
     /// The resolution of the file cannot be that of a scan of a hand.
-    #[error("the image gives its resolution as {horizontal:.1} × {vertical:.1} dots per inch: set `dots_per_inch`")]
+    #[error(
+        "the image gives its resolution as {horizontal:.1} × {vertical:.1} dots per inch: set `dots_per_inch`"
+    )]
     BadResolution {
         /// Dots per inch along rows.
         horizontal: f64,
@@ -122,7 +124,8 @@ impl RgbImage {
             return Err(ImageError::UnknownFormat);
         }
         let mut limits = Limits::default();
-        limits.max_alloc = Some(pixels_max.saturating_mul(PIXEL_BYTES_MAX).saturating_add(DECODER_BYTES));
+        limits.max_alloc =
+            Some(pixels_max.saturating_mul(PIXEL_BYTES_MAX).saturating_add(DECODER_BYTES));
         reader.limits(limits);
         let mut decoder = reader.into_decoder().map_err(decode)?;
         let (width, height) = decoder.dimensions();

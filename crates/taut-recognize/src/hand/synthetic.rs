@@ -207,7 +207,8 @@ impl Generator {
         // Every fifth scan is one of those that were made difficult on purpose (thesis, 7.3).
         let is_hard = scan % 5 == 4;
         let page = pose::Page::new(self.side, self.dots_per_inch.clamp(40.0, 600.0));
-        let mut pose = Pose::draw(&owner, &page, is_hard, &mut self.stream(person, scan, purpose::POSE));
+        let mut pose =
+            Pose::draw(&owner, &page, is_hard, &mut self.stream(person, scan, purpose::POSE));
         let has_sleeve = random.share() < self.rates.sleeve;
         let free = pose.clone();
         let mut defect = kind.map(|kind| pose.damage(kind, &page, &mut random));

@@ -22,9 +22,8 @@ pub fn thesis_boundary(mask: &Mask) -> Option<Vec<[i64; 2]>> {
         mask.contains(x, y)
             && [[1, 0], [0, -1], [-1, 0], [0, 1]].iter().any(|[u, v]| !mask.contains(x + u, y + v))
     };
-    let mut boundary = Mask::from_fn(width as usize, height as usize, |x, y| {
-        is_boundary(x as i64, y as i64)
-    });
+    let mut boundary =
+        Mask::from_fn(width as usize, height as usize, |x, y| is_boundary(x as i64, y as i64));
     let mut waiting: Vec<[i64; 2]> = (0..height)
         .rev()
         .flat_map(|y| (0..width).rev().map(move |x| [x, y]))

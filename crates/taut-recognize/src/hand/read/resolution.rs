@@ -12,10 +12,8 @@ const INCHES_PER_METER: f64 = 1000.0 / 25.4;
 
 /// Finds the resolution in dots per inch; `None` if the file does not give it.
 pub(super) fn find(bytes: &[u8], exif: Option<&[u8]>) -> Result<Option<f64>, ImageError> {
-    let found = png(bytes)
-        .or_else(|| jpeg(bytes))
-        .or_else(|| tiff(bytes))
-        .or_else(|| exif.and_then(tiff));
+    let found =
+        png(bytes).or_else(|| jpeg(bytes)).or_else(|| tiff(bytes)).or_else(|| exif.and_then(tiff));
     let Some([horizontal, vertical]) = found else { return Ok(None) };
     let ratio = horizontal / vertical;
     if !(PLAUSIBLE.contains(&horizontal) && ratio <= RATIO_MAX && ratio >= 1.0 / RATIO_MAX) {

@@ -1,11 +1,11 @@
 //! From the field of distances to an image: colors, shading, covers, noise.
 
+use super::Defect;
 use super::person::Person;
 use super::pose::{KNUCKLE_MM, Page};
 use super::random::{Stream, hash};
 use super::shape::{Strip, distance_to_polygon};
 use super::truth::Outlined;
-use super::Defect;
 use crate::hand::color::{WHITE_XZ, XYZ_OF_RGB, linear_levels};
 use crate::hand::read::RgbImage;
 
@@ -229,11 +229,11 @@ fn shadow_at((edge, depth): (usize, f64), x: usize, y: usize, page: &Page) -> f6
     1.0 - depth * (1.0 - gap / SHADOW_MM).max(0.0)
 }
 
-/// Scatters dust: discs of up to 0.8 mm of any color.
+/// Scatters dust: discs of any color of up to 0.8 mm across, some 6 pixels.
 fn sprinkle(pixels: &mut [u8], page: &Page, noise: &mut Stream) {
     for _ in 0..noise.below(13) {
         let center = [noise.share() * page.width as f64, noise.share() * page.height as f64];
-        let radius = noise.between(0.2, 0.8) * page.pixels_per_mm;
+        let radius = noise.between(0.15, 0.4) * page.pixels_per_mm;
         let color = srgb([
             noise.between(20.0, 80.0),
             noise.between(-5.0, 10.0),

@@ -110,7 +110,11 @@ impl Person {
             thumb_root: [around(-0.30, 0.015), around(0.26, 0.015)],
             metacarpal: 44.0 * around(1.0, 0.06),
             ball: 13.5 * around(1.0, 0.07),
-            skin: [60.0 + 5.0 * around(0.0, 1.0).clamp(-3.0, 3.0), around(13.0, 2.0), around(17.0, 2.0)],
+            skin: [
+                60.0 + 5.0 * around(0.0, 1.0).clamp(-3.0, 3.0),
+                around(13.0, 2.0),
+                around(17.0, 2.0),
+            ],
         }
     }
 }

@@ -11,6 +11,9 @@ const PAGE_INCHES: [f64; 2] = [8.5, 11.7];
 /// The joint of a finger is so far below its web, in mm.
 pub(super) const KNUCKLE_MM: f64 = 22.0;
 
+/// How far above its base a web fills the corner between two fingers, in mm.
+const WEB_END_MM: f64 = 4.0;
+
 /// How far the wrist is from the middle of the page, so that thumb and little finger are as far from its sides, in mm.
 const THUMB_SHIFT_MM: f64 = 18.0;
 
@@ -55,12 +58,7 @@ pub(super) struct Pose {
 
 impl Pose {
     /// Draws a pose; a hard one has any stretch.
-    pub(super) fn draw(
-        person: &Person,
-        page: &Page,
-        is_hard: bool,
-        random: &mut Stream,
-    ) -> Self {
+    pub(super) fn draw(person: &Person, page: &Page, is_hard: bool, random: &mut Stream) -> Self {
         let stretch = if is_hard { random.between(0.25, 1.0) } else { random.between(0.45, 0.9) };
         // Thumbs vary less: lengths and areas of thumb and index finger hang on it, and real ones repeat within 0.36 of
         // the spread between people.
@@ -167,7 +165,8 @@ impl Pose {
 
     fn finger(&self, person: &Person, k: usize) -> Strip {
         let (length, half) = (self.lengths[k], 0.5 * self.breadths[k]);
-        let base = [person.base_x[k - 1] * self.palm_breadth, person.base_y[k - 1] * person.body[1]];
+        let base =
+            [person.base_x[k - 1] * self.palm_breadth, person.base_y[k - 1] * person.body[1]];
         let [sine, cosine] = turn((k as f64 - 2.2) * 4.0);
         let pivot = [base[0] - KNUCKLE_MM * sine, base[1] - KNUCKLE_MM * cosine];
         let [sine, cosine] = turn(self.directions[k]);
@@ -215,14 +214,8 @@ impl Pose {
     pub(super) fn body(&self, person: &Person, strips: &[Strip; 5]) -> Body {
         let (hb, pl) = (self.palm_breadth, person.body[1]);
         let wrist = person.body[3] / 2.9;
-        let palm = [
-            [-0.40, 0.84],
-            [-0.14, 0.89],
-            [0.12, 0.87],
-            [0.36, 0.77],
-            [0.40, 0.55],
-            [0.36, 0.20],
-        ];
+        let palm =
+            [[-0.40, 0.84], [-0.14, 0.89], [0.12, 0.87], [0.36, 0.77], [0.40, 0.55], [0.36, 0.20]];
         let mut corners: Vec<_> = palm.iter().map(|[x, y]| [x * hb, y * pl]).collect();
         corners.extend([[0.42 * wrist, -5.0], [-0.42 * wrist, -5.0]]);
         corners.extend([[-0.36 * hb, 0.25 * pl], [-0.42 * hb, 0.6 * pl]]);
@@ -240,7 +233,8 @@ impl Pose {
         const WEB_MM: f64 = KNUCKLE_MM - 1.5;
         for k in 1..4 {
             let corner = |k: usize, t: f64| strips[k].point(t, 0.0);
-            let web = vec![corner(k, 0.0), corner(k, WEB_MM), corner(k + 1, WEB_MM), corner(k + 1, 0.0)];
+            let web =
+                vec![corner(k, 0.0), corner(k, WEB_MM), corner(k + 1, WEB_MM), corner(k + 1, 0.0)];
             parts.push((Part::Polygon(web, 0.0), 0.5));
         }
         let [root, joint] = self.thumb_joint(person);
@@ -258,7 +252,7 @@ impl Pose {
         parts.push((Part::Strip(Strip::new(root, bone, range, &widths, vec![])), 4.0));
         parts.push((Part::Strip(strips[0].clone()), 4.0));
         parts.extend(strips[1..].iter().map(|strip| (Part::Strip(strip.clone()), person.web)));
-        Body { parts }
+        Body { parts, web_end: KNUCKLE_MM + WEB_END_MM }
     }
 }
 

@@ -80,7 +80,10 @@ impl Strip {
                 [offset + bend * x, slope + bend]
             } else {
                 let into = x + BEND_MM;
-                [offset + bend * into * into / (4.0 * BEND_MM), slope + bend * into / (2.0 * BEND_MM)]
+                [
+                    offset + bend * into * into / (4.0 * BEND_MM),
+                    slope + bend * into / (2.0 * BEND_MM),
+                ]
             }
         })
     }
@@ -99,8 +102,7 @@ impl Strip {
         let span = b[0] - a[0];
         let s = (t - a[0]) / span;
         let rise = s * s * (3.0 - 2.0 * s);
-        a[1] + (b[1] - a[1]) * rise
-            + span * s * (1.0 - s) * ((1.0 - s) * a[2] - s * b[2])
+        a[1] + (b[1] - a[1]) * rise + span * s * (1.0 - s) * ((1.0 - s) * a[2] - s * b[2])
     }
 
     /// Returns a point of the plane from its coordinates along and across.
@@ -157,14 +159,26 @@ pub(super) fn round_union(a: f64, b: f64, radius: f64) -> f64 {
 #[derive(Clone, Debug)]
 pub(super) struct Body {
     pub(super) parts: Vec<(Part, f64)>,
+    /// Where the webs end along the strips of the fingers, in mm: above, fingers that touch have a sharp valley.
+    pub(super) web_end: f64,
 }
+
+/// The length along which the radius of a web falls to zero, in mm.
+const WEB_FADE_MM: f64 = 4.0;
 
 impl Body {
     /// Returns the distance of a point to the union of the parts that `is_near` names.
     pub(super) fn distance(&self, p: [f64; 2], is_near: &[bool]) -> f64 {
         let mut sum = f64::INFINITY;
         for ((part, radius), _) in self.parts.iter().zip(is_near).filter(|(_, near)| **near) {
-            sum = round_union(sum, part.distance(p), *radius);
+            let share = match part {
+                Part::Strip(strip) => {
+                    let above = strip.local(p)[0] - self.web_end;
+                    (1.0 - above / WEB_FADE_MM).clamp(0.0, 1.0)
+                }
+                Part::Polygon(..) => 1.0,
+            };
+            sum = round_union(sum, part.distance(p), radius * share);
         }
         sum
     }

@@ -23,8 +23,8 @@ const STEEPNESS: f64 = 1.5;
 /// A part whose distance is above this changes nothing: the largest radius of a joint.
 const JOINT_MM: f64 = 10.0;
 
-/// Fingers whose outlines meet so far above their web touch, in mm; skin fills less.
-const TOUCHING_MM: f64 = 5.0;
+/// Fingers whose outlines meet so far above their base touch, in mm: the web fills the corner up to here.
+const TOUCHING_MM: f64 = 8.0;
 
 /// A hand on a page as a field of distances.
 #[derive(Clone)]
@@ -54,8 +54,8 @@ impl Outlined {
         Self { pose: pose.clone(), strips, field, page: page.clone(), is_cut_off }
     }
 
-    /// Tests whether a finger touches the next one above their web: the outline has no point between their axes, in the
-    /// lowest 5 mm above the web.
+    /// Tests whether a finger touches the next one above their web: there is no background between
+    /// their axes where the web has ended.
     pub(super) fn is_touching(&self, first: usize) -> bool {
         let (a, b) = (&self.strips[first], &self.strips[first + 1]);
         let level = KNUCKLE_MM + TOUCHING_MM;
@@ -117,8 +117,8 @@ impl Outlined {
         let valleys = std::array::from_fn(|k| {
             let direction = |finger: usize| {
                 let strip = &self.strips[finger];
-                let [a, b] = [strip.point(0.0, 0.0), strip.tip()]
-                    .map(|p| self.pose.to_page(&self.page, p));
+                let [a, b] =
+                    [strip.point(0.0, 0.0), strip.tip()].map(|p| self.pose.to_page(&self.page, p));
                 let size = length(b[0] - a[0], b[1] - a[1]);
                 [(b[0] - a[0]) / size, (b[1] - a[1]) / size]
             };
@@ -130,8 +130,7 @@ impl Outlined {
             };
             // The mean of the places within 0.9 mm of the lowest point, weighted by how far they are below.
             let steps = (places[k + 1] - places[k]) as usize;
-            let heights: Vec<f64> =
-                (0..steps).map(|step| along(places[k] + step as f64)).collect();
+            let heights: Vec<f64> = (0..steps).map(|step| along(places[k] + step as f64)).collect();
             let size = length(bisector[0], bisector[1]);
             let least = heights.iter().copied().fold(f64::INFINITY, f64::min);
             let limit = least + 0.9 * self.page.pixels_per_mm * size;
