@@ -44,6 +44,13 @@ use mask::Mask;
 use outline::{Outline, follow_cracks};
 use thesis::thesis_boundary;
 
+/// The Rust in the page about hands, compiled and run with the tests.
+#[cfg(doctest)]
+mod pages {
+    #[doc = include_str!("../../../docs/hands.md")]
+    struct Hands;
+}
+
 /// Millimeters in an inch.
 const MM_PER_INCH: f64 = 25.4;
 

@@ -16,7 +16,7 @@ pub(super) fn find(bytes: &[u8], exif: Option<&[u8]>) -> Result<Option<f64>, Ima
         png(bytes).or_else(|| jpeg(bytes)).or_else(|| tiff(bytes)).or_else(|| exif.and_then(tiff));
     let Some([horizontal, vertical]) = found else { return Ok(None) };
     let ratio = horizontal / vertical;
-    if !(PLAUSIBLE.contains(&horizontal) && ratio <= RATIO_MAX && ratio >= 1.0 / RATIO_MAX) {
+    if !(PLAUSIBLE.contains(&horizontal) && (1.0 / RATIO_MAX..=RATIO_MAX).contains(&ratio)) {
         return Err(ImageError::BadResolution { horizontal, vertical });
     }
     Ok(Some((horizontal * vertical).sqrt()))
