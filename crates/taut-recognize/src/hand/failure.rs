@@ -1,0 +1,197 @@
+//! Reasons why a picture gives no features that can be relied on.
+
+use std::fmt;
+
+/// The five fingers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub enum FingerName {
+    /// The thumb.
+    Thumb,
+    /// The index finger.
+    Index,
+    /// The middle finger.
+    Middle,
+    /// The ring finger.
+    Ring,
+    /// The little finger.
+    Little,
+}
+
+impl FingerName {
+    /// The five fingers in the order of the features.
+    pub const ALL: [Self; 5] = [Self::Thumb, Self::Index, Self::Middle, Self::Ring, Self::Little];
+}
+
+impl fmt::Display for FingerName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Thumb => "thumb",
+            Self::Index => "index finger",
+            Self::Middle => "middle finger",
+            Self::Ring => "ring finger",
+            Self::Little => "little finger",
+        })
+    }
+}
+
+/// The four edges of an image.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub enum Edge {
+    /// Column 0.
+    Left,
+    /// The last column.
+    Right,
+    /// Row 0.
+    Top,
+    /// The last row.
+    Bottom,
+}
+
+impl Edge {
+    /// The four edges.
+    pub const ALL: [Self; 4] = [Self::Left, Self::Right, Self::Top, Self::Bottom];
+}
+
+impl fmt::Display for Edge {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Left => "left",
+            Self::Right => "right",
+            Self::Top => "top",
+            Self::Bottom => "bottom",
+        })
+    }
+}
+
+/// Why a picture gives no features, or none that can be relied on.
+#[derive(Clone, Debug, PartialEq, thiserror::Error, serde::Serialize, serde::Deserialize)]
+#[non_exhaustive]
+pub enum Failure {
+    /// Nothing of the size of a hand has its color.
+    #[error("no hand: the largest object of its color has {area_mm2:.0} mm²")]
+    NoHand {
+        /// The area of the largest object.
+        area_mm2: f64,
+    },
+    /// Hand and background differ too little in b*.
+    #[error(
+        "low contrast: the colors of hand and background differ by {contrast:.1} in b*, {separation:.1} of their spread"
+    )]
+    LowContrast {
+        /// The difference of the medians of b*.
+        contrast: f64,
+        /// The same over the sum of the median deviations.
+        separation: f64,
+    },
+    /// The outline does not have five tips with four valleys between them.
+    #[error("{found} fingertips found: spread all five fingers")]
+    TooFewTips {
+        /// Tips found.
+        found: usize,
+    },
+    /// The outline has tips and valleys, but a finger between them has no width or no circle.
+    #[error("tips and valleys are found, but a finger cannot be measured")]
+    Unmeasurable,
+    /// The boundary pixels are not one closed curve; only with the tracing of the thesis.
+    #[error("the boundary pixels are not one closed curve")]
+    BrokenBoundary,
+    /// Two fingers touch, or are too close for their valley to be found.
+    #[error("{first} and {second} touch: spread the fingers")]
+    FingersTouching {
+        /// The finger nearer to the thumb.
+        first: FingerName,
+        /// The other one.
+        second: FingerName,
+    },
+    /// A part of the hand that is measured is beyond the edge of the image.
+    #[error("the hand is cut off at the {edge} edge")]
+    CutOff {
+        /// The edge.
+        edge: Edge,
+    },
+    /// A ring, a bandage or the like covers a part of a finger, or a finger is lifted.
+    #[error("something covers the {finger}, as a ring or a bandage does, or it is lifted: {sign}")]
+    RingOrBandage {
+        /// The finger.
+        finger: FingerName,
+        /// What it shows by.
+        sign: Sign,
+    },
+    /// There is a hole in the hand: a cover, or fingers that touch at their tips.
+    #[error("the hand has a hole of {area_mm2:.1} mm²: a cover, or fingers that touch")]
+    Hole {
+        /// The area of the largest hole.
+        area_mm2: f64,
+    },
+    /// Something else of the color of a hand lies beside it.
+    #[error("a second object of {area_mm2:.0} mm² has the color of a hand")]
+    SecondObject {
+        /// Its area.
+        area_mm2: f64,
+    },
+    /// The thumb could be at either end of the row of fingers.
+    #[error(
+        "the thumb cannot be told from the little finger: the ratio of their distances is {ratio:.2}"
+    )]
+    ThumbUnclear {
+        /// The distances of the first two valleys and tips over those of the last two.
+        ratio: f64,
+    },
+    /// The hand is the other one than was asked for.
+    #[error("the picture shows the other hand")]
+    OtherHand,
+    /// The proportions are not those of hands: a part is covered or joined to another one.
+    #[error(
+        "the proportions of the hand are not those of hands: the distance is {distance:.1}, the limit {limit:.1}"
+    )]
+    Proportions {
+        /// The Mahalanobis distance from the mean of hands.
+        distance: f64,
+        /// The largest distance that is accepted.
+        limit: f64,
+    },
+    /// A valley has a corner that skin does not have: something joins the two fingers.
+    #[error("something joins {first} and {second}, or they touch: their valley is not round")]
+    JoinedFingers {
+        /// The finger nearer to the thumb.
+        first: FingerName,
+        /// The other one.
+        second: FingerName,
+    },
+    /// A measure is outside the range of human hands: the outline is not that of a free hand, or the resolution wrong.
+    #[error("{measure} is {value:.2}, outside the range of human hands, {low:.2} to {high:.2}")]
+    Implausible {
+        /// The measure.
+        measure: String,
+        /// Its value.
+        value: f64,
+        /// The least plausible value.
+        low: f64,
+        /// The largest plausible value.
+        high: f64,
+    },
+}
+
+/// A sign that something covers a finger.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub enum Sign {
+    /// Another object lies beyond or beside the finger.
+    SecondPiece,
+    /// The tip is flat.
+    FlatTip,
+    /// The width has a step.
+    WidthStep,
+    /// The tip is not where the axis of the finger leads.
+    SkewTip,
+}
+
+impl fmt::Display for Sign {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::SecondPiece => "a piece of it is apart",
+            Self::FlatTip => "its tip is flat",
+            Self::WidthStep => "its width has a step",
+            Self::SkewTip => "its tip is off its axis",
+        })
+    }
+}

@@ -1,0 +1,281 @@
+//! The plausibility gate: what may have changed the features without a failure before.
+//!
+//! *Problem.* A ring cuts a finger, a bandage widens it, fingers that touch move a valley: five tips and four valleys
+//! are found all the same, and features are wrong by up to two thirds.
+//! *Idea.* Each trap leaves a mark that a free hand does not have: a second piece, a hole, a flat tip, a step in the
+//! width, a valley that is not round, a proportion that hands do not have.
+//! *Limits.* The gate says "may be wrong", not "is wrong": it refuses some free hands too.
+
+use super::Failure;
+use super::components::{Component, LargestComponent};
+use super::failure::{Edge, FingerName, Sign};
+use super::features::Measured;
+use super::landmarks::Landmarks;
+use super::outline::{Outline, distance};
+use super::profile::Axis;
+
+mod model;
+mod shape;
+
+pub use shape::{PROPORTION_NAMES, PROPORTIONS};
+
+/// The image and what was found in it.
+pub(super) struct Sheet<'a> {
+    pub(super) width: usize,
+    pub(super) height: usize,
+    pub(super) mm_per_pixel: f64,
+    pub(super) component: &'a LargestComponent,
+}
+
+/// The least area of a second object in mm²: dust has 3 at most, the tip of a little finger beyond a ring 60.
+const PIECE_MIN_MM2: f64 = 8.0;
+
+/// The largest area of a piece of a finger in mm²; a second hand is larger.
+const PIECE_MAX_MM2: f64 = 2500.0;
+
+/// The least area of a hole that is a concern in mm²; dust within a hand makes smaller ones.
+const HOLE_MIN_MM2: f64 = 4.0;
+
+/// How close the outline comes to an edge that cuts it, in pixels: smoothing moves it away by less than one.
+const EDGE_PIXELS: f64 = 1.5;
+
+/// The width 2 mm below a tip over that at 70 % of the length: 0.55 to 0.72 for round tips, 0.95 for flat ones.
+const FLAT_TIP: f64 = 0.80;
+
+/// The largest change of the width along 3 mm beyond that of its surroundings, in mm: free fingers have 0.15 in the
+/// median. The thumb is short and its joint thick.
+const WIDTH_STEP_MM: [f64; 5] = [0.75, 0.45, 0.45, 0.45, 0.45];
+
+/// The distance between the two sides of a valley 2.5 mm along the outline from its bottom, at least, in mm.
+const VALLEY_GAP_MM: f64 = 0.5;
+
+/// The tip may be so far from the axis, in widths of the finger.
+const TIP_OFFSET: f64 = 0.25;
+
+/// What the gate measured on a hand.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Evidence {
+    /// The width 2 mm below each tip over that at 70 % of the length: 0.55 to 0.72 for round tips, 0.95 for flat ones.
+    pub tip_ratio: [f64; 5],
+    /// The distance of each tip from the axis of its finger, over the width at 70 % of the length.
+    pub tip_offset: [f64; 5],
+    /// The largest change of each finger's width along 3 mm beyond that of its surroundings, in mm.
+    pub width_step: [f64; 5],
+    /// The distance between the sides of each valley, 2.5 mm along the outline from its bottom, in mm.
+    pub valley_gap: [f64; 4],
+    /// The largest change of direction along 1.5 mm of the outline near each valley, in radians.
+    pub valley_turn: [f64; 4],
+    /// Proportions of the hand, in the order of [`PROPORTION_NAMES`].
+    pub proportions: [f64; PROPORTIONS],
+}
+
+impl Evidence {
+    pub(super) fn new(
+        landmarks: &Landmarks,
+        axes: &[Axis; 5],
+        measured: &Measured,
+        mm_per_pixel: f64,
+    ) -> Self {
+        let gaps = std::array::from_fn(|k| valley_gap(landmarks, k, mm_per_pixel));
+        let turns = std::array::from_fn(|k| valley_turn(landmarks, k, mm_per_pixel));
+        let tips = [0, 1, 2, 3, 4].map(|k| tip_measures(&axes[k], mm_per_pixel));
+        Self {
+            tip_ratio: tips.map(|[ratio, _]| ratio),
+            tip_offset: tips.map(|[_, offset]| offset),
+            width_step: std::array::from_fn(|k| {
+                width_step(&axes[k], FingerName::ALL[k], mm_per_pixel)
+            }),
+            valley_gap: gaps,
+            valley_turn: turns,
+            proportions: shape::proportions(landmarks, axes, measured, &gaps, &turns),
+        }
+    }
+}
+
+/// Returns everything about a measured hand that no free hand shows.
+pub(super) fn concerns(
+    landmarks: &Landmarks,
+    evidence: &Evidence,
+    measured: &Measured,
+    sheet: &Sheet<'_>,
+) -> Vec<Failure> {
+    let mut found = vec![];
+    found.extend(cut_off(landmarks, measured, sheet));
+    found.extend(second_piece(landmarks, sheet));
+    found.extend(hole(sheet));
+    for k in 0..4 {
+        let (first, second) = (FingerName::ALL[k], FingerName::ALL[k + 1]);
+        if evidence.valley_gap[k] < VALLEY_GAP_MM {
+            found.push(Failure::FingersTouching { first, second });
+        }
+    }
+    for (k, finger) in FingerName::ALL.into_iter().enumerate() {
+        let sign = if evidence.tip_ratio[k] > FLAT_TIP {
+            Some(Sign::FlatTip)
+        } else if evidence.tip_offset[k] > TIP_OFFSET {
+            Some(Sign::SkewTip)
+        } else if evidence.width_step[k] > WIDTH_STEP_MM[k] {
+            Some(Sign::WidthStep)
+        } else {
+            None
+        };
+        found.extend(sign.map(|sign| Failure::RingOrBandage { finger, sign }));
+    }
+    found.extend(shape::concerns(evidence, measured));
+    found
+}
+
+/// Returns the reason for which no landmarks were found, if it is another than that there are too few.
+pub(super) fn explain(failure: Failure, sheet: &Sheet<'_>) -> Failure {
+    if !matches!(failure, Failure::TooFewTips { .. } | Failure::ThumbUnclear { .. }) {
+        return failure;
+    }
+    // The wrist is at the edge with the longest contact; a hand at another one is cut off.
+    let contact = Edge::ALL.map(|edge| (contact(sheet, edge), edge));
+    let wrist = contact.iter().max_by_key(|(length, _)| *length).map(|(_, edge)| *edge);
+    let cut = contact.iter().filter(|(length, edge)| *length > 0 && Some(*edge) != wrist);
+    if let Some((_, edge)) = cut.max_by_key(|(length, _)| *length) {
+        return Failure::CutOff { edge: *edge };
+    }
+    hole(sheet).unwrap_or(failure)
+}
+
+/// Returns how many pixels of the component are at an edge of the image.
+fn contact(sheet: &Sheet<'_>, edge: Edge) -> usize {
+    let mask = &sheet.component.mask;
+    let (width, height) = (sheet.width as i64, sheet.height as i64);
+    let count = |length: i64, pixel: &dyn Fn(i64) -> (i64, i64)| {
+        (0..length).map(pixel).filter(|&(x, y)| mask.contains(x, y)).count()
+    };
+    match edge {
+        Edge::Left => count(height, &|y| (0, y)),
+        Edge::Right => count(height, &|y| (width - 1, y)),
+        Edge::Top => count(width, &|x| (x, 0)),
+        Edge::Bottom => count(width, &|x| (x, height - 1)),
+    }
+}
+
+/// Tests whether the outline meets an edge of the image above the wrist.
+fn cut_off(landmarks: &Landmarks, measured: &Measured, sheet: &Sheet<'_>) -> Option<Failure> {
+    let palm = measured.circles[9];
+    let valleys = landmarks.valley_points();
+    let knuckles = [0, 1].map(|c| 0.5 * (valleys[1][c] + valleys[2][c]));
+    let up = [0, 1].map(|c| knuckles[c] - palm.center[c]);
+    let length = (up[0] * up[0] + up[1] * up[1]).sqrt().max(f64::MIN_POSITIVE);
+    let (width, height) = (sheet.width as f64, sheet.height as f64);
+    let edge = landmarks.outline.points().iter().find_map(|&[x, y]| {
+        let along = ((x - palm.center[0]) * up[0] + (y - palm.center[1]) * up[1]) / length;
+        if along < -palm.radius {
+            return None;
+        }
+        let gaps =
+            [(x, Edge::Left), (width - x, Edge::Right), (y, Edge::Top), (height - y, Edge::Bottom)];
+        gaps.into_iter().find(|(gap, _)| *gap < EDGE_PIXELS).map(|(_, edge)| edge)
+    })?;
+    Some(Failure::CutOff { edge })
+}
+
+/// Finds a second object: the piece of a finger beyond a ring, or something else.
+fn second_piece(landmarks: &Landmarks, sheet: &Sheet<'_>) -> Option<Failure> {
+    let square = sheet.mm_per_pixel * sheet.mm_per_pixel;
+    let area = |object: &Component| object.area as f64 * square;
+    let object = sheet.component.others.iter().find(|object| area(object) >= PIECE_MIN_MM2)?;
+    let tips = landmarks.tip_points();
+    let nearest = (0..5).min_by(|&a, &b| {
+        distance(tips[a], object.center).total_cmp(&distance(tips[b], object.center))
+    })?;
+    // A piece is at most a finger's length beyond the stump's tip.
+    const PIECE_DISTANCE_MM: f64 = 70.0;
+    let gap = distance(tips[nearest], object.center) * sheet.mm_per_pixel;
+    Some(if area(object) <= PIECE_MAX_MM2 && gap <= PIECE_DISTANCE_MM {
+        Failure::RingOrBandage { finger: FingerName::ALL[nearest], sign: Sign::SecondPiece }
+    } else {
+        Failure::SecondObject { area_mm2: area(object) }
+    })
+}
+
+fn hole(sheet: &Sheet<'_>) -> Option<Failure> {
+    let hole = sheet.component.holes.first()?;
+    let area_mm2 = hole.area as f64 * sheet.mm_per_pixel * sheet.mm_per_pixel;
+    (area_mm2 >= HOLE_MIN_MM2).then_some(Failure::Hole { area_mm2 })
+}
+
+/// Returns the distance in mm between the sides of a valley, 2.5 mm along the outline from its bottom.
+fn valley_gap(landmarks: &Landmarks, valley: usize, mm_per_pixel: f64) -> f64 {
+    const ARC_MM: f64 = 2.5;
+    let outline: &Outline = &landmarks.outline;
+    let arc = ARC_MM / mm_per_pixel / outline.step();
+    let place = landmarks.valleys[valley];
+    distance(outline.at(place - arc), outline.at(place + arc)) * mm_per_pixel
+}
+
+/// Returns the largest change of direction along 1.5 mm of the outline within 6 mm of a valley, in radians; to the
+/// outside, as the bottom of a valley has it.
+fn valley_turn(landmarks: &Landmarks, valley: usize, mm_per_pixel: f64) -> f64 {
+    const REACH_MM: f64 = 6.0;
+    const ARC_MM: f64 = 1.5;
+    const CHORD_MM: f64 = 0.8;
+    let outline = &landmarks.outline;
+    let places = |mm: f64| mm / mm_per_pixel / outline.step();
+    let (arc, chord, reach) = (places(ARC_MM), places(CHORD_MM), places(REACH_MM));
+    let tangent = |place: f64| {
+        let (a, b) = (outline.at(place - 0.5 * chord), outline.at(place + 0.5 * chord));
+        [b[0] - a[0], b[1] - a[1]]
+    };
+    // Landmarks of a right hand go against the outline's own direction.
+    let sign = if landmarks.side == super::Side::Left { -1.0 } else { 1.0 };
+    let middle = landmarks.valleys[valley];
+    (-(reach as i64)..=reach as i64)
+        .map(|k| {
+            let place = middle + k as f64;
+            let (a, b) = (tangent(place - 0.5 * arc), tangent(place + 0.5 * arc));
+            sign * (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1])
+        })
+        .fold(0.0, f64::max)
+}
+
+/// Returns the width 2 mm below the tip over that at 70 %, and the tip's distance from the axis over that width;
+/// infinite if the finger has no such width.
+fn tip_measures(axis: &Axis, mm_per_pixel: f64) -> [f64; 2] {
+    const DEPTH_MM: f64 = 2.0;
+    let top = axis.top() - DEPTH_MM / mm_per_pixel;
+    match axis.widths(&[top, 0.7 * axis.length])[..] {
+        [Some(near_tip), Some(below)] if below > 0.0 => {
+            [near_tip / below, axis.tip_offset().abs() / below]
+        }
+        _ => [f64::INFINITY; 2],
+    }
+}
+
+/// Returns the largest change of the width along 3 mm, beyond a third of that along the 9 mm around it, in mm.
+fn width_step(axis: &Axis, finger: FingerName, mm_per_pixel: f64) -> f64 {
+    /// Distance between stations in mm.
+    const STATION_MM: f64 = 0.5;
+    /// Stations from the middle to the ends of 3 and of 9 mm.
+    const REACH: [usize; 2] = [3, 9];
+    /// Above this the finger's end is round, in mm from the tip.
+    const TIP_MM: f64 = 7.0;
+    /// The sides of a finger are straight from here on, in mm above the higher one of its valleys.
+    const SHOULDER_MM: f64 = 2.0;
+    // Below this the webs begin, and the ball of the thumb.
+    let base = match finger {
+        FingerName::Thumb => 0.30,
+        FingerName::Index => 0.15,
+        _ => 0.08,
+    };
+    let low = (base * axis.length).max(axis.shoulder + SHOULDER_MM / mm_per_pixel);
+    let high = axis.length - TIP_MM / mm_per_pixel;
+    let step = STATION_MM / mm_per_pixel;
+    let count = ((high - low) / step).max(0.0) as usize;
+    let stations: Vec<f64> = (0..count).map(|k| high - k as f64 * step).collect();
+    let widths = axis.widths(&stations);
+    let change =
+        |middle: usize, reach: usize| Some(widths[middle + reach]? - widths[middle - reach]?);
+    let ratio = REACH[0] as f64 / REACH[1] as f64;
+    (REACH[1]..count.saturating_sub(REACH[1]))
+        .filter_map(|middle| {
+            Some((change(middle, REACH[0])? - ratio * change(middle, REACH[1])?).abs())
+        })
+        .fold(0.0, f64::max)
+        * mm_per_pixel
+}

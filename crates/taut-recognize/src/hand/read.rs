@@ -1,0 +1,198 @@
+//! Images from files: PNG, JPEG and TIFF, with limits on memory, turned upright, with their resolution.
+//!
+//! 16-bit channels are rounded to 8, gray becomes RGB, CMYK is converted by the decoder, and transparency is laid over
+//! white. Color profiles are not applied: values are taken as sRGB.
+
+mod resolution;
+
+use std::io::Cursor;
+use std::path::PathBuf;
+
+use image::{DynamicImage, ImageDecoder, ImageReader, Limits};
+
+/// An image of three bytes for each pixel, by rows, in sRGB.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RgbImage {
+    pixels: Vec<u8>,
+    width: usize,
+    height: usize,
+    dots_per_inch: Option<f64>,
+}
+
+/// Why an image cannot be read.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ImageError {
+    /// The file cannot be opened or read.
+    #[error("{}: {error}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        error: String,
+    },
+    /// The bytes are of no format that is read.
+    #[error("not an image in PNG, JPEG or TIFF")]
+    UnknownFormat,
+    /// The image is damaged or of a kind that the decoder does not know.
+    #[error("the image cannot be decoded: {0}")]
+    Decode(String),
+    /// The image has no pixels.
+    #[error("the image is empty")]
+    Empty,
+    /// The image is larger than the limit.
+    #[error("the image has {width} × {height} pixels, more than the limit of {limit}")]
+    TooLarge {
+        /// Its columns.
+        width: u32,
+        /// Its rows.
+        height: u32,
+        /// The largest number of pixels.
+        limit: u64,
+    },
+    /// The buffer does not have three bytes for each pixel.
+    #[error("{bytes} bytes are not {width} × {height} pixels of 3 bytes")]
+    WrongSize {
+        /// Bytes given.
+        bytes: usize,
+        /// Columns.
+        width: usize,
+        /// Rows.
+        height: usize,
+    },
+    /// Neither the file nor the options give a resolution, without which there are no millimeters.
+    #[error("the image does not give its resolution: set `dots_per_inch`")]
+    NoResolution,
+    /// The resolution of the file cannot be that of a scan of a hand.
+    #[error(
+        "the image gives its resolution as {horizontal:.1} × {vertical:.1} dots per inch: set `dots_per_inch`"
+    )]
+    BadResolution {
+        /// Dots per inch along rows.
+        horizontal: f64,
+        /// Dots per inch along columns.
+        vertical: f64,
+    },
+}
+
+impl RgbImage {
+    /// Makes an image from three bytes for each pixel, by rows.
+    ///
+    /// # Errors
+    /// [`ImageError::Empty`] and [`ImageError::WrongSize`].
+    pub fn new(
+        pixels: Vec<u8>,
+        width: usize,
+        height: usize,
+        dots_per_inch: Option<f64>,
+    ) -> Result<Self, ImageError> {
+        if width == 0 || height == 0 {
+            return Err(ImageError::Empty);
+        }
+        let wanted = width.checked_mul(height).and_then(|count| count.checked_mul(3));
+        if wanted != Some(pixels.len()) {
+            return Err(ImageError::WrongSize { bytes: pixels.len(), width, height });
+        }
+        let dots_per_inch = dots_per_inch.filter(|value| value.is_finite() && *value > 0.0);
+        Ok(Self { pixels, width, height, dots_per_inch })
+    }
+
+    /// Makes an image of a generator, whose sizes agree.
+    pub(super) fn from_parts(
+        pixels: Vec<u8>,
+        width: usize,
+        height: usize,
+        dots_per_inch: f64,
+    ) -> Self {
+        Self { pixels, width, height, dots_per_inch: Some(dots_per_inch) }
+    }
+
+    /// Decodes an image file of at most `pixels_max` pixels.
+    ///
+    /// # Errors
+    /// [`ImageError`]: the bytes are no image, or one that is too large, damaged, or of an impossible resolution.
+    pub fn decode(bytes: &[u8], pixels_max: u64) -> Result<Self, ImageError> {
+        /// Bytes of a decoded pixel at most, 16 bits in four channels, and as much again while it is converted.
+        const PIXEL_BYTES_MAX: u64 = 16;
+        /// What a decoder needs beside its pixels.
+        const DECODER_BYTES: u64 = 32 << 20;
+        let decode = |error: image::ImageError| ImageError::Decode(error.to_string());
+        let mut reader = ImageReader::new(Cursor::new(bytes))
+            .with_guessed_format()
+            .map_err(|error| ImageError::Decode(error.to_string()))?;
+        if reader.format().is_none() {
+            return Err(ImageError::UnknownFormat);
+        }
+        let mut limits = Limits::default();
+        limits.max_alloc =
+            Some(pixels_max.saturating_mul(PIXEL_BYTES_MAX).saturating_add(DECODER_BYTES));
+        reader.limits(limits);
+        let mut decoder = reader.into_decoder().map_err(decode)?;
+        let (width, height) = decoder.dimensions();
+        if width == 0 || height == 0 {
+            return Err(ImageError::Empty);
+        }
+        if u64::from(width) * u64::from(height) > pixels_max {
+            return Err(ImageError::TooLarge { width, height, limit: pixels_max });
+        }
+        let exif = decoder.exif_metadata().ok().flatten();
+        let orientation = decoder.orientation().map_err(decode)?;
+        let mut decoded = DynamicImage::from_decoder(decoder).map_err(decode)?;
+        decoded.apply_orientation(orientation);
+        let dots_per_inch = resolution::find(bytes, exif.as_deref())?;
+        let (width, height) = (decoded.width() as usize, decoded.height() as usize);
+        let pixels = if decoded.color().has_alpha() {
+            over_white(decoded.into_rgba8().into_raw())
+        } else {
+            decoded.into_rgb8().into_raw()
+        };
+        Self::new(pixels, width, height, dots_per_inch)
+    }
+
+    /// Returns the bytes, three for each pixel, by rows.
+    #[must_use]
+    pub fn pixels(&self) -> &[u8] {
+        &self.pixels
+    }
+
+    /// Returns the number of columns.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Returns the number of rows.
+    #[must_use]
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// Returns the resolution, if the file gives it.
+    #[must_use]
+    pub fn dots_per_inch(&self) -> Option<f64> {
+        self.dots_per_inch
+    }
+
+    /// Returns a pixel; `None` beyond the image.
+    #[must_use]
+    pub fn get(&self, x: usize, y: usize) -> Option<[u8; 3]> {
+        if x >= self.width || y >= self.height {
+            return None;
+        }
+        let at = 3 * (y * self.width + x);
+        Some([self.pixels[at], self.pixels[at + 1], self.pixels[at + 2]])
+    }
+}
+
+/// Lays pixels of red, green, blue and opacity over white.
+fn over_white(rgba: Vec<u8>) -> Vec<u8> {
+    let blend = |value: u8, opacity: u8| {
+        let (value, opacity) = (u32::from(value), u32::from(opacity));
+        ((value * opacity + 255 * (255 - opacity) + 127) / 255) as u8
+    };
+    let mut rgb = Vec::with_capacity(rgba.len() / 4 * 3);
+    for pixel in rgba.chunks_exact(4) {
+        rgb.extend(pixel[..3].iter().map(|&value| blend(value, pixel[3])));
+    }
+    rgb
+}

@@ -1,0 +1,124 @@
+//! The resolution that an image file gives: pHYs of PNG, JFIF and EXIF of JPEG, the tags of TIFF.
+
+use super::ImageError;
+
+/// Dots per inch that a scan of a hand can have.
+const PLAUSIBLE: std::ops::RangeInclusive<f64> = 20.0..=2400.0;
+
+/// The largest ratio of the resolutions along rows and columns: pixels are taken as square.
+const RATIO_MAX: f64 = 1.01;
+
+const INCHES_PER_METER: f64 = 1000.0 / 25.4;
+
+/// Finds the resolution in dots per inch; `None` if the file does not give it.
+pub(super) fn find(bytes: &[u8], exif: Option<&[u8]>) -> Result<Option<f64>, ImageError> {
+    let found =
+        png(bytes).or_else(|| jpeg(bytes)).or_else(|| tiff(bytes)).or_else(|| exif.and_then(tiff));
+    let Some([horizontal, vertical]) = found else { return Ok(None) };
+    let ratio = horizontal / vertical;
+    if !(PLAUSIBLE.contains(&horizontal) && (1.0 / RATIO_MAX..=RATIO_MAX).contains(&ratio)) {
+        return Err(ImageError::BadResolution { horizontal, vertical });
+    }
+    Ok(Some((horizontal * vertical).sqrt()))
+}
+
+fn big_endian_32(bytes: &[u8], at: usize) -> Option<u32> {
+    let part = bytes.get(at..at.checked_add(4)?)?;
+    Some(u32::from_be_bytes(part.try_into().ok()?))
+}
+
+fn big_endian_16(bytes: &[u8], at: usize) -> Option<u16> {
+    let part = bytes.get(at..at.checked_add(2)?)?;
+    Some(u16::from_be_bytes(part.try_into().ok()?))
+}
+
+/// Reads the chunk pHYs of a PNG: pixels per meter.
+fn png(bytes: &[u8]) -> Option<[f64; 2]> {
+    let mut at = 8;
+    if !bytes.starts_with(b"\x89PNG\r\n\x1a\n") {
+        return None;
+    }
+    loop {
+        let length = big_endian_32(bytes, at)? as usize;
+        match bytes.get(at + 4..at + 8)? {
+            b"pHYs" => {
+                let (x, y) = (big_endian_32(bytes, at + 8)?, big_endian_32(bytes, at + 12)?);
+                let is_metric = *bytes.get(at + 16)? == 1;
+                return is_metric.then(|| [x, y].map(|n| f64::from(n) / INCHES_PER_METER));
+            }
+            // The chunk stands before the pixels.
+            b"IDAT" | b"IEND" => return None,
+            _ => at = at.checked_add(length)?.checked_add(12)?,
+        }
+    }
+}
+
+/// Reads the density of the JFIF segment of a JPEG.
+fn jpeg(bytes: &[u8]) -> Option<[f64; 2]> {
+    if !bytes.starts_with(&[0xff, 0xd8]) {
+        return None;
+    }
+    let mut at = 2;
+    loop {
+        if *bytes.get(at)? != 0xff {
+            return None;
+        }
+        let marker = *bytes.get(at + 1)?;
+        let length = usize::from(big_endian_16(bytes, at + 2)?);
+        match marker {
+            0xe0 if bytes.get(at + 4..at + 9)? == b"JFIF\0" => {
+                let scale = match *bytes.get(at + 11)? {
+                    1 => 1.0,
+                    2 => 2.54,
+                    _ => return None,
+                };
+                let (x, y) = (big_endian_16(bytes, at + 12)?, big_endian_16(bytes, at + 14)?);
+                return Some([x, y].map(|density| f64::from(density) * scale));
+            }
+            // The pixels begin.
+            0xda | 0xd9 => return None,
+            _ => at = at.checked_add(length)?.checked_add(2)?,
+        }
+    }
+}
+
+/// Reads the tags of a TIFF, or of EXIF data, which have the same form.
+fn tiff(bytes: &[u8]) -> Option<[f64; 2]> {
+    const HORIZONTAL: u16 = 0x011a;
+    const VERTICAL: u16 = 0x011b;
+    const UNIT: u16 = 0x0128;
+    let is_little = match bytes.get(..4)? {
+        [b'I', b'I', 42, 0] => true,
+        [b'M', b'M', 0, 42] => false,
+        _ => return None,
+    };
+    let short = |at: usize| {
+        let value = big_endian_16(bytes, at)?;
+        Some(if is_little { value.swap_bytes() } else { value })
+    };
+    let long = |at: usize| {
+        let value = big_endian_32(bytes, at)?;
+        Some(if is_little { value.swap_bytes() } else { value })
+    };
+    let ratio = |at: usize| {
+        let (numerator, denominator) = (long(at)?, long(at.checked_add(4)?)?);
+        (denominator > 0).then(|| f64::from(numerator) / f64::from(denominator))
+    };
+    let directory = long(4)? as usize;
+    let (mut x, mut y, mut unit) = (None, None, 2);
+    for entry in 0..usize::from(short(directory)?) {
+        let at = directory.checked_add(2 + 12 * entry)?;
+        match short(at)? {
+            HORIZONTAL => x = ratio(long(at + 8)? as usize),
+            VERTICAL => y = ratio(long(at + 8)? as usize),
+            UNIT => unit = short(at + 8)?,
+            _ => {}
+        }
+    }
+    let scale = match unit {
+        2 => 1.0,
+        3 => 2.54,
+        _ => return None,
+    };
+    Some([x? * scale, y? * scale])
+}

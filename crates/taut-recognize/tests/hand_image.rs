@@ -1,0 +1,203 @@
+//! Images from files: formats, resolution, rotation, limits and damage; each gives an image or a typed answer.
+
+use std::io::Cursor;
+
+use image::{DynamicImage, ImageFormat};
+use taut_recognize::hand::color::{FIXED_THRESHOLD, ThresholdTable, lab_b};
+use taut_recognize::hand::{Failure, Hand, HandError, HandOptions, ImageError, RgbImage};
+
+const LIMIT: u64 = 1_000_000;
+
+fn encode(image: &DynamicImage, format: ImageFormat) -> Vec<u8> {
+    let mut bytes = Cursor::new(vec![]);
+    image.write_to(&mut bytes, format).expect("an image is written to memory");
+    bytes.into_inner()
+}
+
+/// An image of 4 × 2 pixels, all different.
+fn sample() -> image::RgbImage {
+    image::RgbImage::from_fn(4, 2, |x, y| image::Rgb([10 * x as u8, 100 + y as u8, 200]))
+}
+
+/// Puts a chunk pHYs behind the header of a PNG; its checksum is that of its type and data.
+fn with_density(png: &[u8], x: u32, y: u32, unit: u8) -> Vec<u8> {
+    let mut body = b"pHYs".to_vec();
+    body.extend(x.to_be_bytes());
+    body.extend(y.to_be_bytes());
+    body.push(unit);
+    let mut checksum = flate2::Crc::new();
+    checksum.update(&body);
+    let mut bytes = png[..33].to_vec();
+    bytes.extend(9u32.to_be_bytes());
+    bytes.extend(&body);
+    bytes.extend(checksum.sum().to_be_bytes());
+    bytes.extend(&png[33..]);
+    bytes
+}
+
+#[test]
+fn formats_give_the_same_pixels() {
+    let image = DynamicImage::from(sample());
+    let sixteen = DynamicImage::from(image.to_rgb16());
+    let alpha = DynamicImage::from(image.to_rgba8());
+    for (kind, format) in [
+        (&image, ImageFormat::Png),
+        (&image, ImageFormat::Tiff),
+        (&sixteen, ImageFormat::Png),
+        (&sixteen, ImageFormat::Tiff),
+        (&alpha, ImageFormat::Png),
+    ] {
+        let found = RgbImage::decode(&encode(kind, format), LIMIT).expect("an image is read");
+        assert_eq!(found.pixels(), sample().as_raw().as_slice(), "{format:?}");
+        assert_eq!((found.width(), found.height()), (4, 2));
+    }
+    let gray = DynamicImage::from(image.to_luma16());
+    let found = RgbImage::decode(&encode(&gray, ImageFormat::Png), LIMIT).expect("gray is read");
+    assert!(found.pixels().chunks(3).all(|p| p[0] == p[1] && p[1] == p[2]));
+}
+
+#[test]
+fn transparent_pixels_are_white() {
+    let clear = image::RgbaImage::from_pixel(2, 1, image::Rgba([9, 9, 9, 0]));
+    let bytes = encode(&DynamicImage::from(clear), ImageFormat::Png);
+    assert_eq!(RgbImage::decode(&bytes, LIMIT).expect("an image").pixels(), [255; 6]);
+}
+
+#[test]
+fn resolution_is_that_of_the_file() {
+    let png = encode(&DynamicImage::from(sample()), ImageFormat::Png);
+    let density = |bytes: &[u8]| RgbImage::decode(bytes, LIMIT).map(|image| image.dots_per_inch());
+    assert_eq!(density(&png), Ok(None));
+    let found = density(&with_density(&png, 3543, 3543, 1)).expect("a PNG").expect("a resolution");
+    assert!((found - 89.9922).abs() < 1e-3, "{found}");
+    assert_eq!(density(&with_density(&png, 3543, 3543, 0)), Ok(None), "a ratio is no resolution");
+    for (x, y) in [(3543, 4000), (1, 1), (0, 0), (u32::MAX, u32::MAX)] {
+        let found = density(&with_density(&png, x, y, 1));
+        assert!(matches!(found, Err(ImageError::BadResolution { .. })), "{x} {y}: {found:?}");
+    }
+    // JFIF: the density is in bytes 13 to 17, its unit in byte 13.
+    let mut jpeg = encode(&DynamicImage::from(sample()), ImageFormat::Jpeg);
+    assert_eq!(&jpeg[6..10], b"JFIF");
+    jpeg[13..18].copy_from_slice(&[1, 0, 150, 0, 150]);
+    assert_eq!(density(&jpeg), Ok(Some(150.0)));
+    jpeg[13..18].copy_from_slice(&[2, 0, 100, 0, 100]);
+    assert_eq!(density(&jpeg), Ok(Some(254.0)));
+}
+
+#[test]
+fn exif_turns_the_image_and_gives_a_resolution() {
+    let jpeg = encode(&DynamicImage::from(sample()), ImageFormat::Jpeg);
+    // One directory: orientation 6 (turn right), resolutions 300 per inch.
+    let mut exif = b"Exif\0\0MM\0\x2a\0\0\0\x08\0\x03".to_vec();
+    exif.extend(b"\x01\x12\0\x03\0\0\0\x01\0\x06\0\0");
+    exif.extend(b"\x01\x1a\0\x05\0\0\0\x01\0\0\0\x32\x01\x1b\0\x05\0\0\0\x01\0\0\0\x32");
+    exif.extend(b"\0\0\0\0\0\0\x01\x2c\0\0\0\x01");
+    let length = (exif.len() + 2) as u16;
+    // In place of the JFIF segment, so that no other density is there.
+    let after = 4 + usize::from(u16::from_be_bytes([jpeg[4], jpeg[5]]));
+    let mut bytes = vec![0xff, 0xd8, 0xff, 0xe1];
+    bytes.extend(length.to_be_bytes());
+    bytes.extend(&exif);
+    bytes.extend(&jpeg[after..]);
+    let found = RgbImage::decode(&bytes, LIMIT).expect("a JPEG with EXIF is read");
+    assert_eq!((found.width(), found.height()), (2, 4));
+    assert_eq!(found.dots_per_inch(), Some(300.0));
+}
+
+#[test]
+fn damaged_and_foreign_files_are_typed() {
+    let decode = |bytes: &[u8]| RgbImage::decode(bytes, LIMIT);
+    assert_eq!(decode(b""), Err(ImageError::UnknownFormat));
+    assert_eq!(decode(b"no image"), Err(ImageError::UnknownFormat));
+    for format in [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::Tiff] {
+        let whole = encode(&DynamicImage::from(sample()), format);
+        for length in 0..whole.len() {
+            // Some cuts leave all pixels; none panics.
+            if let Err(error) = decode(&whole[..length]) {
+                assert!(!error.to_string().is_empty());
+            }
+        }
+        assert!(decode(&whole[..whole.len() / 2]).is_err(), "{format:?}");
+    }
+    let large = DynamicImage::from(image::RgbImage::new(1001, 1000));
+    let found = decode(&encode(&large, ImageFormat::Png));
+    assert_eq!(found, Err(ImageError::TooLarge { width: 1001, height: 1000, limit: LIMIT }));
+    assert_eq!(
+        RgbImage::new(vec![0; 5], 1, 2, None),
+        Err(ImageError::WrongSize { bytes: 5, width: 1, height: 2 })
+    );
+    assert_eq!(RgbImage::new(vec![], 0, 2, None), Err(ImageError::Empty));
+    let missing = Hand::from_file("no such file.png", &HandOptions::default());
+    assert!(matches!(missing, Err(HandError::Image(ImageError::Io { .. }))));
+}
+
+#[test]
+fn a_header_that_promises_too_much_allocates_nothing() {
+    // A PNG of 60 000 × 60 000 pixels in 60 bytes.
+    let png = encode(&DynamicImage::from(sample()), ImageFormat::Png);
+    let mut header = b"IHDR".to_vec();
+    header.extend(60_000u32.to_be_bytes());
+    header.extend(60_000u32.to_be_bytes());
+    header.extend([8, 2, 0, 0, 0]);
+    let mut checksum = flate2::Crc::new();
+    checksum.update(&header);
+    let mut bytes = png[..12].to_vec();
+    bytes.extend(&header);
+    bytes.extend(checksum.sum().to_be_bytes());
+    bytes.extend(&png[33..]);
+    let found = RgbImage::decode(&bytes, 100_000_000);
+    assert!(
+        matches!(found, Err(ImageError::TooLarge { .. } | ImageError::Decode(_))),
+        "{:?}",
+        found.map(|image| image.width())
+    );
+}
+
+#[test]
+fn pages_without_a_hand_are_typed() {
+    let page = |color: [u8; 3], side: usize| {
+        let pixels = color.iter().copied().cycle().take(3 * side * side).collect();
+        RgbImage::new(pixels, side, side, Some(90.0)).expect("the sizes agree")
+    };
+    let options = HandOptions::default();
+    for color in [[0, 0, 0], [255, 255, 255], [128, 128, 128], [220, 180, 150]] {
+        for side in [1, 2, 63, 64, 65, 300] {
+            let found = Hand::from_rgb(&page(color, side), &options);
+            assert!(
+                matches!(
+                    found,
+                    Err(HandError::Hand(Failure::NoHand { .. } | Failure::LowContrast { .. }))
+                ),
+                "{color:?} {side}: {found:?}"
+            );
+        }
+    }
+    let nameless = RgbImage::new(vec![0; 12], 2, 2, None).expect("the sizes agree");
+    let found = Hand::from_rgb(&nameless, &options);
+    assert!(matches!(found, Err(HandError::Image(ImageError::NoResolution))), "{found:?}");
+    for dots_per_inch in [0.0, -1.0, f64::NAN, 1e9] {
+        let options = HandOptions { dots_per_inch: Some(dots_per_inch), ..Default::default() };
+        let found = Hand::from_rgb(&nameless, &options);
+        assert!(matches!(found, Err(HandError::Option { name: "dots_per_inch", .. })), "{found:?}");
+    }
+}
+
+#[test]
+fn the_table_of_a_threshold_is_the_formula() {
+    // Every red and green with some blues, among them those at the limit.
+    for threshold in [FIXED_THRESHOLD, -3.0, 20.0] {
+        let table = ThresholdTable::new(threshold);
+        for red in (0..=255u8).step_by(5) {
+            for green in (0..=255u8).step_by(3) {
+                for blue in (0..=255u8).step_by(7) {
+                    let rgb = [red, green, blue];
+                    assert_eq!(table.is_above(rgb), lab_b(rgb) > threshold, "{rgb:?}");
+                }
+            }
+        }
+    }
+    // Published values of CIELAB under D65: white and gray have none, blue −107.86, yellow 94.48.
+    assert!(lab_b([255, 255, 255]).abs() < 0.02);
+    assert!((lab_b([0, 0, 255]) + 107.86).abs() < 0.05);
+    assert!((lab_b([255, 255, 0]) - 94.48).abs() < 0.05);
+}
