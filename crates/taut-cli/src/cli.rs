@@ -4,7 +4,7 @@ use clap::{Parser, Subcommand};
 
 use crate::commands::{
     ball, centers, classify, completions, curve, delaunay, dop, draw, ellipsoid, formats, generate,
-    inscribe, man, memory, surface, tour, verify,
+    hand, inscribe, man, memory, surface, tour, verify,
 };
 use crate::exit::Outcome;
 
@@ -32,6 +32,7 @@ enum Command {
     Surface(surface::Args),
     Inscribe(inscribe::Args),
     Classify(classify::Args),
+    Hand(hand::Args),
     Verify(verify::Args),
     Draw(draw::Args),
     Memory(memory::Args),
@@ -54,6 +55,7 @@ impl Cli {
             Command::Surface(args) => args.run(),
             Command::Inscribe(args) => args.run(),
             Command::Classify(args) => args.run(),
+            Command::Hand(args) => args.run(),
             Command::Verify(args) => args.run(),
             Command::Draw(args) => args.run(),
             Command::Memory(args) => args.run(),

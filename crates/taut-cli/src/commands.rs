@@ -12,6 +12,7 @@ mod elbow;
 pub(crate) mod ellipsoid;
 pub(crate) mod formats;
 pub(crate) mod generate;
+pub(crate) mod hand;
 pub(crate) mod inscribe;
 pub(crate) mod man;
 pub(crate) mod memory;

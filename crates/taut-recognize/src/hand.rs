@@ -27,6 +27,7 @@ pub mod read;
 pub mod refine;
 pub mod synthetic;
 pub mod thesis;
+mod write;
 
 use std::path::Path;
 

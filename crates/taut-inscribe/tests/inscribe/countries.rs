@@ -250,7 +250,9 @@ fn countries_have_a_proved_oriented_rectangle() {
 fn countries_have_shapes_by_the_methods_of_the_thesis() {
     let Some(rings) = rings("countries_110m.json.xz") else { return };
     let mut shares = [vec![], vec![], vec![]];
-    for (name, ring) in rings {
+    let is_long = std::env::var_os("TAUT_LONG_TESTS").is_some();
+    let count = if is_long { rings.len() } else { 4 };
+    for (name, ring) in rings.into_iter().take(count) {
         let source = Points::new(ring.as_flattened(), 2).unwrap();
         let begun = std::time::Instant::now();
         let method = TriangleMethod::Thesis(TriangleThesisOptions::DEFAULT);
@@ -280,6 +282,8 @@ fn countries_have_shapes_by_the_methods_of_the_thesis() {
         println!("{line} of the bound, {:.2} s", begun.elapsed().as_secs_f64());
     }
     let mean = |list: &[f64]| list.iter().sum::<f64>() / list.len() as f64;
-    assert!(shares[0].len() == 14 && mean(&shares[0]) > 0.75, "{shares:?}");
-    assert!(shares[1..].iter().all(|list| list.len() > 9 && mean(list) > 0.8), "{shares:?}");
+    assert!(shares[0].len() == count && mean(&shares[0]) > 0.75, "{shares:?}");
+    // Some countries are thinner than a spacing.
+    let is_good = |list: &Vec<f64>| 3 * list.len() > 2 * count && mean(list) > 0.8;
+    assert!(shares[1..].iter().all(is_good), "{shares:?}");
 }
