@@ -10,6 +10,7 @@ mod delaunay;
 mod dop;
 mod ellipsoid;
 mod generate;
+mod hand;
 mod inscribe;
 mod inscribe_bodies;
 mod inscribe_circle;
