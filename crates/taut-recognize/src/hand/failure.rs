@@ -150,14 +150,6 @@ pub enum Failure {
         /// The largest distance that is accepted.
         limit: f64,
     },
-    /// A valley has a corner that skin does not have: something joins the two fingers.
-    #[error("something joins {first} and {second}, or they touch: their valley is not round")]
-    JoinedFingers {
-        /// The finger nearer to the thumb.
-        first: FingerName,
-        /// The other one.
-        second: FingerName,
-    },
     /// A measure is outside the range of human hands: the outline is not that of a free hand, or the resolution wrong.
     #[error("{measure} is {value:.2}, outside the range of human hands, {low:.2} to {high:.2}")]
     Implausible {

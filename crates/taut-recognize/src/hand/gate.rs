@@ -42,9 +42,9 @@ const EDGE_PIXELS: f64 = 1.5;
 /// The width 2 mm below a tip over that at 70 % of the length: 0.55 to 0.72 for round tips, 0.95 for flat ones.
 const FLAT_TIP: f64 = 0.80;
 
-/// The largest change of the width along 3 mm beyond that of its surroundings, in mm: free fingers have 0.15 in the
-/// median. The thumb is short and its joint thick.
-const WIDTH_STEP_MM: [f64; 5] = [0.75, 0.45, 0.45, 0.45, 0.45];
+/// The largest change of the width along 3 mm beyond that of its surroundings, in mm: free fingers have some 0.1 in
+/// the median. The thumb is short and its joint thick.
+const WIDTH_STEP_MM: [f64; 5] = [0.70, 0.38, 0.38, 0.38, 0.38];
 
 /// The distance between the two sides of a valley 2.5 mm along the outline from its bottom, at least, in mm.
 const VALLEY_GAP_MM: f64 = 0.5;
@@ -248,11 +248,14 @@ fn tip_measures(axis: &Axis, mm_per_pixel: f64) -> [f64; 2] {
 }
 
 /// Returns the largest change of the width along 3 mm, beyond a third of that along the 9 mm around it, in mm.
+///
+/// Both sides change: twice the smaller change counts, and none if one side goes out and the other one in, as where a
+/// finger bends. So a speck of dust at one side is no step.
 fn width_step(axis: &Axis, finger: FingerName, mm_per_pixel: f64) -> f64 {
     /// Distance between stations in mm.
     const STATION_MM: f64 = 0.5;
     /// Stations from the middle to the ends of 3 and of 9 mm.
-    const REACH: [usize; 2] = [3, 9];
+    const SPANS: [usize; 2] = [3, 9];
     /// Above this the finger's end is round, in mm from the tip.
     const TIP_MM: f64 = 7.0;
     /// The sides of a finger are straight from here on, in mm above the higher one of its valleys.
@@ -268,14 +271,24 @@ fn width_step(axis: &Axis, finger: FingerName, mm_per_pixel: f64) -> f64 {
     let step = STATION_MM / mm_per_pixel;
     let count = ((high - low) / step).max(0.0) as usize;
     let stations: Vec<f64> = (0..count).map(|k| high - k as f64 * step).collect();
-    let widths = axis.widths(&stations);
-    let change =
-        |middle: usize, reach: usize| Some(widths[middle + reach]? - widths[middle - reach]?);
-    let ratio = REACH[0] as f64 / REACH[1] as f64;
-    (REACH[1]..count.saturating_sub(REACH[1]))
-        .filter_map(|middle| {
-            Some((change(middle, REACH[0])? - ratio * change(middle, REACH[1])?).abs())
+    // The two sides, outward from the axis.
+    let sides: Vec<Option<[f64; 2]>> = axis
+        .sections(&stations)
+        .into_iter()
+        .map(|section| {
+            section.map(|[left, right]| [-left, right].map(|v| v * (right - left).signum()))
         })
-        .fold(0.0, f64::max)
-        * mm_per_pixel
+        .collect();
+    let change = |middle: usize, reach: usize| {
+        let (below, above) = (sides[middle + reach]?, sides[middle - reach]?);
+        Some([below[0] - above[0], below[1] - above[1]])
+    };
+    let ratio = SPANS[0] as f64 / SPANS[1] as f64;
+    let step_at = |middle: usize| {
+        let (near, around) = (change(middle, SPANS[0])?, change(middle, SPANS[1])?);
+        let [left, right] = [0, 1].map(|side| near[side] - ratio * around[side]);
+        Some(if left * right > 0.0 { 2.0 * left.abs().min(right.abs()) } else { 0.0 })
+    };
+    let middles = SPANS[1]..count.saturating_sub(SPANS[1]);
+    middles.filter_map(step_at).fold(0.0, f64::max) * mm_per_pixel
 }

@@ -13,7 +13,7 @@ use super::mask::Mask;
 const STEP: [[i64; 2]; 4] = [[1, 0], [0, 1], [-1, 0], [0, -1]];
 
 /// The pixel ahead inside and the one ahead outside, relative to a corner, for each direction.
-const AHEAD: [[[i64; 2]; 2]; 4] =
+const PIXELS_AHEAD: [[[i64; 2]; 2]; 4] =
     [[[0, 0], [0, -1]], [[-1, 0], [0, 0]], [[-1, -1], [-1, 0]], [[0, -1], [-1, -1]]];
 
 /// One edge between a pixel of a set and one outside.
@@ -40,10 +40,10 @@ pub fn follow_cracks(mask: &Mask) -> Vec<Crack> {
     let mut cracks = vec![];
     let (mut corner, mut direction) = (start, 0);
     loop {
-        let [inside, outside] = AHEAD[direction].map(|offset| add(corner, offset));
+        let [inside, outside] = PIXELS_AHEAD[direction].map(|offset| add(corner, offset));
         cracks.push(Crack { corner, inside, outside });
         corner = add(corner, STEP[direction]);
-        let [inside, outside] = AHEAD[direction].map(|offset| add(corner, offset));
+        let [inside, outside] = PIXELS_AHEAD[direction].map(|offset| add(corner, offset));
         // Turning to the set where the pixel ahead is outside separates diagonal pixels: the set is 4-connected.
         direction = match (is_member(inside), is_member(outside)) {
             (false, _) => (direction + 1) % 4,

@@ -19,14 +19,14 @@ const SHADE_MM: f64 = 2.0;
 const NOISE_LEVELS: f64 = 1.5;
 
 /// A thing that covers a part of the page.
-enum Cover {
+enum Overlay {
     /// A band across a finger: range along it, and what it adds to half the width, in mm.
     Band(Strip, [f64; 2], f64),
     /// A polygon in the frame of the hand.
     Patch(Vec<[f64; 2]>),
 }
 
-impl Cover {
+impl Overlay {
     fn distance(&self, p: [f64; 2]) -> f64 {
         match self {
             Self::Band(strip, range, thickness) => {
@@ -156,7 +156,7 @@ fn covers(
     skin: [f64; 3],
     pixels_per_mm: f64,
     random: &mut Stream,
-) -> Vec<(Cover, [f64; 3])> {
+) -> Vec<(Overlay, [f64; 3])> {
     let mut covers = vec![];
     match defect {
         Some(Defect::Ring { finger, pixels, b }) => {
@@ -166,7 +166,7 @@ fn covers(
             let millimeters = pixels / pixels_per_mm;
             let light = if b == 0.5 { 30.0 } else { 75.0 };
             let thickness = random.between(0.1, 0.7);
-            let band = Cover::Band(strip, [start, start + millimeters], thickness);
+            let band = Overlay::Band(strip, [start, start + millimeters], thickness);
             covers.push((band, srgb([light, if b > 1.0 { 5.0 } else { 0.0 }, b])));
         }
         Some(Defect::Bandage { finger, thickness, b }) => {
@@ -176,7 +176,7 @@ fn covers(
             let end = start + random.between(12.0, 25.0);
             let light = if b == 18.0 { 65.0 } else { 85.0 };
             let a = if b == 18.0 { 9.0 } else { 1.0 };
-            covers.push((Cover::Band(strip, [start, end], thickness), srgb([light, a, b])));
+            covers.push((Overlay::Band(strip, [start, end], thickness), srgb([light, a, b])));
         }
         Some(Defect::Joined { first, range }) => {
             let k = first as usize;
@@ -192,7 +192,7 @@ fn covers(
                 corner(k + 1, range[1]),
                 corner(k + 1, range[0]),
             ];
-            covers.push((Cover::Patch(patch), skin));
+            covers.push((Overlay::Patch(patch), skin));
         }
         _ => {}
     }
@@ -204,7 +204,7 @@ fn covers(
         } else {
             random.between(8.0, 20.0)
         };
-        covers.push((Cover::Patch(corners), srgb([random.between(20.0, 70.0), 0.0, b])));
+        covers.push((Overlay::Patch(corners), srgb([random.between(20.0, 70.0), 0.0, b])));
     }
     covers
 }
