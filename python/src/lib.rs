@@ -11,6 +11,7 @@ mod body_mesh;
 mod centers;
 mod choice;
 mod circle;
+mod classify;
 mod curve;
 mod delaunay;
 mod dop;
@@ -51,6 +52,8 @@ mod _native {
     use crate::centers::centers;
     #[pymodule_export]
     use crate::circle::inscribed_circle;
+    #[pymodule_export]
+    use crate::classify::{Classifier, train_classifier};
     #[pymodule_export]
     use crate::curve::curve;
     #[pymodule_export]
