@@ -45,9 +45,13 @@ class _Parameters:
         return self
 
 
+class _Alone:
+    """The place of what scikit-learn mixes in."""
+
+
 _Estimator: Any = _Parameters if _base is None else _base.BaseEstimator
-_Classifier: Any = object if _base is None else _base.ClassifierMixin
-_Outliers: Any = object if _base is None else _base.OutlierMixin
+_Classifier: Any = _Alone if _base is None else _base.ClassifierMixin
+_Outliers: Any = _Alone if _base is None else _base.OutlierMixin
 
 
 class _Trained(_Estimator):  # type: ignore[misc]
@@ -159,12 +163,12 @@ class MebClassifier(_Classifier, _Trained):  # type: ignore[misc]
         """Learns from points of shape (n, d) with labels of shape (n,)."""
         if y is None:
             raise ValueError("MebClassifier requires y to be passed, but the target y is None")
-        rows, y = self._checked(X, reset=True, y=y)
+        rows, targets = self._checked(X, reset=True, y=y)
         if _multiclass is not None:
-            _multiclass.check_classification_targets(y)
-        if len(y) != len(rows):
-            raise ValueError(f"there are {len(rows)} points, but {len(y)} labels")
-        self.classes_, labels = np.unique(y, return_inverse=True)
+            _multiclass.check_classification_targets(targets)
+        if len(targets) != len(rows):
+            raise ValueError(f"there are {len(rows)} points, but {len(targets)} labels")
+        self.classes_, labels = np.unique(targets, return_inverse=True)
         scaling = "none" if self.whitening else self.scaling
         self._model = _native.train_classifier(
             np.require(rows, requirements=["C", "ALIGNED"]),
@@ -191,7 +195,8 @@ class MebClassifier(_Classifier, _Trained):  # type: ignore[misc]
 
     def score(self, X: ArrayLike, y: ArrayLike, sample_weight: ArrayLike | None = None) -> float:
         """The share of points whose label is found, by weight."""
-        return float(np.average(self.predict(X) == np.asarray(y), weights=sample_weight))
+        weights = None if sample_weight is None else np.asarray(sample_weight, dtype=np.float64)
+        return float(np.average(self.predict(X) == np.asarray(y), weights=weights))
 
 
 class Svdd(_Outliers, _Trained):  # type: ignore[misc]
