@@ -10,6 +10,7 @@ mod bodies;
 mod body_mesh;
 mod centers;
 mod choice;
+mod classify;
 mod curve;
 mod delaunay;
 mod dop;
@@ -44,6 +45,9 @@ mod _native {
     use crate::body_mesh::body_mesh;
     #[pymodule_export]
     use crate::centers::centers;
+    #[pymodule_export]
+    #[pymodule_export]
+    use crate::classify::{Classifier, train_classifier};
     #[pymodule_export]
     use crate::curve::curve;
     #[pymodule_export]

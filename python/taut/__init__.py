@@ -11,6 +11,8 @@ True
 The names, options and defaults are those of the Rust library and of the command line.
 """
 
+from typing import TYPE_CHECKING, Any
+
 from ._answers.ball import Ball, BallCertificate, Verdict
 from ._answers.bodies import BodiesCertificate, BodiesVerdict, BodyProof, ConvexBody, InscribedBodies
 from ._answers.centers import Centers, CentersCertificate, CentersVerdict, FarthestFirst, SphereTree
@@ -52,6 +54,9 @@ from ._solution import Solution
 from ._surface import surface
 from ._triangle import inscribed_triangle
 from ._verify import verify
+
+if TYPE_CHECKING:
+    from ._classify import MebClassifier, Svdd
 
 __all__ = [
     "Ball",
@@ -96,6 +101,7 @@ __all__ = [
     "KernelBall",
     "KernelBallCertificate",
     "KernelBallVerdict",
+    "MebClassifier",
     "Order",
     "OrderCertificate",
     "OrderVerdict",
@@ -113,6 +119,7 @@ __all__ = [
     "SurfaceCertificate",
     "SurfaceComponent",
     "SurfaceVerdict",
+    "Svdd",
     "Trace",
     "TriangleCertificate",
     "TriangleVerdict",
@@ -152,3 +159,12 @@ __all__ = [
     "triangle_rows",
     "verify",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """The estimators, which are loaded with their first use: they stand on those of scikit-learn where it is installed."""
+    if name in ("MebClassifier", "Svdd"):
+        from . import _classify
+
+        return getattr(_classify, name)
+    raise AttributeError(f"module 'taut' has no attribute {name!r}")

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 from ._arrays import Rows
 
 __all__ = [
+    "Classifier",
     "Found",
     "FoundFile",
     "Violation",
@@ -38,12 +39,20 @@ __all__ = [
     "spatial_order",
     "sphere_tree",
     "surface",
+    "train_classifier",
     "transpose_file",
 ]
 
 __version__: str
 
 class Violation(Exception): ...
+
+@final
+class Classifier:
+    def predict(self, rows: Rows) -> tuple[list[int], list[float]]: ...
+    def to_json(self) -> str: ...
+    @staticmethod
+    def from_json(text: str) -> Classifier: ...
 
 @final
 class Found:
@@ -139,3 +148,13 @@ def transpose_file(
     input: str | PathLike[str], output: str | PathLike[str], shape: tuple[int, int], width: int, fortran: bool,
     offset: int, dtype: str | None, header: bytes, memory: int,
 ) -> FoundFile: ...
+def train_classifier(
+    rows: Rows,
+    labels: NDArray[np.uint32],
+    classes: int,
+    method: str,
+    names: tuple[str | None, str | None, str | None],
+    numbers: tuple[float | None, int | None],
+    seed: int,
+    threads: int | None,
+) -> Classifier: ...

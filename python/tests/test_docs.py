@@ -8,13 +8,13 @@ from pathlib import Path
 import pytest
 
 import taut
-from taut import _ball, _centers, _curve, _delaunay, _ellipsoid, _generate, _memory, _robust, _verify
+from taut import _ball, _centers, _classify, _curve, _delaunay, _ellipsoid, _generate, _memory, _robust, _verify
 
 
 FLAGS = doctest.ELLIPSIS | doctest.IGNORE_EXCEPTION_DETAIL
 
 
-MODULES = [taut, _ball, _centers, _curve, _delaunay, _ellipsoid, _generate, _memory, _robust, _verify]
+MODULES = [taut, _ball, _centers, _classify, _curve, _delaunay, _ellipsoid, _generate, _memory, _robust, _verify]
 
 
 @pytest.mark.parametrize("module", MODULES, ids=lambda m: m.__name__)
@@ -46,7 +46,7 @@ def test_everything_public_is_documented(name):
                 assert inspect.getdoc(member), attribute
 
 
-NAMES = ["ball", "bodies", "centers", "circle", "curve", "delaunay", "ellipsoid", "robust"]
+NAMES = ["ball", "bodies", "centers", "circle", "classify", "curve", "delaunay", "ellipsoid", "robust"]
 OF_MEMORY = ["matrix", "order", "sample", "sort"]
 PAGES = ["README.md", *(f"docs/{page}.md" for page in NAMES), *(f"docs/memory/{page}.md" for page in OF_MEMORY)]
 
