@@ -108,7 +108,7 @@ fn samples_without_edges_are_joined_for_every_shape() {
         let angle = std::f64::consts::TAU * ((i * 37) % 120) as f64 / 120.0;
         format!("{:?},{:?}\n", 3.0 * angle.cos(), 2.0 * angle.sin())
     };
-    folder.put("points.csv", &(0..120).map(point).collect::<String>());
+    folder.put("points.csv", (0..120).map(point).collect::<String>());
     // What the polygon between the samples leaves of the area 6π, or of the circle of radius 2, is at least cos²(π/120).
     let pi = std::f64::consts::PI;
     for (shape, least) in [
@@ -134,7 +134,7 @@ fn samples_without_edges_are_joined_for_every_shape() {
     }
     assert!(folder.text("ring.csv").starts_with("x,y,ring\n"));
     let wave = |i: i32| format!("{:?},{:?}\n", 0.1 * f64::from(i), (0.1 * f64::from(i)).sin());
-    folder.put("open.csv", &(0..100).map(wave).collect::<String>());
+    folder.put("open.csv", (0..100).map(wave).collect::<String>());
     folder
         .taut("inscribe triangle open.csv --samples -o found.json")
         .ends(2)

@@ -2,7 +2,7 @@
 
 use crate::test_folder::TestFolder;
 
-const COMMANDS: [&str; 17] = [
+const COMMANDS: [&str; 18] = [
     "ball",
     "ellipsoid",
     "centers",
@@ -12,6 +12,7 @@ const COMMANDS: [&str; 17] = [
     "surface",
     "inscribe",
     "classify",
+    "hand",
     "verify",
     "draw",
     "memory",
