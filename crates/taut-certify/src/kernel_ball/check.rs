@@ -156,9 +156,16 @@ impl<'a> Center<'a> {
 
     /// Whether Jensen's bound proves a row to be inside.
     fn is_surely_inside(&self, row: &[f64]) -> bool {
+        let Some(bounds) = &self.jensen else { return false };
+        let kernel = self.ball.kernel;
         let least = self.spread.value - self.spread.error;
         let is_inside = |bound: f64| (bound - least) * (1.0 + 4.0 * U) <= self.ball.squared_radius;
-        self.jensen.as_ref().is_some_and(|bounds| bounds.any(row, is_inside))
+        let term = |place: usize| {
+            let of_row = Approximate::default();
+            let distance = squared_distance(kernel, (row, of_row), self.support[place]);
+            self.ball.multipliers[place] * (distance.value + distance.error)
+        };
+        bounds.any(row, term, is_inside)
     }
 
     /// Σ λᵢ·termᵢ divided by Σ λᵢ.

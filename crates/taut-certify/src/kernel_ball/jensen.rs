@@ -2,7 +2,8 @@
 //!
 //! *Idea.* 1 − e^{−γs} is concave in s, so Σ λᵢ·2(1 − exp(−γ|x − xᵢ|²)) ≤ 2Λ(1 − exp(−γS)) with Λ = Σ λᵢ and S = Σ (λᵢ/Λ)|x − xᵢ|². And for
 //! any vector m, S = |x − m|² − 2(x − m)·r + v with r = Σ (λᵢ/Λ)(xᵢ − m) and v = Σ (λᵢ/Λ)|xᵢ − m|²: with m near the mean, r is nearly 0.
-//! One group of all xᵢ is tried first, then groups of neighbors, whose bounds are added.
+//! One group of all xᵢ is tried first, then groups of neighbors, whose bounds are added; last, from the nearest group on, the terms of a group
+//! take the place of its bound. Where a kernel is narrow, the bounds of groups that are far from x are as good as their terms.
 //! *Rounding.* S is at most |x − m|² + 2|x − m||r| + v. Sums of d squares are off by (d + 6)u, those over k multipliers, all of which sum to 1
 //! but for 2(k + 2)u, by (4k + 12)u more; the factor 1 + (2d + 8k + 200)u on S, and on the result, covers both and the steps between, the sum
 //! over at most 64 groups included.
@@ -16,6 +17,9 @@ const GROUP_COUNTS: [usize; 3] = [1, 8, 64];
 /// Rows of a group at least, but where there is one group.
 const GROUP_ROWS: usize = 4;
 
+/// What a product loses at most where it vanishes.
+const LOST_BY_TERM: f64 = f64::from_bits(8);
+
 /// Upper bounds of Σ λᵢ·2(1 − exp(−γ|x − xᵢ|²)) by more and more groups.
 pub(super) struct Bounds {
     levels: Vec<Vec<Jensen>>,
@@ -23,6 +27,8 @@ pub(super) struct Bounds {
 
 /// The bound of one group.
 struct Jensen {
+    /// The points of the group, by their places in the support.
+    places: Vec<usize>,
     gamma: f64,
     /// Λ.
     weight: f64,
@@ -46,7 +52,7 @@ impl Bounds {
             let group = |places: Vec<usize>| {
                 let rows: Vec<&[f64]> = places.iter().map(|&i| rows[i]).collect();
                 let multipliers: Vec<f64> = places.iter().map(|&i| multipliers[i]).collect();
-                Jensen::of(gamma, &rows, &multipliers, slack)
+                Jensen { places, ..Jensen::of(gamma, &rows, &multipliers, slack) }
             };
             groups.map(group).collect()
         });
@@ -54,8 +60,40 @@ impl Bounds {
     }
 
     /// Whether one of the bounds for x passes a test; NaN, where a sum overflows, is a bound, too.
-    pub(super) fn any(&self, x: &[f64], test: impl Fn(f64) -> bool) -> bool {
-        self.levels.iter().any(|groups| test(groups.iter().map(|g| g.upper_bound(x)).sum()))
+    ///
+    /// `term` is an upper bound of the term of a point of the support, by its place, but for roundings that the factor covers.
+    pub(super) fn any(
+        &self,
+        x: &[f64],
+        term: impl Fn(usize) -> f64,
+        test: impl Fn(f64) -> bool,
+    ) -> bool {
+        let mut bounds: Vec<f64> = vec![];
+        for groups in &self.levels {
+            bounds = groups.iter().map(|group| group.upper_bound(x)).collect();
+            if test(bounds.iter().sum()) {
+                return true;
+            }
+        }
+        let Some(groups) = self.levels.last().filter(|groups| groups.len() > 1) else {
+            return false;
+        };
+        let nearness: Vec<f64> =
+            groups.iter().map(|group| squared_difference(x, &group.mean)).collect();
+        let mut order: Vec<usize> = (0..groups.len()).collect();
+        order.sort_by(|&a, &b| nearness[a].total_cmp(&nearness[b]));
+        // The bounds of each group and of all that are farther.
+        let mut rest = vec![0.0; groups.len() + 1];
+        for (i, &group) in order.iter().enumerate().rev() {
+            rest[i] = rest[i + 1] + bounds[group];
+        }
+        let mut terms = 0.0;
+        order.iter().enumerate().any(|(i, &group)| {
+            let Jensen { places, slack, .. } = &groups[group];
+            let sum: f64 = places.iter().map(|&place| term(place)).sum();
+            terms += sum * slack + places.len() as f64 * LOST_BY_TERM;
+            test(terms + rest[i + 1])
+        })
     }
 }
 
@@ -94,7 +132,15 @@ impl Jensen {
         let spread = pairs().map(|(l, row)| l * squared_difference(row, &mean)).sum::<f64>();
         // The least normal number makes up for squares that vanish.
         let offset = offset.sqrt() * slack * slack + f64::MIN_POSITIVE.sqrt() * dim as f64;
-        Jensen { gamma, weight, mean, offset, spread: spread * slack + f64::MIN_POSITIVE, slack }
+        Jensen {
+            places: vec![],
+            gamma,
+            weight,
+            mean,
+            offset,
+            spread: spread * slack + f64::MIN_POSITIVE,
+            slack,
+        }
     }
 
     /// No less than Σ λᵢ·2(1 − exp(−γ|x − xᵢ|²)); NaN where a sum overflows.
@@ -102,7 +148,7 @@ impl Jensen {
         let square = squared_difference(x, &self.mean) * self.slack + f64::MIN_POSITIVE;
         let sum = (square + 2.0 * square.sqrt() * self.offset + self.spread) * self.slack;
         let bound = feature_distance(self.gamma, sum, self.mean.len());
-        self.weight * (bound.value + bound.error) * self.slack
+        self.weight * (bound.value + bound.error) * self.slack + LOST_BY_TERM
     }
 }
 
@@ -126,6 +172,9 @@ mod tests {
             for x in [[0.0, 0.0, 1e3], [25.0, 5.0, 1e3], [-30.0, 80.0, 990.0], [1e3, 1e3, 0.0]] {
                 let term = |row: &&[f64]| 2.0 * -(-gamma * squared_difference(&x, row)).exp_m1();
                 let sum: f64 = rows.iter().zip(&multipliers).map(|(row, l)| l * term(row)).sum();
+                let term = |i: usize| multipliers[i] * term(&rows[i]);
+                let least = |sum: f64| bounds.any(&x, term, |bound| bound <= sum);
+                assert!(least(sum * (1.0 + 1e-10)) && !least(sum * (1.0 - 1e-10)), "{sum}");
                 for (groups, share) in bounds.levels.iter().zip(shares) {
                     let bound: f64 = groups.iter().map(|group| group.upper_bound(&x)).sum();
                     assert!(bound >= sum && sum >= bound * share * (1.0 - 1e-6), "{bound} {sum}");

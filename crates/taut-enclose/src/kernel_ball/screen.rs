@@ -240,7 +240,7 @@ impl Center {
                 let mut inside = f64::NEG_INFINITY;
                 for (k, &square) in distances.iter().enumerate() {
                     if square <= limit {
-                        inside = inside.max(square);
+                        inside = if square > inside { square } else { inside };
                     } else {
                         copy(k, &mut left);
                     }
@@ -301,21 +301,22 @@ impl Center {
         let means: Vec<f64> = groups.iter().flat_map(|group| &group.mean.high).copied().collect();
         let largest = groups.iter().map(|group| group.lambda.len()).max().unwrap_or(0);
         let (mut near, mut terms) = (vec![0.0; groups.len()], vec![0.0; largest]);
-        let mut order: Vec<usize> = vec![];
+        let mut left_over: Vec<usize> = vec![];
         for (&id, row) in left.ids.iter().zip(left.rows.chunks_exact(self.dim)) {
             let row = Mean { high: row.to_vec(), low: vec![] };
             squared_distances(&means, self.dim, &row, &mut near);
             near.iter_mut().zip(groups).for_each(|(s, group)| *s += group.spread);
-            order.clear();
-            order.extend(0..groups.len());
-            order.sort_unstable_by(|&a, &b| near[a].total_cmp(&near[b]).then(a.cmp(&b)));
+            left_over.clear();
+            left_over.extend(0..groups.len());
             decay_all(gamma, &mut near);
             let mut sum: f64 = near.iter().zip(groups).map(|(rho, group)| group.weight * rho).sum();
             let mut is_inside = sum <= mean_level;
-            for &g in &order {
-                if is_inside {
-                    break;
-                }
+            while !is_inside && !left_over.is_empty() {
+                // A few groups decide about most rows: no order of all is needed.
+                let nearest = (1..left_over.len()).fold(0, |best, i| {
+                    if near[left_over[i]] < near[left_over[best]] { i } else { best }
+                });
+                let g = left_over.swap_remove(nearest);
                 let group = &groups[g];
                 let terms = &mut terms[..group.lambda.len()];
                 squared_distances(&group.members.rows, self.dim, &row, terms);
