@@ -115,7 +115,7 @@ class MebClassifier(_Classifier, _Trained):  # type: ignore[misc]
     scaling : {"z-score", "percent", "none"}, default "z-score"
         How features are scaled, by the training points.
     whitening : bool, default False
-        Makes the covariance within classes the identity first, without other scaling; for many classes of few points.
+        Makes the covariance within classes the identity, after the scaling; for many classes of few points.
     thesis_steps : int >= 2, optional
         Takes so many steps of Algorithm 11 of the thesis in place of the optimum.
     seed : int, default 0
@@ -169,13 +169,12 @@ class MebClassifier(_Classifier, _Trained):  # type: ignore[misc]
         if len(targets) != len(rows):
             raise ValueError(f"there are {len(rows)} points, but {len(targets)} labels")
         self.classes_, labels = np.unique(targets, return_inverse=True)
-        scaling = "none" if self.whitening else self.scaling
         self._model = _native.train_classifier(
             np.require(rows, requirements=["C", "ALIGNED"]),
             labels.astype(np.uint32).ravel(),
             len(self.classes_),
             "whitened-ball" if self.whitening else "ball",
-            (scaling, self.width, self.cells),
+            (self.scaling, self.width, self.cells),
             (self.nu, self.thesis_steps),
             self.seed,
             self.threads,

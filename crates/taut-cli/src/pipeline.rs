@@ -47,6 +47,9 @@ pub(crate) trait Find {
 
     /// Refuses options and names of files, before any work.
     fn check_options(&self) -> anyhow::Result<()> {
+        if let Some(samples) = self.samples() {
+            samples.check(self.output())?;
+        }
         self.output().refuse_pictures_as_json()
     }
 

@@ -81,6 +81,9 @@ pub fn inscribed_circle(
     if found.center.is_none() || radius <= 0.0 {
         return Err(Error::TooThin);
     }
+    if !radius.is_normal() {
+        return Err(Error::Area);
+    }
     let center = found.center.unwrap_or_default();
     let point = edges.scaled(center);
     let rounding = 2.0 * f64::EPSILON * (point[0].abs() + point[1].abs());

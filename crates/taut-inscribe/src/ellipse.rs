@@ -63,6 +63,9 @@ impl Default for EllipseOptions<'_> {
     }
 }
 
+/// Rings of a polygon for the methods of the thesis, at most: each ring has three samples or more, and facets grow with the square.
+const RINGS_MAX: usize = 300;
+
 /// Finds the ellipse of the largest area in a polygon.
 ///
 /// Points (x, y) are the vertices of one ring in order; points (x, y, r) those of several rings, r being the number of the ring:
@@ -92,12 +95,18 @@ pub(crate) fn solved(
     let sampled = match options.method {
         EllipseMethod::BranchAndBound => None,
         EllipseMethod::Thesis(thesis) | EllipseMethod::FivePoint(thesis) => {
+            let rings = units.edges.chunk_by(|one, next| one[1] == next[0]).count();
+            if rings > RINGS_MAX {
+                let (name, value) = ("method", options.method.name().to_owned());
+                let expected = "branch-and-bound for polygons of more than 300 rings";
+                return Err(InputError::Option { name, value, expected }.into());
+            }
             let has_five = matches!(options.method, EllipseMethod::FivePoint(_));
             let found = sampled::largest(units, &thesis, has_five, &options.monitor)?;
             count("samples", found.samples);
             count("facets", found.facets);
             let reported = found.ellipse.and_then(|ellipse| report::rounded(&ellipse, units));
-            let (method, samples) = (options.method.name(), thesis.sample_count);
+            let (method, samples) = (options.method.name(), found.samples);
             Some(reported.ok_or(Error::NoneAmongSamples { method, samples })?)
         }
     };

@@ -38,26 +38,26 @@ pub enum Error {
         /// The rows of the ends of the other one.
         other: [u64; 2],
     },
-    /// The area of the shape overflows or underflows.
+    /// The area of the shape, or the radius of a circle, overflows or underflows.
     #[error(
-        "the area of the shape is out of the range of double precision: scale the coordinates towards 1"
+        "the area or the radius of the shape is out of the range of double precision: scale the coordinates towards 1"
     )]
     Area,
     /// No point with coordinates in double precision was found that is provably inside.
     #[error(
         "the polygon is too thin: no point in double precision was found inside that is provably away from its edges; if it is \
-         far from the origin, shift it there"
+         far from the origin, shift it to the origin"
     )]
     TooThin,
     /// A method that looks among samples found nothing that lies in the polygon.
     #[error(
-        "method `{method}` found nothing in the polygon among its {samples} samples: take more samples, wider conditions, or the \
+        "method `{method}` found nothing in the polygon among its {samples} samples: take more samples, a larger angle, a smaller fatness, or the \
          default method"
     )]
     NoneAmongSamples {
         /// The method.
         method: &'static str,
-        /// How many samples it was to take.
+        /// How many samples it took.
         samples: u64,
     },
     /// The mesh has a boundary: some edge belongs to an odd number of triangles.

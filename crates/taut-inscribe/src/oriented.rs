@@ -74,6 +74,9 @@ pub fn inscribed_oriented_rectangle(
 ) -> Result<Solution<InscribedOrientedRectangle>, Error> {
     check_options(options)?;
     let polygon = Polygon::read(polygon, &options.monitor)?;
+    if !box_area(&polygon.edges).is_normal() {
+        return Err(Error::Area);
+    }
     let units = Units::square(&polygon.edges);
     let pivot = units.extent.map(|x| 0.5 * x);
     let about = |edge: &[[f64; 2]; 2]| edge.map(|p| [p[0] - pivot[0], p[1] - pivot[1]]);
@@ -119,6 +122,15 @@ pub fn inscribed_oriented_rectangle(
         counters: BTreeMap::from(counters.map(|(name, count)| (name.to_owned(), count))),
     };
     Ok(Solution { answer: reported.answer, certificate, trace })
+}
+
+/// The area of the bounding box: where that is no normal number, the area of no rectangle inside is one.
+fn box_area(edges: &[[[f64; 2]; 2]]) -> f64 {
+    let extent = |k: usize| {
+        let values = || edges.iter().map(|edge| edge[0][k]);
+        values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
+    };
+    extent(0) * extent(1)
 }
 
 fn check_options(options: &OrientedRectangleOptions<'_>) -> Result<(), InputError> {

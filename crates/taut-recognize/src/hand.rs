@@ -29,6 +29,7 @@ pub mod synthetic;
 pub mod thesis;
 mod write;
 
+use std::io::Read;
 use std::path::Path;
 
 pub use failure::{Edge, Failure, FingerName, Sign};
@@ -51,6 +52,9 @@ mod pages {
     #[doc = include_str!("../../../docs/hands.md")]
     struct Hands;
 }
+
+/// Bytes of an image file for each pixel that is allowed, beside a megabyte for what is no pixel: 16 bits in four channels.
+const FILE_BYTES_PER_PIXEL: u64 = 8;
 
 /// Millimeters in an inch.
 const MM_PER_INCH: f64 = 25.4;
@@ -227,8 +231,21 @@ impl Hand {
     /// [`HandError`]: the file or the options are not as they should be, or the hand cannot be measured.
     pub fn from_file(path: impl AsRef<Path>, options: &HandOptions) -> Result<Self, HandError> {
         let path = path.as_ref();
-        let bytes = std::fs::read(path)
-            .map_err(|error| ImageError::Io { path: path.to_owned(), error: error.to_string() })?;
+        let failed = |error: std::io::Error| ImageError::Io {
+            path: path.to_owned(),
+            error: error.to_string(),
+        };
+        let file = std::fs::File::open(path).map_err(failed)?;
+        if !file.metadata().map_err(failed)?.is_file() {
+            return Err(failed(std::io::Error::other("not a regular file")).into());
+        }
+        // No format takes much more for a pixel than its decoder may.
+        let most = options.pixels_max.saturating_mul(FILE_BYTES_PER_PIXEL).saturating_add(1 << 20);
+        let mut bytes = vec![];
+        file.take(most + 1).read_to_end(&mut bytes).map_err(failed)?;
+        if bytes.len() as u64 > most {
+            return Err(failed(std::io::Error::other(format!("more than {most} bytes"))).into());
+        }
         Self::from_image(&bytes, options)
     }
 
@@ -305,7 +322,10 @@ fn resolution(image: &RgbImage, options: &HandOptions) -> Result<(f64, f64), Han
         }
         Some(value) => Ok((MM_PER_INCH / value, value)),
         None => {
-            let value = image.dots_per_inch().ok_or(ImageError::NoResolution)?;
+            let value = image.dots_per_inch().ok_or(match image.implausible_resolution() {
+                Some([horizontal, vertical]) => ImageError::BadResolution { horizontal, vertical },
+                None => ImageError::NoResolution,
+            })?;
             Ok((MM_PER_INCH / value, value))
         }
     }

@@ -73,7 +73,7 @@ fn resolution_is_that_of_the_file() {
     assert_eq!(density(&with_density(&png, 3543, 3543, 0)), Ok(None), "a ratio is no resolution");
     for (x, y) in [(3543, 4000), (1, 1), (0, 0), (u32::MAX, u32::MAX)] {
         let found = density(&with_density(&png, x, y, 1));
-        assert!(matches!(found, Err(ImageError::BadResolution { .. })), "{x} {y}: {found:?}");
+        assert_eq!(found, Ok(None), "{x} {y}");
     }
     // JFIF: the density is in bytes 13 to 17, its unit in byte 13.
     let mut jpeg = encode(&DynamicImage::from(sample()), ImageFormat::Jpeg);

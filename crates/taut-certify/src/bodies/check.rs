@@ -52,6 +52,9 @@ pub(super) fn check(
     if source.dim() != 9 {
         return Err(BodiesViolation::Triangles { dim: source.dim() }.into());
     }
+    if answer.bodies.is_empty() {
+        return Err(BodiesViolation::NoBody.into());
+    }
     monitor.pass(1, source.len());
     let mut triangles = read(source, certificate, monitor)?;
     let rows = triangles.len();

@@ -36,6 +36,9 @@ pub enum BodiesViolation {
         /// What is wrong with it.
         problem: &'static str,
     },
+    /// The answer has no body.
+    #[error("the answer has no body")]
+    NoBody,
     /// A body or its proof is malformed.
     #[error("body {body} {problem}")]
     Body {

@@ -10,7 +10,7 @@ use taut::{CurveOptions, curve};
 
 use crate::input::reading::Opened;
 use crate::output::writing::{Outputs, print_error};
-use crate::pipeline::Input;
+use crate::pipeline::{Input, Output};
 
 /// How points become rings.
 #[derive(Debug, clap::Args)]
@@ -25,6 +25,16 @@ pub(crate) struct Samples {
 }
 
 impl Samples {
+    /// Refuses to write an answer about a polygon that is written nowhere.
+    pub(crate) fn check(&self, output: Output<'_>) -> anyhow::Result<()> {
+        if self.samples && self.ring.is_none() && output.out.is_some() {
+            bail!(
+                "option `--samples` with -o needs --ring FILE: `taut verify` asks for the polygon"
+            );
+        }
+        Ok(())
+    }
+
     /// Opens the rings, or the samples and joins them.
     pub(crate) fn open(&self, input: Input<'_>) -> anyhow::Result<Opened> {
         if let Some(path) = &self.ring

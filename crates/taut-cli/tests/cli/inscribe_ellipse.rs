@@ -136,8 +136,12 @@ fn samples_without_edges_are_joined_for_every_shape() {
     let wave = |i: i32| format!("{:?},{:?}\n", 0.1 * f64::from(i), (0.1 * f64::from(i)).sin());
     folder.put("open.csv", (0..100).map(wave).collect::<String>());
     folder
-        .taut("inscribe triangle open.csv --samples -o found.json")
+        .taut("inscribe triangle open.csv --samples --ring open_ring.csv -o found.json")
         .ends(2)
         .stderr_has(&["a curve with ends"]);
     folder.taut("inscribe triangle points.csv --ring ring.csv").ends(2);
+    folder
+        .taut("inscribe triangle points.csv --samples -o found.json")
+        .ends(2)
+        .stderr_has(&["--ring"]);
 }

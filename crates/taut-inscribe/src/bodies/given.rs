@@ -19,6 +19,9 @@ pub(super) fn starts(
     let mut starts: Vec<Start> = vec![];
     for (at, &given) in options.at.iter().enumerate() {
         let wrong = |problem| Err(Error::At { at, problem });
+        if given.iter().any(|x| !x.is_finite()) {
+            return wrong("is not finite");
+        }
         let Some(point) = mesh.place(given) else {
             return wrong("is outside of the mesh");
         };

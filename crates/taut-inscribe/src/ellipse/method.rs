@@ -32,7 +32,7 @@ choice! { "method", EllipseMethod {
 /// Options of [`EllipseMethod::Thesis`] and [`EllipseMethod::FivePoint`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EllipseThesisOptions {
-    /// Samples of the rings, evenly spaced along them, 12 to 1000. Time and memory grow with the square. Default 200.
+    /// Samples of the rings, evenly spaced along them, 12 to 1000. Memory grows with the square, time with the cube. Default 200.
     pub sample_count: u64,
     /// c: the least semi-axis, in spacings of the samples; at least ½, as thinner ellipses pass between samples. Default 1.
     pub fatness: f64,

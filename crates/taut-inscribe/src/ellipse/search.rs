@@ -242,10 +242,13 @@ impl Search<'_> {
         self.ascents += 1;
         let edges = &self.units.edges;
         for ellipse in [from, from.climbed(edges)] {
-            if ellipse.size > self.size() && self.levels.is_inside(edges, ellipse.center) {
+            if ellipse.size > self.size()
+                && self.levels.is_inside(edges, ellipse.center)
+                && let Some(reported) = report::rounded(&ellipse, self.units)
+                && reported.size > self.rounded
+            {
                 self.best = Some(ellipse);
-                let rounded = report::rounded(&ellipse, self.units);
-                self.rounded = rounded.map_or(0.0, |reported| reported.size);
+                self.rounded = reported.size;
             }
         }
     }

@@ -230,3 +230,33 @@ fn every_change_of_answer_or_proof_is_refused() {
     }
     assert!(refused * 3 >= tried, "{refused} of {tried}");
 }
+
+#[test]
+fn holes_of_tiny_or_no_extent_are_not_overlooked() {
+    let outer = vec![
+        [-0.49, -0.49],
+        [0.49, -0.49],
+        [0.49, -0.01],
+        [1.0, 0.0],
+        [0.49, 0.01],
+        [0.49, 0.49],
+        [-0.49, 0.49],
+    ];
+    let free = proved(&[outer.clone()], 1e-2);
+    let tiny = 5e-324;
+    for hole in [
+        vec![[0.0, 0.0], [tiny, 0.0], [0.0, tiny]],
+        vec![[0.0, 0.0], [1e-200, 0.0], [0.0, 1e-200]],
+        vec![[0.1, 0.1], [0.1 + 1e-15, 0.1], [0.1, 0.1 + 1e-15]],
+    ] {
+        let rings = [outer.clone(), hole];
+        let honest = solve(&rings, 0.5).unwrap();
+        // The rectangle of the polygon without the hole, said to be one of this polygon.
+        let mut forged = free.clone();
+        forged.certificate.points_hash = honest.certificate.points_hash;
+        for shift in [0.0, 1e-16, -1e-16, 1e-9] {
+            forged.answer.center[1] = free.answer.center[1] + shift;
+            assert!(check(&forged, &rings).is_err(), "{rings:?}");
+        }
+    }
+}

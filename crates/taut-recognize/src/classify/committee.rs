@@ -36,7 +36,7 @@ impl Committee {
         !self.members.is_empty()
             && self.members.iter().all(|member| {
                 // A committee of committees could be nested without end in a file.
-                member.learned.method.is_some()
+                !member.learned.is_committee()
                     && member.deviation > 0.0
                     && member.learned.is_sound(dim, classes)
             })

@@ -215,6 +215,11 @@ impl Model {
     /// Tests that all parts have sizes that fit, so that no prediction fails.
     fn check(&self) -> Result<(), &'static str> {
         let (dim, classes) = (self.learned.preparation.dim(), self.classes.len());
+        let mut names = self.classes.clone();
+        names.sort_unstable();
+        if names.iter().any(String::is_empty) || names.windows(2).any(|pair| pair[0] == pair[1]) {
+            return Err("its classes have an empty name, or one name twice");
+        }
         let is_sound = classes > 0
             && self.learned.is_sound(dim, classes)
             && (self.columns.is_empty() || self.columns.len() == dim)

@@ -47,13 +47,10 @@ impl Plda {
         residuals.check(rows, "a covariance needs a class of two points or more")?;
         let within = residuals.shrunk();
         let factor = lower(&within, dim)?;
-        let n = rows.len() as f64;
-        let center: Vec<f64> = (0..dim)
-            .map(|j| rows.values.iter().skip(j).step_by(dim).map(|x| x / n).sum())
-            .collect();
         let counts: Vec<f64> = rows.counts().into_iter().map(|count| count as f64).collect();
         let means = rows.means();
-        let between = between(&means, &within, &counts, dim);
+        let center = mean_of_means(&means, dim);
+        let between = between(&means, &center, &within, &counts, dim);
         let (values, vectors) = eigen(&whitened(&between, &factor, dim), dim);
         let between: Vec<f64> = values.iter().map(|&b| b.max(0.0)).collect();
         // Rows of VᵀL⁻¹ are the solutions of Lᵀx = v: columns of L⁻¹ by solving for each unit vector.
@@ -107,11 +104,15 @@ impl Plda {
     }
 }
 
+/// The mean of the means: a class counts as one, however many points it has.
+fn mean_of_means(means: &[f64], dim: usize) -> Vec<f64> {
+    let classes = (means.len() / dim) as f64;
+    (0..dim).map(|j| means.iter().skip(j).step_by(dim).map(|x| x / classes).sum()).collect()
+}
+
 /// The covariance of the means, less what they owe to the points within classes.
-fn between(means: &[f64], within: &[f64], counts: &[f64], dim: usize) -> Vec<f64> {
+fn between(means: &[f64], center: &[f64], within: &[f64], counts: &[f64], dim: usize) -> Vec<f64> {
     let classes = counts.len();
-    let center: Vec<f64> =
-        (0..dim).map(|j| means.iter().skip(j).step_by(dim).sum::<f64>() / classes as f64).collect();
     let share = counts.iter().map(|count| 1.0 / count).sum::<f64>() / classes as f64;
     let mut between: Vec<f64> = within.iter().map(|w| -w * share).collect();
     for mean in means.chunks_exact(dim) {

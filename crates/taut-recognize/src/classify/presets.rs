@@ -129,7 +129,8 @@ impl Preset {
             Preset::WhitenedBall => {
                 let cells = cells.unwrap_or(Cells::Voronoi);
                 let rule = Rule::Ball { width: auto, cells, nu, steps };
-                vec![Method { whitening: true, ..scaled(Scaling::None, rule) }]
+                // The shrinkage of the covariance takes features of one size for granted.
+                vec![Method { whitening: true, ..scaled(Scaling::ZScore, rule) }]
             }
             Preset::Svdd => z_score(Rule::Svdd { width: auto, nu: nu.unwrap_or(NU_DEFAULT) }),
             Preset::Mahalanobis => z_score(Rule::Mahalanobis { covariance: Covariance::Pooled }),

@@ -105,6 +105,10 @@ impl Learned {
         Ok(Learned { method: Some(*method), preparation, fitted, nearest_kernel })
     }
 
+    pub(super) fn is_committee(&self) -> bool {
+        matches!(self.fitted, Fitted::Committee(_))
+    }
+
     pub(super) fn is_sound(&self, dim: usize, classes: usize) -> bool {
         self.preparation.is_sound(dim) && self.fitted.is_sound(dim, classes)
     }

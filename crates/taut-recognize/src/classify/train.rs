@@ -64,14 +64,17 @@ pub fn train(data: Labeled<'_>, options: &TrainOptions<'_>) -> Result<Model, Err
     on_threads(options.threads, || options.train(&data))
 }
 
+/// Inner folds, at most: each of them trains all candidates.
+const FOLDS_MAX: usize = 1000;
+
 impl TrainOptions<'_> {
     fn check(&self, data: &Labeled<'_>) -> Result<(), Error> {
         let is_share = |share: f64| (0.0..1.0).contains(&share);
         if self.candidates.is_empty() {
             return Err(Error::option("candidates", "empty".to_owned(), "one method at least"));
         }
-        if self.folds < 2 {
-            return Err(Error::option("folds", self.folds.to_string(), "at least 2"));
+        if self.folds < 2 || self.folds > FOLDS_MAX {
+            return Err(Error::option("folds", self.folds.to_string(), "from 2 to 1000"));
         }
         for (name, share) in [("committee", self.committee), ("reject", self.reject)] {
             if let Some(share) = share.filter(|&share| !is_share(share)) {

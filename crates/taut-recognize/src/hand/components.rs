@@ -64,15 +64,14 @@ pub fn largest_component(mask: &Mask) -> Option<LargestComponent> {
     let gaps = find_runs(&only, true);
     let labels = label(&gaps, 1);
     let sums = sum_up(&gaps, &labels);
-    for (index, sum) in sums.iter().enumerate().filter(|(_, sum)| sum.area > 0) {
-        if sum.is_at_border(&only) {
-            continue;
-        }
+    let is_hole: Vec<bool> =
+        sums.iter().map(|sum| sum.area > 0 && !sum.is_at_border(&only)).collect();
+    for (sum, _) in sums.iter().zip(&is_hole).filter(|(_, is_hole)| **is_hole) {
         area += sum.area;
         holes.push(sum.component());
-        for (run, _) in gaps.iter().zip(&labels).filter(|&(_, &label)| label == index) {
-            only.fill(run.y, run.start, run.end);
-        }
+    }
+    for (run, _) in gaps.iter().zip(&labels).filter(|&(_, &label)| is_hole[label]) {
+        only.fill(run.y, run.start, run.end);
     }
     holes.sort_by_key(|hole| std::cmp::Reverse(hole.area));
     Some(LargestComponent { mask: only, area, others, holes })

@@ -17,6 +17,8 @@ pub struct RgbImage {
     width: usize,
     height: usize,
     dots_per_inch: Option<f64>,
+    /// The resolution of a file that no scan of a hand has, along rows and columns.
+    implausible: Option<[f64; 2]>,
 }
 
 /// Why an image cannot be read.
@@ -65,7 +67,7 @@ pub enum ImageError {
     NoResolution,
     /// The resolution of the file cannot be that of a scan of a hand.
     #[error(
-        "the image gives its resolution as {horizontal:.1} × {vertical:.1} dots per inch: set `dots_per_inch`"
+        "the image gives its resolution as {horizontal} × {vertical} dots per inch: set `dots_per_inch`"
     )]
     BadResolution {
         /// Dots per inch along rows.
@@ -94,7 +96,7 @@ impl RgbImage {
             return Err(ImageError::WrongSize { bytes: pixels.len(), width, height });
         }
         let dots_per_inch = dots_per_inch.filter(|value| value.is_finite() && *value > 0.0);
-        Ok(Self { pixels, width, height, dots_per_inch })
+        Ok(Self { pixels, width, height, dots_per_inch, implausible: None })
     }
 
     /// Makes an image of a generator, whose sizes agree.
@@ -104,13 +106,14 @@ impl RgbImage {
         height: usize,
         dots_per_inch: f64,
     ) -> Self {
-        Self { pixels, width, height, dots_per_inch: Some(dots_per_inch) }
+        let dots_per_inch = Some(dots_per_inch);
+        Self { pixels, width, height, dots_per_inch, implausible: None }
     }
 
     /// Decodes an image file of at most `pixels_max` pixels.
     ///
     /// # Errors
-    /// [`ImageError`]: the bytes are no image, or one that is too large, damaged, or of an impossible resolution.
+    /// [`ImageError`]: the bytes are no image, or one that is too large or damaged.
     pub fn decode(bytes: &[u8], pixels_max: u64) -> Result<Self, ImageError> {
         /// Bytes of a decoded pixel at most, 16 bits in four channels, and as much again while it is converted.
         const PIXEL_BYTES_MAX: u64 = 16;
@@ -139,14 +142,20 @@ impl RgbImage {
         let orientation = decoder.orientation().map_err(decode)?;
         let mut decoded = DynamicImage::from_decoder(decoder).map_err(decode)?;
         decoded.apply_orientation(orientation);
-        let dots_per_inch = resolution::find(bytes, exif.as_deref())?;
+        let (dots_per_inch, implausible) = resolution::find(bytes, exif.as_deref());
         let (width, height) = (decoded.width() as usize, decoded.height() as usize);
         let pixels = if decoded.color().has_alpha() {
             over_white(decoded.into_rgba8().into_raw())
         } else {
             decoded.into_rgb8().into_raw()
         };
-        Self::new(pixels, width, height, dots_per_inch)
+        Ok(Self { implausible, ..Self::new(pixels, width, height, dots_per_inch)? })
+    }
+
+    /// Returns the resolution of the file where that cannot be one of a scan of a hand, along rows and columns.
+    #[must_use]
+    pub fn implausible_resolution(&self) -> Option<[f64; 2]> {
+        self.implausible
     }
 
     /// Returns the bytes, three for each pixel, by rows.

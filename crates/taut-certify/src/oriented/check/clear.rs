@@ -2,7 +2,7 @@
 //!
 //! *Rounding.* Coordinates scaled by the factors of the units are exact, and differences of them are right to u of themselves. Each test is
 //! a sum of at most twelve products of two or three such numbers: it is right to 16u times the sum of the sizes of its products, as
-//! products that underflow are much smaller than u times [`SQUARE_MIN`].
+//! products that underflow are much smaller than u times [`SQUARE_MIN`], and lines of edges shorter than [`ALONG_MIN`] are not looked at.
 
 use super::super::InscribedOrientedRectangle;
 use crate::arithmetic::U;
@@ -10,6 +10,10 @@ use crate::polygon::Units;
 
 /// Smallest square of a half side, where the largest coordinate of the polygon is from 1 to 2: 2⁻⁴⁰⁰.
 const SQUARE_MIN: f64 = f64::from_bits((1023 - 400) << 52);
+
+/// Smallest size of a vector along an edge whose line is looked at: 2⁻⁴⁰⁰. Half sides are at least 2⁻²⁰⁰ long, so that products with it are
+/// far above those that underflow.
+const ALONG_MIN: f64 = f64::from_bits((1023 - 400) << 52);
 
 /// A bound of the relative errors of tests.
 const TEST_ERROR: f64 = 16.0 * U;
@@ -63,6 +67,10 @@ impl Given {
         }
         // The vector along the edge is that of the scaled numbers themselves, not that of the differences.
         let along = [0, 1].map(|k| units.scaled(k, edge[1][k]) - units.scaled(k, edge[0][k]));
+        // The line of an edge that is shorter has no sides: products with it vanish, and so do the errors.
+        if along.iter().all(|x| x.abs() < ALONG_MIN) {
+            return false;
+        }
         let turn = |[x, y]: [f64; 2]| {
             let corner = [x * ax - y * r * ay - p[0], x * ay + y * r * ax - p[1]];
             let size = |k: usize| p[k].abs() + ax.abs() + ay.abs() + along[k].abs();

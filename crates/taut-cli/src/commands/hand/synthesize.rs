@@ -13,6 +13,9 @@ use crate::effort::Effort;
 use crate::exit::Outcome;
 use crate::output::writing::Outputs;
 
+/// Scans of one call, at most.
+const SCANS_MAX: u64 = 1_000_000;
+
 /// The table of the folder.
 const TRUTH: &str = "truth.csv";
 
@@ -94,6 +97,10 @@ impl Args {
         let wrong = |name, value: String, expected| {
             Err(InputError::Option { name, value, expected }.into())
         };
+        if self.people.saturating_mul(self.scans) > SCANS_MAX {
+            let expected = "people times scans of at most 1000000";
+            return wrong("people", self.people.to_string(), expected);
+        }
         if self.people == 0 || self.scans == 0 {
             let name = if self.people == 0 { "people" } else { "scans" };
             return wrong(name, "0".to_owned(), "at least 1");

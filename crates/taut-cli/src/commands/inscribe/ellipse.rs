@@ -23,7 +23,8 @@ use crate::watch::Watch;
 Two columns x, y are the vertices of one ring in order. A third column has the number of the ring, 0, 1, and so on, for
 polygons with holes or of several parts; inside is what an odd number of rings wind around. The last vertex of a ring may
 repeat its first. Rings may neither cross nor touch; if they do, the message names two edges by the vertices between
-which they lead, counted from 0.
+which they lead, counted from 0. With another method than the default the bound is as near to the best ellipse known as ε says,
+and the gap is that of the ellipse which the method found.
 Exit: 0 reached · 1 the check failed · 2 bad input or usage, nothing written ·
       3 stopped early by the budget of cells, or where rounding hides the gap that was asked for;
         the gap reached is reported

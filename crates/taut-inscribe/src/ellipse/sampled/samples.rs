@@ -25,7 +25,11 @@ pub(super) fn samples(edges: &[Segment], count: usize) -> (Vec<Sample>, f64) {
         let (mut points, mut passed) = (vec![], 0.0);
         for edge in ring {
             let (along, [a, b]) = (length(edge), *edge);
-            while points.len() < parts && points.len() as f64 * step <= passed + along {
+            // Vertices that are one in these units have no way between them.
+            while along > 0.0
+                && points.len() < parts
+                && points.len() as f64 * step <= passed + along
+            {
                 let share = ((points.len() as f64 * step - passed) / along).clamp(0.0, 1.0);
                 points.push([0, 1].map(|k| a[k] + share * (b[k] - a[k])));
             }

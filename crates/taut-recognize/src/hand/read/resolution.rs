@@ -1,7 +1,5 @@
 //! The resolution that an image file gives: pHYs of PNG, JFIF and EXIF of JPEG, the tags of TIFF.
 
-use super::ImageError;
-
 /// Dots per inch that a scan of a hand can have.
 const PLAUSIBLE: std::ops::RangeInclusive<f64> = 20.0..=2400.0;
 
@@ -10,16 +8,16 @@ const RATIO_MAX: f64 = 1.01;
 
 const INCHES_PER_METER: f64 = 1000.0 / 25.4;
 
-/// Finds the resolution in dots per inch; `None` if the file does not give it.
-pub(super) fn find(bytes: &[u8], exif: Option<&[u8]>) -> Result<Option<f64>, ImageError> {
+/// Finds the resolution in dots per inch, if the file gives it, or else what it gives that no scan of a hand has.
+pub(super) fn find(bytes: &[u8], exif: Option<&[u8]>) -> (Option<f64>, Option<[f64; 2]>) {
     let found =
         png(bytes).or_else(|| jpeg(bytes)).or_else(|| tiff(bytes)).or_else(|| exif.and_then(tiff));
-    let Some([horizontal, vertical]) = found else { return Ok(None) };
+    let Some([horizontal, vertical]) = found else { return (None, None) };
     let ratio = horizontal / vertical;
     if !(PLAUSIBLE.contains(&horizontal) && (1.0 / RATIO_MAX..=RATIO_MAX).contains(&ratio)) {
-        return Err(ImageError::BadResolution { horizontal, vertical });
+        return (None, Some([horizontal, vertical]));
     }
-    Ok(Some((horizontal * vertical).sqrt()))
+    (Some((horizontal * vertical).sqrt()), None)
 }
 
 fn big_endian_32(bytes: &[u8], at: usize) -> Option<u32> {

@@ -66,7 +66,9 @@ impl Summary for InscribedBodies {
         let mut fields = vec![
             Field::proved("inside", inside(verdict.caps))
                 .remark("in whole numbers, for the coordinates as given"),
-            Field::proved("volume", format!("{lower} ≤ sum of the volumes ≤ {upper}")),
+            Field::proved("volume", format!("{lower} ≤ sum of the volumes ≤ {upper}")).remark(
+                if verdict.disjoint { "of disjoint bodies" } else { "of bodies that may overlap" },
+            ),
             Field::proved("largest", format!("a body of volume ≥ {}", exact(verdict.largest))),
         ];
         if verdict.at > 0 {
