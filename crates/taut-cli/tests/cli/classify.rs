@@ -223,7 +223,7 @@ fn what_is_refused_is_named_and_nothing_is_written() {
         ),
         (
             "train train.csv --label kind --model new.json --folds 1",
-            "option `--folds` is 1: expected at least 2",
+            "option `--folds` is 1: expected from 2 to 1000",
         ),
         (
             "train train.csv --label kind --model new.json --reject 1",
