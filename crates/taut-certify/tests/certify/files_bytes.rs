@@ -68,6 +68,15 @@ impl Seek for Sparse {
 
 #[test]
 fn a_sample_of_a_sparse_file_takes_no_memory() {
+    // In a process of its own, as the most that a process holds is that of all tests of a program.
+    const ALONE: &str = "TAUT_TEST_ALONE";
+    if std::env::var_os(ALONE).is_none() {
+        let name = "files_bytes::a_sample_of_a_sparse_file_takes_no_memory";
+        let mut test = std::process::Command::new(std::env::current_exe().unwrap());
+        let status = test.args(["--exact", name]).env(ALONE, "1").status().unwrap();
+        assert!(status.success(), "{status}");
+        return;
+    }
     let certificate = SampleCertificate { seed: 1 };
     // Seven million weights of the first division alone.
     let answer = DrawnSample { of: 1_000_000_000_000, drawn: 500_000_000_000 };
