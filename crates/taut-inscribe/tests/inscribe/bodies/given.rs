@@ -66,8 +66,8 @@ fn points_without_room_are_refused_with_the_reason() {
     for (at, number, expected) in [
         (vec![half, [1.5, 0.5, 0.5]], 1, "is outside of the mesh"),
         (vec![[0.5, 0.5, -1e-3]], 0, "is outside of the mesh"),
-        (vec![[f64::NAN; 3]], 0, "is outside of the mesh"),
-        (vec![[f64::INFINITY; 3]], 0, "is outside of the mesh"),
+        (vec![[f64::NAN; 3]], 0, "is not finite"),
+        (vec![[f64::INFINITY; 3]], 0, "is not finite"),
         (vec![[1.0, 0.5, 0.5]], 0, "is on the surface"),
         (vec![[1e-6, 0.5, 0.5]], 0, "is on the surface"),
     ] {
