@@ -81,7 +81,7 @@ pub fn inscribed_circle(
     if found.center.is_none() || radius <= 0.0 {
         return Err(Error::TooThin);
     }
-    if !radius.is_normal() {
+    if radius < RADIUS_MIN {
         return Err(Error::Area);
     }
     let center = found.center.unwrap_or_default();
@@ -113,6 +113,9 @@ pub fn inscribed_circle(
     };
     Ok(Solution { answer: InscribedCircle { center, radius }, certificate, trace })
 }
+
+/// Radii below this have too few digits left for the gap that is proved.
+const RADIUS_MIN: f64 = f64::MIN_POSITIVE / 4.0;
 
 fn check_options(options: &CircleOptions<'_>) -> Result<(), InputError> {
     let wrong = |name, value, expected| Err(InputError::Option { name, value, expected });

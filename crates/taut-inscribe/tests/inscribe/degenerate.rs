@@ -122,3 +122,12 @@ fn the_largest_and_smallest_coordinates_are_solved() {
     let (found, _) = proved(&[[0.0, 0.0], [min, 0.0], [min, min], [0.0, min]]);
     assert!(found.answer.radius > 0.5 * min * (1.0 - 1e-9));
 }
+
+#[test]
+fn circles_whose_radii_have_few_digits_are_refused() {
+    for size in [4e-310, 1e-315, 5e-322] {
+        let ring = [[0.0, 0.0], [size, 0.0], [size, 0.75 * size], [0.0, 0.75 * size]];
+        let error = solve(&ring).unwrap_err();
+        assert!(matches!(error, Error::Area | Error::TooThin), "{size:e}: {error}");
+    }
+}
