@@ -10,7 +10,21 @@ import numpy as np
 import pytest
 
 import taut
-from taut import _ball, _bodies, _centers, _curve, _delaunay, _ellipsoid, _generate, _memory, _native, _robust, _surface
+from taut import (
+    _ball,
+    _bodies,
+    _centers,
+    _curve,
+    _delaunay,
+    _ellipse,
+    _ellipsoid,
+    _generate,
+    _memory,
+    _native,
+    _robust,
+    _surface,
+    _triangle,
+)
 from taut._record import Record
 
 RNG = np.random.default_rng(5)
@@ -272,6 +286,8 @@ WORDS = {
     "inscribed_dops.method": _bodies.BodiesMethod,
     "inscribed_dops.objective": _bodies.Objective,
     "inscribed_dops.seeds": _bodies.ThesisSeeds,
+    "inscribed_ellipse.method": _ellipse.EllipseMethod,
+    "inscribed_triangle.method": _triangle.TriangleMethod,
     "robust_ellipsoid.method": _robust.RobustMethod,
     "sort_file.kind": _memory.KeyKind,
     "spatial_order.curve": _memory.OrderCurve,
