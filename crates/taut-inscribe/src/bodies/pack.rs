@@ -17,6 +17,9 @@ use crate::Error;
 /// Points by which the search tells which body is better. With 4,000 it fits the points instead of the mesh, by 2.8 % of a bunny.
 pub(super) const SCORED_POINTS: usize = 14_000;
 
+/// The same where each body is around a given point and has to compete with no other for points.
+pub(super) const SCORED_POINTS_GIVEN: usize = 6_000;
+
 /// The part of the events that finds bodies; the rest improves them against the others.
 const GREEDY_PART: f64 = 0.65;
 
