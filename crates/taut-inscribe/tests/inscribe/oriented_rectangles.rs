@@ -242,7 +242,7 @@ fn holes_of_tiny_or_no_extent_are_not_overlooked() {
         [0.49, 0.49],
         [-0.49, 0.49],
     ];
-    let free = proved(&[outer.clone()], 1e-2);
+    let free = proved(std::slice::from_ref(&outer), 1e-2);
     let tiny = 5e-324;
     for hole in [
         vec![[0.0, 0.0], [tiny, 0.0], [0.0, tiny]],
