@@ -3,6 +3,7 @@
 mod bodies;
 mod planar;
 pub(crate) mod shapes;
+mod threads;
 
 use taut_certify::{InscribedBodies, Solution};
 use taut_inscribe::{BodiesOptions, BodyShape, OcclusionOptions, inscribed_bodies, occlusion};
@@ -19,6 +20,8 @@ pub(crate) const AREA: Area<Run> = Area {
             .about("The largest ellipse in outlines of countries, searched and proved."),
         runs("circle", planar::circles)
             .about("The largest circle in outlines of countries, beside shapely and polylabel."),
+        runs("threads", threads::threads)
+            .about("Searches of 10⁵ cells for triangles and ellipses by one thread and by two."),
         runs("packing", bodies::packing)
             .about("18-dops, overlapping and disjoint: coverage, time, certificates, occlusion."),
         runs("peers", bodies::peers).about(

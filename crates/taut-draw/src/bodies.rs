@@ -6,7 +6,7 @@
 use taut_certify::{InscribedBodies, Solution};
 use taut_points::{PointSource, gather};
 
-use crate::marks::{agree, dot_size};
+use crate::marks::{agree, all_there, dot_size};
 use crate::number::{count, counted, short};
 use crate::{
     DrawOptions, Error, Figure, Layer3, LineStyle, Mesh3, Point3, Scene3, Shading, Shape3,
@@ -35,8 +35,12 @@ pub fn bodies_figures(
     };
     let (mesh, note) = mesh(source, options)?;
     let volume: f64 = answer.bodies.iter().map(|body| body.volume).sum();
+    let closed_by = match &answer.caps[..] {
+        [] => String::new(),
+        caps => format!(" Holes of the mesh are closed by {}.", counted(caps.len() as u64, "cap")),
+    };
     let caption = format!(
-        "{bodies}{}; their volumes add up to {}.{note}",
+        "{bodies}{}; their volumes add up to {}.{closed_by}{note}",
         if answer.disjoint { " that are disjoint" } else { "" },
         short(volume, 6)
     );
@@ -46,10 +50,13 @@ pub fn bodies_figures(
         line_style: LineStyle::Solid,
         shape,
     };
-    let layers = vec![
+    let mut layers = vec![
         layer("bodies", Tone::Answer, Shape3::Surface(facets(answer)?)),
         layer("mesh", Tone::Point, mesh),
     ];
+    if !answer.caps.is_empty() {
+        layers.push(layer("caps", Tone::Second, Shape3::Mesh(caps(answer, source)?)));
+    }
     let title = format!("Convex bodies in a mesh of {triangles}");
     Ok(vec![Figure::Space(Scene3::space(title, caption, layers, options))])
 }
@@ -67,6 +74,27 @@ fn facets(answer: &InscribedBodies) -> Result<Surface3, Error> {
         Some(&value) => Err(Error::NonFinite { what: "a corner of a body".to_owned(), value }),
         None => Ok(Surface3 { vertices, triangles, back: Tone::Answer, shading: Shading::Flat }),
     }
+}
+
+/// The triangles that close holes of the mesh.
+fn caps(answer: &InscribedBodies, source: &dyn PointSource) -> Result<Mesh3, Error> {
+    let corners = answer.caps.as_flattened();
+    all_there("corner of a cap", corners, source.len().saturating_mul(3))?;
+    let mut rows: Vec<u64> = corners.iter().map(|corner| corner / 3).collect();
+    rows.sort_unstable();
+    rows.dedup();
+    let values = gather(source, &rows)?;
+    let places = values.as_chunks::<3>().0;
+    let place = |&corner: &u64| {
+        let row = rows.partition_point(|&row| row < corner / 3);
+        places[3 * row + (corner % 3) as usize]
+    };
+    let vertices: Vec<[f64; 3]> = corners.iter().map(place).collect();
+    if let Some(&value) = vertices.as_flattened().iter().find(|x| !x.is_finite()) {
+        return Err(Error::NonFinite { what: "a corner of a cap".to_owned(), value });
+    }
+    let triangles = (0..answer.caps.len()).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+    Ok(Mesh3 { vertices, triangles })
 }
 
 /// The mesh, or a sample of its corners, and what to say about the latter.

@@ -31,6 +31,7 @@ mod circle;
 mod convex;
 mod ellipse;
 mod error;
+mod frontier;
 mod inner_points;
 mod levels;
 mod occlusion;

@@ -110,12 +110,11 @@ fn read(
     let claimed = certificate.points_hash;
     let (blocks, _) = hashed_pass(source, claimed, WantedRows::none(), monitor, |first, rows| {
         all_finite(first, rows)?;
-        let mut row = [0.0; 9];
-        let triangles = (0..rows.len()).map(|k| {
-            rows.copy_row(k, &mut row);
-            [0, 3, 6].map(|corner| [row[corner], row[corner + 1], row[corner + 2]])
-        });
-        Ok(triangles.collect::<Vec<_>>())
+        let mut triangles = vec![[[0.0; 3]; 3]; rows.len()];
+        for (k, triangle) in triangles.iter_mut().enumerate() {
+            rows.copy_row(k, triangle.as_flattened_mut());
+        }
+        Ok(triangles)
     })?;
     Ok(blocks.concat())
 }

@@ -206,6 +206,10 @@ impl Family for Free<'_> {
         }
     }
 
+    fn anchor(&self, body: &FreeBody) -> [i32; 3] {
+        body.anchor
+    }
+
     fn sides(&self, body: &FreeBody) -> Sides {
         body.sides.clone()
     }

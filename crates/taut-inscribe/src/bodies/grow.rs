@@ -261,6 +261,10 @@ impl Family for Space<'_> {
         self.scores.count(&dop.h)
     }
 
+    fn anchor(&self, dop: &Dop) -> [i32; 3] {
+        dop.anchor
+    }
+
     fn sides(&self, dop: &Dop) -> Sides {
         Sides::of_dop(&self.tree.directions, &dop.h)
     }

@@ -1,5 +1,7 @@
 //! A triangle mesh that is closed, if need be by caps, with corners on a grid.
 
+use std::collections::{HashMap, HashSet};
+
 use taut_points::{InputError, Monitor, PointSource, PointsHash, hash_block, map_blocks};
 
 use super::caps;
@@ -79,11 +81,9 @@ impl GridMesh {
             return Err(InputError::TooManyPoints { points, most: TRIANGLES_MAX }.into());
         }
         let (mut triangles, points_hash) = rows(source, monitor)?;
-        let boundary = Boundary::of(&triangles);
-        let caps = match (close_holes, boundary.open_edge(&triangles)) {
-            (false, Some(error)) => return Err(error),
-            (true, Some(_)) => boundary.caps(&triangles, monitor)?,
-            (_, None) => vec![],
+        let caps = match is_closed(&triangles) {
+            true => vec![],
+            false => Boundary::of(&triangles).close(close_holes, &triangles, monitor)?,
         };
         let all = triangles.as_flattened();
         let closing: Vec<Triangle> =
@@ -166,6 +166,26 @@ fn rows(
     Ok((blocks.into_iter().flat_map(|block| block.1).collect(), hash))
 }
 
+/// Whether each edge belongs to an even number of triangles. Faster than to sort the edges, which an open mesh needs.
+fn is_closed(triangles: &[Triangle]) -> bool {
+    let mut numbers: HashMap<[u64; 3], u32> = HashMap::with_capacity(triangles.len());
+    let mut odd: HashSet<[u32; 2]> = HashSet::with_capacity(triangles.len());
+    for triangle in triangles {
+        // −0 and 0 are one number.
+        let [a, b, c] = triangle.map(|corner| {
+            let next = numbers.len() as u32;
+            *numbers.entry(corner.map(|x| (x + 0.0).to_bits())).or_insert(next)
+        });
+        for ends in [[a, b], [b, c], [c, a]] {
+            let edge = [ends[0].min(ends[1]), ends[0].max(ends[1])];
+            if ends[0] != ends[1] && !odd.remove(&edge) {
+                odd.insert(edge);
+            }
+        }
+    }
+    odd.is_empty()
+}
+
 /// The edges of a mesh that belong to an odd number of triangles.
 struct Boundary {
     /// The vertex of each corner: those with equal coordinates are one.
@@ -196,6 +216,20 @@ impl Boundary {
         let same = edges.chunk_by(|one, other| one.0 == other.0);
         let edges = same.filter(|same| same.len() % 2 == 1).map(|same| same[0]).collect();
         Boundary { vertex, edges }
+    }
+
+    /// Triangles that close the mesh, or the error of an open mesh.
+    fn close(
+        &self,
+        is_wanted: bool,
+        triangles: &[Triangle],
+        monitor: &Monitor<'_>,
+    ) -> Result<Vec<[u64; 3]>, Error> {
+        match self.open_edge(triangles) {
+            Some(error) if !is_wanted => Err(error),
+            Some(_) => self.caps(triangles, monitor),
+            None => Ok(vec![]),
+        }
     }
 
     /// The error of an open mesh.

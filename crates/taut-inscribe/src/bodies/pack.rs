@@ -6,11 +6,12 @@
 //! take the place of points: bodies start from the middles of lines that no body hides yet.
 
 use std::cell::OnceCell;
+use std::cmp::Reverse;
 
 use super::BodiesOptions;
 use super::lines::{Line, Sample};
 use super::mesh::GridMesh;
-use super::polytope::Sides;
+use super::polytope::{self, Sides};
 use super::tree::Tree;
 use crate::Error;
 
@@ -18,7 +19,7 @@ use crate::Error;
 pub(super) const SCORED_POINTS: usize = 14_000;
 
 /// The same where each body is around a given point and has to compete with no other for points.
-pub(super) const SCORED_POINTS_GIVEN: usize = 6_000;
+pub(super) const SCORED_POINTS_GIVEN: usize = 3_000;
 
 /// The part of the events that finds bodies; the rest improves them against the others.
 const GREEDY_PART: f64 = 0.65;
@@ -69,6 +70,9 @@ pub(super) trait Family {
 
     /// Returns how many of the points to cover are in the interior of a body, or how many of the lines to hide meet it.
     fn score(&self, body: &Self::Body) -> u64;
+
+    /// Returns a point in the interior of a body.
+    fn anchor(&self, body: &Self::Body) -> [i32; 3];
 
     /// Returns the half-spaces of a body.
     fn sides(&self, body: &Self::Body) -> Sides;
@@ -175,9 +179,18 @@ impl<'a, F: Family> Packing<'a, F> {
         (self.input.lines().len() - self.open_lines(None).len()) as u64
     }
 
-    /// How many points are covered, or lines hidden, as the objective has it.
+    /// How many points are covered, or lines hidden, as the objective has it; for one body its volume.
     pub(super) fn value(&self) -> u64 {
-        if self.input.lines.is_some() { self.hidden() } else { self.covered() }
+        match (&self.bodies[..], self.improves_volume()) {
+            ([body], true) => volume(&self.family, body),
+            _ if self.input.lines.is_some() => self.hidden(),
+            _ => self.covered(),
+        }
+    }
+
+    /// Whether bodies are improved by their volume: one alone is. Its points know the volume to half a percent only.
+    fn improves_volume(&self) -> bool {
+        self.input.count() == 1 && self.input.lines.is_none()
     }
 
     /// All bodies but one.
@@ -269,26 +282,35 @@ impl<'a, F: Family> Packing<'a, F> {
             self.family.grow(&mut body)?;
             grown.push((self.family.score(&body), body));
         }
-        grown.sort_by_key(|(score, _)| std::cmp::Reverse(*score));
-        grown.truncate(IMPROVED_STARTS);
+        grown.sort_by_key(|(score, _)| Reverse(*score));
+        grown.truncate(if self.improves_volume() { STARTS } else { IMPROVED_STARTS });
         let best = self.best(grown.into_iter().map(|(_, body)| body).collect(), until)?;
         Ok(best.filter(|(score, _)| *score > 0).map(|(_, body)| body))
     }
 
-    /// Improves bodies that have grown and returns the best of them with its score.
+    /// Improves bodies that have grown and returns the best of them with its score. For one body all of them are improved for a
+    /// while, then the better half of them, and so on: one basin in many is worth it, and does not starve the last ones.
     fn best(&mut self, grown: Vec<F::Body>, until: u64) -> Result<Option<(u64, F::Body)>, Error> {
-        let left = until.saturating_sub(self.family.events()) / grown.len().max(1) as u64;
-        let mut best: Option<(u64, F::Body)> = None;
-        for mut body in grown {
-            self.family.prepare(&mut body);
-            let until = self.family.events() + left;
-            let score = self.recreate(&mut body, until)?;
-            // Of equal ones the first.
-            if best.as_ref().is_none_or(|(least, _)| score > *least) {
-                best = Some((score, body));
+        let score_of = self.score_of();
+        let halvings = if self.improves_volume() { grown.len().max(1).ilog2() } else { 0 };
+        let mut rounds = u64::from(halvings) + 1;
+        let mut scored: Vec<(u64, F::Body)> = grown.into_iter().map(|body| (0, body)).collect();
+        loop {
+            let left = until.saturating_sub(self.family.events());
+            let share = left / (rounds * scored.len().max(1) as u64);
+            for (score, body) in &mut scored {
+                self.family.prepare(body);
+                let until = self.family.events() + share;
+                *score = self.recreate(body, until, score_of)?;
             }
+            // Of equal ones the first.
+            scored.sort_by_key(|(score, _)| Reverse(*score));
+            rounds -= 1;
+            if rounds == 0 {
+                return Ok(scored.into_iter().next());
+            }
+            scored.truncate(scored.len() / 2);
         }
-        Ok(best)
     }
 
     /// Points among those open that are far from all triangles, the farthest first, each outside the balls around the others. Of
@@ -328,13 +350,23 @@ impl<'a, F: Family> Packing<'a, F> {
         is_start.then_some(Start { point, clearance, is_given: false })
     }
 
+    /// What says which of two bodies is better.
+    fn score_of(&self) -> fn(&F, &F::Body) -> u64 {
+        if self.improves_volume() { volume } else { F::score }
+    }
+
     /// Improves a body by random changes until so many events are spent; returns its score.
-    fn recreate(&mut self, body: &mut F::Body, until: u64) -> Result<u64, Error> {
-        let mut score = self.family.score(body);
+    fn recreate(
+        &mut self,
+        body: &mut F::Body,
+        until: u64,
+        score_of: fn(&F, &F::Body) -> u64,
+    ) -> Result<u64, Error> {
+        let mut score = score_of(&self.family, body);
         while self.family.events() < until {
             let before = self.family.events();
             let changed = self.family.change(body)?;
-            let found = self.family.score(&changed);
+            let found = score_of(&self.family, &changed);
             if found >= score {
                 (*body, score) = (changed, found);
             }
@@ -348,6 +380,7 @@ impl<'a, F: Family> Packing<'a, F> {
     /// Improves the bodies in turn against the points that the others leave.
     pub(super) fn improve(&mut self, events: u64) -> Result<(), Error> {
         let turns = IMPROVING_ROUNDS * self.bodies.len() as u64;
+        let score_of = self.score_of();
         for turn in 0..turns {
             let body = (turn % self.bodies.len() as u64) as usize;
             let left = events.saturating_sub(self.family.events()) / (turns - turn);
@@ -355,7 +388,7 @@ impl<'a, F: Family> Packing<'a, F> {
             let mut changed = self.bodies[body].clone();
             let until = self.family.events() + left;
             self.family.prepare(&mut changed);
-            self.recreate(&mut changed, until)?;
+            self.recreate(&mut changed, until, score_of)?;
             self.reaches[body] = self.reached(&changed);
             self.bodies[body] = changed;
         }
@@ -382,6 +415,12 @@ impl<'a, F: Family> Packing<'a, F> {
             self.family.set_obstacles(&others);
         }
     }
+}
+
+/// The volume of a body in cubes of 32 units, rounded down: a whole number, as other scores are.
+fn volume<F: Family>(family: &F, body: &F::Body) -> u64 {
+    let cube = f64::from(1 << 15);
+    (polytope::volume(&family.sides(body), family.anchor(body)) / cube) as u64
 }
 
 /// The distance between two points of the grid.

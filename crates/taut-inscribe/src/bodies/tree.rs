@@ -51,13 +51,14 @@ pub(super) enum Parts {
 impl Tree {
     /// Builds the tree of the triangles, of which there is at least one.
     pub(super) fn new(triangles: &[[[i32; 3]; 3]], directions: &Arc<Directions>) -> Self {
-        let mut rows: Vec<u32> = (0..triangles.len() as u32).collect();
-        let center = |row: u32| {
-            let [a, b, c] = triangles[row as usize];
-            [0, 1, 2].map(|k| a[k] + b[k] + c[k])
+        let center = |(row, [a, b, c]): (usize, &[[i32; 3]; 3])| Centered {
+            center: [a[0] + b[0] + c[0], a[1] + b[1] + c[1], a[2] + b[2] + c[2]],
+            row: row as u32,
         };
+        let mut order: Vec<Centered> = triangles.iter().enumerate().map(center).collect();
         let mut nodes = vec![];
-        split(&mut nodes, &mut rows, 0, &center);
+        split(&mut nodes, &mut order, 0);
+        let rows: Vec<u32> = order.iter().map(|item| item.row).collect();
         let corners: Vec<_> = rows.iter().map(|&row| triangles[row as usize]).collect();
         Self::with_heights(
             Arc::clone(directions),
@@ -85,15 +86,11 @@ impl Tree {
         rows: Arc<Vec<u32>>,
     ) -> Self {
         let k = directions.len();
-        let of_triangle = |corners: &[[i32; 3]; 3]| {
-            let [a, b, c] = *corners;
-            let least = |j| {
-                let heights = [a, b, c].map(|p| directions.along(j, p) as i32);
-                heights[0].min(heights[1]).min(heights[2])
-            };
-            (0..k).map(least).collect::<Vec<_>>()
-        };
-        let heights: Vec<i32> = corners.iter().flat_map(of_triangle).collect();
+        let mut heights = Vec::with_capacity(k * corners.len());
+        for &[a, b, c] in corners.iter() {
+            let height = |j, p| directions.along(j, p) as i32;
+            heights.extend((0..k).map(|j| height(j, a).min(height(j, b)).min(height(j, c))));
+        }
         let mut node_heights = vec![i32::MAX; k * nodes.len()];
         // Children come after their parents.
         for at in (0..nodes.len()).rev() {
@@ -314,26 +311,37 @@ pub(super) fn reaches(heights: &[i32], limits: &Offsets) -> bool {
     heights.iter().zip(limits).fold(true, |all, (height, limit)| all & (height < limit))
 }
 
-/// Splits rows at the median along the axis in which their centers spread most, and appends the nodes.
-fn split(nodes: &mut Vec<Node>, rows: &mut [u32], first: u32, center: &dyn Fn(u32) -> [i32; 3]) {
+/// A triangle by three times its center, and its row.
+#[derive(Clone, Copy)]
+struct Centered {
+    center: [i32; 3],
+    row: u32,
+}
+
+/// Splits triangles at the median along the axis in which their centers spread most, and appends the nodes.
+fn split(nodes: &mut Vec<Node>, items: &mut [Centered], first: u32) {
     let at = nodes.len();
-    let end = first + rows.len() as u32;
+    let end = first + items.len() as u32;
     nodes.push(Node { first, end, other: 0 });
-    if rows.len() <= LEAF_TRIANGLES_MAX {
+    if items.len() <= LEAF_TRIANGLES_MAX {
         return;
     }
-    let spread = |axis: usize| {
-        let along = |&row: &u32| center(row)[axis];
-        let (low, high) = (rows.iter().map(along).min(), rows.iter().map(along).max());
-        i64::from(high.unwrap_or(0)) - i64::from(low.unwrap_or(0))
-    };
+    let (mut low, mut high) = ([i32::MAX; 3], [i32::MIN; 3]);
+    for item in items.iter() {
+        for c in 0..3 {
+            (low[c], high[c]) = (low[c].min(item.center[c]), high[c].max(item.center[c]));
+        }
+    }
+    let spread = |axis: usize| i64::from(high[axis]) - i64::from(low[axis]);
     let axis = (0..3).max_by_key(|&axis| spread(axis)).unwrap_or(0);
-    let middle = rows.len() / 2;
-    rows.select_nth_unstable_by_key(middle, |&row| (center(row)[axis], row));
-    let (lower, upper) = rows.split_at_mut(middle);
-    split(nodes, lower, first, center);
+    let middle = items.len() / 2;
+    // One number for the comparison: by center, then by row.
+    let key = |item: &Centered| (i64::from(item.center[axis]) << 32) | i64::from(item.row);
+    items.select_nth_unstable_by_key(middle, key);
+    let (lower, upper) = items.split_at_mut(middle);
+    split(nodes, lower, first);
     nodes[at].other = nodes.len() as u32;
-    split(nodes, upper, first + middle as u32, center);
+    split(nodes, upper, first + middle as u32);
 }
 
 /// Whether the edge between two corners, seen from above, passes at the x of the point beyond its y, for the point moved by

@@ -1,7 +1,7 @@
 //! Bodies with k fixed directions, after those with fewer.
 //!
-//! *Guarantee.* More directions never cover fewer of the points: the bodies of a smaller set of directions are improved in the
-//! larger set, and the better result counts.
+//! *Guarantee.* More directions never cover fewer of the points, and one body never has less volume: the bodies of a smaller set of
+//! directions are improved in the larger set, and the better result counts.
 
 use std::sync::Arc;
 
@@ -27,7 +27,7 @@ pub(super) struct Packed<B> {
     pub(super) covered: u64,
     /// Lines that at least one body hides.
     pub(super) hidden: u64,
-    /// The points covered, or the lines hidden, as the objective has it.
+    /// The points covered, or the lines hidden, as the objective has it; for one body its volume.
     value: u64,
 }
 

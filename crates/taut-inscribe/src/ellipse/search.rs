@@ -8,7 +8,6 @@
 //! *Cells of shapes alone* are split until an ellipse changes little in them; then a frame gives them centers, skewed as the shapes.
 
 use std::cmp::Ordering;
-use std::collections::BinaryHeap;
 use std::sync::Arc;
 
 use rayon::prelude::*;
@@ -21,13 +20,11 @@ use super::tree::{self, Log, Node, Reason};
 use super::view::View;
 use super::weights::{self, Column};
 use super::{EllipseOptions, report, widths};
+use crate::frontier::{Frontier, Waiting};
 use crate::inner_points::inner_points;
 use crate::levels::Levels;
 use crate::polygon::Segment;
 use crate::units::Units;
-
-/// Cells that are split at once. More keep more threads busy, and split more cells that a better ellipse would have closed.
-const BATCH_CELLS: usize = 16;
 
 /// Half the extent of the shapes of a cell, from its middle, below which it has a frame.
 const FRAME_SHAPE_MAX: f64 = 0.51;
@@ -78,10 +75,8 @@ pub(super) struct Found {
     pub(super) is_complete: bool,
 }
 
-/// A cell that waits to be split.
-struct Waiting {
-    bound: f64,
-    node: usize,
+/// What waits to be split.
+struct Open {
     cell: Cell,
     next: Next,
     list: Arc<[u32]>,
@@ -110,26 +105,6 @@ enum Next {
     Nothing,
 }
 
-impl Ord for Waiting {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.bound.total_cmp(&other.bound).then(other.node.cmp(&self.node))
-    }
-}
-
-impl PartialOrd for Waiting {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Waiting {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Waiting {}
-
 /// The tree so far and the best ellipse.
 struct Search<'a> {
     units: &'a Units,
@@ -139,9 +114,7 @@ struct Search<'a> {
     /// The size of the best ellipse after rounding.
     rounded: f64,
     nodes: Vec<Node>,
-    waiting: BinaryHeap<Waiting>,
-    /// The largest bound of cells that cannot be split.
-    stuck: f64,
+    frontier: Frontier<Open>,
     epsilon: f64,
     /// The size of the answer, which a checker knows, where that is not the best ellipse.
     answer_size: Option<f64>,
@@ -165,8 +138,7 @@ pub(super) fn search(
         best: None,
         rounded: 0.0,
         nodes: vec![],
-        waiting: BinaryHeap::new(),
-        stuck: 0.0,
+        frontier: Frontier::new(),
         epsilon: options.epsilon,
         answer_size,
         ascents: 0,
@@ -177,7 +149,7 @@ pub(super) fn search(
         return Ok(search.found([0, -1, 1], directions, false));
     }
     let (root, beyond) = search.root();
-    search.stuck = beyond;
+    search.frontier.close(beyond);
     let power = |exponent: i32| f64::from_bits(((1023 + exponent) as u64) << 52);
     let [s, low, high] = root.map(power);
     let list: Arc<[u32]> = (0..units.edges.len() as u32).collect();
@@ -188,9 +160,10 @@ pub(super) fn search(
         options.monitor.check()?;
         let room = options.max_cells.saturating_sub(search.nodes.len() as u64) / 2;
         if room == 0 {
-            break search.waiting.peek().is_none_or(|top| top.bound <= search.goal());
+            break search.frontier.is_within(search.goal());
         }
-        let batch = search.batch(BATCH_CELLS.min(room as usize));
+        let goal = search.goal();
+        let batch = search.frontier.batch(goal, room as usize);
         if batch.is_empty() {
             break true;
         }
@@ -253,21 +226,6 @@ impl Search<'_> {
         }
     }
 
-    /// The cells to be split next, of the largest bounds.
-    fn batch(&mut self, most: usize) -> Vec<Waiting> {
-        let mut batch = vec![];
-        while batch.len() < most
-            && let Some(top) = self.waiting.pop()
-        {
-            if top.bound <= self.goal() {
-                self.stuck = self.stuck.max(top.bound);
-                break;
-            }
-            batch.push(top);
-        }
-        batch
-    }
-
     /// Makes a node of a cell, and keeps it to be split if its bound does not close it.
     fn add(&mut self, examined: Examined) -> usize {
         let Examined { cell, reason, bound, next, list, is_inside, larger } = examined;
@@ -278,9 +236,9 @@ impl Search<'_> {
         }
         let Some(bound) = bound else { return node };
         match next {
-            Next::Nothing => self.stuck = self.stuck.max(bound),
-            _ if bound <= self.goal() => self.stuck = self.stuck.max(bound),
-            _ => self.waiting.push(Waiting { bound, node, cell, next, list, is_inside }),
+            Next::Nothing => self.frontier.close(bound),
+            _ if bound <= self.goal() => self.frontier.close(bound),
+            _ => self.frontier.push(bound, node, Open { cell, next, list, is_inside }),
         }
         node
     }
@@ -385,11 +343,11 @@ impl Search<'_> {
     }
 
     /// Puts children in the place of cells.
-    fn open(&mut self, batch: Vec<Waiting>) {
+    fn open(&mut self, batch: Vec<Waiting<Open>>) {
         let this = &*self;
         let children: Vec<Vec<Examined>> = batch
             .par_iter()
-            .map(|Waiting { cell, next, list, is_inside, .. }| match next {
+            .map(|Waiting { cell: Open { cell, next, list, is_inside }, .. }| match next {
                 Next::Split(axis) => {
                     let halves = cell.halves(*axis).into_iter().flatten();
                     halves.map(|half| this.examine(half, list, *is_inside)).collect()
@@ -398,14 +356,16 @@ impl Search<'_> {
                 Next::Nothing => vec![],
             })
             .collect();
-        for (Waiting { node, next, bound, .. }, examined) in batch.into_iter().zip(children) {
+        for (Waiting { node, bound, cell: Open { next, .. } }, examined) in
+            batch.into_iter().zip(children)
+        {
             let added: Vec<usize> = examined.into_iter().map(|child| self.add(child)).collect();
             match (next, &added[..]) {
                 (Next::Split(axis), &[below, above]) => {
                     self.nodes[node] = Node::Split(axis, [below, above]);
                 }
                 (Next::Frame, &[child]) => self.nodes[node] = Node::Framed(child),
-                _ => self.stuck = self.stuck.max(bound),
+                _ => self.frontier.close(bound),
             }
         }
     }
@@ -430,8 +390,7 @@ impl Search<'_> {
     fn found(self, root: [i32; 3], directions: Vec<[f64; 2]>, is_complete: bool) -> Found {
         let log = tree::log(&self.nodes);
         // Cells that were closed on the way have bounds up to the goal.
-        let waiting = self.waiting.peek().map_or(0.0, |top| top.bound);
-        let upper = waiting.max(self.stuck).max(self.goal());
+        let upper = self.frontier.upper().max(self.goal());
         let (best, ascents) = (self.best, self.ascents);
         Found { best, upper, log, root, directions, ascents, is_complete }
     }

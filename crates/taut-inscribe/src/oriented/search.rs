@@ -4,12 +4,12 @@
 //! edges that may meet its hull, out of those of its parent. Steps of the linear programs are starts of local
 //! [`ascent`](super::ascent).
 
-use std::cmp::Ordering;
-use std::collections::{BinaryHeap, HashMap};
+use std::collections::HashMap;
 use std::rc::Rc;
 
 use taut_points::Cancelled;
 
+use crate::frontier::{Frontier, Waiting};
 use crate::inner_points::inner_points;
 use crate::levels::Levels;
 use crate::polygon::Segment;
@@ -70,43 +70,19 @@ impl Target<'_> {
     }
 }
 
-/// A cell that waits to be split.
-struct Waiting {
-    bound: f64,
-    node: usize,
+/// What waits to be split.
+struct Open {
     /// The cell as it was split off, and what is left of it.
     given: Cell,
     cell: Cell,
     list: Rc<[u32]>,
 }
 
-impl Ord for Waiting {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.bound.total_cmp(&other.bound).then(other.node.cmp(&self.node))
-    }
-}
-
-impl PartialOrd for Waiting {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Waiting {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Waiting {}
-
 struct Search<'a> {
     target: &'a Target<'a>,
     best: Option<Reported>,
     nodes: Vec<Node>,
-    waiting: BinaryHeap<Waiting>,
-    /// The largest bound of cells that rounding does not let split.
-    done: f64,
+    frontier: Frontier<Open>,
     epsilon: f64,
     ascents: u64,
     /// The largest heights of vertices above the sides, by the range of slopes.
@@ -122,8 +98,7 @@ pub(super) fn search(
         target,
         best: None,
         nodes: vec![],
-        waiting: BinaryHeap::new(),
-        done: 0.0,
+        frontier: Frontier::new(),
         epsilon: options.epsilon,
         ascents: 0,
         extents: HashMap::new(),
@@ -137,19 +112,18 @@ pub(super) fn search(
             looked = search.nodes.len() as u64 + CELLS_BETWEEN_LOOKS;
             options.monitor.check()?;
         }
-        let Some(top) = search.waiting.peek() else { break true };
-        if top.bound <= search.goal() {
+        let goal = search.goal();
+        if search.frontier.is_within(goal) {
             break true;
         }
         if search.nodes.len() as u64 + 2 > options.max_cells {
             break false;
         }
-        if let Some(top) = search.waiting.pop() {
+        if let Some(top) = search.frontier.pop(goal) {
             search.open(top);
         }
     };
-    let waiting = search.waiting.peek().map_or(0.0, |top| top.bound);
-    let upper = waiting.max(search.done).max(search.goal());
+    let upper = search.frontier.upper().max(search.goal());
     let Search { best, nodes, ascents, .. } = search;
     Ok(Outcome { best, upper, nodes, ascents, is_complete })
 }
@@ -243,7 +217,7 @@ impl Search<'_> {
         self.nodes[node] = Node::Leaf(reason);
         // The bound of its parent may be less, but this reason does not prove it.
         if bound > self.goal() {
-            self.waiting.push(Waiting { bound, node, given, cell, list });
+            self.frontier.push(bound, node, Open { given, cell, list });
         }
         node
     }
@@ -318,14 +292,14 @@ impl Search<'_> {
     }
 
     /// Puts the halves of a cell in its place.
-    fn open(&mut self, waiting: Waiting) {
-        let Waiting { bound, node, given, cell, list } = waiting;
+    fn open(&mut self, waiting: Waiting<Open>) {
+        let Waiting { bound, node, cell: Open { given, cell, list } } = waiting;
         let influences = influences(&cell);
         let mut coordinates = [0, 1, 2, 3, 4];
         coordinates.sort_by(|&one, &other| influences[other].total_cmp(&influences[one]));
         let halves = coordinates.into_iter().find_map(|k| Some((k, given.halves(k)?)));
         let Some((coordinate, halves)) = halves else {
-            self.done = self.done.max(bound);
+            self.frontier.close(bound);
             return;
         };
         let children = halves.map(|half| self.add(half, &list));

@@ -3,13 +3,12 @@
 //! *Idea.* The cell with the largest hull is split along the axis that changes its area most. Each cell has the edges that meet its hull,
 //! out of those of its parent. The middle rectangle of a cell, widened between its levels, is a candidate.
 
-use std::cmp::Ordering;
-use std::collections::BinaryHeap;
 use std::rc::Rc;
 
 use taut_points::Cancelled;
 use taut_predicates::plane::orient;
 
+use crate::frontier::{Frontier, Waiting};
 use crate::polygon::Segment;
 
 use super::RectangleOptions;
@@ -43,42 +42,15 @@ pub(super) struct Found {
     pub(super) is_complete: bool,
 }
 
-/// A cell that waits to be split.
-struct Waiting {
-    bound: f64,
-    node: usize,
-    cell: Cell,
-    list: Rc<[u32]>,
-}
-
-impl Ord for Waiting {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.bound.total_cmp(&other.bound).then(other.node.cmp(&self.node))
-    }
-}
-
-impl PartialOrd for Waiting {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Waiting {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Waiting {}
+/// A cell that waits to be split, and the edges that meet it.
+type Listed = (Cell, Rc<[u32]>);
 
 struct Search<'a> {
     edges: &'a [Segment],
     whole: Rectangle,
     best: Option<Rectangle>,
     nodes: Vec<Node>,
-    waiting: BinaryHeap<Waiting>,
-    /// The largest bound of cells that are done by their size.
-    done: f64,
+    frontier: Frontier<Listed>,
     epsilon: f64,
     strips: u64,
 }
@@ -94,8 +66,7 @@ pub(super) fn search(
         whole,
         best: None,
         nodes: vec![],
-        waiting: BinaryHeap::new(),
-        done: 0.0,
+        frontier: Frontier::new(),
         epsilon: options.epsilon,
         strips: 0,
     };
@@ -108,21 +79,19 @@ pub(super) fn search(
             options.monitor.check()?;
         }
         opened += 1;
-        let Some(top) = search.waiting.peek() else { break true };
-        if top.bound <= search.goal() {
+        let goal = search.goal();
+        if search.frontier.is_within(goal) {
             break true;
         }
         if search.nodes.len() as u64 + 2 > options.max_cells {
             break false;
         }
-        if let Some(top) = search.waiting.pop() {
+        if let Some(top) = search.frontier.pop(goal) {
             search.open(top);
         }
     };
-    let waiting = search.waiting.peek().map_or(0.0, |top| top.bound);
-    let upper = waiting.max(search.done);
     let (best, strips) = (search.best, search.strips);
-    let upper = upper.max(best.map_or(0.0, |best| best.area()));
+    let upper = search.frontier.upper().max(best.map_or(0.0, |best| best.area()));
     Ok(Found { best, upper, log: tree::log(&search.nodes), strips, is_complete })
 }
 
@@ -225,7 +194,7 @@ impl Search<'_> {
         let hull = cell.hull();
         let bound = rounded_up(hull.area());
         if bound <= self.goal() {
-            self.done = self.done.max(bound);
+            self.frontier.close(bound);
             return node;
         }
         let edge = |&&number: &&u32| self.edges[number as usize];
@@ -250,18 +219,18 @@ impl Search<'_> {
             let found = widened(&middle, axis, &hull, near);
             self.consider(&found);
         }
-        self.waiting.push(Waiting { bound, node, cell, list });
+        self.frontier.push(bound, node, (cell, list));
         node
     }
 
     /// Puts the halves of a cell in its place.
-    fn open(&mut self, waiting: Waiting) {
-        let Waiting { bound, node, cell, list } = waiting;
+    fn open(&mut self, waiting: Waiting<Listed>) {
+        let Waiting { bound, node, cell: (cell, list) } = waiting;
         let mut axes = Axis::ALL;
         axes.sort_by(|&one, &other| cell.influence(other).total_cmp(&cell.influence(one)));
         let halves = axes.into_iter().find_map(|axis| Some((axis, cell.halves(axis)?)));
         let Some((axis, [below, above])) = halves else {
-            self.done = self.done.max(bound);
+            self.frontier.close(bound);
             return;
         };
         let children = [below, above].map(|half| self.add(half, &list));

@@ -7,8 +7,6 @@
 //! *Order of reasons*, the cheapest first: corner 0 is not a lowest one, a box is outside, the boxes bound the area, an edge enters all
 //! triangles, the mean of the middles is in all triangles and outside, conditions with weights bound the area.
 
-use std::cmp::Ordering;
-use std::collections::BinaryHeap;
 use std::sync::Arc;
 
 use rayon::prelude::*;
@@ -23,10 +21,8 @@ use super::rows::{self, Condition, Entered};
 use super::tile::Tiles;
 use super::tree::{self, Leaf, Log, Node, Reason};
 use super::{TriangleOptions, starts};
+use crate::frontier::{Frontier, Waiting};
 use crate::program::{self, Column};
-
-/// Cells that are split at once. More keep more threads busy, and split more cells that a better triangle would have closed.
-const BATCH_CELLS: usize = 16;
 
 /// How much larger than the area sought that of the boxes alone may be for conditions to be worth their cost.
 const WEIGHED_MAX: f64 = 6.0;
@@ -58,14 +54,8 @@ pub(super) struct Found {
     pub(super) is_complete: bool,
 }
 
-/// A cell that waits to be split.
-struct Waiting {
-    bound: f64,
-    node: usize,
-    cell: Cell,
-    /// The groups of edges that may enter.
-    list: Arc<[u32]>,
-}
+/// A cell that waits to be split, and the groups of edges that may enter.
+type Listed = (Cell, Arc<[u32]>);
 
 /// What is known of a cell after it was examined.
 struct Examined {
@@ -78,26 +68,6 @@ struct Examined {
     larger: Option<Candidate>,
 }
 
-impl Ord for Waiting {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.bound.total_cmp(&other.bound).then(other.node.cmp(&self.node))
-    }
-}
-
-impl PartialOrd for Waiting {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Waiting {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Waiting {}
-
 /// The tree so far and the best triangle.
 struct Search<'a> {
     target: &'a Target<'a>,
@@ -108,9 +78,7 @@ struct Search<'a> {
     best: f64,
     reported: Option<Reported>,
     nodes: Vec<Node>,
-    waiting: BinaryHeap<Waiting>,
-    /// The largest bound of cells that are closed or cannot be split.
-    stuck: f64,
+    frontier: Frontier<Listed>,
     epsilon: f64,
     ascents: u64,
 }
@@ -129,8 +97,7 @@ pub(super) fn search(
         best: 0.0,
         reported: None,
         nodes: vec![],
-        waiting: BinaryHeap::new(),
-        stuck: 0.0,
+        frontier: Frontier::new(),
         epsilon: options.epsilon,
         ascents: 0,
     };
@@ -148,9 +115,10 @@ pub(super) fn search(
         options.monitor.check()?;
         let room = options.max_cells.saturating_sub(search.nodes.len() as u64) / 2;
         if room == 0 {
-            break search.waiting.peek().is_none_or(|top| top.bound <= search.goal());
+            break search.frontier.is_within(search.goal());
         }
-        let batch = search.batch(BATCH_CELLS.min(room as usize));
+        let goal = search.goal();
+        let batch = search.frontier.batch(goal, room as usize);
         if batch.is_empty() {
             break true;
         }
@@ -186,21 +154,6 @@ impl Search<'_> {
                 }
             }
         }
-    }
-
-    /// The cells to be split next, of the largest bounds.
-    fn batch(&mut self, most: usize) -> Vec<Waiting> {
-        let mut batch = vec![];
-        while batch.len() < most
-            && let Some(top) = self.waiting.pop()
-        {
-            if top.bound <= self.goal() {
-                self.stuck = self.stuck.max(top.bound);
-                break;
-            }
-            batch.push(top);
-        }
-        batch
     }
 
     /// Looks for a reason that closes a cell, and for a larger triangle.
@@ -250,8 +203,8 @@ impl Search<'_> {
         }
         match bound {
             None => {}
-            Some(bound) if bound <= self.goal() => self.stuck = self.stuck.max(bound),
-            Some(bound) => self.waiting.push(Waiting { bound, node, cell, list }),
+            Some(bound) if bound <= self.goal() => self.frontier.close(bound),
+            Some(bound) => self.frontier.push(bound, node, (cell, list)),
         }
         node
     }
@@ -318,18 +271,18 @@ impl Search<'_> {
     }
 
     /// Puts children in the place of cells.
-    fn open(&mut self, batch: Vec<Waiting>) {
+    fn open(&mut self, batch: Vec<Waiting<Listed>>) {
         let mut split = vec![];
         for waiting in batch {
-            match self.split(&waiting.cell) {
+            match self.split(&waiting.cell.0) {
                 Some((coordinate, cells)) => split.push((waiting, coordinate, cells)),
-                None => self.stuck = self.stuck.max(waiting.bound),
+                None => self.frontier.close(waiting.bound),
             }
         }
         let this = &*self;
         let children: Vec<(usize, u8, [Examined; 2])> = split
             .into_par_iter()
-            .map(|(Waiting { node, list, .. }, coordinate, [below, above])| {
+            .map(|(Waiting { node, cell: (_, list), .. }, coordinate, [below, above])| {
                 let examine = |cell| this.examine(cell, &list);
                 let (below, above) = rayon::join(|| examine(below), || examine(above));
                 (node, coordinate, [below, above])
@@ -359,9 +312,8 @@ impl Search<'_> {
     /// The tree in the form of the certificate, and what it proves.
     fn found(self, is_complete: bool) -> Found {
         let log = tree::log(&self.nodes);
-        let waiting = self.waiting.peek().map_or(0.0, |top| top.bound);
         let reported = self.reported.as_ref().map_or(0.0, |reported| reported.doubled);
-        let upper = waiting.max(self.stuck).max(reported);
+        let upper = self.frontier.upper().max(reported);
         let (best, ascents) = (self.reported, self.ascents);
         Found { best, upper, log, ascents, is_complete }
     }

@@ -1,5 +1,6 @@
 //! The tests of `taut-inscribe` from outside, in one program.
 
+mod any_bytes;
 mod bad_polygons;
 mod bodies;
 mod closed_forms;

@@ -10,6 +10,9 @@ type Place = [u64; 3];
 /// The two ends of an edge, in an order that does not depend on the triangle, and the triangle.
 type Edge = ([Place; 2], u64);
 
+/// Hashes in a bucket, about: as many as a sort by insertion and few comparisons takes.
+const BUCKET_HASHES: usize = 32;
+
 /// Checks that each edge belongs to an even number of triangles, and that there are no more caps than holes need. The first
 /// `rows` triangles are those of the mesh. Corners with equal coordinates are one vertex.
 ///
@@ -37,10 +40,11 @@ pub(super) fn is_closed(triangles: &[[[f64; 3]; 3]], rows: usize) -> Result<(), 
 /// The edges that belong to an odd number of triangles, in order of their ends.
 ///
 /// A hash brings equal edges together, as it is sorted much faster than edges are; edges of one hash are compared. A hash that
-/// many edges share costs time, and nothing else.
+/// many edges share costs time, and nothing else. The time is that of a sort, so the upper bits sort into buckets first, each of
+/// which the cache holds.
 fn odd(triangles: &[[[f64; 3]; 3]]) -> Vec<Edge> {
     // −0 and 0 are one number.
-    let key = |corner: [f64; 3]| corner.map(|x| (x + 0.0).to_bits());
+    let key = |[x, y, z]: [f64; 3]| [(x + 0.0).to_bits(), (y + 0.0).to_bits(), (z + 0.0).to_bits()];
     let edge = |number: usize| -> Edge {
         let (row, corner) = (number / 3, number % 3);
         let mut ends = [corner, (corner + 1) % 3].map(|corner| key(triangles[row][corner]));
@@ -51,13 +55,14 @@ fn odd(triangles: &[[[f64; 3]; 3]]) -> Vec<Edge> {
     let numbers = (3 * triangles.len()).next_power_of_two() as u64 - 1;
     let mut hashes: Vec<u64> = Vec::with_capacity(3 * triangles.len());
     for (row, triangle) in triangles.iter().enumerate() {
-        let of_corner = triangle.map(|corner| hash(key(corner)));
+        let [a, b, c] = *triangle;
+        let of_corner = [hash(key(a)), hash(key(b)), hash(key(c))];
         for corner in 0..3 {
             let of_ends = of_corner[corner].wrapping_add(of_corner[(corner + 1) % 3]);
             hashes.push((of_ends & !numbers) | (3 * row + corner) as u64);
         }
     }
-    hashes.sort_unstable();
+    let hashes = sorted(&hashes);
     let mut odd: Vec<Edge> = vec![];
     for same_hash in hashes.chunk_by(|one, other| (one ^ other) <= numbers) {
         let edge = |hash: u64| edge((hash & numbers) as usize);
@@ -74,6 +79,32 @@ fn odd(triangles: &[[[f64; 3]; 3]]) -> Vec<Edge> {
     }
     odd.sort_unstable();
     odd
+}
+
+/// Hashes in order: by buckets of the upper bits, and in each bucket by all bits.
+fn sorted(hashes: &[u64]) -> Vec<u64> {
+    let bits = (hashes.len() / BUCKET_HASHES).checked_ilog2().unwrap_or(0).max(1);
+    let bucket = |hash: u64| (hash >> (64 - bits)) as usize;
+    let mut ends = vec![0; 1 << bits];
+    for &hash in hashes {
+        ends[bucket(hash)] += 1;
+    }
+    let mut before = 0;
+    for end in &mut ends {
+        before += std::mem::replace(end, before);
+    }
+    let mut sorted = vec![0; hashes.len()];
+    for &hash in hashes {
+        let end = &mut ends[bucket(hash)];
+        sorted[*end] = hash;
+        *end += 1;
+    }
+    let mut first = 0;
+    for end in ends {
+        sorted[first..end].sort_unstable();
+        first = end;
+    }
+    sorted
 }
 
 /// A hash of a corner: three rounds of a multiplication by an odd number and a shift, so that the upper half of a product gets
@@ -127,6 +158,19 @@ mod tests {
             counts.into_iter().filter(|(_, count)| count % 2 == 1).map(|(ends, _)| ends).collect();
         let found: Vec<[Place; 2]> = odd(&all).into_iter().map(|(ends, _)| ends).collect();
         assert!(found.len() > 100 && found == expected, "{} edges", found.len());
+    }
+
+    #[test]
+    fn buckets_sort_as_a_sort_does() {
+        for count in [0, 1, 2, 31, 64, 65, 1_000, 40_000] {
+            for spread in [u64::MAX, 0xffff, 0] {
+                let place = |k: u64| [k, k % 7, k.wrapping_mul(k)];
+                let hashes: Vec<u64> = (0..count).map(|k| hash(place(k)) & spread).collect();
+                let mut expected = hashes.clone();
+                expected.sort_unstable();
+                assert!(sorted(&hashes) == expected, "{count} hashes");
+            }
+        }
     }
 
     #[test]

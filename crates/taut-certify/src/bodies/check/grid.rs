@@ -38,16 +38,15 @@ impl Boxes {
         rows: usize,
         grid: &Grid,
     ) -> Result<Self, BodiesViolation> {
-        let (mut floors, mut ceilings) = (vec![], vec![]);
-        for triangle in triangles {
-            let (mut low, mut high) = ([[0; 3]; 3], [[0; 3]; 3]);
-            for corner in 0..3 {
-                let ends = grid.around(triangle[corner])?;
+        let mut floors = vec![[[0; 3]; 3]; triangles.len()];
+        let mut ceilings = floors.clone();
+        let all = floors.as_flattened_mut().iter_mut().zip(ceilings.as_flattened_mut());
+        for (point, (low, high)) in triangles.as_flattened().iter().zip(all) {
+            let [floor, ceiling] = grid.around(*point)?;
+            for c in 0..3 {
                 // At most 2^30.
-                [low[corner], high[corner]] = ends.map(|end| end.map(|y| y as i32));
+                (low[c], high[c]) = (floor[c] as i32, ceiling[c] as i32);
             }
-            floors.push(low);
-            ceilings.push(high);
         }
         Ok(Boxes::around(rows, floors, ceilings))
     }
@@ -96,13 +95,14 @@ impl Grid {
     pub(super) fn around(&self, point: [f64; 3]) -> Result<[[i64; 3]; 2], BodiesViolation> {
         let (mut low, mut high) = ([0; 3], [0; 3]);
         for c in 0..3 {
-            let range = whole(point[c], self.per_unit)
-                .map(|range| range.map(|y| y.saturating_sub(self.origin[c])))
-                .filter(|[low, high]| *low >= -COORDINATE_MAX && *high <= COORDINATE_MAX);
-            let Some([floor, ceiling]) = range else {
+            let [floor, ceiling] = match whole(point[c], self.per_unit) {
+                Some(ends) => ends.map(|y| y.saturating_sub(self.origin[c])),
+                None => [i64::MIN, i64::MAX],
+            };
+            if floor < -COORDINATE_MAX || ceiling > COORDINATE_MAX {
                 let problem = "a coordinate is more than 2^30 units from the origin";
                 return Err(BodiesViolation::Grid { problem });
-            };
+            }
             (low[c], high[c]) = (floor, ceiling);
         }
         Ok([low, high])

@@ -1,5 +1,7 @@
 //! Rings to test with, and what every answer has to satisfy.
 
+pub(crate) mod bytes;
+
 use taut_certify::{CircleVerdict, InscribedCircle, Solution, Stop};
 use taut_inscribe::{CircleOptions, Error, inscribed_circle};
 use taut_points::Points;

@@ -1,0 +1,45 @@
+//! Rings and meshes of any bytes: no panic, and no answer that the checker rejects. The fuzz targets `inscribe_rings` and
+//! `inscribe_mesh` go on from here.
+
+use rayon::prelude::*;
+
+use crate::common::bytes;
+
+/// Cases of each kind, a thousand times as many in the long tests.
+fn cases(few: u64) -> u64 {
+    if std::env::var_os("TAUT_LONG_TESTS").is_some() { 1000 * few } else { few }
+}
+
+/// The bytes of a case: the numbers of SplitMix64.
+fn bytes_of(case: u64, length: usize) -> Vec<u8> {
+    let mut state = case.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    let next = std::iter::repeat_with(|| {
+        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut mixed = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        mixed ^ (mixed >> 31)
+    });
+    next.flat_map(u64::to_le_bytes).take(length).collect()
+}
+
+#[test]
+fn rings_of_any_bytes() {
+    let count = cases(1000);
+    let length = |case: u64| 8 + (case % 45) as usize;
+    let is_answered = |&case: &u64| bytes::rings(&bytes_of(case, length(case)));
+    let answered = (0..count).into_par_iter().filter(is_answered).count() as u64;
+    println!("{answered} of {count} rings have answers");
+    assert!(answered > count / 8, "{answered} of {count}");
+}
+
+#[test]
+fn meshes_of_any_bytes() {
+    let count = cases(1000);
+    // One mesh in four gets as many bytes as several tetrahedra need.
+    let length =
+        |case: u64| if case % 4 == 0 { 41 + (case % 96) as usize } else { (case % 41) as usize };
+    let is_answered = |&case: &u64| bytes::mesh(&bytes_of(case, length(case)));
+    let answered = (0..count).into_par_iter().filter(is_answered).count() as u64;
+    println!("{answered} of {count} meshes have answers");
+    assert!(answered > count / 50, "{answered} of {count}");
+}
