@@ -10,6 +10,9 @@ const OUTLINES: [&str; 3] = ["Chile", "Vietnam", "Italy"];
 /// Cells of a search, at most; it stops there.
 const CELLS_MAX: u64 = 100_000;
 
+/// A search: the cells of its tree, and its answer as JSON.
+type Search<'a> = &'a (dyn Fn() -> Result<(usize, String)> + Sync);
+
 /// The time of one thread over that of two, which have to find the same.
 pub(super) fn threads(context: &Context, out: &mut Outcome) -> Result<()> {
     let Some(rings) = countries(COUNTRIES_110M)? else { return out.left_out() };
@@ -29,8 +32,7 @@ pub(super) fn threads(context: &Context, out: &mut Outcome) -> Result<()> {
             let found = inscribed_triangle(&points, &options)?;
             Ok((found.certificate.tree.len(), found.to_json()))
         };
-        let searches: [(&str, &(dyn Fn() -> Result<(usize, String)> + Sync)); 2] =
-            [("ellipse", &ellipse), ("triangle", &triangle)];
+        let searches: [(&str, Search<'_>); 2] = [("ellipse", &ellipse), ("triangle", &triangle)];
         for (shape, search) in searches {
             let mut times = [vec![], vec![]];
             let mut answers = vec![];
