@@ -8,7 +8,7 @@
 use crate::axes::{Span, Tick, Ticks};
 
 /// The rates that an axis can name, in percent.
-const NAMED: [f64; 19] = [
+const TICK_PERCENTS: [f64; 19] = [
     0.001, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 40.0, 60.0, 80.0, 90.0, 99.0,
     99.9, 99.99,
 ];
@@ -21,7 +21,7 @@ pub(crate) fn has_place(rate: f64) -> bool {
 /// The standard normal quantile of a rate in (0, 1).
 pub(crate) fn quantile(rate: f64) -> f64 {
     /// Below this rate, and above one less it, the tails have their own approximation.
-    const TAIL: f64 = 0.02425;
+    const TAIL_RATE_MAX: f64 = 0.02425;
     const A: [f64; 6] = [
         -39.696_830_286_653_76,
         220.946_098_424_520_5,
@@ -58,9 +58,9 @@ pub(crate) fn quantile(rate: f64) -> f64 {
         let q = (-2.0 * rate.ln()).sqrt();
         polynomial(&C, q) / polynomial(&D, q)
     };
-    if rate < TAIL {
+    if rate < TAIL_RATE_MAX {
         tail(rate)
-    } else if rate > 1.0 - TAIL {
+    } else if rate > 1.0 - TAIL_RATE_MAX {
         -tail(1.0 - rate)
     } else {
         let q = rate - 0.5;
@@ -72,7 +72,7 @@ pub(crate) fn quantile(rate: f64) -> f64 {
 /// Ticks of an axis whose interval is given in quantiles (`unit` is 1), in percent; at most `most`.
 pub(crate) fn ticks(span: &Span, most: usize) -> Ticks {
     let width = span.high - span.low;
-    let inside: Vec<(f64, f64)> = NAMED
+    let inside: Vec<(f64, f64)> = TICK_PERCENTS
         .iter()
         .map(|&percent| (percent, quantile(percent / 100.0)))
         .filter(|&(_, at)| (span.low..=span.high).contains(&at))

@@ -90,6 +90,12 @@ impl ScoreSet {
         }
     }
 
+    /// At most `points_max` points of [`det`](Self::det), and at least 3 where there are as many, spread evenly by the logarithms of the
+    /// rates: enough to draw it.
+    pub fn curve(&self, points_max: usize) -> Vec<DetPoint> {
+        thinned(&self.det(), points_max.max(3))
+    }
+
     /// The rate at which FMR and FNMR are equal, on the straight line between the two points of [`det`](Self::det) where they cross.
     pub fn equal_error_rate(&self) -> f64 {
         equal_error_rate(&self.det())
@@ -132,4 +138,25 @@ pub(super) fn equal_error_rate(det: &[DetPoint]) -> f64 {
 pub(super) fn at_fmr(det: &[DetPoint], fmr_max: f64) -> DetPoint {
     let last = det[det.len() - 1];
     det.iter().copied().find(|point| point.fmr <= fmr_max).unwrap_or(last)
+}
+
+/// The first point of each of many equal steps along a curve, by the sum of both rates' logarithms.
+pub(super) fn thinned(det: &[DetPoint], points_max: usize) -> Vec<DetPoint> {
+    if det.len() <= points_max {
+        return det.to_vec();
+    }
+    // The curve is monotone, so this grows along it; rates that are 0 count as a millionth.
+    let place = |point: &DetPoint| point.fnmr.max(1e-6).ln() - point.fmr.max(1e-6).ln();
+    let (first, last) = (place(&det[0]), place(&det[det.len() - 1]));
+    let step = ((last - first) / (points_max.max(3) - 2) as f64).max(f64::MIN_POSITIVE);
+    let mut kept: Vec<DetPoint> = vec![];
+    let mut next = first;
+    for point in det {
+        if place(point) >= next {
+            kept.push(*point);
+            next = place(point) + step;
+        }
+    }
+    kept.extend(det.last().filter(|last| kept.last() != Some(last)).copied());
+    kept
 }

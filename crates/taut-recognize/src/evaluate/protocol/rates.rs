@@ -6,7 +6,7 @@ use super::split::{Outcome, Probe, Scored};
 use super::{OpenSetFigures, ProtocolOptions, ProtocolRates};
 use crate::Error;
 use crate::evaluate::interval::{Interval, clopper_pearson, warnings};
-use crate::evaluate::scores::{DetPoint, ScoreSet, at_fmr, equal_error_rate};
+use crate::evaluate::scores::{DetPoint, ScoreSet, at_fmr, equal_error_rate, thinned};
 use crate::evaluate::transaction::TransactionRates;
 use crate::evaluate::{BootstrapOptions, bootstrap_over_people};
 
@@ -65,8 +65,8 @@ impl<'a> Tally<'a> {
             fnmr_interval: interval(&|probe| probe.own < at.threshold)?,
             transaction: TransactionRates::new(at.fmr, at.fnmr, fta, fte)?,
             impostors,
-            det: thinned(&det),
-            identification: thinned(&identification),
+            det: thinned(&det, CURVE_POINTS_MAX),
+            identification: thinned(&identification, CURVE_POINTS_MAX),
             rejected,
         })
     }
@@ -114,27 +114,6 @@ fn identification(probes: &[Probe]) -> Vec<DetPoint> {
     }
     points.push(DetPoint { threshold: f64::INFINITY, fmr: 0.0, fnmr: 1.0 });
     points
-}
-
-/// The first point of each of many equal steps along a curve, by the sum of both rates' logarithms.
-fn thinned(det: &[DetPoint]) -> Vec<DetPoint> {
-    if det.len() <= CURVE_POINTS_MAX {
-        return det.to_vec();
-    }
-    // The curve is monotone, so this grows along it; rates that are 0 count as a millionth.
-    let place = |point: &DetPoint| point.fnmr.max(1e-6).ln() - point.fmr.max(1e-6).ln();
-    let (first, last) = (place(&det[0]), place(&det[det.len() - 1]));
-    let step = ((last - first) / (CURVE_POINTS_MAX - 2) as f64).max(f64::MIN_POSITIVE);
-    let mut kept: Vec<DetPoint> = vec![];
-    let mut next = first;
-    for point in det {
-        if place(point) >= next {
-            kept.push(*point);
-            next = place(point) + step;
-        }
-    }
-    kept.extend(det.last().filter(|last| kept.last() != Some(last)).copied());
-    kept
 }
 
 /// The rates where the share of unknown probes that are named is at most `fpir_max`.
