@@ -12,8 +12,9 @@ pub(crate) const AREA: Area<Run> = Area {
     sections: &[
         runs("kernel", kernel::balls)
             .about("Hard and soft balls of a Gaussian kernel, beside scikit-learn's OneClassSVM."),
-        runs("classifiers", classifiers::classifiers)
-            .about("Accuracies on public data, beside scikit-learn's classifiers on the same halves."),
+        runs("classifiers", classifiers::classifiers).about(
+            "Accuracies on public data, beside scikit-learn's classifiers on the same halves.",
+        ),
     ],
     runs: 3,
     threads: &[1],

@@ -41,11 +41,19 @@ fn one(context: &Context, out: &mut Outcome, set: &Set, must: &Must) -> Result<(
     // All candidates take minutes on digits, and are no better there than these.
     let presets: &[Preset] = match set.name {
         "digits" => &[Preset::Thesis, Preset::Mahalanobis, Preset::Svm],
-        _ => &[Preset::Thesis, Preset::Ball, Preset::Mahalanobis, Preset::Svm, Preset::Best, Preset::Committee],
+        _ => &[
+            Preset::Thesis,
+            Preset::Ball,
+            Preset::Mahalanobis,
+            Preset::Svm,
+            Preset::Best,
+            Preset::Committee,
+        ],
     };
     for &preset in presets {
         let candidates = preset.candidates(&PresetOptions::default())?;
-        let options = TrainOptions { candidates, committee: preset.committee(), ..Default::default() };
+        let options =
+            TrainOptions { candidates, committee: preset.committee(), ..Default::default() };
         let reached = context.pool()?.install(|| set.run(&options))?;
         best = reached.accuracy;
         table.push(row(&format!("taut {preset}"), &reached));
@@ -71,7 +79,12 @@ fn one(context: &Context, out: &mut Outcome, set: &Set, must: &Must) -> Result<(
     let points = 0.01;
     match must {
         Must::Cancer => {
-            out.at_least(format!("{}: accuracy of the committee", set.name), best, [0.97, 0.974], Unit::Percent);
+            out.at_least(
+                format!("{}: accuracy of the committee", set.name),
+                best,
+                [0.97, 0.974],
+                Unit::Percent,
+            );
             for (name, word) in [("svc", "SVC"), ("logistic", "logistic regression")] {
                 let Some(&theirs) = of_peer.get(name) else { continue };
                 let what = format!("{}: the committee at least as {word}", set.name);

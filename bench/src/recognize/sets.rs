@@ -35,7 +35,9 @@ pub(crate) struct Reached {
 impl Set {
     /// Reads a set of which the first column is the label; `None`, after saying so, where it is missing.
     pub(crate) fn read(name: &'static str, file: &str, classes: &[&str]) -> Result<Option<Self>> {
-        let Some(text) = data::read_gz(&format!("recognize/{file}.csv.gz"))? else { return Ok(None) };
+        let Some(text) = data::read_gz(&format!("recognize/{file}.csv.gz"))? else {
+            return Ok(None);
+        };
         let (mut labels, mut values) = (vec![], vec![]);
         for line in text.lines().skip(1) {
             let mut fields = line.split(',').map(str::parse::<f64>);

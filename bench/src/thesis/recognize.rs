@@ -5,12 +5,13 @@
 //! rows of the table add up only if its sensitivity is that of the benign class, which is the positive one here.
 
 use rayon::prelude::*;
+use taut_draw::{DetCurve, det_figure};
 use taut_recognize::classify::{
     Cells, Method, Preset, PresetOptions, Rule, Scaling, TrainOptions, Width,
 };
-use taut_draw::{DetCurve, det_figure};
 use taut_recognize::evaluate::{
-    Attempt, Contender, DetPoint, Protocol, ProtocolOptions, HAND_COLUMNS, hand_contenders, hand_row, run_protocol,
+    Attempt, Contender, DetPoint, HAND_COLUMNS, Protocol, ProtocolOptions, hand_contenders,
+    hand_row, run_protocol,
 };
 use taut_recognize::hand::synthetic::Generator;
 use taut_recognize::hand::{Hand, HandOptions};
@@ -60,7 +61,10 @@ fn rates(
 ) -> Result<Protocol> {
     let attempts: Vec<Attempt<'_>> = rows
         .iter()
-        .map(|(person, row)| Attempt { person: *person, features: row.as_ref().map(|row| &row[..]) })
+        .map(|(person, row)| Attempt {
+            person: *person,
+            features: row.as_ref().map(|row| &row[..]),
+        })
         .collect();
     let options =
         ProtocolOptions { training: training.to_vec(), splits, ..ProtocolOptions::default() };
@@ -101,7 +105,11 @@ pub(super) fn table_2(plan: &Plan) -> Result<()> {
         )?;
     }
     finish(plan, "table-2.csv", csv)?;
-    println!("Failure to acquire {:.2} % of {} scans, {splits} splits.", 100.0 * found.fta, rows.len());
+    println!(
+        "Failure to acquire {:.2} % of {} scans, {splits} splits.",
+        100.0 * found.fta,
+        rows.len()
+    );
     let curves = |of: &dyn Fn(usize) -> Vec<DetPoint>| {
         let last = found.rows.iter().enumerate().filter(|(_, row)| row.training == 5);
         let curve = |(at, row): (usize, &taut_recognize::evaluate::ProtocolRow)| DetCurve {
@@ -110,10 +118,15 @@ pub(super) fn table_2(plan: &Plan) -> Result<()> {
         };
         last.map(curve).collect::<Vec<_>>()
     };
-    let caption = format!("Synthetic scans, 5 training scans of each person, {splits} random splits.");
+    let caption =
+        format!("Synthetic scans, 5 training scans of each person, {splits} random splits.");
     for (file, title, curves) in [
         ("figure-57-58", "Verification", curves(&|at| found.rows[at].seen.det.clone())),
-        ("figure-59-60", "Identification", curves(&|at| found.rows[at].seen.identification.clone())),
+        (
+            "figure-59-60",
+            "Identification",
+            curves(&|at| found.rows[at].seen.identification.clone()),
+        ),
     ] {
         let figure = det_figure(title, &caption, curves, &DrawOptions::default());
         let path = plan.out.join(format!("{file}.svg"));
@@ -150,7 +163,8 @@ pub(super) fn figure_56(plan: &Plan) -> Result<()> {
 /// Reruns table 3.
 pub(super) fn table_3(plan: &Plan) -> Result<()> {
     let Some(set) = Set::breast_cancer()? else { return Ok(()) };
-    let mut csv = String::from("table,source,method,accuracy,spread,sensitivity,specificity,seconds\n");
+    let mut csv =
+        String::from("table,source,method,accuracy,spread,sensitivity,specificity,seconds\n");
     for (name, [accuracy, sensitivity, specificity]) in TABLE_3 {
         writeln!(csv, "3,thesis,{name},{accuracy},,{sensitivity},{specificity},")?;
     }
@@ -179,7 +193,10 @@ pub(super) fn table_3(plan: &Plan) -> Result<()> {
 }
 
 /// The classifier of the thesis under both conventions of the width and both rules, and ours.
-#[expect(clippy::type_complexity, reason = "a name, candidates, and how near the best a committee comes")]
+#[expect(
+    clippy::type_complexity,
+    reason = "a name, candidates, and how near the best a committee comes"
+)]
 fn methods() -> Result<Vec<(String, Vec<Method>, Option<f64>)>> {
     let mut all = vec![];
     let theta = 125.0;

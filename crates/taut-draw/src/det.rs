@@ -18,7 +18,12 @@ pub struct DetCurve {
 /// The trade-offs of several methods in one picture.
 ///
 /// Where one rate is 0 a curve has no place on the axes and is not drawn; the caption names the methods of which nothing is left.
-pub fn det_figure(title: &str, caption: &str, curves: Vec<DetCurve>, options: &DrawOptions) -> Figure {
+pub fn det_figure(
+    title: &str,
+    caption: &str,
+    curves: Vec<DetCurve>,
+    options: &DrawOptions,
+) -> Figure {
     let is_drawn = |point: &[f64; 2]| point.iter().all(|&rate| crate::deviate::has_place(rate));
     let mut perfect = vec![];
     let mut series = vec![];
@@ -43,4 +48,30 @@ pub fn det_figure(title: &str, caption: &str, curves: Vec<DetCurve>, options: &D
         height: options.height,
         ..Plot::empty(title.to_owned(), caption, axes, options)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Style, to_svg};
+
+    #[test]
+    fn curves_are_drawn_where_both_rates_have_a_place() {
+        let curve = |name: &str, points: &[[f64; 2]]| DetCurve {
+            name: name.to_owned(),
+            points: points.to_vec(),
+        };
+        let curves = vec![
+            curve("boxes", &[[1.0, 0.0], [0.2, 0.01], [0.02, 0.1], [0.0, 1.0]]),
+            curve("perfect", &[[1.0, 0.0], [0.0, 0.0], [0.0, 1.0]]),
+        ];
+        let figure = det_figure("Rates", "Two methods.", curves, &DrawOptions::default());
+        assert_eq!(figure.caption(), "Two methods. One rate is 0 at every threshold: perfect.");
+        let Figure::Plot(plot) = &figure else { panic!("a plot") };
+        assert_eq!(plot.series.iter().map(|s| s.points.len()).collect::<Vec<_>>(), [2, 0]);
+        let svg = to_svg(&figure, &Style::default());
+        // One tick has the label of 10 %.
+        assert!(svg.contains("false rejection rate") && svg.contains(">10<"), "{svg}");
+        assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
+    }
 }

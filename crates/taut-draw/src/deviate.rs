@@ -9,8 +9,8 @@ use crate::axes::{Span, Tick, Ticks};
 
 /// The rates that an axis can name, in percent.
 const TICK_PERCENTS: [f64; 19] = [
-    0.001, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 40.0, 60.0, 80.0, 90.0, 99.0,
-    99.9, 99.99,
+    0.001, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 40.0, 60.0, 80.0, 90.0,
+    99.0, 99.9, 99.99,
 ];
 
 /// Returns true for a rate that has a place: above 0 and below 1.
@@ -53,7 +53,8 @@ pub(crate) fn quantile(rate: f64) -> f64 {
         3.754_408_661_907_416,
         1.0,
     ];
-    let polynomial = |coefficients: &[f64], x: f64| coefficients.iter().fold(0.0, |sum, c| sum * x + c);
+    let polynomial =
+        |coefficients: &[f64], x: f64| coefficients.iter().fold(0.0, |sum, c| sum * x + c);
     let tail = |rate: f64| {
         let q = (-2.0 * rate.ln()).sqrt();
         polynomial(&C, q) / polynomial(&D, q)
@@ -89,7 +90,11 @@ pub(crate) fn ticks(span: &Span, most: usize) -> Ticks {
         fraction: (at - span.low) / width,
         label: percent.to_string(),
     };
-    Ticks { ticks: kept.into_iter().rev().map(tick).collect(), scale: " (%)".to_owned(), ..Ticks::default() }
+    Ticks {
+        ticks: kept.into_iter().rev().map(tick).collect(),
+        scale: " (%)".to_owned(),
+        ..Ticks::default()
+    }
 }
 
 #[cfg(test)]
@@ -114,7 +119,8 @@ mod tests {
 
     #[test]
     fn ticks_are_within_the_interval_and_not_too_many() {
-        let span = Span { unit: 1.0, low: quantile(0.0005), high: quantile(0.5), pixels: [0.0, 500.0] };
+        let span =
+            Span { unit: 1.0, low: quantile(0.0005), high: quantile(0.5), pixels: [0.0, 500.0] };
         let found = ticks(&span, 8);
         assert!((4..=10).contains(&found.ticks.len()), "{found:?}");
         assert!(found.ticks.iter().all(|tick| (0.0..=1.0).contains(&tick.fraction)));

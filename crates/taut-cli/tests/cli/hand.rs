@@ -101,7 +101,9 @@ fn recognition_is_evaluated_from_scans_and_from_their_table() {
         .ends(0)
         .stdout_has(&["24 scans of 6 people\n", "Training with 2 scans of ", "thesis-box", "all-plda"]);
     assert!(folder.text("rates.svg").contains("false rejection rate"));
-    folder.taut(&format!("hand evaluate features.csv --seed 3 {protocol} --json -o table.json")).ends(0);
+    folder
+        .taut(&format!("hand evaluate features.csv --seed 3 {protocol} --json -o table.json"))
+        .ends(0);
     let of_table = folder.text("table.json");
     folder.taut("hand synthesize scans --people 6 --scans 4 --seed 3").ends(0);
     let scans = "hand evaluate scans --labels scans/truth.csv";
@@ -115,7 +117,8 @@ fn recognition_is_evaluated_from_scans_and_from_their_table() {
     assert_eq!((rows.len(), &found["scans"]), (2, &serde_json::json!(24)));
     for row in rows {
         for rates in [&row["seen"], &row["unseen"]] {
-            let (errors, probes) = (rates["errors"].as_f64().unwrap(), rates["probes"].as_f64().unwrap());
+            let (errors, probes) =
+                (rates["errors"].as_f64().unwrap(), rates["probes"].as_f64().unwrap());
             assert!((rates["error_rate"].as_f64().unwrap() - errors / probes).abs() < 1e-15);
             let (fta, fnmr) = (found["fta"].as_f64().unwrap(), rates["fnmr"].as_f64().unwrap());
             assert!((rates["frr"].as_f64().unwrap() - (fta + fnmr * (1.0 - fta))).abs() < 1e-12);

@@ -103,8 +103,10 @@ fn people_who_differ_are_told_apart_and_equal_ones_by_chance() {
 fn the_covariance_within_people_makes_the_common_noise_harmless() {
     // The second feature of a person is hidden by noise that the third and fourth show.
     let all = samples(8, 8, 0.2);
-    let contenders =
-        [contender("pooled", &[1, 2, 3], Preset::Mahalanobis), contender("box", &[1, 2, 3], Preset::Box)];
+    let contenders = [
+        contender("pooled", &[1, 2, 3], Preset::Mahalanobis),
+        contender("box", &[1, 2, 3], Preset::Box),
+    ];
     let found = run_protocol(&attempts(&all), &contenders, &short(&[4])).unwrap();
     let [pooled, boxes] = [&found.rows[0], &found.rows[1]];
     let errors = [pooled, boxes].map(|row| [row.seen.errors, row.unseen.errors]);

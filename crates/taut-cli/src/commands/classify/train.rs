@@ -73,8 +73,6 @@ pub(super) struct Args {
     /// Draw which class each place of the plane belongs to, if there are two features; .svg, .png or .html
     #[arg(long, value_name = "FILE", help_heading = "Writing")]
     draw: Option<PathBuf>,
-    #[command(flatten)]
-    picture: PictureOptions,
     /// Print the summary as JSON
     #[arg(long, help_heading = "Writing")]
     json: bool,
@@ -150,7 +148,9 @@ impl Args {
         let mut outputs = Outputs::default();
         outputs.add(&self.model, (model.to_json() + "\n").as_bytes())?;
         if let (Some(path), Some(picture)) = (&self.draw, picture) {
-            let options = self.picture.options(opened.names(points.dim()));
+            // Options of pictures would collide with the width of kernels.
+            let look = PictureOptions::default();
+            let options = look.options(opened.names(points.dim()));
             let map = decision_map(&model, &points, &labels, &options)?;
             let drawing = Drawing {
                 title: "A classifier in the plane".to_owned(),
@@ -158,7 +158,7 @@ impl Args {
                 fields: vec![],
                 figures: map.into_iter().collect(),
             };
-            outputs.add(path, &picture.draw(drawing, &self.picture)?)?;
+            outputs.add(path, &picture.draw(drawing, &look)?)?;
         }
         if self.json {
             outputs.print(&(self.summary_json(&model, points.len(), &labels) + "\n"));

@@ -88,8 +88,7 @@ impl Args {
         }
         let outputs = [Some(&self.out), self.table.as_ref(), self.draw.as_ref()];
         let files: Vec<_> = outputs.into_iter().flatten().map(PathBuf::as_path).collect();
-        let inputs: Vec<_> =
-            self.paths.iter().chain(&self.labels).map(PathBuf::as_path).collect();
+        let inputs: Vec<_> = self.paths.iter().chain(&self.labels).map(PathBuf::as_path).collect();
         writing::check_writable(&files, &inputs)?;
         let picture = self.draw.as_deref().map(Picture::of_path).transpose()?;
         let contenders = self.contenders()?;
@@ -151,8 +150,7 @@ impl Args {
                 Scans::synthetic(&generator, people, scans, monitor)
             }
             None => {
-                let options =
-                    HandOptions { dots_per_inch: self.dpi, ..HandOptions::default() };
+                let options = HandOptions { dots_per_inch: self.dpi, ..HandOptions::default() };
                 Scans::read(&self.paths, self.labels.as_deref(), &options, monitor)
             }
         }
@@ -183,9 +181,9 @@ fn explain(error: Error) -> anyhow::Error {
 }
 
 fn people_and_scans(text: &str) -> Result<(u64, u64), String> {
-    let parts = text.split_once(['x', '×']).and_then(|(people, scans)| {
-        Some((people.parse().ok()?, scans.parse().ok()?))
-    });
+    let parts = text
+        .split_once(['x', '×'])
+        .and_then(|(people, scans)| Some((people.parse().ok()?, scans.parse().ok()?)));
     parts
         .filter(|&(people, scans): &(u64, u64)| {
             people > 0 && scans > 0 && people.saturating_mul(scans) <= SCANS_MAX

@@ -108,7 +108,11 @@ fn identification(probes: &[Probe]) -> Vec<DetPoint> {
     for (rejected, &(threshold, is_right)) in sorted.iter().enumerate() {
         // Equal scores are rejected together.
         if points.last().is_none_or(|last| last.threshold < threshold) {
-            points.push(DetPoint { threshold, fmr: wrong as f64 / all, fnmr: rejected as f64 / all });
+            points.push(DetPoint {
+                threshold,
+                fmr: wrong as f64 / all,
+                fnmr: rejected as f64 / all,
+            });
         }
         wrong -= usize::from(!is_right);
     }

@@ -93,7 +93,8 @@ impl<'a> Plan<'a> {
         of_person.retain(|own| own.len() >= training);
         let (people, folds) = (of_person.len(), options.folds);
         if people < 2 * folds {
-            let expected = "at most half as many as there are people with enough samples for training";
+            let expected =
+                "at most half as many as there are people with enough samples for training";
             return Err(Error::option("folds", folds.to_string(), expected));
         }
         let probes: usize = of_person.iter().map(|own| own.len() - training).sum();
@@ -134,8 +135,7 @@ impl<'a> Plan<'a> {
             let rest = drawn.iter().enumerate();
             let probes =
                 rest.flat_map(|(place, own)| own[self.training..].iter().map(move |&i| (i, place)));
-            let gallery =
-                Gallery { dim, values: &values, training, probes: probes.collect() };
+            let gallery = Gallery { dim, values: &values, training, probes: probes.collect() };
             let outcome = self.outcome(&gallery, contender, split)?;
             self.options.monitor.points(1);
             Ok(outcome)
@@ -308,13 +308,7 @@ impl Scores {
 }
 
 impl Scored {
-    fn add(
-        &mut self,
-        sample: usize,
-        place: usize,
-        scores: &Scores,
-        is_in: impl Fn(usize) -> bool,
-    ) {
+    fn add(&mut self, sample: usize, place: usize, scores: &Scores, is_in: impl Fn(usize) -> bool) {
         let (best, score) = scores.best(is_in);
         let own = scores.verification[place];
         self.probes.push(Probe { sample, is_right: best == place, own, best: score });

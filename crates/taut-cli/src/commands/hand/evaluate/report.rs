@@ -31,15 +31,16 @@ impl Report<'_> {
 
     pub(super) fn to_words(&self) -> String {
         let people = self.scans.people.len() as u64;
-        let people = if people == 1 { "1 person".to_owned() } else { format!("{} people", count(people)) };
+        let people =
+            if people == 1 { "1 person".to_owned() } else { format!("{} people", count(people)) };
         let mut text = format!("{} of {people}\n", counted(self.scans.len() as u64, "scan"));
         text += &format!("  measured  all but {} (FTA)\n", percent(self.found.fta));
         for (reason, times) in self.scans.failures() {
             text += &format!("  refused   {times:>5}  {reason}\n");
         }
         text += &format!(
-            "  splits    {}; intervals have a confidence of 95 %\n",
-            counted(self.splits as u64, "random one")
+            "  protocol  {}; intervals have a confidence of 95 %\n",
+            counted(self.splits as u64, "random split")
         );
         let mut before = None;
         for row in &self.found.rows {
@@ -55,7 +56,7 @@ impl Report<'_> {
             for (which, rates) in rates {
                 if let Some(warning) = rates.warning {
                     text += &format!(
-                        "  {}, {} training scans{which}: different scans with an error: {warning}\n",
+                        "  {}, {} training scans{which}, by different scans: {warning}\n",
                         self.name(row),
                         row.training
                     );
@@ -171,7 +172,9 @@ impl Report<'_> {
             ),
             det_figure(
                 "Verification: people from whom nothing was learned",
-                &caption("Scores against the own person and against others of whom none was in the training of the method."),
+                &caption(
+                    "Scores against the own person and against others of whom none was in the training of the method.",
+                ),
                 curves(&|row| row.unseen.det.clone()),
                 &options,
             ),

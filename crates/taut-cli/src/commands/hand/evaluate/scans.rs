@@ -42,8 +42,10 @@ impl Scans {
         people.sort();
         people.dedup();
         let number: BTreeMap<String, u32> = people.iter().cloned().zip(0..).collect();
-        let scan = |(file, person, measured): (String, String, _)| {
-            Scan { file, person: number[&person], measured }
+        let scan = |(file, person, measured): (String, String, _)| Scan {
+            file,
+            person: number[&person],
+            measured,
         };
         Scans { scans: named.into_iter().map(scan).collect(), people }
     }
@@ -176,7 +178,10 @@ impl Scans {
                 "" => {
                     let number = |(field, column): (&String, &String)| {
                         field.parse::<f64>().ok().filter(|x| x.is_finite()).ok_or_else(|| {
-                            anyhow!("{name}, line {}: `{field}` in `{column}` is no number", row + 1)
+                            anyhow!(
+                                "{name}, line {}: `{field}` in `{column}` is no number",
+                                row + 1
+                            )
                         })
                     };
                     Ok(fields[3..].iter().zip(&head[3..]).map(number).collect::<Result<_, _>>()?)
