@@ -38,11 +38,11 @@ const TABLE_3: [(&str, [f64; 3]); 7] = [
 /// The seed of the people of table 2: no method was chosen on them.
 const SEED_UNSEEN: u64 = 29;
 
-/// Features of synthetic scans with the numbers of their people.
-type Rows = Vec<(u32, Option<[f64; HAND_COLUMNS]>)>;
+/// The number of a person, and the features of a scan of hers.
+type Scan = (u32, Option<[f64; HAND_COLUMNS]>);
 
 /// Measures the scans.
-fn measured(plan: &Plan) -> Rows {
+fn measured(plan: &Plan) -> Vec<Scan> {
     let (people, scans) = plan.context.size((70, 10), (12, 7));
     let generator = Generator { seed: SEED_UNSEEN, ..Generator::default() };
     let all: Vec<(u64, u64)> = (0..people).flat_map(|p| (0..scans).map(move |s| (p, s))).collect();
@@ -55,7 +55,7 @@ fn measured(plan: &Plan) -> Rows {
 
 /// Runs the protocol.
 fn rates(
-    rows: &Rows,
+    rows: &[Scan],
     contenders: &[Contender],
     (training, splits): (&[usize], usize),
 ) -> Result<Protocol> {
@@ -174,7 +174,7 @@ pub(super) fn table_3(plan: &Plan) -> Result<()> {
         let percent = percent.map(|share| format!("{:.2}", 100.0 * share)).join(",");
         Ok(writeln!(csv, "3,{source},\"{name}\",{percent},{:.3}", reached.seconds)?)
     };
-    for (name, candidates, committee) in methods()? {
+    for Row { name, candidates, committee } in methods()? {
         let options = TrainOptions { candidates, committee, ..TrainOptions::default() };
         add("taut", &name, &set.run(&options)?)?;
     }
@@ -192,12 +192,15 @@ pub(super) fn table_3(plan: &Plan) -> Result<()> {
     finish(plan, "table-3.csv", csv)
 }
 
+/// A row of table 3: candidates, and how near the best those of a committee come.
+struct Row {
+    name: String,
+    candidates: Vec<Method>,
+    committee: Option<f64>,
+}
+
 /// The classifier of the thesis under both conventions of the width and both rules, and ours.
-#[expect(
-    clippy::type_complexity,
-    reason = "a name, candidates, and how near the best a committee comes"
-)]
-fn methods() -> Result<Vec<(String, Vec<Method>, Option<f64>)>> {
+fn methods() -> Result<Vec<Row>> {
     let mut all = vec![];
     let theta = 125.0;
     for (width, shown) in
@@ -206,12 +209,14 @@ fn methods() -> Result<Vec<(String, Vec<Method>, Option<f64>)>> {
         for cells in [Cells::Power, Cells::Voronoi] {
             let rule = Rule::Ball { width, cells, nu: None, steps: Some(100) };
             let method = Method { scaling: Scaling::Percent, whitening: false, rule };
-            all.push((format!("ball, {shown}, {cells}"), vec![method], None));
+            let name = format!("ball, {shown}, {cells}");
+            all.push(Row { name, candidates: vec![method], committee: None });
         }
     }
     for preset in [Preset::Box, Preset::Svm, Preset::Best, Preset::Committee] {
         let candidates = preset.candidates(&PresetOptions::default())?;
-        all.push((preset.to_string(), candidates, preset.committee()));
+        let (name, committee) = (preset.to_string(), preset.committee());
+        all.push(Row { name, candidates, committee });
     }
     Ok(all)
 }

@@ -172,36 +172,3 @@ impl Grid {
         segments
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn discs_and_borders_are_where_the_classifier_has_them() {
-        let points = [[-1.0, 0.0], [-1.0, 1.0], [1.0, 0.0], [1.0, 1.0]];
-        let (labels, classes) = ([0, 0, 1, 1], ["left".to_owned(), "right".to_owned()]);
-        let data = DecisionPoints { points: &points, labels: &labels, classes: &classes };
-        // Places above 1 are rejected.
-        let decide = |[x, y]: [f64; 2]| ((y <= 1.0).then_some(u32::from(x > 0.0)), x.abs());
-        let figure = decision_figure(data, &decide, &DrawOptions::default()).unwrap();
-        let Figure::Plane(scene) = &figure else { panic!("a plane") };
-        for (layer, sign) in [(0, -1.0), (2, 1.0)] {
-            let Shape2::Points(discs) = &scene.layers[layer].shape else { panic!("discs") };
-            assert!(!discs.is_empty());
-            assert!(discs.iter().all(|disc| disc.at[0] * sign > 0.0 && disc.at[1] <= 1.0));
-            // The farther from the border, the larger.
-            let largest = discs.iter().max_by(|a, b| a.size.total_cmp(&b.size)).unwrap();
-            assert!(largest.at[0] * sign > 1.1, "{largest:?}");
-        }
-        let Shape2::Polylines(border) = &scene.layers[4].shape else { panic!("a border") };
-        let cell = 2.0 * (1.0 + 2.0 * MARGIN) / (DISCS * CELLS_PER_DISC) as f64;
-        let is_near = |p: &[f64; 2]| p[0].abs() <= cell || (p[1] - 1.0).abs() <= cell;
-        assert!(border.len() > 100 && border.iter().flatten().all(is_near));
-        assert!(scene.caption.contains("are rejected"), "{}", scene.caption);
-        let wrong = DecisionPoints { labels: &labels[..3], ..data };
-        assert!(decision_figure(wrong, &decide, &DrawOptions::default()).is_err());
-        let one = DecisionPoints { points: &points[..1], labels: &labels[..1], classes: &classes };
-        assert!(decision_figure(one, &decide, &DrawOptions::default()).is_ok());
-    }
-}

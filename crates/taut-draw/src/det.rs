@@ -49,29 +49,3 @@ pub fn det_figure(
         ..Plot::empty(title.to_owned(), caption, axes, options)
     })
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{Style, to_svg};
-
-    #[test]
-    fn curves_are_drawn_where_both_rates_have_a_place() {
-        let curve = |name: &str, points: &[[f64; 2]]| DetCurve {
-            name: name.to_owned(),
-            points: points.to_vec(),
-        };
-        let curves = vec![
-            curve("boxes", &[[1.0, 0.0], [0.2, 0.01], [0.02, 0.1], [0.0, 1.0]]),
-            curve("perfect", &[[1.0, 0.0], [0.0, 0.0], [0.0, 1.0]]),
-        ];
-        let figure = det_figure("Rates", "Two methods.", curves, &DrawOptions::default());
-        assert_eq!(figure.caption(), "Two methods. One rate is 0 at every threshold: perfect.");
-        let Figure::Plot(plot) = &figure else { panic!("a plot") };
-        assert_eq!(plot.series.iter().map(|s| s.points.len()).collect::<Vec<_>>(), [2, 0]);
-        let svg = to_svg(&figure, &Style::default());
-        // One tick has the label of 10 %.
-        assert!(svg.contains("false rejection rate") && svg.contains(">10<"), "{svg}");
-        assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
-    }
-}

@@ -70,7 +70,7 @@ pub(crate) fn quantile(rate: f64) -> f64 {
     }
 }
 
-/// Ticks of an axis whose interval is given in quantiles (`unit` is 1), in percent; at most `most`.
+/// Ticks of an axis whose interval is given in quantiles (`unit` is 1), in percent; less than twice `most`.
 pub(crate) fn ticks(span: &Span, most: usize) -> Ticks {
     let width = span.high - span.low;
     let inside: Vec<(f64, f64)> = TICK_PERCENTS
@@ -82,7 +82,7 @@ pub(crate) fn ticks(span: &Span, most: usize) -> Ticks {
     let apart = width / most.max(1) as f64;
     let mut kept: Vec<(f64, f64)> = vec![];
     for mark in inside.into_iter().rev() {
-        if kept.last().is_none_or(|last| last.1 - mark.1 >= 0.8 * apart) {
+        if kept.last().is_none_or(|last| last.1 - mark.1 >= 0.55 * apart) {
             kept.push(mark);
         }
     }
@@ -122,7 +122,7 @@ mod tests {
         let span =
             Span { unit: 1.0, low: quantile(0.0005), high: quantile(0.5), pixels: [0.0, 500.0] };
         let found = ticks(&span, 8);
-        assert!((4..=10).contains(&found.ticks.len()), "{found:?}");
+        assert!((6..=12).contains(&found.ticks.len()), "{found:?}");
         assert!(found.ticks.iter().all(|tick| (0.0..=1.0).contains(&tick.fraction)));
         assert!(found.ticks.iter().any(|tick| tick.label == "1"), "{found:?}");
     }

@@ -20,12 +20,14 @@ const TEXT_BYTES_MAX: u64 = 1 << 30;
 /// The first columns of a table.
 const TABLE_HEAD: [&str; 3] = ["file", "person", "failure"];
 
+/// The features of a scan, or why there are none.
+type Measured = Result<Vec<f64>, String>;
+
 /// One scan.
 pub(super) struct Scan {
     file: String,
     person: u32,
-    /// The features, or why there are none.
-    measured: Result<Vec<f64>, String>,
+    measured: Measured,
 }
 
 /// All scans.
@@ -37,7 +39,7 @@ pub(super) struct Scans {
 
 impl Scans {
     /// Joins scans with the names of their people.
-    fn of(named: Vec<(String, String, Result<Vec<f64>, String>)>) -> Self {
+    fn of(named: Vec<(String, String, Measured)>) -> Self {
         let mut people: Vec<String> = named.iter().map(|scan| scan.1.clone()).collect();
         people.sort();
         people.dedup();
@@ -195,7 +197,7 @@ impl Scans {
 }
 
 /// Takes a failure to measure as a result; other errors are those of the caller.
-fn kept(measured: Result<Hand, HandError>) -> anyhow::Result<Result<Vec<f64>, String>> {
+fn kept(measured: Result<Hand, HandError>) -> anyhow::Result<Measured> {
     match measured {
         Ok(hand) => Ok(Ok(taut::recognize::evaluate::hand_row(&hand).to_vec())),
         Err(HandError::Hand(failure)) => Ok(Err(reason(&format!("{failure:?}")))),
