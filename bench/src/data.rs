@@ -19,3 +19,11 @@ pub(crate) fn read_xz(name: &str) -> Result<Option<String>> {
         || std::io::read_to_string(liblzma::read::XzDecoder::new(std::fs::File::open(&path)?));
     Ok(Some(open().with_context(|| path.display().to_string())?))
 }
+
+/// Returns the text of a file that is compressed with gzip; `None`, after saying so, where it is missing.
+pub(crate) fn read_gz(name: &str) -> Result<Option<String>> {
+    let Some(path) = find(name) else { return Ok(None) };
+    let open =
+        || std::io::read_to_string(flate2::read::GzDecoder::new(std::fs::File::open(&path)?));
+    Ok(Some(open().with_context(|| path.display().to_string())?))
+}

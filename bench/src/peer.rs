@@ -78,6 +78,7 @@ const PEERS: &[(&str, &str, &str)] = &[
     ("miniball-pypi", "miniball", "pypi.py miniball"),
     ("sklearn-mcd-", "sklearn", "mcd.py REST"),
     ("one-class-", "sklearn", "recognize.py REST"),
+    ("classify-", "sklearn", "classifiers.py REST"),
     ("conic-", "cvxpy", "conic.py REST"),
     ("set-cover", "highspy", "centers.py NAME"),
     ("medoids", "sklearn_extra.cluster", "centers.py NAME"),

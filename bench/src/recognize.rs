@@ -1,14 +1,21 @@
-//! Balls in the feature space of a kernel beside scikit-learn.
+//! Balls in the feature space of a kernel, and classifiers, beside scikit-learn.
 
+pub(crate) mod classifiers;
 mod kernel;
+pub(crate) mod sets;
 
 use crate::prelude::*;
 
 /// All sections. One thread, as scikit-learn's solver has one.
 pub(crate) const AREA: Area<Run> = Area {
     name: "recognize",
-    sections: &[runs("kernel", kernel::balls)
-        .about("Hard and soft balls of a Gaussian kernel, beside scikit-learn's OneClassSVM.")],
+    sections: &[
+        runs("kernel", kernel::balls)
+            .about("Hard and soft balls of a Gaussian kernel, beside scikit-learn's OneClassSVM."),
+        runs("classifiers", classifiers::classifiers).about(
+            "Accuracies on public data, beside scikit-learn's classifiers on the same halves.",
+        ),
+    ],
     runs: 3,
     threads: &[1],
     limit: 300,

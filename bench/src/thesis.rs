@@ -1,7 +1,7 @@
 //! Figures and the table of the thesis, rerun: CSV for those who compute, SVG for those who look.
 //!
 //! *What is rerun.* Core-sets and times of balls (figures 5 to 15) and of ellipsoids (figure 18), curves through noisy
-//! points (figures 2, 21 and 22), surfaces (table 1), the ellipse in a projected model (figure 62), and k-dops in meshes (tables 4 to 6, figures 76 and
+//! points (figures 2, 21 and 22), surfaces (table 1), classifiers (tables 2 and 3), the ellipse in a projected model (figure 62), and k-dops in meshes (tables 4 to 6, figures 76 and
 //! 77). taut's default methods are drawn beside those of the thesis.
 //! *What differs.* The machine (the thesis had a 2.66 GHz Xeon, and for figures 14 and 15 a 1 GHz Pentium III), the
 //! conic solver, and the random points. Sizes can be compared; times only within one figure.
@@ -12,6 +12,7 @@ mod dops;
 mod ellipse;
 mod ellipsoid;
 mod figure;
+mod recognize;
 mod surface;
 mod sweep;
 
@@ -107,6 +108,13 @@ const RERUNS: &[Rerun] = &[
     (&["62"], "The largest ellipse in a projection of the bunny.", ellipse::write),
     (&["76", "77"], "Dops: the share covered, by their number.", dops::figures),
     (&["table-4", "table-5", "table-6"], "Dops: times and shares covered.", dops::tables),
+    (&["56"], "Hands: errors by the width of the kernel.", recognize::figure_56),
+    (
+        &["table-2", "57", "58", "59", "60"],
+        "Hands: errors of identification and verification on synthetic scans.",
+        recognize::table_2,
+    ),
+    (&["table-3"], "Breast cancer: accuracies, beside scikit-learn.", recognize::table_3),
     (&["table-1"], "Surfaces: times and topology, with pictures.", surface::write),
 ];
 

@@ -48,6 +48,11 @@ impl Figure {
         Figure::new(number, title.into(), x, ["share", "%"], Scale::Linear)
     }
 
+    /// A figure of numbers of errors.
+    pub(super) fn of_counts(number: u32, title: impl Into<String>, x: &'static str) -> Self {
+        Figure::new(number, title.into(), x, ["misclassified", ""], Scale::Linear)
+    }
+
     fn new(
         number: u32,
         title: String,

@@ -64,6 +64,9 @@ pub enum Scale {
     Linear,
     /// Equal ratios are equally long. Values of at most 0 are drawn at the lower edge, as open marks.
     Log,
+    /// Rates from 0 to 1 stand where the standard normal distribution has them as its tail, with ticks in percent. Values of at most 0
+    /// or at least 1 are drawn at the lower edge, as open marks.
+    NormalDeviate,
 }
 
 /// A curve or a scatter.

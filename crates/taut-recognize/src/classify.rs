@@ -35,12 +35,13 @@ mod width;
 
 pub use cluster::{ClusterOptions, Clustering, cluster};
 pub use data::Labeled;
+pub(crate) use data::check_finite;
 pub use folds::stratified_folds;
 pub use method::{Cells, Covariance, Method, Rule, Scaling};
 pub use model::{Model, Prediction};
 pub use presets::{Preset, PresetOptions};
 pub use select::Trial;
-pub use train::{TrainOptions, train};
+pub use train::{TrainOptions, train, train_with_background};
 pub use width::Width;
 
 /// How well a class fits a point.

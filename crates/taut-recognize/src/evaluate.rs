@@ -25,16 +25,25 @@
 
 mod bootstrap;
 mod confusion;
+#[cfg(feature = "hand")]
+mod hands;
 mod identify;
 mod interval;
 mod people;
+mod protocol;
 mod scores;
 mod transaction;
 
 pub use bootstrap::{BootstrapOptions, bootstrap_over_people};
 pub use confusion::{Binary, Confusion};
+#[cfg(feature = "hand")]
+pub use hands::{HAND_COLUMNS, hand_columns, hand_contenders, hand_row};
 pub use identify::{Identification, OpenSetRates};
 pub use interval::{Interval, RateWarning, clopper_pearson, warnings};
 pub use people::person_disjoint_folds;
+pub use protocol::{
+    Attempt, Contender, OpenSetFigures, Protocol, ProtocolOptions, ProtocolRates, ProtocolRow,
+    run_protocol,
+};
 pub use scores::{DetPoint, ScoreSet};
 pub use transaction::TransactionRates;

@@ -2,6 +2,7 @@
 
 mod data;
 mod evaluate;
+mod picture;
 mod predict;
 mod train;
 

@@ -1,5 +1,6 @@
 //! `taut hand`: hands in images, measured and made.
 
+mod evaluate;
 mod measure;
 mod synthesize;
 
@@ -12,7 +13,8 @@ use crate::exit::Outcome;
 #[command(after_help = "\
 Example: taut hand synthesize scans --people 3 --scans 2
          taut hand measure scans/person-0000-scan-00.png --draw hand.svg
-See: taut hand measure --help, taut hand synthesize --help")]
+         taut hand evaluate --synthetic 20x6
+See: taut hand measure --help, taut hand synthesize --help, taut hand evaluate --help")]
 pub(crate) struct Args {
     #[command(subcommand)]
     what: Subcommands,
@@ -22,6 +24,7 @@ pub(crate) struct Args {
 enum Subcommands {
     Measure(measure::Args),
     Synthesize(synthesize::Args),
+    Evaluate(evaluate::Args),
 }
 
 impl Args {
@@ -29,6 +32,7 @@ impl Args {
         match &self.what {
             Subcommands::Measure(args) => args.run(),
             Subcommands::Synthesize(args) => args.run(),
+            Subcommands::Evaluate(args) => args.run(),
         }
     }
 }

@@ -257,3 +257,22 @@ fn what_is_refused_is_named_and_nothing_is_written() {
     let usage = folder.taut("classify train train.csv --label kind --model new.json --width 125");
     assert!(usage.ends(2).err.contains("theta-squared="));
 }
+
+#[test]
+fn a_model_of_the_plane_is_drawn_and_its_error_rates() {
+    let folder = folder();
+    let plane = "--columns length,width --label kind";
+    folder.taut(&format!("classify train train.csv {plane} --model plane.json --method mahalanobis --draw map.svg")).ends(0);
+    let map = folder.text("map.svg");
+    assert!(map.contains("Decision map of 3 classes") && map.contains("ash, white"), "{map}");
+    let evaluate = format!("classify evaluate test.csv {plane} --model plane.json");
+    folder.taut(&format!("{evaluate} --draw rates.svg --figure 2")).ends(0);
+    assert!(folder.text("rates.svg").contains("false rejection rate"));
+    folder.taut(&format!("{evaluate} --draw both.html")).ends(0);
+    assert!(folder.text("both.html").contains("Decision map"));
+    folder
+        .taut("classify train train.csv --label kind --model all.json --method box --draw map.png")
+        .ends(2)
+        .stderr_has(&["3 features", "--columns"]);
+    assert!(!folder.path("all.json").exists());
+}

@@ -88,3 +88,64 @@ fn what_cannot_be_measured_is_refused_with_the_file_and_the_reason() {
     folder.taut("hand synthesize other --dpi 10").ends(2).stderr_has(&["dpi"]);
     assert!(!folder.path("other").exists());
 }
+
+#[test]
+fn recognition_is_evaluated_from_scans_and_from_their_table() {
+    let folder = TestFolder::new();
+    // Two scans for training, a probe, and one in reserve for those that are refused.
+    let protocol = "--training 2 --splits 3 --folds 2 --method thesis-box,all-plda";
+    folder
+        .taut(&format!(
+            "hand evaluate --synthetic 6x4 --seed 3 {protocol} --table features.csv --draw rates.svg"
+        ))
+        .ends(0)
+        .stdout_has(&["24 scans of 6 people\n", "Training with 2 scans of ", "thesis-box", "all-plda"]);
+    assert!(folder.text("rates.svg").contains("false rejection rate"));
+    folder
+        .taut(&format!("hand evaluate features.csv --seed 3 {protocol} --json -o table.json"))
+        .ends(0);
+    let of_table = folder.text("table.json");
+    folder.taut("hand synthesize scans --people 6 --scans 4 --seed 3").ends(0);
+    // A PNG file has whole pixels for each meter, so that 90 dots per inch are not exactly these.
+    let scans = "hand evaluate scans --dpi 90 --labels scans/truth.csv";
+    for words in [format!("{scans} --threads 1"), "hand evaluate scans --dpi 90".to_owned()] {
+        folder.taut(&format!("{words} --seed 3 {protocol} --json -o scans.json")).ends(0);
+        // The same scans, whichever way they come, and whatever people are called.
+        assert_eq!(folder.text("scans.json"), of_table);
+    }
+    let found: serde_json::Value = serde_json::from_str(&of_table).unwrap();
+    let rows = found["rows"].as_array().unwrap();
+    assert_eq!((rows.len(), &found["scans"]), (2, &serde_json::json!(24)));
+    for row in rows {
+        for rates in [&row["seen"], &row["unseen"]] {
+            let (errors, probes) =
+                (rates["errors"].as_f64().unwrap(), rates["probes"].as_f64().unwrap());
+            assert!((rates["error_rate"].as_f64().unwrap() - errors / probes).abs() < 1e-15);
+            let (fta, fnmr) = (found["fta"].as_f64().unwrap(), rates["fnmr"].as_f64().unwrap());
+            assert!((rates["frr"].as_f64().unwrap() - (fta + fnmr * (1.0 - fta))).abs() < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn an_evaluation_that_cannot_be_is_refused() {
+    let folder = TestFolder::new();
+    let refused = |words: &str, reasons: &[&str]| {
+        folder.taut(&format!("hand evaluate {words}")).ends(2).stderr_has(reasons);
+    };
+    refused("", &["--synthetic 70x10"]);
+    folder.taut("hand evaluate --synthetic 70").ends(2);
+    refused("--synthetic 2x2 --method eigenhands", &["eigenhands", "all-plda"]);
+    refused("--synthetic 2x2 --training 1 --splits 1", &["`--folds` is 5"]);
+    refused("missing.csv", &["missing.csv"]);
+    folder.put("other.csv", "x,y\n1,2\n");
+    refused("other.csv", &["other.csv", "hand evaluate --table"]);
+    folder.put("anna-1.png", "no image");
+    refused("anna-1.png", &["anna-1.png", "not an image"]);
+    folder.put("labels.csv", "file,person\nother.png,anna\n");
+    refused("anna-1.png --labels labels.csv", &["the labels do not have this file"]);
+    folder.put("labels.csv", "name,person\n");
+    refused("anna-1.png --labels labels.csv", &["no column `file`"]);
+    std::fs::create_dir(folder.path("empty")).unwrap();
+    refused("empty", &["the folder has no scans"]);
+}

@@ -48,7 +48,7 @@ pub(crate) fn histogram(input: &Input<'_>, words: Histogram) -> Figure {
         short(100.0 * BORDER_TOLERANCE, 2),
         match y_scale {
             Scale::Log => "; the count is logarithmic, so that few are seen beside many",
-            Scale::Linear => "",
+            Scale::Linear | Scale::NormalDeviate => "",
         },
         match left_out {
             0 => String::new(),

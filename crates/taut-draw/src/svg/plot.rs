@@ -5,6 +5,7 @@ use super::canvas::{Anchor, Canvas, stroke};
 use super::frame::{self, Chrome, Entry, Key};
 use super::plane::ticks_along;
 use crate::axes::{Span, Ticks, linear, logarithmic, padded, unit};
+use crate::deviate::{self, has_place, quantile};
 use crate::number::short;
 use crate::text::width;
 use crate::{Level, LineStyle, Plot, Scale, SeriesStyle};
@@ -175,6 +176,10 @@ impl AxisScale {
                 }
                 (1.0, padded(low, high, 0.03))
             }
+            Scale::NormalDeviate => {
+                let (low, high) = range(values.filter(|&v| has_place(v)).map(quantile));
+                (1.0, padded(low, high, 0.03))
+            }
         };
         AxisScale { scale, span: Span { unit, low, high, pixels }, whole }
     }
@@ -187,13 +192,18 @@ impl AxisScale {
         Some(match self.scale {
             Scale::Linear => self.span.place(value),
             Scale::Log if value > 0.0 => self.span.place(value.log10()),
-            Scale::Log => self.span.pixels[0],
+            Scale::NormalDeviate if has_place(value) => self.span.place(quantile(value)),
+            Scale::Log | Scale::NormalDeviate => self.span.pixels[0],
         })
     }
 
     /// Returns true if the number cannot be shown and stands at the lower edge.
     fn below(&self, value: f64) -> bool {
-        self.scale == Scale::Log && value <= 0.0
+        match self.scale {
+            Scale::Linear => false,
+            Scale::Log => value <= 0.0,
+            Scale::NormalDeviate => !has_place(value),
+        }
     }
 
     fn ticks(&self, most: usize) -> Ticks {
@@ -204,6 +214,7 @@ impl AxisScale {
             }
             Scale::Linear => linear(&self.span, most),
             Scale::Log => logarithmic(&self.span, most),
+            Scale::NormalDeviate => deviate::ticks(&self.span, most),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The tests of `taut-draw` from outside, in one program: linking one for each file would take longer than running them.
 
 mod centers;
+mod classifiers;
 mod curve;
 mod delaunay;
 mod ellipsoids;

@@ -24,7 +24,12 @@ pub(super) struct Boxes {
 }
 
 impl Boxes {
-    pub(super) fn learn(rows: &Rows) -> Self {
+    /// Learns the boxes from `rows`, and how much each coordinate counts from `background`.
+    pub(super) fn learn(background: &Rows, rows: &Rows) -> Self {
+        Boxes { weight: Boxes::of(background).weight, ..Boxes::of(rows) }
+    }
+
+    fn of(rows: &Rows) -> Self {
         let (dim, classes) = (rows.dim, rows.classes);
         let mut low = vec![f64::INFINITY; classes * dim];
         let mut high = vec![f64::NEG_INFINITY; classes * dim];
@@ -92,7 +97,7 @@ mod tests {
     #[test]
     fn distances_are_those_of_the_thesis() {
         let values = vec![0.0, 0.0, 2.0, 1.0, 10.0, 0.0, 11.0, 4.0];
-        let boxes = Boxes::learn(&Rows { values, dim: 2, labels: vec![0, 0, 1, 1], classes: 2 });
+        let boxes = Boxes::of(&Rows { values, dim: 2, labels: vec![0, 0, 1, 1], classes: 2 });
         let mut out = [Score::default(); 2];
         // The largest ranges are 2 and 4.
         boxes.scores(&[3.0, 3.0], &mut out);
@@ -104,10 +109,10 @@ mod tests {
     #[test]
     fn the_nearer_center_decides_inside_two_boxes() {
         let values = vec![0.0, 10.0, 4.0, 20.0];
-        let boxes = Boxes::learn(&Rows { values, dim: 1, labels: vec![0, 0, 1, 1], classes: 2 });
+        let boxes = Boxes::of(&Rows { values, dim: 1, labels: vec![0, 0, 1, 1], classes: 2 });
         assert_eq!(boxes.best(&[7.0]).0, 0);
         assert_eq!(boxes.best(&[9.0]).0, 1);
         let alone = Rows { values: vec![1.0, 2.0], dim: 1, labels: vec![0, 1], classes: 2 };
-        assert_eq!(Boxes::learn(&alone).best(&[1.9]).0, 1);
+        assert_eq!(Boxes::of(&alone).best(&[1.9]).0, 1);
     }
 }

@@ -83,7 +83,7 @@ impl<'a> Labeled<'a> {
     }
 }
 
-pub(super) fn check_finite(points: &Points<'_, f64>) -> Result<(), Error> {
+pub(crate) fn check_finite(points: &Points<'_, f64>) -> Result<(), Error> {
     match points.values().iter().position(|value| !value.is_finite()) {
         None => Ok(()),
         Some(at) => Err(Error::Input(InputError::NonFinite {

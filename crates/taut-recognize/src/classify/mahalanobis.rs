@@ -29,10 +29,15 @@ pub(super) struct Mahalanobis {
 }
 
 impl Mahalanobis {
-    pub(super) fn learn(rows: &Rows, covariance: Covariance) -> Result<Self, Error> {
+    /// Learns the means from `rows`, and the covariance that is pooled from `background`.
+    pub(super) fn learn(
+        background: &Rows,
+        rows: &Rows,
+        covariance: Covariance,
+    ) -> Result<Self, Error> {
         let dim = rows.dim;
-        let residuals = Residuals::of(rows);
-        residuals.check(rows, "a covariance needs a class of two points or more")?;
+        let residuals = Residuals::of(background);
+        residuals.check(background, "a covariance needs a class of two points or more")?;
         let lower = match covariance {
             Covariance::Pooled => vec![lower(&residuals.shrunk(), dim)?],
             Covariance::Thesis => {
@@ -95,7 +100,7 @@ mod tests {
     #[test]
     fn the_verifier_of_the_thesis_has_its_covariance() {
         let rows = rows();
-        let found = Mahalanobis::learn(&rows, Covariance::Thesis).unwrap();
+        let found = Mahalanobis::learn(&rows, &rows, Covariance::Thesis).unwrap();
         // Class 0: mean (2, 2), Σ = ((8, 2), (2, 14))/2; class 1: mean (35/3, 11), Σ = ((26/3, 1), (1, 2))/2.
         let pooled = [(4.0 + 13.0 / 3.0) / 2.0, (1.0 + 0.5) / 2.0, (7.0 + 1.0) / 2.0];
         let [a, b, c] = [(4.0 + pooled[0]) / 2.0, (1.0 + pooled[1]) / 2.0, (7.0 + pooled[2]) / 2.0];
@@ -109,11 +114,11 @@ mod tests {
 
     #[test]
     fn one_covariance_serves_all_classes() {
-        let found = Mahalanobis::learn(&rows(), Covariance::Pooled).unwrap();
+        let found = Mahalanobis::learn(&rows(), &rows(), Covariance::Pooled).unwrap();
         assert!(found.lower.len() == 1 && found.is_sound(2, 2) && !found.is_sound(2, 3));
         assert_eq!(found.best(&[2.0, 2.0]), (0, Score { value: 0.0, tie: 0.0 }));
         assert_eq!(found.best(&[9.0, 9.0]).0, 1);
         let single = Rows { values: vec![0.0, 1.0], dim: 1, labels: vec![0, 1], classes: 2 };
-        assert!(Mahalanobis::learn(&single, Covariance::Pooled).is_err());
+        assert!(Mahalanobis::learn(&single, &single, Covariance::Pooled).is_err());
     }
 }

@@ -35,22 +35,25 @@ pub(super) struct Plda {
 }
 
 impl Plda {
-    pub(super) fn learn(rows: &Rows) -> Result<Self, Error> {
-        let (dim, classes) = (rows.dim, rows.classes);
+    /// Learns both covariances from `background`, and the means from `rows`.
+    pub(super) fn learn(background: &Rows, rows: &Rows) -> Result<Self, Error> {
+        let (dim, classes) = (background.dim, background.classes);
         if classes < 2 {
             return Err(Error::ClassCount {
                 classes,
                 needs: "a covariance between classes needs two",
             });
         }
-        let residuals = Residuals::of(rows);
-        residuals.check(rows, "a covariance needs a class of two points or more")?;
+        let residuals = Residuals::of(background);
+        residuals.check(background, "a covariance needs a class of two points or more")?;
         let within = residuals.shrunk();
         let factor = lower(&within, dim)?;
-        let counts: Vec<f64> = rows.counts().into_iter().map(|count| count as f64).collect();
-        let means = rows.means();
+        let counts = |rows: &Rows| -> Vec<f64> {
+            rows.counts().into_iter().map(|count| count as f64).collect()
+        };
+        let means = background.means();
         let center = mean_of_means(&means, dim);
-        let between = between(&means, &center, &within, &counts, dim);
+        let between = between(&means, &center, &within, &counts(background), dim);
         let (values, vectors) = eigen(&whitened(&between, &factor, dim), dim);
         let between: Vec<f64> = values.iter().map(|&b| b.max(0.0)).collect();
         // Rows of VᵀL⁻¹ are the solutions of Lᵀx = v: columns of L⁻¹ by solving for each unit vector.
@@ -65,8 +68,8 @@ impl Plda {
             (0..dim).map(|k| vectors[i * dim + k] * inverse[k * dim + j]).sum()
         };
         let map: Vec<f64> = (0..dim * dim).map(|at| entry(at / dim, at % dim)).collect();
-        let mut model = Plda { center, map, between, means: vec![], counts };
-        for (mean, &k) in means.chunks_exact(dim).zip(&model.counts.clone()) {
+        let mut model = Plda { center, map, between, means: vec![], counts: counts(rows) };
+        for (mean, &k) in rows.means().chunks_exact(dim).zip(&model.counts.clone()) {
             let mapped = model.mapped(mean);
             let shrunk = mapped.iter().zip(&model.between).map(|(z, b)| z * k * b / (k * b + 1.0));
             let shrunk: Vec<f64> = shrunk.collect();
@@ -148,6 +151,24 @@ fn log_density(square: f64, variance: f64) -> f64 {
     -0.5 * (square / variance + (TAU * variance).ln())
 }
 
+/// The variances v of a new point of a class that has `count` points.
+struct Variances {
+    count: f64,
+    /// 1/v.
+    inverse: Vec<f64>,
+    /// Σ log 2πv.
+    logarithms: f64,
+}
+
+impl Variances {
+    fn of(between: &[f64], count: f64) -> Self {
+        let variance = |b: &f64| 1.0 + b / (count * b + 1.0);
+        let inverse = between.iter().map(|b| 1.0 / variance(b)).collect();
+        let logarithms = between.iter().map(|b| (TAU * variance(b)).ln()).sum();
+        Variances { count, inverse, logarithms }
+    }
+}
+
 impl Classifier for Plda {
     fn dim(&self) -> usize {
         self.center.len()
@@ -163,14 +184,15 @@ impl Classifier for Plda {
         let unknown: f64 =
             z.iter().zip(&self.between).map(|(z, b)| log_density(z * z, 1.0 + b)).sum();
         let classes = self.means.chunks_exact(z.len()).zip(&self.counts);
-        for ((mean, k), out) in classes.zip(out) {
-            let known: f64 = z
-                .iter()
-                .zip(mean)
-                .zip(&self.between)
-                .map(|((z, m), b)| log_density((z - m) * (z - m), 1.0 + b / (k * b + 1.0)))
-                .sum();
-            *out = Score { value: known - unknown, tie: 0.0 };
+        // Classes of equally many points share their variances, and the logarithms of these.
+        let mut shared = Variances::of(&self.between, self.counts.first().copied().unwrap_or(1.0));
+        for ((mean, &k), out) in classes.zip(out) {
+            if k != shared.count {
+                shared = Variances::of(&self.between, k);
+            }
+            let squares = z.iter().zip(mean).map(|(z, m)| (z - m) * (z - m));
+            let known: f64 = squares.zip(&shared.inverse).map(|(square, w)| square * w).sum();
+            *out = Score { value: -0.5 * (known + shared.logarithms) - unknown, tie: 0.0 };
         }
     }
 }
@@ -183,7 +205,7 @@ mod tests {
     fn in_one_dimension_the_ratio_is_that_of_the_formula() {
         let values = vec![-1.0, 1.0, 9.0, 11.0, -9.0, -13.0];
         let rows = Rows { values, dim: 1, labels: vec![0, 0, 1, 1, 2, 2], classes: 3 };
-        let model = Plda::learn(&rows).unwrap();
+        let model = Plda::learn(&rows, &rows).unwrap();
         // Means 0, 10, −11; W = (2 + 2 + 8)/3 = 4; B = var(0, 10, −11) − W/2.
         let mean: f64 = -1.0 / 3.0;
         let variance = (mean * mean + (10.0 - mean).powi(2) + (-11.0 - mean).powi(2)) / 2.0;
@@ -202,7 +224,7 @@ mod tests {
         let values: Vec<f64> =
             (0..36).map(|i| f64::from(i * i % 17) + f64::from(i / 9) * f64::from(i % 3)).collect();
         let rows = Rows { values, dim: 3, labels: (0..12).map(|i| i / 3).collect(), classes: 4 };
-        let model = Plda::learn(&rows).unwrap();
+        let model = Plda::learn(&rows, &rows).unwrap();
         let within = Residuals::of(&rows).shrunk();
         for i in 0..3 {
             for j in 0..3 {

@@ -74,32 +74,45 @@ pub(super) struct Effort<'a> {
 
 impl Learned {
     pub(super) fn of(rows: &Rows, method: &Method, effort: &Effort<'_>) -> Result<Self, Error> {
+        Learned::with_background(None, rows, method, effort)
+    }
+
+    /// Learns what all classes share from the rows of `background` if there are some, and the classes from `rows`.
+    pub(super) fn with_background(
+        background: Option<&Rows>,
+        rows: &Rows,
+        method: &Method,
+        effort: &Effort<'_>,
+    ) -> Result<Self, Error> {
         let Effort { epsilon, seed, ref monitor } = *effort;
-        let preparation = Preparation::learn(rows, method.scaling, method.whitening)?;
+        let learned_from = background.unwrap_or(rows);
+        let preparation = Preparation::learn(learned_from, method.scaling, method.whitening)?;
+        let prepared = background.map(|rows| preparation.rows(rows)).transpose()?;
         let rows = preparation.rows(rows)?;
+        let background = prepared.as_ref().unwrap_or(&rows);
         let balls = |gamma, cells, nu, steps| {
             check_nu(nu)?;
             let parameters = BallParameters { gamma, cells, nu, steps, epsilon, seed };
             Ok::<_, Error>(Fitted::Balls(Balls::learn(&rows, &parameters, monitor)?))
         };
         let (fitted, gamma) = match method.rule {
-            Rule::NearestBox => (Fitted::Boxes(Boxes::learn(&rows)), None),
+            Rule::NearestBox => (Fitted::Boxes(Boxes::learn(background, &rows)), None),
             Rule::Ball { width, cells, nu, steps } => {
-                let gamma = width.gamma(&rows)?;
+                let gamma = width.gamma(background)?;
                 (balls(gamma, cells, nu, steps)?, Some(gamma))
             }
             Rule::Svdd { width, nu } => {
-                let gamma = width.gamma(&rows)?;
+                let gamma = width.gamma(background)?;
                 (balls(gamma, Cells::Power, Some(nu), None)?, Some(gamma))
             }
             Rule::Svm { width, cost } => {
-                let gamma = width.gamma(&rows)?;
+                let gamma = width.gamma(background)?;
                 (Fitted::Svm(Svm::learn(&rows, gamma, cost, epsilon, monitor)?), Some(gamma))
             }
             Rule::Mahalanobis { covariance } => {
-                (Fitted::Mahalanobis(Mahalanobis::learn(&rows, covariance)?), None)
+                (Fitted::Mahalanobis(Mahalanobis::learn(background, &rows, covariance)?), None)
             }
-            Rule::Plda => (Fitted::Plda(Plda::learn(&rows)?), None),
+            Rule::Plda => (Fitted::Plda(Plda::learn(background, &rows)?), None),
         };
         let nearest_kernel = gamma.and_then(|gamma| nearest_kernel(&rows, gamma));
         Ok(Learned { method: Some(*method), preparation, fitted, nearest_kernel })

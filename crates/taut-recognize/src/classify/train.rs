@@ -64,6 +64,39 @@ pub fn train(data: Labeled<'_>, options: &TrainOptions<'_>) -> Result<Model, Err
     on_threads(options.threads, || options.train(&data))
 }
 
+/// Learns a classifier for the classes of `data`, and what classes share from the classes of `background`.
+///
+/// Classes share the scaling, the whitening, widths of kernels, pooled covariances and the covariance between classes. So a class of
+/// `data` may have a single point, and classes can be added without a change to what the others share. Support vector machines also
+/// compare the classes of `data` with each other. The names of the classes of `background` do not matter.
+///
+/// # Errors
+/// Those of [`train`]; [`Error::Dimension`] where the two have different dimensions, and [`Error::Input`] for several candidates,
+/// [`TrainOptions::reject`] and [`TrainOptions::calibrate`], which would need a choice by `data`.
+pub fn train_with_background(
+    background: Labeled<'_>,
+    data: Labeled<'_>,
+    options: &TrainOptions<'_>,
+) -> Result<Model, Error> {
+    options.check(&data)?;
+    let (found, expected) = (background.points().dim(), data.points().dim());
+    if found != expected {
+        return Err(Error::Dimension { found, expected });
+    }
+    if options.candidates.len() > 1 || options.reject.is_some() || options.calibrate {
+        let count = options.candidates.len().to_string();
+        let expected = "one, without rejection and probabilities, where there is a background";
+        return Err(Error::option("candidates", count, expected));
+    }
+    let TrainOptions { epsilon, seed, monitor, .. } = *options;
+    let effort = Effort { epsilon, seed, monitor };
+    on_threads(options.threads, || {
+        let (method, shared) = (&options.candidates[0], background.all());
+        let learned = Learned::with_background(Some(&shared), &data.all(), method, &effort)?;
+        Ok(options.model(&data, learned, None, vec![]))
+    })
+}
+
 /// Inner folds, at most: each of them trains all candidates.
 const FOLDS_MAX: usize = 1000;
 

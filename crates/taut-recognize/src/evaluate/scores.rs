@@ -68,37 +68,42 @@ impl ScoreSet {
     ///
     /// The FMR falls from 1 to 0 along them, and the FNMR rises from 0 to 1.
     pub fn det(&self) -> Vec<DetPoint> {
-        let mut thresholds: Vec<f64> = self.genuine.iter().chain(&self.impostor).copied().collect();
-        thresholds.sort_by(f64::total_cmp);
-        thresholds.push(f64::INFINITY);
-        // By value, so that 0 and −0 are one.
-        thresholds.dedup_by(|a, b| a == b);
-        let point = |threshold| DetPoint {
-            threshold,
-            fmr: self.fmr(threshold),
-            fnmr: self.fnmr(threshold),
-        };
-        thresholds.into_iter().map(point).collect()
+        let counts = [self.genuine.len() as f64, self.impostor.len() as f64];
+        let (mut genuine, mut impostor, mut points) = (0, 0, vec![]);
+        loop {
+            let next = [self.genuine.get(genuine), self.impostor.get(impostor)];
+            let threshold = next.into_iter().flatten().fold(f64::INFINITY, |a, &b| a.min(b));
+            points.push(DetPoint {
+                threshold,
+                fmr: (self.impostor.len() - impostor) as f64 / counts[1],
+                fnmr: genuine as f64 / counts[0],
+            });
+            if threshold == f64::INFINITY {
+                return points;
+            }
+            // By value, so that 0 and −0 are one.
+            let passed = |scores: &[f64], from: usize| {
+                scores[from..].iter().take_while(|&&score| score <= threshold).count()
+            };
+            genuine += passed(&self.genuine, genuine);
+            impostor += passed(&self.impostor, impostor);
+        }
+    }
+
+    /// At most `points_max` points of [`det`](Self::det), and at least 3 where there are as many, spread evenly by the logarithms of the
+    /// rates: enough to draw it.
+    pub fn curve(&self, points_max: usize) -> Vec<DetPoint> {
+        thinned(&self.det(), points_max.max(3))
     }
 
     /// The rate at which FMR and FNMR are equal, on the straight line between the two points of [`det`](Self::det) where they cross.
     pub fn equal_error_rate(&self) -> f64 {
-        let det = self.det();
-        // The last point has an FMR of 0 unless scores are infinite.
-        let after = det.iter().position(|point| point.fnmr >= point.fmr).unwrap_or(det.len() - 1);
-        let high = det[after];
-        let Some(low) = after.checked_sub(1).map(|before| det[before]) else { return high.fmr };
-        // FMR − FNMR falls from low to high, through 0.
-        let (start, end) = (low.fmr - low.fnmr, high.fmr - high.fnmr);
-        let t = if start > end { (start / (start - end)).clamp(0.0, 1.0) } else { 1.0 };
-        low.fmr + t * (high.fmr - low.fmr)
+        equal_error_rate(&self.det())
     }
 
     /// The least threshold with an FMR of at most `fmr_max`.
     pub fn at_fmr(&self, fmr_max: f64) -> DetPoint {
-        let det = self.det();
-        let last = det[det.len() - 1];
-        det.into_iter().find(|point| point.fmr <= fmr_max).unwrap_or(last)
+        at_fmr(&self.det(), fmr_max)
     }
 
     /// The cost of the scores as natural logarithms of likelihood ratios, in bits (Brümmer and du Preez, 2006).
@@ -115,4 +120,43 @@ impl ScoreSet {
 /// The number of scores below a threshold.
 fn below(sorted: &[f64], threshold: f64) -> usize {
     sorted.partition_point(|&score| score < threshold)
+}
+
+/// The rate at which the two rates along points of a trade-off are equal.
+pub(super) fn equal_error_rate(det: &[DetPoint]) -> f64 {
+    // The last point has an FMR of 0 unless scores are infinite.
+    let after = det.iter().position(|point| point.fnmr >= point.fmr).unwrap_or(det.len() - 1);
+    let high = det[after];
+    let Some(low) = after.checked_sub(1).map(|before| det[before]) else { return high.fmr };
+    // FMR − FNMR falls from low to high, through 0.
+    let (start, end) = (low.fmr - low.fnmr, high.fmr - high.fnmr);
+    let t = if start > end { (start / (start - end)).clamp(0.0, 1.0) } else { 1.0 };
+    low.fmr + t * (high.fmr - low.fmr)
+}
+
+/// The first point with an FMR of at most `fmr_max`, or the last one.
+pub(super) fn at_fmr(det: &[DetPoint], fmr_max: f64) -> DetPoint {
+    let last = det[det.len() - 1];
+    det.iter().copied().find(|point| point.fmr <= fmr_max).unwrap_or(last)
+}
+
+/// The first point of each of many equal steps along a curve, by the sum of both rates' logarithms.
+pub(super) fn thinned(det: &[DetPoint], points_max: usize) -> Vec<DetPoint> {
+    if det.len() <= points_max {
+        return det.to_vec();
+    }
+    // The curve is monotone, so this grows along it; rates that are 0 count as a millionth.
+    let place = |point: &DetPoint| point.fnmr.max(1e-6).ln() - point.fmr.max(1e-6).ln();
+    let (first, last) = (place(&det[0]), place(&det[det.len() - 1]));
+    let step = ((last - first) / (points_max.max(3) - 2) as f64).max(f64::MIN_POSITIVE);
+    let mut kept: Vec<DetPoint> = vec![];
+    let mut next = first;
+    for point in det {
+        if place(point) >= next {
+            kept.push(*point);
+            next = place(point) + step;
+        }
+    }
+    kept.extend(det.last().filter(|last| kept.last() != Some(last)).copied());
+    kept
 }

@@ -1,5 +1,9 @@
 //! Error rates against closed forms and brute force.
 
+#[cfg(feature = "hand")]
+mod hands;
+mod protocol;
+
 use taut_recognize::Error;
 use taut_recognize::evaluate::{
     BootstrapOptions, Confusion, Identification, RateWarning, ScoreSet, TransactionRates,

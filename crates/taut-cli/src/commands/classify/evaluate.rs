@@ -2,15 +2,19 @@
 
 use std::path::PathBuf;
 
+use anyhow::bail;
 use serde_json::{Value, json};
 use taut::recognize::classify::{Model, Prediction};
 use taut::recognize::evaluate::{Confusion, ScoreSet, clopper_pearson, warnings};
+use taut_draw::Field;
 
 use super::data::{Table, classes_in, explain, model};
+use super::picture::{decision_map, trade_off};
 use crate::effort::Effort;
 use crate::exit::Outcome;
 use crate::input::reading::{Opened, Points, Reading};
 use crate::output::numbers::{count, counted};
+use crate::output::picture::{Drawing, Picture, PictureOptions};
 use crate::output::writing::{self, Outputs};
 
 /// The confidence of intervals.
@@ -47,6 +51,11 @@ pub(super) struct Args {
     /// Write JSON instead of words
     #[arg(long, help_heading = "Writing")]
     json: bool,
+    /// Draw the classes of the plane, if there are two features, and the error rates over all thresholds; .svg, .png or .html
+    #[arg(long, value_name = "FILE", help_heading = "Writing")]
+    draw: Option<PathBuf>,
+    #[command(flatten)]
+    picture: PictureOptions,
     #[command(flatten)]
     reading: Reading,
     #[command(flatten)]
@@ -55,7 +64,10 @@ pub(super) struct Args {
 
 impl Args {
     pub(super) fn run(&self) -> anyhow::Result<Outcome> {
-        writing::check_writable(&[&self.out], &[&self.points.path, &self.model])?;
+        let files: Vec<_> =
+            [&self.out].into_iter().chain(&self.draw).map(PathBuf::as_path).collect();
+        writing::check_writable(&files, &[&self.points.path, &self.model])?;
+        let picture = self.draw.as_deref().map(Picture::of_path).transpose()?;
         let model = model(&self.model)?;
         let watch = self.effort.start()?;
         let names = model.columns();
@@ -74,6 +86,22 @@ impl Args {
         };
         let mut outputs = Outputs::default();
         outputs.add(&self.out, text.as_bytes())?;
+        if let (Some(path), Some(picture)) = (&self.draw, picture) {
+            let options = self.picture.options(opened.names(points.dim()));
+            let map = decision_map(&model, &points, &truth, &options)?;
+            let rates = scores.as_ref().map(|scores| trade_off(scores, &options));
+            let figures: Vec<_> = map.into_iter().chain(rates).collect();
+            if figures.is_empty() {
+                bail!("--draw has nothing to show: there is one class, and not two features");
+            }
+            let drawing = Drawing {
+                title: "A classifier on labeled points".to_owned(),
+                heading: opened.name().to_owned(),
+                fields: vec![Field::new("accuracy", percent(matrix.accuracy()))],
+                figures,
+            };
+            outputs.add(path, &picture.draw(drawing, &self.picture)?)?;
+        }
         outputs.finish()?;
         Ok(Outcome::Done)
     }

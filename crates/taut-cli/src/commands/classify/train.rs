@@ -9,11 +9,13 @@ use taut::recognize::classify::{
 };
 
 use super::data::{Table, classes_of, explain};
+use super::picture::decision_map;
 use crate::effort::Effort;
 use crate::exit::Outcome;
 use crate::input::choice::choice;
 use crate::input::reading::{Points, Reading, wrong_option};
 use crate::output::numbers::{count, counted};
+use crate::output::picture::{Drawing, Picture, PictureOptions};
 use crate::output::writing::{self, Outputs};
 
 /// Learn a classifier from labeled points.
@@ -68,6 +70,9 @@ pub(super) struct Args {
     /// Where to write the model, as JSON
     #[arg(long, value_name = "FILE", help_heading = "Writing")]
     model: PathBuf,
+    /// Draw which class each place of the plane belongs to, if there are two features; .svg, .png or .html
+    #[arg(long, value_name = "FILE", help_heading = "Writing")]
+    draw: Option<PathBuf>,
     /// Print the summary as JSON
     #[arg(long, help_heading = "Writing")]
     json: bool,
@@ -104,11 +109,20 @@ impl Args {
         if self.label.is_none() && self.method != Preset::Svdd {
             bail!("training needs --label COLUMN: only --method svdd learns without labels");
         }
-        writing::check_writable(&[&self.model], &[&self.points.path])?;
+        let files: Vec<_> =
+            [&self.model].into_iter().chain(&self.draw).map(PathBuf::as_path).collect();
+        writing::check_writable(&files, &[&self.points.path])?;
+        let picture = self.draw.as_deref().map(Picture::of_path).transpose()?;
         let watch = self.effort.start()?;
         let opened = self.reading.open_labeled(&self.points.path, self.label.as_deref(), &[])?;
         let table = Table::of(&opened)?;
         let points = table.points()?;
+        if self.draw.is_some() && points.dim() != 2 {
+            bail!(
+                "--draw shows classes in the plane, but the points have {}: choose two with --columns",
+                counted(points.dim() as u64, "feature")
+            );
+        }
         let (classes, labels) = match &self.label {
             Some(_) => classes_of(opened.labels()),
             None => (vec!["inside".to_owned()], vec![0; points.len()]),
@@ -133,6 +147,19 @@ impl Args {
             .map_err(|error| explain(&opened, error))?;
         let mut outputs = Outputs::default();
         outputs.add(&self.model, (model.to_json() + "\n").as_bytes())?;
+        if let (Some(path), Some(picture)) = (&self.draw, picture) {
+            // Options of pictures would collide with the width of kernels.
+            let look = PictureOptions::default();
+            let options = look.options(opened.names(points.dim()));
+            let map = decision_map(&model, &points, &labels, &options)?;
+            let drawing = Drawing {
+                title: "A classifier in the plane".to_owned(),
+                heading: opened.name().to_owned(),
+                fields: vec![],
+                figures: map.into_iter().collect(),
+            };
+            outputs.add(path, &picture.draw(drawing, &look)?)?;
+        }
         if self.json {
             outputs.print(&(self.summary_json(&model, points.len(), &labels) + "\n"));
         } else if !self.effort.quiet {
