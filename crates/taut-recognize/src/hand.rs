@@ -27,6 +27,7 @@ pub mod read;
 pub mod refine;
 pub mod synthetic;
 pub mod thesis;
+mod trace;
 mod write;
 
 use std::io::Read;
@@ -39,12 +40,10 @@ pub use profile::{PROFILE, profile_names};
 pub use read::{ImageError, RgbImage};
 
 use circle::Circle;
-use color::{AdaptiveThreshold, ThresholdTable, adaptive_threshold, lab_b};
+use color::{AdaptiveThreshold, ThresholdTable, adaptive_threshold};
 use components::{LargestComponent, largest_component};
 use landmarks::{Landmarks, find_landmarks};
 use mask::Mask;
-use outline::{Outline, follow_cracks};
-use thesis::thesis_boundary;
 
 /// The Rust in the page about hands, compiled and run with the tests.
 #[cfg(doctest)]
@@ -64,12 +63,6 @@ const OPENING_MM: f64 = 0.5;
 
 /// The largest radius of the opening in pixels; beyond 400 dots per inch noise is smaller than half a millimeter.
 const OPENING_PIXELS_MAX: usize = 8;
-
-/// The Gaussian that smooths the outline in square roots of the hand's area: 2 pixels at 90 dots per inch.
-const SMOOTHING: f64 = 0.0042;
-
-/// The least Gaussian in pixels: less leaves the steps of the pixels.
-const SMOOTHING_PIXELS_MIN: f64 = 1.0;
 
 /// The least area of a hand in square millimeters: that of a small child without its arm has some 5000.
 const HAND_AREA_MIN_MM2: f64 = 2500.0;
@@ -264,7 +257,7 @@ impl Hand {
     pub fn from_rgb(image: &RgbImage, options: &HandOptions) -> Result<Self, HandError> {
         let (mm_per_pixel, dots_per_inch) = resolution(image, options)?;
         let found = segment(image, options, mm_per_pixel)?;
-        let outline = trace(image, &found, options.tracing)?;
+        let outline = trace::outline(image, &found, options)?;
         let sheet = gate::Sheet {
             width: image.width(),
             height: image.height(),
@@ -375,31 +368,4 @@ fn check_contrast(found: &AdaptiveThreshold, image_mm2: f64) -> Result<(), Failu
         return Err(Failure::LowContrast { contrast, separation });
     }
     Ok(())
-}
-
-/// Traces the outline of the hand.
-fn trace(image: &RgbImage, found: &Segment, tracing: Tracing) -> Result<Outline, Failure> {
-    let sigma = (SMOOTHING * (found.component.area as f64).sqrt()).max(SMOOTHING_PIXELS_MIN);
-    // Cracks are more than the arc length by the factor 4/π in the mean over all directions, and boundary pixels are
-    // about as many as cracks along a diagonal.
-    let sigma = sigma * 4.0 / std::f64::consts::PI;
-    match tracing {
-        Tracing::SubPixel => {
-            let cracks = follow_cracks(&found.component.mask);
-            let outline = Outline::new(&cracks, sigma, |[x, y]| {
-                let (x, y) = (usize::try_from(x).ok()?, usize::try_from(y).ok()?);
-                Some(lab_b(image.get(x, y)?) - found.threshold)
-            });
-            outline.ok_or(Failure::NoHand { area_mm2: 0.0 })
-        }
-        Tracing::Thesis => {
-            let mut boundary =
-                thesis_boundary(&found.component.mask).ok_or(Failure::BrokenBoundary)?;
-            // Landmarks expect the direction of the cracks, which is clockwise on the screen.
-            boundary.reverse();
-            let centers: Vec<[f64; 2]> =
-                boundary.iter().map(|pixel| pixel.map(|c| c as f64 + 0.5)).collect();
-            Ok(Outline::smoothed(&centers, sigma))
-        }
-    }
 }
