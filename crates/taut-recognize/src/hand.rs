@@ -33,7 +33,7 @@ mod write;
 use std::io::Read;
 use std::path::Path;
 
-pub use failure::{Edge, Failure, FingerName, Sign};
+pub use failure::{Edge, Failure, FingerName, Pixel, Sign};
 pub use features::{FEATURE_NAMES, FEATURES, IndexBase};
 pub use gate::{Evidence, PROPORTION_NAMES, PROPORTIONS};
 pub use profile::{PROFILE, profile_names};
@@ -257,13 +257,8 @@ impl Hand {
     pub fn from_rgb(image: &RgbImage, options: &HandOptions) -> Result<Self, HandError> {
         let (mm_per_pixel, dots_per_inch) = resolution(image, options)?;
         let found = segment(image, options, mm_per_pixel)?;
-        let outline = trace::outline(image, &found, options)?;
-        let sheet = gate::Sheet {
-            width: image.width(),
-            height: image.height(),
-            mm_per_pixel,
-            component: &found.component,
-        };
+        let (outline, colors) = trace::outline(image, &found, options)?;
+        let sheet = gate::Sheet { image, colors, mm_per_pixel, component: &found.component };
         let landmarks = find_landmarks(&outline, found.component.area as f64)
             .map_err(|failure| gate::explain(failure, &sheet))?;
         let landmarks = refine::refined(&landmarks, found.component.area as f64);
@@ -276,7 +271,7 @@ impl Hand {
             View::Palm => landmarks.side,
             View::Back => landmarks.side.other(),
         };
-        let evidence = gate::Evidence::new(&landmarks, &axes, &measured, mm_per_pixel);
+        let evidence = gate::Evidence::new(&landmarks, &axes, &measured, &sheet);
         let mut concerns = gate::concerns(&landmarks, &evidence, &measured, &sheet);
         if options.side.is_some_and(|wanted| wanted != side) {
             concerns.insert(0, Failure::OtherHand);

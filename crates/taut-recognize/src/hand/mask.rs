@@ -83,9 +83,9 @@ impl Mask {
                     } else {
                         let block = &pixels[3 * (y * width + left)..3 * (y * width + right)];
                         let is_above = |rgb: &[u8]| table.is_above([rgb[0], rgb[1], rgb[2]]);
-                        (0..).zip(block.chunks_exact(3)).fold(0, |bits, (bit, rgb)| {
-                            bits | u64::from(is_above(rgb)) << bit
-                        })
+                        (0..)
+                            .zip(block.chunks_exact(3))
+                            .fold(0, |bits, (bit, rgb)| bits | u64::from(is_above(rgb)) << bit)
                     };
                     // A tile is within a word.
                     mask.words[y * mask.stride + left / 64] |= bits << (left % 64);

@@ -21,27 +21,37 @@ const SMOOTHING_PIXELS_MIN: f64 = 1.0;
 const INSIDE_PIXELS: i64 = 1;
 const OUTSIDE_PIXELS: i64 = 2;
 
-/// Traces the outline of the hand.
+/// The b* beside the edge of a hand: medians over its boundary.
+#[derive(Clone, Copy)]
+pub(super) struct EdgeColors {
+    /// In the hand.
+    pub(super) skin: f64,
+    /// On the lid.
+    pub(super) lid: f64,
+}
+
+/// Traces the outline of the hand; the colors are `None` if no part of it has hand and background beside it.
 pub(super) fn outline(
     image: &RgbImage,
     found: &Segment,
     options: &HandOptions,
-) -> Result<Outline, Failure> {
+) -> Result<(Outline, Option<EdgeColors>), Failure> {
     let sigma = (SMOOTHING * (found.component.area as f64).sqrt()).max(SMOOTHING_PIXELS_MIN);
     // Cracks are more than the arc length by the factor 4/π in the mean over all directions, and boundary pixels are
     // about as many as cracks along a diagonal.
     let sigma = sigma * 4.0 / std::f64::consts::PI;
+    let cracks = follow_cracks(&found.component.mask);
+    let colors = edge_colors(image, &cracks, found.threshold);
     match options.tracing {
         Tracing::SubPixel => {
-            let cracks = follow_cracks(&found.component.mask);
             let level = match options.threshold {
                 Threshold::Fixed(value) => value,
                 Threshold::Adaptive => {
-                    edge_level(image, &cracks, found.threshold).unwrap_or(found.threshold)
+                    colors.map_or(found.threshold, |colors| 0.5 * (colors.skin + colors.lid))
                 }
             };
             let outline = Outline::new(&cracks, sigma, |pixel| Some(b_at(image, pixel)? - level));
-            outline.ok_or(Failure::NoHand { area_mm2: 0.0 })
+            Ok((outline.ok_or(Failure::NoHand { area_mm2: 0.0 })?, colors))
         }
         Tracing::Thesis => {
             let mut boundary =
@@ -50,18 +60,18 @@ pub(super) fn outline(
             boundary.reverse();
             let centers: Vec<[f64; 2]> =
                 boundary.iter().map(|pixel| pixel.map(|c| c as f64 + 0.5)).collect();
-            Ok(Outline::smoothed(&centers, sigma))
+            Ok((Outline::smoothed(&centers, sigma), colors))
         }
     }
 }
 
 /// Returns the b* of a pixel; `None` beyond the image.
-fn b_at(image: &RgbImage, [x, y]: [i64; 2]) -> Option<f64> {
+pub(super) fn b_at(image: &RgbImage, [x, y]: [i64; 2]) -> Option<f64> {
     image.get(usize::try_from(x).ok()?, usize::try_from(y).ok()?).map(approximate_lab_b)
 }
 
-/// Returns the b* in the middle of the edge of the hand; `None` if no crack has hand and background beside it.
-fn edge_level(image: &RgbImage, cracks: &[Crack], threshold: f64) -> Option<f64> {
+/// Returns the b* on both sides of the edge; `None` if no crack has hand and background beside it.
+fn edge_colors(image: &RgbImage, cracks: &[Crack], threshold: f64) -> Option<EdgeColors> {
     let (mut inside, mut outside) = (Histogram::default(), Histogram::default());
     for crack in cracks {
         let away = |from: [i64; 2], to: [i64; 2], pixels: i64| {
@@ -77,5 +87,5 @@ fn edge_level(image: &RgbImage, cracks: &[Crack], threshold: f64) -> Option<f64>
             outside.add(lid);
         }
     }
-    Some(0.5 * (inside.median()? + outside.median()?))
+    Some(EdgeColors { skin: inside.median()?, lid: outside.median()? })
 }
