@@ -27,24 +27,23 @@ pub mod read;
 pub mod refine;
 pub mod synthetic;
 pub mod thesis;
+mod trace;
 mod write;
 
 use std::io::Read;
 use std::path::Path;
 
-pub use failure::{Edge, Failure, FingerName, Sign};
+pub use failure::{Edge, Failure, FingerName, Pixel, Sign};
 pub use features::{FEATURE_NAMES, FEATURES, IndexBase};
 pub use gate::{Evidence, PROPORTION_NAMES, PROPORTIONS};
 pub use profile::{PROFILE, profile_names};
 pub use read::{ImageError, RgbImage};
 
 use circle::Circle;
-use color::{AdaptiveThreshold, ThresholdTable, adaptive_threshold, lab_b};
+use color::{AdaptiveThreshold, ThresholdTable, adaptive_threshold};
 use components::{LargestComponent, largest_component};
 use landmarks::{Landmarks, find_landmarks};
 use mask::Mask;
-use outline::{Outline, follow_cracks};
-use thesis::thesis_boundary;
 
 /// The Rust in the page about hands, compiled and run with the tests.
 #[cfg(doctest)]
@@ -64,12 +63,6 @@ const OPENING_MM: f64 = 0.5;
 
 /// The largest radius of the opening in pixels; beyond 400 dots per inch noise is smaller than half a millimeter.
 const OPENING_PIXELS_MAX: usize = 8;
-
-/// The Gaussian that smooths the outline in square roots of the hand's area: 2 pixels at 90 dots per inch.
-const SMOOTHING: f64 = 0.0042;
-
-/// The least Gaussian in pixels: less leaves the steps of the pixels.
-const SMOOTHING_PIXELS_MIN: f64 = 1.0;
 
 /// The least area of a hand in square millimeters: that of a small child without its arm has some 5000.
 const HAND_AREA_MIN_MM2: f64 = 2500.0;
@@ -264,13 +257,8 @@ impl Hand {
     pub fn from_rgb(image: &RgbImage, options: &HandOptions) -> Result<Self, HandError> {
         let (mm_per_pixel, dots_per_inch) = resolution(image, options)?;
         let found = segment(image, options, mm_per_pixel)?;
-        let outline = trace(image, &found, options.tracing)?;
-        let sheet = gate::Sheet {
-            width: image.width(),
-            height: image.height(),
-            mm_per_pixel,
-            component: &found.component,
-        };
+        let (outline, colors) = trace::outline(image, &found, options)?;
+        let sheet = gate::Sheet { image, colors, mm_per_pixel, component: &found.component };
         let landmarks = find_landmarks(&outline, found.component.area as f64)
             .map_err(|failure| gate::explain(failure, &sheet))?;
         let landmarks = refine::refined(&landmarks, found.component.area as f64);
@@ -283,7 +271,7 @@ impl Hand {
             View::Palm => landmarks.side,
             View::Back => landmarks.side.other(),
         };
-        let evidence = gate::Evidence::new(&landmarks, &axes, &measured, mm_per_pixel);
+        let evidence = gate::Evidence::new(&landmarks, &axes, &measured, &sheet);
         let mut concerns = gate::concerns(&landmarks, &evidence, &measured, &sheet);
         if options.side.is_some_and(|wanted| wanted != side) {
             concerns.insert(0, Failure::OtherHand);
@@ -375,31 +363,4 @@ fn check_contrast(found: &AdaptiveThreshold, image_mm2: f64) -> Result<(), Failu
         return Err(Failure::LowContrast { contrast, separation });
     }
     Ok(())
-}
-
-/// Traces the outline of the hand.
-fn trace(image: &RgbImage, found: &Segment, tracing: Tracing) -> Result<Outline, Failure> {
-    let sigma = (SMOOTHING * (found.component.area as f64).sqrt()).max(SMOOTHING_PIXELS_MIN);
-    // Cracks are more than the arc length by the factor 4/π in the mean over all directions, and boundary pixels are
-    // about as many as cracks along a diagonal.
-    let sigma = sigma * 4.0 / std::f64::consts::PI;
-    match tracing {
-        Tracing::SubPixel => {
-            let cracks = follow_cracks(&found.component.mask);
-            let outline = Outline::new(&cracks, sigma, |[x, y]| {
-                let (x, y) = (usize::try_from(x).ok()?, usize::try_from(y).ok()?);
-                Some(lab_b(image.get(x, y)?) - found.threshold)
-            });
-            outline.ok_or(Failure::NoHand { area_mm2: 0.0 })
-        }
-        Tracing::Thesis => {
-            let mut boundary =
-                thesis_boundary(&found.component.mask).ok_or(Failure::BrokenBoundary)?;
-            // Landmarks expect the direction of the cracks, which is clockwise on the screen.
-            boundary.reverse();
-            let centers: Vec<[f64; 2]> =
-                boundary.iter().map(|pixel| pixel.map(|c| c as f64 + 0.5)).collect();
-            Ok(Outline::smoothed(&centers, sigma))
-        }
-    }
 }

@@ -3,7 +3,9 @@
 use std::io::Cursor;
 
 use image::{DynamicImage, ImageFormat};
-use taut_recognize::hand::color::{FIXED_THRESHOLD, ThresholdTable, lab_b};
+use taut_recognize::hand::color::{
+    APPROXIMATION_MAX, FIXED_THRESHOLD, ThresholdTable, approximate_lab_b, lab_b,
+};
 use taut_recognize::hand::{Failure, Hand, HandError, HandOptions, ImageError, RgbImage};
 
 const LIMIT: u64 = 1_000_000;
@@ -104,6 +106,107 @@ fn exif_turns_the_image_and_gives_a_resolution() {
     assert_eq!(found.dots_per_inch(), Some(300.0));
 }
 
+/// A JPEG of one block of 8 × 8 pixels in Adobe's CMYK, which stores 255 less each ink.
+fn cmyk_jpeg(stored: [u8; 4]) -> Vec<u8> {
+    let segment = |marker: u8, body: &[u8]| {
+        let mut bytes = vec![0xff, marker];
+        bytes.extend(((body.len() + 2) as u16).to_be_bytes());
+        bytes.extend(body);
+        bytes
+    };
+    let mut bytes = vec![0xff, 0xd8];
+    // Version 100, no flags, no color transform.
+    bytes.extend(segment(0xee, b"Adobe\0\x64\0\0\0\0\0"));
+    // One table of quantization, 8 for each coefficient: a constant block is 8 times its value.
+    bytes.extend(segment(0xdb, &[&[0][..], &[8; 64]].concat()));
+    let parts = (1..=4).flat_map(|id| [id, 0x11, 0]);
+    bytes.extend(segment(0xc0, &[8, 0, 8, 0, 8, 4].into_iter().chain(parts).collect::<Vec<_>>()));
+    // Categories 0 to 11 of the first coefficient have codes of 4 bits, the end of the block that of 1 bit.
+    let mut first = vec![0, 0, 0, 0, 12, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
+    first.extend(0..12);
+    bytes.extend(segment(0xc4, &first));
+    let mut others = vec![0x10, 1];
+    others.extend([0; 16]);
+    bytes.extend(segment(0xc4, &others));
+    let parts = (1..=4).flat_map(|id| [id, 0]);
+    bytes.extend(segment(
+        0xda,
+        &[4].into_iter().chain(parts).chain([0, 63, 0]).collect::<Vec<u8>>(),
+    ));
+    let mut bits = String::new();
+    for value in stored {
+        let value = i32::from(value) - 128;
+        let category = (32 - value.unsigned_abs().leading_zeros()) as usize;
+        let code = if value < 0 { value + (1 << category) - 1 } else { value };
+        bits += &format!("{category:04b}");
+        if category > 0 {
+            bits += &format!("{code:0category$b}");
+        }
+        bits.push('0');
+    }
+    while !bits.len().is_multiple_of(8) {
+        bits.push('1');
+    }
+    for start in (0..bits.len()).step_by(8) {
+        let byte = u8::from_str_radix(&bits[start..start + 8], 2).expect("eight bits");
+        bytes.push(byte);
+        if byte == 0xff {
+            bytes.push(0);
+        }
+    }
+    bytes.extend([0xff, 0xd9]);
+    bytes
+}
+
+#[test]
+fn inks_become_colors() {
+    for (stored, wanted) in [
+        ([255, 255, 255, 255], [255, 255, 255]),
+        ([0, 255, 255, 255], [0, 255, 255]),
+        ([255, 0, 255, 255], [255, 0, 255]),
+        ([255, 255, 0, 255], [255, 255, 0]),
+        ([255, 255, 255, 0], [0, 0, 0]),
+    ] {
+        let found = RgbImage::decode(&cmyk_jpeg(stored), LIMIT).expect("a JPEG in CMYK is read");
+        assert_eq!((found.width(), found.height()), (8, 8));
+        // Decoders round differently.
+        let is_near = |rgb: &[u8]| rgb.iter().zip(wanted).all(|(&a, b)| a.abs_diff(b) <= 2);
+        assert!(found.pixels().chunks_exact(3).all(is_near), "{stored:?}: {:?}", found.get(0, 0));
+    }
+    let whole = cmyk_jpeg([255; 4]);
+    let cut = RgbImage::decode(&whole[..whole.len() / 2], LIMIT);
+    assert!(matches!(cut, Err(ImageError::Decode(_))), "{cut:?}");
+}
+
+#[test]
+fn failures_say_where_and_what_helps() {
+    use taut_recognize::hand::{Edge, FingerName, Pixel, Sign};
+    let at = Pixel { x: 12, y: 345 };
+    let finger = FingerName::Ring;
+    for failure in [
+        Failure::FingersTouching { first: FingerName::Middle, second: finger, at },
+        Failure::CutOff { edge: Edge::Left, at },
+        Failure::RingOrBandage { finger, sign: Sign::WidthStep, at },
+        Failure::Hole { area_mm2: 5.0, at },
+        Failure::SecondObject { area_mm2: 5.0, at },
+    ] {
+        let text = failure.to_string();
+        assert!(text.contains("pixel (12, 345)") && text.contains("; "), "{text}");
+    }
+    for failure in [
+        Failure::NoHand { area_mm2: 3.0 },
+        Failure::LowContrast { contrast: 1.0, separation: 2.0 },
+        Failure::TooFewTips { found: 3 },
+        Failure::Unmeasurable,
+        Failure::BrokenBoundary,
+        Failure::ThumbUnclear { ratio: 1.0 },
+        Failure::OtherHand,
+        Failure::Proportions { distance: 9.0, limit: 8.0 },
+    ] {
+        assert!(failure.to_string().contains("; "), "{failure}");
+    }
+}
+
 #[test]
 fn damaged_and_foreign_files_are_typed() {
     let decode = |bytes: &[u8]| RgbImage::decode(bytes, LIMIT);
@@ -193,6 +296,18 @@ fn the_table_of_a_threshold_is_the_formula() {
                     let rgb = [red, green, blue];
                     assert_eq!(table.is_above(rgb), lab_b(rgb) > threshold, "{rgb:?}");
                 }
+            }
+        }
+    }
+    // The table of the other function of b*, and the limit of its error.
+    for red in (0..=255u8).step_by(3) {
+        for green in (0..=255u8).step_by(5) {
+            for blue in (0..=255u8).step_by(3) {
+                let rgb = [red, green, blue];
+                assert!(
+                    (approximate_lab_b(rgb) - lab_b(rgb)).abs() <= APPROXIMATION_MAX,
+                    "{rgb:?}"
+                );
             }
         }
     }

@@ -1,5 +1,6 @@
 //! Sets of pixels against the definitions: opening, components and holes by flood fill, and the boundary of the thesis.
 
+use taut_recognize::hand::color::ThresholdTable;
 use taut_recognize::hand::components::largest_component;
 use taut_recognize::hand::mask::Mask;
 use taut_recognize::hand::thesis::thesis_boundary;
@@ -95,6 +96,33 @@ fn components_and_holes_are_those_of_a_flood_fill() {
         );
     }
     assert!(holes > 100, "{holes} holes");
+}
+
+#[test]
+fn a_mask_of_tiles_is_that_of_its_pixels() {
+    let mut state = 6;
+    let tables = [ThresholdTable::new(4.0), ThresholdTable::new(60.0)];
+    for round in 0..200 {
+        let (width, height) =
+            (1 + next(&mut state) as usize % 150, 1 + next(&mut state) as usize % 40);
+        // Areas of skin and of lid with noise, so that there are tiles of all three kinds.
+        let edge = next(&mut state) as usize % 150;
+        let noise = 1 + next(&mut state) % 40;
+        let pixels: Vec<u8> = (0..width * height)
+            .flat_map(|k| {
+                let color = if k % width < edge { [200, 160, 130] } else { [240, 242, 248] };
+                color.map(|level: u64| (level + next(&mut state) % noise).min(255) as u8)
+            })
+            .collect();
+        for table in &tables {
+            let found = Mask::from_rgb(&pixels, width, height, table);
+            let wanted = Mask::from_fn(width, height, |x, y| {
+                let at = 3 * (y * width + x);
+                table.is_above([pixels[at], pixels[at + 1], pixels[at + 2]])
+            });
+            assert_eq!(found, wanted, "round {round}");
+        }
+    }
 }
 
 #[test]

@@ -7,7 +7,7 @@
 //! *Guarantee.* The radius is that of a circle in the polygon, up to rounding, and within the tolerance of the largest.
 //! *Trap.* Each square needs the nearest edge. An edge farther from c than |d(c)| + 2r is nearest to no point of the
 //! square, so that children inherit few edges; if |d(c)| exceeds the distance to a child's center, they inherit the
-//! side too, and the whole polygon is read for few squares only.
+//! side too, and the whole polygon is read for few squares only. Edges are read in groups of neighbors, each in a disc.
 //! *Reference.* Mapbox, polylabel, 2016; bounds and inheritance as above.
 
 use std::cmp::Ordering;
@@ -35,8 +35,8 @@ struct Square {
     bound: f64,
     /// When it came to the heap: of equals, the first is taken first.
     number: usize,
-    /// The edges among which the nearest one is, for each point of the square.
-    edges: Rc<[u32]>,
+    /// The groups of edges among which the nearest one is, for each point of the square.
+    groups: Rc<[u32]>,
 }
 
 impl Ord for Square {
@@ -73,12 +73,13 @@ pub fn inscribed_circle(polygon: &[[f64; 2]], tolerance: f64) -> Option<Circle> 
     let (x, y) = (range(0), range(1));
     let half = 0.5 * (x.1 - x.0).max(y.1 - y.0);
     let center = [0.5 * (x.0 + x.1), 0.5 * (y.0 + y.1)];
-    let all: Rc<[u32]> = (0..polygon.len() as u32).collect();
+    let edges = Edges::new(polygon);
+    let groups: Rc<[u32]> = (0..edges.groups.len() as u32).collect();
     let mut best = Circle { center, radius: 0.0 };
     let mut heap = BinaryHeap::new();
     let mut number = 0;
-    let distance = signed(polygon, center, nearest(polygon, center, &all));
-    heap.push(Square { center, half, distance, bound: f64::INFINITY, number, edges: all });
+    let distance = edges.signed(center, edges.nearest(center, &groups));
+    heap.push(Square { center, half, distance, bound: f64::INFINITY, number, groups });
     while let Some(square) = heap.pop() {
         if square.bound <= best.radius + tolerance || number > SQUARES_MAX {
             break;
@@ -87,16 +88,11 @@ pub fn inscribed_circle(polygon: &[[f64; 2]], tolerance: f64) -> Option<Circle> 
             best = Circle { center: square.center, radius: square.distance };
         }
         let reach = square.distance.abs() + 2.0 * square.half * std::f64::consts::SQRT_2;
-        let edges: Rc<[u32]> = square
-            .edges
-            .iter()
-            .copied()
-            .filter(|&edge| squared_to_edge(polygon, square.center, edge) <= reach * reach)
-            .collect();
+        let groups: Rc<[u32]> = edges.within(square.center, reach, &square.groups);
         let half = 0.5 * square.half;
         for (i, j) in [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)] {
             let center = [square.center[0] + i * half, square.center[1] + j * half];
-            let size = nearest(polygon, center, &edges);
+            let size = edges.nearest(center, &groups);
             let radius = half * std::f64::consts::SQRT_2;
             let distance = if square.distance.abs() > radius {
                 size * square.distance.signum()
@@ -104,7 +100,7 @@ pub fn inscribed_circle(polygon: &[[f64; 2]], tolerance: f64) -> Option<Circle> 
                 // The square is left out on either side.
                 continue;
             } else {
-                signed(polygon, center, size)
+                edges.signed(center, size)
             };
             let bound = distance + radius;
             if distance > best.radius {
@@ -112,45 +108,146 @@ pub fn inscribed_circle(polygon: &[[f64; 2]], tolerance: f64) -> Option<Circle> 
             }
             if bound > best.radius + tolerance {
                 number += 1;
-                let edges = Rc::clone(&edges);
-                heap.push(Square { center, half, distance, bound, number, edges });
+                let groups = Rc::clone(&groups);
+                heap.push(Square { center, half, distance, bound, number, groups });
             }
         }
     }
     (best.radius > 0.0).then_some(best)
 }
 
-/// Returns the distance of a point to the nearest of some edges.
-fn nearest(polygon: &[[f64; 2]], point: [f64; 2], edges: &[u32]) -> f64 {
-    edges
-        .iter()
-        .map(|&edge| squared_to_edge(polygon, point, edge))
-        .fold(f64::INFINITY, f64::min)
-        .sqrt()
+/// An edge of a polygon.
+#[derive(Clone, Copy)]
+struct Edge {
+    start: [f64; 2],
+    delta: [f64; 2],
+    /// One over the squared length; 0 for an edge without a length.
+    inverse: f64,
 }
 
-/// Returns the squared distance of a point to an edge.
-fn squared_to_edge(polygon: &[[f64; 2]], point: [f64; 2], edge: u32) -> f64 {
-    let index = edge as usize;
-    let a = polygon[index];
-    let b = polygon[if index + 1 == polygon.len() { 0 } else { index + 1 }];
-    let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
-    let (px, py) = (point[0] - a[0], point[1] - a[1]);
-    let square = dx * dx + dy * dy;
-    let share = if square > 0.0 { ((px * dx + py * dy) / square).clamp(0.0, 1.0) } else { 0.0 };
-    (px - share * dx).powi(2) + (py - share * dy).powi(2)
-}
-
-/// Gives a distance the sign of the side: positive inside, by the parity of crossings.
-fn signed(polygon: &[[f64; 2]], point: [f64; 2], distance: f64) -> f64 {
-    let mut is_inside = false;
-    let mut a = polygon[polygon.len() - 1];
-    for &b in polygon {
-        if (a[1] > point[1]) != (b[1] > point[1]) {
-            let x = a[0] + (point[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
-            is_inside ^= point[0] < x;
-        }
-        a = b;
+impl Edge {
+    fn new(a: [f64; 2], b: [f64; 2]) -> Self {
+        let delta = [b[0] - a[0], b[1] - a[1]];
+        let square = delta[0] * delta[0] + delta[1] * delta[1];
+        // A square that is too small for its inverse is no length.
+        let inverse = Some(1.0 / square).filter(|inverse| inverse.is_finite()).unwrap_or(0.0);
+        Self { start: a, delta, inverse }
     }
-    if is_inside { distance } else { -distance }
+
+    /// Returns the squared distance of a point.
+    fn squared(&self, point: [f64; 2]) -> f64 {
+        let ([dx, dy], [ax, ay]) = (self.delta, self.start);
+        let (px, py) = (point[0] - ax, point[1] - ay);
+        let share = ((px * dx + py * dy) * self.inverse).clamp(0.0, 1.0);
+        let (x, y) = (px - share * dx, py - share * dy);
+        x * x + y * y
+    }
+}
+
+/// Neighboring edges and a disc that holds them.
+struct Group {
+    first: usize,
+    end: usize,
+    center: [f64; 2],
+    radius: f64,
+    /// The least and largest second coordinate.
+    rows: [f64; 2],
+}
+
+/// The edges of a polygon in groups.
+struct Edges {
+    edges: Vec<Edge>,
+    groups: Vec<Group>,
+}
+
+/// Edges in a group: with as many groups as edges in one, a polygon of 300 edges has the least work.
+const GROUP_EDGES: usize = 16;
+
+impl Edges {
+    fn new(polygon: &[[f64; 2]]) -> Self {
+        let corner = |index: usize| polygon[if index < polygon.len() { index } else { 0 }];
+        let edges = (0..polygon.len()).map(|k| Edge::new(corner(k), corner(k + 1))).collect();
+        let groups = (0..polygon.len())
+            .step_by(GROUP_EDGES)
+            .map(|first| {
+                let end = (first + GROUP_EDGES).min(polygon.len());
+                let corners = (first..=end).map(corner);
+                let range = |axis: usize| {
+                    corners.clone().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| {
+                        [low.min(p[axis]), high.max(p[axis])]
+                    })
+                };
+                let rows = range(1);
+                let center = [range(0), rows].map(|[low, high]| 0.5 * (low + high));
+                let square = |p: [f64; 2]| (p[0] - center[0]).powi(2) + (p[1] - center[1]).powi(2);
+                let radius = corners.clone().map(square).fold(0.0, f64::max).sqrt();
+                Group { first, end, center, radius, rows }
+            })
+            .collect();
+        Self { edges, groups }
+    }
+
+    /// Returns the squared distance of a point to the center of a group.
+    fn to_center(&self, point: [f64; 2], group: u32) -> f64 {
+        let [x, y] = self.groups[group as usize].center;
+        (point[0] - x) * (point[0] - x) + (point[1] - y) * (point[1] - y)
+    }
+
+    /// Tests whether the disc of a group comes within a distance of a point, or nearly so: rounding loses none.
+    fn is_within(&self, point: [f64; 2], reach: f64, group: u32) -> bool {
+        /// Far above the rounding of a squared distance.
+        const ROUNDING: f64 = 1.0 + 1e-9;
+        let limit = reach + self.groups[group as usize].radius;
+        self.to_center(point, group) <= limit * limit * ROUNDING
+    }
+
+    /// Returns the groups of which an edge may be within a distance of a point.
+    fn within(&self, point: [f64; 2], reach: f64, groups: &[u32]) -> Rc<[u32]> {
+        groups.iter().copied().filter(|&group| self.is_within(point, reach, group)).collect()
+    }
+
+    /// Returns the distance of a point to the nearest edge of some groups.
+    fn nearest(&self, point: [f64; 2], groups: &[u32]) -> f64 {
+        let in_group = |group: u32| {
+            let Group { first, end, .. } = self.groups[group as usize];
+            self.edges[first..end].iter().map(|e| e.squared(point)).fold(f64::INFINITY, f64::min)
+        };
+        let (mut first, mut least) = (u32::MAX, f64::INFINITY);
+        for &group in groups {
+            let square = self.to_center(point, group);
+            if square < least {
+                (first, least) = (group, square);
+            }
+        }
+        let mut square = if first == u32::MAX { f64::INFINITY } else { in_group(first) };
+        let mut distance = square.sqrt();
+        for &group in groups {
+            if group != first && self.is_within(point, distance, group) {
+                let found = in_group(group);
+                if found < square {
+                    (square, distance) = (found, found.sqrt());
+                }
+            }
+        }
+        distance
+    }
+
+    /// Gives a distance the sign of the side: positive inside, by the parity of crossings.
+    fn signed(&self, point: [f64; 2], distance: f64) -> f64 {
+        let mut is_inside = false;
+        for group in &self.groups {
+            if !(group.rows[0]..=group.rows[1]).contains(&point[1]) {
+                continue;
+            }
+            for index in group.first..group.end {
+                let next = if index + 1 == self.edges.len() { 0 } else { index + 1 };
+                let (a, b) = (self.edges[index].start, self.edges[next].start);
+                if (a[1] > point[1]) != (b[1] > point[1]) {
+                    let x = a[0] + (point[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
+                    is_inside ^= point[0] < x;
+                }
+            }
+        }
+        if is_inside { distance } else { -distance }
+    }
 }

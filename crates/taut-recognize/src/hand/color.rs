@@ -70,10 +70,37 @@ pub fn lab_b(rgb: [u8; 3]) -> f64 {
     200.0 * (lab_function(y) - lab_function(z / WHITE_XZ[1]))
 }
 
+/// Cells of the table of [`approximate_lab_b`] from 0 to 1.
+const CELLS: usize = 4096;
+
+/// What [`approximate_lab_b`] may differ from [`lab_b`]: in a cell at the end of the linear part, f bends by 587 × h²/8
+/// with h = 1/4096, which are 0.0009 in b*, for each of its two values.
+pub const APPROXIMATION_MAX: f64 = 0.002;
+
+/// Returns the b* of an 8-bit sRGB color, within [`APPROXIMATION_MAX`], from a table of CIELAB's f.
+#[must_use]
+pub fn approximate_lab_b(rgb: [u8; 3]) -> f64 {
+    static TABLE: OnceLock<Vec<f64>> = OnceLock::new();
+    let table = TABLE
+        .get_or_init(|| (0..CELLS + 2).map(|k| lab_function(k as f64 / CELLS as f64)).collect());
+    let levels = linear_levels();
+    let linear = rgb.map(|level| levels[usize::from(level)]);
+    let weighted = |row: &[f64; 3]| row[0] * linear[0] + row[1] * linear[1] + row[2] * linear[2];
+    let function = |u: f64| {
+        let place = u * CELLS as f64;
+        let cell = (place as usize).min(CELLS);
+        table[cell] + (place - cell as f64) * (table[cell + 1] - table[cell])
+    };
+    let (y, z) = (weighted(&XYZ_OF_RGB[1]), weighted(&XYZ_OF_RGB[2]));
+    200.0 * (function(y) - function(z * (1.0 / WHITE_XZ[1])))
+}
+
 /// For each red and green, how many of the levels of blue, from 0 on, have a b* above a threshold.
 pub struct ThresholdTable {
     threshold: f64,
     blues: Vec<u16>,
+    /// Whether no count is less than one of less red or less green.
+    is_monotone: bool,
 }
 
 impl ThresholdTable {
@@ -95,7 +122,11 @@ impl ThresholdTable {
                 blues[usize::from(red) << 8 | usize::from(green)] = count;
             }
         }
-        Self { threshold, blues }
+        let is_monotone = (0..1 << 16).all(|index| {
+            (index < 256 || blues[index - 256] <= blues[index])
+                && (index % 256 == 0 || blues[index - 1] <= blues[index])
+        });
+        Self { threshold, blues, is_monotone }
     }
 
     /// Returns the threshold in b*.
@@ -109,6 +140,22 @@ impl ThresholdTable {
     #[must_use]
     pub fn is_above(&self, rgb: [u8; 3]) -> bool {
         u16::from(rgb[2]) < self.blues[usize::from(rgb[0]) << 8 | usize::from(rgb[1])]
+    }
+
+    /// Tests whether all colors of a box in RGB are above the threshold, or none; `None` if that takes a look at each.
+    #[must_use]
+    pub fn is_box_above(&self, low: [u8; 3], high: [u8; 3]) -> Option<bool> {
+        // Counts grow with red and green, so that those at two corners of the box bound all others.
+        let count = |rgb: [u8; 3]| self.blues[usize::from(rgb[0]) << 8 | usize::from(rgb[1])];
+        if !self.is_monotone {
+            None
+        } else if u16::from(high[2]) < count(low) {
+            Some(true)
+        } else if u16::from(low[2]) >= count(high) {
+            Some(false)
+        } else {
+            None
+        }
     }
 
     /// Returns the shared table of a multiple of the quantum within the range, and of the fixed threshold.
@@ -141,23 +188,58 @@ const BINS: usize = 400;
 const BIN_WIDTH: f64 = 0.25;
 const BIN_START: f64 = -50.0;
 
+/// Returns the place of a value of b* in the histogram, in bins.
+fn place(b: f64) -> f64 {
+    ((b - BIN_START) / BIN_WIDTH).clamp(0.0, (BINS - 1) as f64)
+}
+
+/// A histogram of values of b*.
+pub(super) struct Histogram([u64; BINS]);
+
+impl Default for Histogram {
+    fn default() -> Self {
+        Self([0; BINS])
+    }
+}
+
+impl Histogram {
+    /// Adds a value.
+    pub(super) fn add(&mut self, b: f64) {
+        self.0[place(b) as usize] += 1;
+    }
+
+    /// Adds a color: the table decides its class, and the formula where the table is too near the limit of a class.
+    fn add_color(&mut self, rgb: [u8; 3]) {
+        let quick = place(approximate_lab_b(rgb));
+        let bin = quick as usize;
+        let share = quick - bin as f64;
+        let is_clear = share.min(1.0 - share) * BIN_WIDTH > APPROXIMATION_MAX;
+        self.0[if is_clear { bin } else { place(lab_b(rgb)) as usize }] += 1;
+    }
+
+    /// Returns the middle of the class of the median; `None` without values.
+    pub(super) fn median(&self) -> Option<f64> {
+        let (bin, _) = median_and_deviation(&self.0, 0);
+        let is_empty = self.0.iter().all(|&count| count == 0);
+        (!is_empty).then(|| BIN_START + (bin + 0.5) * BIN_WIDTH)
+    }
+}
+
 /// Chooses the threshold of b* by Otsu's method from some 16 000 pixels on a grid; `None` without pixels.
 #[must_use]
 pub fn adaptive_threshold(pixels: &[u8], width: usize, height: usize) -> Option<AdaptiveThreshold> {
     const SAMPLES_PER_SIDE: usize = 128;
     let steps = [width, height].map(|side| side.div_ceil(SAMPLES_PER_SIDE).max(1));
-    let mut counts = vec![0u64; BINS];
+    let mut counts = Histogram::default();
     // The grid is centered, so that a mirrored or turned image has the same samples.
     let start = |side: usize, step: usize| (side.saturating_sub(1) % step) / 2;
     for row in (start(height, steps[1])..height).step_by(steps[1]) {
         for column in (start(width, steps[0])..width).step_by(steps[0]) {
             let at = 3 * (row * width + column);
-            let b = lab_b([pixels[at], pixels[at + 1], pixels[at + 2]]);
-            let bin = ((b - BIN_START) / BIN_WIDTH).clamp(0.0, (BINS - 1) as f64);
-            counts[bin as usize] += 1;
+            counts.add_color([pixels[at], pixels[at + 1], pixels[at + 2]]);
         }
     }
-    threshold_of_histogram(&counts)
+    threshold_of_histogram(&counts.0)
 }
 
 fn threshold_of_histogram(counts: &[u64]) -> Option<AdaptiveThreshold> {

@@ -63,19 +63,46 @@ impl fmt::Display for Edge {
     }
 }
 
-/// Why a picture gives no features, or none that can be relied on.
+/// A place of the image, counted from its top left pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+pub struct Pixel {
+    /// The column, from 0 on.
+    pub x: i64,
+    /// The row, from 0 on.
+    pub y: i64,
+}
+
+impl Pixel {
+    /// Returns the pixel that holds a point.
+    pub(super) fn of([x, y]: [f64; 2]) -> Self {
+        Self { x: x.floor() as i64, y: y.floor() as i64 }
+    }
+}
+
+impl fmt::Display for Pixel {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "({}, {})", self.x, self.y)
+    }
+}
+
+/// Why a picture gives no features, or none that can be relied on. Each text says what was found, where, and what helps.
 #[derive(Clone, Debug, PartialEq, thiserror::Error, serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
 pub enum Failure {
     /// Nothing of the size of a hand has its color.
-    #[error("no hand: the largest object of its color has {area_mm2:.0} mm²")]
+    #[error(
+        "no hand: the largest object of the color of skin has {area_mm2:.0} mm², and a hand has at least {limit:.0}; lay one bare hand on the glass, or set the right resolution",
+        limit = super::HAND_AREA_MIN_MM2
+    )]
     NoHand {
         /// The area of the largest object.
         area_mm2: f64,
     },
     /// Hand and background differ too little in b*.
     #[error(
-        "low contrast: the colors of hand and background differ by {contrast:.1} in b*, {separation:.1} of their spread"
+        "low contrast: the b* of hand and background differ by {contrast:.1}, {separation:.1} times their spread, and at least {least:.1} and {times:.1} times are needed; use a white or bluish background, or a fixed threshold",
+        least = super::CONTRAST_MIN,
+        times = super::SEPARATION_MIN
     )]
     LowContrast {
         /// The difference of the medians of b*.
@@ -84,65 +111,87 @@ pub enum Failure {
         separation: f64,
     },
     /// The outline does not have five tips with four valleys between them.
-    #[error("{found} fingertips found: spread all five fingers")]
+    #[error("{found} of five fingertips found; spread all five fingers and lay them flat")]
     TooFewTips {
         /// Tips found.
         found: usize,
     },
     /// The outline has tips and valleys, but a finger between them has no width or no circle.
-    #[error("tips and valleys are found, but a finger cannot be measured")]
+    #[error(
+        "tips and valleys are found, but a finger between them has no width; spread the fingers and scan again"
+    )]
     Unmeasurable,
     /// The boundary pixels are not one closed curve; only with the tracing of the thesis.
-    #[error("the boundary pixels are not one closed curve")]
+    #[error(
+        "the boundary pixels are not one closed curve, as the tracing of the thesis needs; use the sub-pixel tracing"
+    )]
     BrokenBoundary,
     /// Two fingers touch, or are too close for their valley to be found.
-    #[error("{first} and {second} touch: spread the fingers")]
+    #[error("{first} and {second} touch, or nearly so, at pixel {at}; spread them")]
     FingersTouching {
         /// The finger nearer to the thumb.
         first: FingerName,
         /// The other one.
         second: FingerName,
+        /// The bottom of the valley between them.
+        at: Pixel,
     },
     /// A part of the hand that is measured is beyond the edge of the image.
-    #[error("the hand is cut off at the {edge} edge")]
+    #[error(
+        "the hand is cut off at the {edge} edge of the image, at pixel {at}; move the whole hand onto the page"
+    )]
     CutOff {
         /// The edge.
         edge: Edge,
+        /// A pixel of the hand at the edge.
+        at: Pixel,
     },
     /// A ring, a bandage or the like covers a part of a finger, or a finger is lifted.
-    #[error("something covers the {finger}, as a ring or a bandage does, or it is lifted: {sign}")]
+    #[error(
+        "the {finger} is covered or lifted at pixel {at}: {sign}; remove rings and bandages, and lay the finger flat"
+    )]
     RingOrBandage {
         /// The finger.
         finger: FingerName,
         /// What it shows by.
         sign: Sign,
+        /// Where it shows.
+        at: Pixel,
     },
     /// There is a hole in the hand: a cover, or fingers that touch at their tips.
-    #[error("the hand has a hole of {area_mm2:.1} mm²: a cover, or fingers that touch")]
+    #[error(
+        "the hand has a hole of {area_mm2:.1} mm² at pixel {at}; remove what covers it, and spread fingers that touch"
+    )]
     Hole {
         /// The area of the largest hole.
         area_mm2: f64,
+        /// Its middle.
+        at: Pixel,
     },
     /// Something else of the color of a hand lies beside it.
-    #[error("a second object of {area_mm2:.0} mm² has the color of a hand")]
+    #[error(
+        "a second object of the color of skin, {area_mm2:.0} mm², is at pixel {at}; leave one hand alone on the glass"
+    )]
     SecondObject {
         /// Its area.
         area_mm2: f64,
+        /// Its middle.
+        at: Pixel,
     },
     /// The thumb could be at either end of the row of fingers.
     #[error(
-        "the thumb cannot be told from the little finger: the ratio of their distances is {ratio:.2}"
+        "the thumb cannot be told from the little finger: the distances at the ends of the row of fingers have the ratio {ratio:.2}; spread the thumb, and the little finger less"
     )]
     ThumbUnclear {
         /// The distances of the first two valleys and tips over those of the last two.
         ratio: f64,
     },
     /// The hand is the other one than was asked for.
-    #[error("the picture shows the other hand")]
+    #[error("the image shows the other hand; scan the one that was asked for, or ask for either")]
     OtherHand,
     /// The proportions are not those of hands: a part is covered or joined to another one.
     #[error(
-        "the proportions of the hand are not those of hands: the distance is {distance:.1}, the limit {limit:.1}"
+        "the proportions of the hand differ by {distance:.1} from those of hands, and the limit is {limit:.1}; spread the fingers, lay them flat, and remove what covers them"
     )]
     Proportions {
         /// The Mahalanobis distance from the mean of hands.
@@ -151,7 +200,9 @@ pub enum Failure {
         limit: f64,
     },
     /// A measure is outside the range of human hands: the outline is not that of a free hand, or the resolution wrong.
-    #[error("{measure} is {value:.2}, outside the range of human hands, {low:.2} to {high:.2}")]
+    #[error(
+        "{measure} is {value:.2}, outside the range of human hands, {low:.2} to {high:.2}; set the right resolution, and spread the fingers"
+    )]
     Implausible {
         /// The measure.
         measure: String,
@@ -171,6 +222,8 @@ pub enum Sign {
     SecondPiece,
     /// The tip is flat.
     FlatTip,
+    /// The color of the tip fades into that of the background.
+    FadingTip,
     /// The width has a step.
     WidthStep,
     /// The tip is not where the axis of the finger leads.
@@ -182,6 +235,7 @@ impl fmt::Display for Sign {
         f.write_str(match self {
             Self::SecondPiece => "a piece of it is apart",
             Self::FlatTip => "its tip is flat",
+            Self::FadingTip => "its tip fades out, as one that is not on the glass",
             Self::WidthStep => "its width has a step",
             Self::SkewTip => "its tip is off its axis",
         })

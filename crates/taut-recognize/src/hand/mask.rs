@@ -11,6 +11,34 @@ pub struct Mask {
     words: Vec<u64>,
 }
 
+/// The side of the tiles that are tested at once; it divides the 64 bits of a word.
+const TILE: usize = 16;
+
+/// Returns the least and the largest red, green and blue of a tile.
+fn color_range(
+    pixels: &[u8],
+    width: usize,
+    rows: std::ops::Range<usize>,
+    left: usize,
+) -> [[u8; 3]; 2] {
+    // Sixteen pixels side by side, so that the loop is one over bytes.
+    let (mut low, mut high) = ([u8::MAX; 3 * TILE], [0; 3 * TILE]);
+    for y in rows {
+        let row = &pixels[3 * (y * width + left)..][..3 * TILE];
+        for ((low, high), &value) in low.iter_mut().zip(&mut high).zip(row) {
+            (*low, *high) = ((*low).min(value), (*high).max(value));
+        }
+    }
+    let fold = |values: &[u8; 3 * TILE], pick: fn(u8, u8) -> u8| {
+        let mut found = [values[0], values[1], values[2]];
+        for pixel in values.chunks_exact(3) {
+            found = std::array::from_fn(|c| pick(found[c], pixel[c]));
+        }
+        found
+    };
+    [fold(&low, u8::min), fold(&high, u8::max)]
+}
+
 impl Mask {
     /// Makes an empty set of the pixels of an image.
     #[must_use]
@@ -31,17 +59,37 @@ impl Mask {
     }
 
     /// Makes the set of the pixels of an RGB image, 3 bytes each by rows, whose b* is above the threshold.
+    ///
+    /// A tile whose colors are in a box on one side of the threshold is decided at once.
     #[must_use]
     pub fn from_rgb(pixels: &[u8], width: usize, height: usize, table: &ThresholdTable) -> Self {
         let mut mask = Self::new(width, height);
-        for y in 0..height {
-            let row = &pixels[3 * y * width..3 * (y + 1) * width];
-            for (word, block) in row.chunks(3 * 64).enumerate() {
-                let mut bits = 0;
-                for (bit, rgb) in block.chunks_exact(3).enumerate() {
-                    bits |= u64::from(table.is_above([rgb[0], rgb[1], rgb[2]])) << bit;
+        for top in (0..height).step_by(TILE) {
+            let rows = top..(top + TILE).min(height);
+            for left in (0..width).step_by(TILE) {
+                let right = (left + TILE).min(width);
+                let uniform = if right - left == TILE {
+                    let [low, high] = color_range(pixels, width, rows.clone(), left);
+                    table.is_box_above(low, high)
+                } else {
+                    None
+                };
+                if uniform == Some(false) {
+                    continue;
                 }
-                mask.words[y * mask.stride + word] = bits;
+                for y in rows.clone() {
+                    let bits = if uniform == Some(true) {
+                        (1 << TILE) - 1
+                    } else {
+                        let block = &pixels[3 * (y * width + left)..3 * (y * width + right)];
+                        let is_above = |rgb: &[u8]| table.is_above([rgb[0], rgb[1], rgb[2]]);
+                        (0..)
+                            .zip(block.chunks_exact(3))
+                            .fold(0, |bits, (bit, rgb)| bits | u64::from(is_above(rgb)) << bit)
+                    };
+                    // A tile is within a word.
+                    mask.words[y * mask.stride + left / 64] |= bits << (left % 64);
+                }
             }
         }
         mask

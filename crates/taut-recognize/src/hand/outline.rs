@@ -68,8 +68,9 @@ impl Outline {
     /// Samples the curve through one point on each crack, smoothed by a Gaussian of `sigma` cracks.
     ///
     /// `level` is a function of pixels that is positive for hands and negative for background: the curve passes where
-    /// it is 0 between the centers of the two pixels of a crack, as marching squares does; where both have one sign,
-    /// as at the border of the image, it passes through the middle of the crack. `None` for less than 16 cracks.
+    /// it is 0 on the line through the centers of the two pixels of a crack, between these two as marching squares
+    /// does, or else up to two pixels farther; where it is 0 nowhere there, as at the border of the image, the curve
+    /// passes through the middle of the crack. `None` for less than 16 cracks.
     #[must_use]
     pub fn new(
         cracks: &[Crack],
@@ -84,10 +85,7 @@ impl Outline {
         let turned = cracks[start..].iter().chain(&cracks[..start]);
         let rough: Vec<[f64; 2]> = turned
             .map(|crack| {
-                let share = match (level(crack.inside), level(crack.outside)) {
-                    (Some(a), Some(b)) if a > 0.0 && b <= 0.0 => a / (a - b),
-                    _ => 0.5,
-                };
+                let share = crossing(crack, &level).unwrap_or(0.5);
                 [0, 1].map(|axis| {
                     let (from, to) = (crack.inside[axis] as f64, crack.outside[axis] as f64);
                     from + 0.5 + share * (to - from)
@@ -170,6 +168,27 @@ impl Outline {
         let points = (0..count).map(|index| self.points[(count - index) % count]).collect();
         Self { points, step: self.step }
     }
+}
+
+/// Returns where a function of pixels becomes 0 on the line through the two pixels of a crack, 0 at the center of the
+/// pixel inside and 1 at that of the pixel outside.
+fn crossing(crack: &Crack, level: &impl Fn([i64; 2]) -> Option<f64>) -> Option<f64> {
+    /// Pixels on each side of the crack that are looked at: the edge of a hand is blurred over as many.
+    const REACH: i64 = 3;
+    let value = |place: i64| {
+        level([0, 1].map(|c| crack.inside[c] + place * (crack.outside[c] - crack.inside[c])))
+    };
+    let own = value(0)?;
+    let step = if own > 0.0 { 1 } else { -1 };
+    let (mut place, mut before) = (0, own);
+    for _ in 0..REACH {
+        let next = value(place + step)?;
+        if (next > 0.0) != (own > 0.0) {
+            return Some(place as f64 + step as f64 * (before / (before - next)));
+        }
+        (place, before) = (place + step, next);
+    }
+    None
 }
 
 /// Returns the crack whose corner is farthest from the mean of all, the first of equals.

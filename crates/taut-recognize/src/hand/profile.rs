@@ -158,6 +158,11 @@ impl Axis {
         self.direction
     }
 
+    /// Returns the point of the axis at a distance along it.
+    pub(super) fn point(&self, along: f64) -> [f64; 2] {
+        [0, 1].map(|c| self.origin[c] + along * self.direction[c])
+    }
+
     /// Returns the coordinates of a point along and across the axis.
     pub(super) fn local(&self, p: [f64; 2]) -> [f64; 2] {
         let (x, y) = (p[0] - self.origin[0], p[1] - self.origin[1]);

@@ -158,26 +158,30 @@ impl Rates {
         println!("root mean square of tips {tips:.2} pixels, of valleys {valleys:.2} pixels");
     }
 
-    /// Asserts what is reached: the goals are that nothing is silently wrong and one free hand in 200 is refused. On 645
-    /// damaged scans of the tuning seed two fused pairs were not noticed, and 2 of 126 free hands were refused.
+    /// Asserts what is reached: nothing is silently wrong, but one of 300 pairs of fused fingers, by 6 %, and one free
+    /// hand in 100 is refused.
     pub(super) fn assert_goals(&self) {
-        let judged = |kind: &&str| !matches!(*kind, "free" | "close fingers");
-        for (kind, tally) in self.tallies.iter().filter(|(kind, _)| judged(kind)) {
-            let limit = if *kind == "fused" { tally.scans / 60 } else { 0 };
+        for (kind, tally) in &self.tallies {
+            // A patch that ends at the web moves a valley by as much as valleys of people differ; two free fingers that
+            // nearly touch change a valley too.
+            let limit = match *kind {
+                "fused" | "close fingers" => 1 + tally.scans / 250,
+                "free" => 1 + tally.scans / 400,
+                _ => 0,
+            };
             assert!(tally.wrong <= limit, "{kind}: {} wrong without a failure", tally.wrong);
         }
-        // A free hand has a feature beyond the limit when its pose makes the landmarks uncertain: one in 100.
         let free = &self.tallies["free"];
-        assert!(free.wrong <= 1 + free.scans / 100, "{} free hands are wrong", free.wrong);
         if let Some(cut) = self.tallies.get("cut off") {
             assert_eq!(cut.measured, 0, "hands that are cut off without a failure");
         }
-        // One refusal in 40, and one more for the small sample of the short run.
+        // One refusal in 100, and one more for the small sample of the short run.
         let refused = free.scans - free.measured;
         assert!(
-            f64::from(refused) <= 1.0 + 0.025 * f64::from(free.scans),
+            f64::from(refused) <= 1.0 + 0.01 * f64::from(free.scans),
             "{refused} free hands refused"
         );
-        assert!(Self::rms(&self.tips) <= 1.0 && Self::rms(&self.valleys) <= 1.5);
+        let (tips, valleys) = (Self::rms(&self.tips), Self::rms(&self.valleys));
+        assert!(tips <= 0.7 && valleys <= 0.7, "tips {tips}, valleys {valleys}");
     }
 }
