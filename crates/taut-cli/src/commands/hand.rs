@@ -1,7 +1,7 @@
 //! `taut hand`: hands in images, measured and made.
 
 mod evaluate;
-mod measure;
+pub(crate) mod measure;
 mod synthesize;
 
 use clap::Subcommand;

@@ -1,5 +1,6 @@
 //! `taut tour`: every tool on a sample of its own, checked, on one page with pictures.
 
+mod hands;
 mod inside;
 mod memory;
 mod stations;
@@ -69,7 +70,10 @@ impl Args {
                 };
                 (station.heading, Box::new(stop) as Box<dyn Fn() -> anyhow::Result<Stop>>)
             })
-            .chain([(memory::HEADING, Box::new(memory::stop) as _)]);
+            .chain([
+                (hands::HEADING, Box::new(hands::stop) as _),
+                (memory::HEADING, Box::new(memory::stop) as _),
+            ]);
         for (heading, stop) in stops {
             let clock = Instant::now();
             let stop = stop()?;

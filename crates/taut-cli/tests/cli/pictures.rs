@@ -73,7 +73,7 @@ fn the_tour_shows_and_verifies_every_tool() {
     let run =
         folder.taut("tour --samples samples").ends(0).stdout_has(&["verified yes", "tour.html"]);
     let stations = run.out.lines().filter(|line| line.contains(" verified yes ")).count();
-    assert_eq!(stations, 17, "{}", run.out);
+    assert_eq!(stations, 18, "{}", run.out);
     assert_eq!(folder.files(), ["samples", "tour.html"]);
     let page = folder.text("tour.html");
     for part in [
@@ -106,6 +106,8 @@ fn the_tour_shows_and_verifies_every_tool() {
         "Voronoi diagram of 432 points",
         "an edge turned",
         "a triangle turned over",
+        "A hand, measured",
+        "all thirty features within",
         "Memory hierarchy",
         "times the formula, allowed 5.5",
         "Misses of multiply",

@@ -53,7 +53,7 @@ fn contender(name: &str, columns: &[usize], preset: Preset) -> Contender {
     Contender { name, columns, method: method(preset), verifier: None }
 }
 
-const SHORT: ProtocolOptions<'static> = ProtocolOptions {
+const TEST_PROTOCOL: ProtocolOptions<'static> = ProtocolOptions {
     training: vec![],
     splits: 6,
     folds: 3,
@@ -65,7 +65,7 @@ const SHORT: ProtocolOptions<'static> = ProtocolOptions {
 };
 
 fn short(training: &[usize]) -> ProtocolOptions<'static> {
-    ProtocolOptions { training: training.to_vec(), ..SHORT }
+    ProtocolOptions { training: training.to_vec(), ..TEST_PROTOCOL }
 }
 
 #[test]

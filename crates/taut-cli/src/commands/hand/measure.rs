@@ -149,7 +149,7 @@ fn json_of(hand: &Hand) -> String {
 }
 
 /// The outline with what was found on it, as in figure 54 of the thesis; y grows upward in pictures, and downward in images.
-fn figure(hand: &Hand) -> Figure {
+pub(crate) fn figure(hand: &Hand) -> Figure {
     let up = |p: [f64; 2]| [p[0], -p[1]];
     let points = |list: &[[f64; 2]]| {
         let point = |&p: &[f64; 2]| Point2 { id: None, at: up(p), size: 3.0, label: String::new() };
