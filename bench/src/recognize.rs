@@ -1,5 +1,6 @@
-//! Balls in the feature space of a kernel beside scikit-learn.
+//! Balls in the feature space of a kernel beside scikit-learn, and the nearest of many templates.
 
+mod identify;
 mod kernel;
 
 use crate::prelude::*;
@@ -7,8 +8,12 @@ use crate::prelude::*;
 /// All sections. One thread, as scikit-learn's solver has one.
 pub(crate) const AREA: Area<Run> = Area {
     name: "recognize",
-    sections: &[runs("kernel", kernel::balls)
-        .about("Hard and soft balls of a Gaussian kernel, beside scikit-learn's OneClassSVM.")],
+    sections: &[
+        runs("kernel", kernel::balls)
+            .about("Hard and soft balls of a Gaussian kernel, beside scikit-learn's OneClassSVM."),
+        runs("identify", identify::nearest)
+            .about("The nearest of a million templates, beside comparing with all of them."),
+    ],
     runs: 3,
     threads: &[1],
     limit: 300,

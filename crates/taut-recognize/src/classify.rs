@@ -31,6 +31,7 @@ mod rule;
 mod select;
 mod svm;
 mod train;
+mod whitener;
 mod width;
 
 pub use cluster::{ClusterOptions, Clustering, cluster};
@@ -41,6 +42,7 @@ pub use model::{Model, Prediction};
 pub use presets::{Preset, PresetOptions};
 pub use select::Trial;
 pub use train::{TrainOptions, train};
+pub use whitener::Whitener;
 pub use width::Width;
 
 /// How well a class fits a point.

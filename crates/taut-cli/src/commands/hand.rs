@@ -1,18 +1,23 @@
-//! `taut hand`: hands in images, measured and made.
+//! `taut hand`: hands in images, measured, made and recognized.
 
 mod measure;
+#[cfg(feature = "store")]
+mod people;
 mod synthesize;
 
 use clap::Subcommand;
 
 use crate::exit::Outcome;
 
-/// Measure the outline of a hand in an image, or make synthetic scans of hands.
+/// Measure the outline of a hand in an image, make synthetic scans of hands, and recognize people.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Example: taut hand synthesize scans --people 3 --scans 2
          taut hand measure scans/person-0000-scan-00.png --draw hand.svg
-See: taut hand measure --help, taut hand synthesize --help")]
+         taut hand key -o key
+         taut hand enrol --create --store people --key key --person Ada scans/person-0000-scan-0[0-2].png
+         taut hand verify --store people --key key --person Ada scans/person-0000-scan-03.png
+See: taut hand measure --help, taut hand synthesize --help, taut hand enrol --help")]
 pub(crate) struct Args {
     #[command(subcommand)]
     what: Subcommands,
@@ -22,6 +27,9 @@ pub(crate) struct Args {
 enum Subcommands {
     Measure(measure::Args),
     Synthesize(synthesize::Args),
+    #[cfg(feature = "store")]
+    #[command(flatten)]
+    People(people::Subcommands),
 }
 
 impl Args {
@@ -29,6 +37,8 @@ impl Args {
         match &self.what {
             Subcommands::Measure(args) => args.run(),
             Subcommands::Synthesize(args) => args.run(),
+            #[cfg(feature = "store")]
+            Subcommands::People(command) => command.run(),
         }
     }
 }
