@@ -14,7 +14,7 @@
 //! let key = Key::generate()?;
 //! let mut store = Store::create(&path, &key, &matcher, &StoreOptions::default())?;
 //! # let scan = |x: f64| Scan { side: Side::Right, features: vec![x] };
-//! store.enroll("Ada", &[scan(7.0), scan(8.0)])?;
+//! store.enroll("Ada", &[scan(7.2), scan(7.8)])?;
 //! assert!(store.verify("Ada", &scan(7.5))?.is_accepted);
 //! store.delete("Ada")?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())

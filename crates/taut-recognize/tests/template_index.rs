@@ -95,7 +95,7 @@ fn numbers_of_scans_decide_between_near_ones() {
 fn extreme_numbers_are_compared_by_their_distances() {
     for size in [f32::MIN_POSITIVE, 1e-30, 1e30, f32::MAX] {
         let templates: Vec<Template> =
-            (0..130u8).map(|i| template(vec![size * f32::from(i % 7) / 7.0, size], 1)).collect();
+            (0..130u8).map(|i| template(vec![size / 7.0 * f32::from(i % 7), size], 1)).collect();
         for probe in [[0.0, 0.0], [f64::from(size), f64::from(size)], [1e308, -1e308]] {
             check(&templates, &probe, &format!("{size:e} {probe:?}"));
         }

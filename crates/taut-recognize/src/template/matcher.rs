@@ -27,7 +27,7 @@ const RATES_PART: usize = 3;
 /// How a matcher is learned.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MatcherOptions {
-    /// The share of impostor comparisons that may be accepted. In [0, 1), default 0.001.
+    /// The share of impostor comparisons that may be accepted. In [0, 1), default 0.0001.
     pub fmr_max: f64,
     /// Scans that each template is made of where threshold and rates are measured; the others are probes. At least 1, default 3.
     pub enrolled: usize,
@@ -39,7 +39,7 @@ pub struct MatcherOptions {
 
 impl Default for MatcherOptions {
     fn default() -> Self {
-        MatcherOptions { fmr_max: 1e-3, enrolled: 3, source: String::new(), seed: 0 }
+        MatcherOptions { fmr_max: 1e-4, enrolled: 3, source: String::new(), seed: 0 }
     }
 }
 

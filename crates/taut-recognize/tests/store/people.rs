@@ -46,9 +46,12 @@ fn the_distance_is_that_of_the_mahalanobis_classifier() {
     for (person, score) in scores.into_iter().enumerate() {
         let mapped = [0, 1].map(|i| whitener.apply(&rows[2 * person + i]).unwrap());
         let template = taut_recognize::template::Template::of_mapped(&mapped).unwrap();
+        // The mean is rounded to single precision: by δ with |δ| ≤ 2⁻²⁴|m|, which changes d² by up to 2d|δ| + |δ|².
         let found = template.distance(&whitener.apply(&probe).unwrap()).unwrap() * 3.0 / 2.0;
-        // Templates are in single precision: relative errors of 2⁻²⁴ of coordinates.
-        assert!((found / -score - 1.0).abs() < 1e-5, "{person}: {found} {score}");
+        let size = template.mean().iter().map(|&x| f64::from(x).powi(2)).sum::<f64>().sqrt();
+        let delta = size / f64::from(1 << 24);
+        let tolerance = 2.0 * found.sqrt() * delta + delta * delta + 1e-12 * found;
+        assert!((found + score).abs() <= tolerance, "{person}: {found} {score} {tolerance}");
     }
 }
 
