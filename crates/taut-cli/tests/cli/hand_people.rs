@@ -131,6 +131,6 @@ fn a_matcher_is_learned_from_a_folder() {
         .taut("hand train . -o m.json")
         .ends(2)
         .stderr_has(&["no file is named PERSON-scan-NUMBER"]);
-    folder.taut("hand train scans -o m.json --fmr 2").ends(2).stderr_has(&["fmr"]);
+    folder.taut("hand train scans -o m.json --fmr 2").ends(2).stderr_has(&["option `--fmr` is 2"]);
     folder.taut("hand train scans -o m.json --scans 3").ends(2).stderr_has(&["more scans"]);
 }

@@ -1,7 +1,7 @@
 //! The matcher: a whitening, a threshold, and the error rates that were measured for it.
 //!
-//! *Idea.* People of a training set are split in four parts. Half of them teach the whitening. A quarter sets the threshold: the largest
-//! distance at which at most a given share of its impostor comparisons is accepted. On the last quarter the error rates are measured.
+//! *Idea.* People of a training set are split in four parts. Half of them teach the whitening. A quarter sets the threshold: at most
+//! a given share of its impostor comparisons may be accepted. On the last quarter the error rates are measured.
 //! *Trap.* The rates hold for people, scanners and poses like those of the training set; for a synthetic set they say nothing of people.
 
 use serde::{Deserialize, Serialize};
@@ -121,9 +121,7 @@ impl Matcher {
         let whitener = learn_from(&data, &in_part(&|part| part < THRESHOLD_PART))?;
         let compare = |part| compare(&data, &in_part(&|own| own == part), &whitener, options);
         let to_set = compare(THRESHOLD_PART)?;
-        let threshold = -to_set.at_fmr(options.fmr_max).threshold;
-        // The last point of the trade-off accepts nothing.
-        let threshold = if threshold.is_finite() { threshold } else { 0.0 };
+        let threshold = threshold(&to_set, options.fmr_max);
         let measured = compare(RATES_PART)?;
         let (genuine, impostor) = (measured.genuine(), measured.impostor());
         let count_accepted =
@@ -244,6 +242,22 @@ fn learn_from(data: &Labeled<'_>, rows: &[usize]) -> Result<Whitener, Error> {
     Whitener::learn(Labeled::new(points, &labels, &names)?)
 }
 
+/// The threshold for a share of impostor comparisons that may be accepted.
+///
+/// The first impostor who must be rejected bounds it from above. Where all genuine comparisons are nearer, it is the geometric mean of that
+/// bound and of the farthest genuine one, so that either side has the same factor to spare.
+fn threshold(scores: &ScoreSet, fmr_max: f64) -> f64 {
+    let (genuine, impostor) = (scores.genuine(), scores.impostor());
+    let accepted = (fmr_max * impostor.len() as f64) as usize;
+    let bound = -impostor[impostor.len() - 1 - accepted.min(impostor.len() - 1)];
+    let farthest = -genuine[0];
+    match farthest < bound {
+        true => (farthest.sqrt() * bound.sqrt()).clamp(farthest, bound.next_down()),
+        // No distance is below 0.
+        false => bound.next_down().max(0.0),
+    }
+}
+
 /// The comparisons of all probes of a part with all templates of it; scores are negative distances.
 fn compare(
     data: &Labeled<'_>,
@@ -278,4 +292,26 @@ fn compare(
         }
     }
     ScoreSet::new(genuine, impostor)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_threshold_leaves_the_same_factor_to_both_sides() {
+        let of = |genuine: &[f64], impostor: &[f64], fmr_max| {
+            let negative = |distances: &[f64]| distances.iter().map(|x| -x).collect();
+            threshold(&ScoreSet::new(negative(genuine), negative(impostor)).unwrap(), fmr_max)
+        };
+        let impostor = [100.0, 400.0, 900.0, 1600.0];
+        assert!((of(&[1.0, 4.0], &impostor, 0.0) - 20.0).abs() < 1e-12);
+        assert!((of(&[1.0, 4.0], &impostor, 0.25) - 40.0).abs() < 1e-12);
+        assert!((of(&[1.0, 4.0], &impostor, 0.49) - 40.0).abs() < 1e-12);
+        // Where both overlap, no more impostors are accepted than allowed.
+        assert_eq!(of(&[1.0, 500.0], &impostor, 0.0), 100f64.next_down());
+        assert_eq!(of(&[1.0, 400.0], &impostor, 0.25), 400f64.next_down());
+        assert_eq!(of(&[3.0], &[0.0], 0.9), 0.0);
+        assert_eq!(of(&[0.0], &[1.0], 0.5), 0.0);
+    }
 }

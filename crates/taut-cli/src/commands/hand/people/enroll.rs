@@ -23,7 +23,7 @@ differs from the others more than scans of one hand do is refused. The default m
 machine may see the command while it runs.
 Exit: 0 enrolled · 2 bad input or usage, or an image that gives no reliable features; nobody is enrolled
 Example: taut hand enrol --create --store people --key key --person Ada ada-1.png ada-2.png ada-3.png")]
-pub(super) struct Args {
+pub(crate) struct Args {
     /// Scans of one hand of the person, in PNG, JPEG or TIFF
     #[arg(value_name = "IMAGE", required = true)]
     paths: Vec<PathBuf>,

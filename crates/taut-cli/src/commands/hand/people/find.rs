@@ -18,7 +18,7 @@ Each comparison counts as failed until it is accepted; several failures in seque
 Scores are not told unless --scores asks for them, as they help to improve a forged hand step by step.
 Exit: 0 accepted · 1 rejected · 2 not compared: bad input or usage, no such person, or a locked one
 Example: taut hand verify --store people --key key --person Ada scan.png")]
-pub(super) struct VerifyArgs {
+pub(crate) struct VerifyArgs {
     /// A scan of the hand that is enrolled
     #[arg(value_name = "IMAGE")]
     path: PathBuf,
@@ -40,7 +40,7 @@ The answer is the nearest of all enrolled people, if it is as near as a verifica
 has n chances to be near somebody's: the share of unknown people that may be named is told. Locked people are left out.
 Exit: 0 somebody was found · 1 nobody was · 2 not compared: bad input or usage
 Example: taut hand identify --store people --key key scan.png")]
-pub(super) struct IdentifyArgs {
+pub(crate) struct IdentifyArgs {
     /// A scan
     #[arg(value_name = "IMAGE")]
     path: PathBuf,

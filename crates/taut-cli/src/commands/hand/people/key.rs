@@ -13,7 +13,7 @@ The key has 32 random bytes, written as hexadecimal digits to a new file that yo
 the store, you included: keep a copy of it elsewhere, and no copy beside the store.
 Exit: 0 done · 2 bad input or usage, nothing written
 Example: taut hand key -o key")]
-pub(super) struct Args {
+pub(crate) struct Args {
     /// The file to make; an earlier one is not replaced
     #[arg(short, long, visible_alias = "output", value_name = "FILE")]
     out: PathBuf,

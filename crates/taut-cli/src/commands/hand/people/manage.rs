@@ -16,7 +16,7 @@ Columns: number, hand, scans, failed verifications since the last accepted one, 
 With --json the manifest is there, too: kept elsewhere, it is what --manifest takes.
 Exit: 0 done · 2 bad input or usage
 Example: taut hand list --store people --key key --names")]
-pub(super) struct ListArgs {
+pub(crate) struct ListArgs {
     #[command(flatten)]
     store: StoreArgs,
     /// Print the names as well
@@ -32,7 +32,7 @@ pub(super) struct ListArgs {
 #[command(after_help = "\
 Exit: 0 done · 2 bad input or usage, or no such person
 Example: taut hand unlock --store people --key key --person Ada")]
-pub(super) struct UnlockArgs {
+pub(crate) struct UnlockArgs {
     /// The name of the person
     #[arg(long, value_name = "NAME")]
     person: String,
@@ -46,7 +46,7 @@ pub(super) struct UnlockArgs {
 The bytes of the person are overwritten in the file, which is then compacted. Copies of the file are not touched.
 Exit: 0 done · 2 bad input or usage, or no such person
 Example: taut hand delete --store people --key key --person Ada")]
-pub(super) struct DeleteArgs {
+pub(crate) struct DeleteArgs {
     /// The name of the person
     #[arg(long, value_name = "NAME")]
     person: String,

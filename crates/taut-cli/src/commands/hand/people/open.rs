@@ -81,7 +81,8 @@ impl StoreArgs {
     fn kept(&self) -> anyhow::Result<Option<Manifest>> {
         let Some(path) = &self.manifest else { return Ok(None) };
         let name = path.display();
-        let text = std::fs::read_to_string(path).map_err(|error| anyhow!("{name}: {error}"))?;
+        let text = std::fs::read_to_string(path)
+            .map_err(|error| anyhow!("the manifest {name}: {error}"))?;
         Ok(Some(text.parse().map_err(|error| anyhow!("{name}: {error}"))?))
     }
 }

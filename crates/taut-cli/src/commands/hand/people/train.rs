@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, anyhow, bail};
 use taut::points::Points;
 use taut::recognize::classify::Labeled;
-use taut::recognize::template::{Matcher, MatcherOptions};
+use taut::recognize::template::{Matcher, MatcherOptions, SCANS_MAX};
 
 use super::scans::Images;
 use crate::effort::Effort;
@@ -28,7 +28,7 @@ and counted. The rates hold for people, scanners and poses like those of the fol
 people.
 Exit: 0 done · 2 bad input or usage, nothing written
 Example: taut hand train scans -o matcher.json --source 'synthetic hands'")]
-pub(super) struct Args {
+pub(crate) struct Args {
     /// The folder of images in PNG, JPEG or TIFF
     #[arg(value_name = "FOLDER")]
     folder: PathBuf,
@@ -56,6 +56,12 @@ pub(super) struct Args {
 impl Args {
     pub(super) fn run(&self) -> anyhow::Result<Outcome> {
         writing::check_writable(&[&self.out], &[])?;
+        if !(0.0..1.0).contains(&self.fmr) {
+            bail!("option `--fmr` is {}: expected a number from 0, below 1", self.fmr);
+        }
+        if !(1..SCANS_MAX as usize).contains(&self.scans) {
+            bail!("option `--scans` is {}: expected from 1 to 999", self.scans);
+        }
         let files = self.files()?;
         let paths: Vec<PathBuf> = files.iter().map(|file| file.1.clone()).collect();
         let watch = self.effort.start()?;
