@@ -1,6 +1,7 @@
-//! Balls in the feature space of a kernel, and classifiers, beside scikit-learn.
+//! Balls in the feature space of a kernel, and classifiers, beside scikit-learn; the nearest of many templates.
 
 pub(crate) mod classifiers;
+mod identify;
 mod kernel;
 pub(crate) mod sets;
 
@@ -15,6 +16,8 @@ pub(crate) const AREA: Area<Run> = Area {
         runs("classifiers", classifiers::classifiers).about(
             "Accuracies on public data, beside scikit-learn's classifiers on the same halves.",
         ),
+        runs("identify", identify::nearest)
+            .about("The nearest of a million templates, beside comparing with all of them."),
     ],
     runs: 3,
     threads: &[1],

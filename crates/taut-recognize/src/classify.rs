@@ -31,6 +31,7 @@ mod rule;
 mod select;
 mod svm;
 mod train;
+mod whitener;
 mod width;
 
 pub use cluster::{ClusterOptions, Clustering, cluster};
@@ -42,6 +43,7 @@ pub use model::{Model, Prediction};
 pub use presets::{Preset, PresetOptions};
 pub use select::Trial;
 pub use train::{TrainOptions, train, train_with_background};
+pub use whitener::Whitener;
 pub use width::Width;
 
 /// How well a class fits a point.

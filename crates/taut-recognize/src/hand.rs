@@ -15,6 +15,7 @@
 pub mod circle;
 pub mod color;
 pub mod components;
+mod default_matcher;
 pub mod distance;
 pub mod failure;
 pub mod features;

@@ -6,6 +6,7 @@
 //! | the classes of new points | [`classify::Model::predict`] | the same bits for any number of threads, and after saving and loading |
 //! | the best of several methods | [`classify::TrainOptions::candidates`] | chosen by inner folds with a fixed seed |
 //! | clusters from the ball of a kernel | [`classify::cluster`] | no number of clusters to choose |
+//! | the nearest of a million enrolled people | [`template::Index`] | that of all distances, exactly |
 //! | error rates with intervals | [`evaluate`] | the definitions of ISO/IEC 19795-1 |
 //!
 //! ```
@@ -29,5 +30,8 @@ mod error;
 pub mod evaluate;
 #[cfg(feature = "hand")]
 pub mod hand;
+#[cfg(feature = "store")]
+pub mod store;
+pub mod template;
 
 pub use error::Error;

@@ -119,7 +119,7 @@
 //!
 //! Three cargo features, all on by default, switch areas off: `reconstruct` (curves and surfaces), `recognize` (classifiers,
 //! their evaluation, and hands) and `conic` (inscribed ellipsoids and the methods of the thesis for balls, which need a conic
-//! solver).
+//! solver). A fourth one, `store`, is off by default: the encrypted store of people in [mod@recognize], for which SQLite is compiled.
 //!
 //! Not for: distances other than Euclidean, or weights other than those of centers.
 #![forbid(unsafe_code)]

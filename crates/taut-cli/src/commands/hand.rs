@@ -1,20 +1,25 @@
-//! `taut hand`: hands in images, measured and made.
+//! `taut hand`: hands in images, measured, made and recognized.
 
 mod evaluate;
 pub(crate) mod measure;
+#[cfg(feature = "store")]
+mod people;
 mod synthesize;
 
 use clap::Subcommand;
 
 use crate::exit::Outcome;
 
-/// Measure the outline of a hand in an image, or make synthetic scans of hands.
+/// Measure the outline of a hand in an image, make synthetic scans of hands, and recognize people.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Example: taut hand synthesize scans --people 3 --scans 2
          taut hand measure scans/person-0000-scan-00.png --draw hand.svg
+         taut hand key -o key
+         taut hand enrol --create --store people --key key --person Ada scans/person-0000-scan-0[0-2].png
+         taut hand verify --store people --key key --person Ada scans/person-0000-scan-03.png
          taut hand evaluate --synthetic 20x6
-See: taut hand measure --help, taut hand synthesize --help, taut hand evaluate --help")]
+See: taut hand measure --help, taut hand synthesize --help, taut hand enrol --help, taut hand evaluate --help")]
 pub(crate) struct Args {
     #[command(subcommand)]
     what: Subcommands,
@@ -25,6 +30,9 @@ enum Subcommands {
     Measure(measure::Args),
     Synthesize(synthesize::Args),
     Evaluate(evaluate::Args),
+    #[cfg(feature = "store")]
+    #[command(flatten)]
+    People(people::Subcommands),
 }
 
 impl Args {
@@ -33,6 +41,8 @@ impl Args {
             Subcommands::Measure(args) => args.run(),
             Subcommands::Synthesize(args) => args.run(),
             Subcommands::Evaluate(args) => args.run(),
+            #[cfg(feature = "store")]
+            Subcommands::People(command) => command.run(),
         }
     }
 }

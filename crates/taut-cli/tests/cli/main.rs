@@ -11,6 +11,8 @@ mod dop;
 mod ellipsoid;
 mod generate;
 mod hand;
+#[cfg(feature = "store")]
+mod hand_people;
 mod inscribe;
 mod inscribe_bodies;
 mod inscribe_circle;

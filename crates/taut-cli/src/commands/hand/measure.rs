@@ -1,6 +1,6 @@
 //! `taut hand measure`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use serde_json::json;
@@ -50,8 +50,8 @@ impl Args {
         let files: Vec<_> = self.out.iter().chain(&self.draw).map(PathBuf::as_path).collect();
         writing::check_writable(&files, &[&self.path])?;
         let picture = self.draw.as_deref().map(Picture::of_path).transpose()?;
-        let hand =
-            Hand::from_file(&self.path, &self.options()).map_err(|error| self.explain(error))?;
+        let hand = Hand::from_file(&self.path, &self.options())
+            .map_err(|error| explain(&self.path, error))?;
         let mut outputs = Outputs::default();
         if let Some(out) = &self.out {
             outputs.add(out, (json_of(&hand) + "\n").as_bytes())?;
@@ -81,20 +81,20 @@ impl Args {
             ..HandOptions::default()
         }
     }
+}
 
-    /// The error with the file, and options by their names on the command line.
-    fn explain(&self, error: HandError) -> anyhow::Error {
-        let name = self.path.display();
-        match error {
-            HandError::Image(ImageError::Io { error, .. }) => anyhow!("{name}: {error}"),
-            HandError::Option { name: "dots_per_inch", value, expected } => {
-                anyhow!("option `--dpi` is {value}: expected {expected}")
-            }
-            HandError::Option { name, value, expected } => {
-                anyhow!("option `--{name}` is {value}: expected {expected}")
-            }
-            error => anyhow!("{name}: {}", error.to_string().replace("`dots_per_inch`", "`--dpi`")),
+/// The error with the file, and options by their names on the command line.
+pub(super) fn explain(path: &Path, error: HandError) -> anyhow::Error {
+    let name = path.display();
+    match error {
+        HandError::Image(ImageError::Io { error, .. }) => anyhow!("{name}: {error}"),
+        HandError::Option { name: "dots_per_inch", value, expected } => {
+            anyhow!("option `--dpi` is {value}: expected {expected}")
         }
+        HandError::Option { name, value, expected } => {
+            anyhow!("option `--{name}` is {value}: expected {expected}")
+        }
+        error => anyhow!("{name}: {}", error.to_string().replace("`dots_per_inch`", "`--dpi`")),
     }
 }
 
