@@ -33,8 +33,11 @@ pub(super) fn nearest(context: &Context, out: &mut Outcome) -> Result<()> {
     let mut table = Table::new("spread | templates | index:s | query:s | all distances:s");
     for Spread { name, of } in SPREADS {
         let drawn = generate(Distribution::Normal, n, DIM, SEED)?;
-        let means: Vec<f32> =
-            drawn.iter().enumerate().map(|(i, x)| (x * of(i % DIM)) as f32).collect();
+        let means: Vec<f32> = drawn
+            .iter()
+            .enumerate()
+            .map(|(i, &x): (usize, &f64)| (x * of(i % DIM)) as f32)
+            .collect();
         let probes = probes(&means, n, of)?;
         let start = Instant::now();
         let index = Index::from_parts(means.clone(), vec![SCANS; n], DIM)?;
