@@ -221,7 +221,7 @@ impl Histogram {
     pub(super) fn median(&self) -> Option<f64> {
         let (bin, _) = median_and_deviation(&self.0, 0);
         let is_empty = self.0.iter().all(|&count| count == 0);
-        (!is_empty).then(|| BIN_START + (bin + 0.5) * BIN_WIDTH)
+        (!is_empty).then_some(BIN_START + (bin + 0.5) * BIN_WIDTH)
     }
 }
 
