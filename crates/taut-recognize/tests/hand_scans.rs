@@ -9,7 +9,7 @@ use hand_help::{Rates, mirrored, rotated, turned, worst_error};
 use taut_recognize::hand::synthetic::{
     ANSUR, ANSUR_CORRELATIONS, DefectKind, FINGER_LENGTHS, Generator, Person,
 };
-use taut_recognize::hand::{FEATURES, Gate, Hand, HandOptions, RgbImage, Side, Threshold, Tracing};
+use taut_recognize::hand::{FEATURES, Gate, Hand, HandOptions, RgbImage, Side, Tracing};
 
 const SEED_SHORT: u64 = 2001;
 const SEED_LONG: u64 = 2002;
@@ -61,7 +61,6 @@ fn features_scale_with_the_resolution() {
     let options = HandOptions {
         dots_per_inch: Some(45.0),
         gate: Gate::Report,
-        threshold: Threshold::Fixed(hand.threshold),
         circle_tolerance: 0.03,
         ..Default::default()
     };
