@@ -36,8 +36,9 @@ fn rings_of_any_bytes() {
 fn meshes_of_any_bytes() {
     let count = cases(1000);
     // One mesh in four gets as many bytes as several tetrahedra need.
-    let length =
-        |case: u64| if case.is_multiple_of(4) { 41 + (case % 96) as usize } else { (case % 41) as usize };
+    let length = |case: u64| {
+        if case.is_multiple_of(4) { 41 + (case % 96) as usize } else { (case % 41) as usize }
+    };
     let is_answered = |&case: &u64| bytes::mesh(&bytes_of(case, length(case)));
     let answered = (0..count).into_par_iter().filter(is_answered).count() as u64;
     println!("{answered} of {count} meshes have answers");

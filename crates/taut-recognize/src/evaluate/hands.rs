@@ -37,8 +37,8 @@ pub fn hand_row(hand: &Hand) -> [f64; HAND_COLUMNS] {
 /// | `all-mahalanobis` | both | the pooled covariance | the same |
 /// | `all-plda` | both | PLDA | the same |
 ///
-/// The profile is here without the widths at a tenth of the fingers: that cross-section meets the web between two fingers in some scans
-/// of a person and not in others. They were chosen on the synthetic scans of the seeds 501 to 503.
+/// The profile is here without the widths at a tenth of the fingers: in many scans the higher valley is above them, and they are measured
+/// there. They were chosen on the synthetic scans of the seeds 501 to 503.
 pub fn hand_contenders() -> Vec<Contender> {
     let names = hand_columns();
     let all: Vec<usize> =

@@ -1,7 +1,7 @@
 //! The width profile: lengths, bends and widths along the medial axis of each finger, and distances in the palm.
 //!
 //! *Idea.* The axis of a finger is the least-squares line through the middles of its cross-sections, so that it does
-//! not depend on where the valleys are found. Widths are measured across it, nine in equal steps.
+//! not depend on where the valleys are found. Widths are measured across it, nine in equal steps, none below the higher valley.
 //! *Trap.* The index finger's valley to the thumb moves with the thumb: the profile uses the symmetric end instead.
 
 use super::features::{Finger, IndexBase, Measured, fingers};
@@ -13,6 +13,9 @@ pub const PROFILE: usize = 61;
 
 /// Widths along each finger.
 const WIDTHS: usize = 9;
+
+/// How far above the higher valley beside a finger its widths are measured, at least.
+const SHOULDER_MM: f64 = 0.5;
 
 /// The entries of one finger: its length, its bend, and the widths.
 const FINGER_ENTRIES: usize = 2 + WIDTHS;
@@ -212,7 +215,12 @@ pub(super) fn profile(
     for (k, axis) in axes.iter().enumerate() {
         let entries = &mut profile[FINGER_ENTRIES * k..FINGER_ENTRIES * (k + 1)];
         entries[0] = axis.length * mm_per_pixel;
-        let share = |station: usize| axis.length * station as f64 / 10.0;
+        // Below the higher of two valleys a section would end on the next finger. Beyond the thumb there is none.
+        let lowest = match k {
+            0 => f64::NEG_INFINITY,
+            _ => axis.shoulder + SHOULDER_MM / mm_per_pixel,
+        };
+        let share = |station: usize| (axis.length * station as f64 / 10.0).max(lowest);
         let stations: Vec<f64> = (1..=WIDTHS).rev().map(share).collect();
         let sections = axis.sections(&stations);
         let mut middles = [0.0; WIDTHS];
