@@ -14,7 +14,7 @@
 //! let key = Key::generate()?;
 //! let mut store = Store::create(&path, &key, &matcher, &StoreOptions::default())?;
 //! # let scan = |x: f64| Scan { side: Side::Right, features: vec![x] };
-//! store.enroll("Ada", &[scan(7.2), scan(7.8)])?;
+//! store.enroll("Ada", &[scan(7.2), scan(7.8), scan(7.4)])?;
 //! assert!(store.verify("Ada", &scan(7.5))?.is_accepted);
 //! store.delete("Ada")?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -149,6 +149,7 @@ impl Store {
         };
         let manifest = digests.manifest(&secrets, 0);
         let mut connection = file::connect(path)?;
+        file::set_journal(&connection, path)?;
         let header = file::Header { store, salt, check: secrets.check(), settings };
         file::write_tables(&mut connection, path, &header, &manifest)?;
         let (path, matcher, failures_max) =
@@ -192,6 +193,7 @@ impl Store {
         let settings =
             settings.ok_or(StoreError::Tampered { record: "the settings".to_owned() })?;
         let (failures_max, matcher) = record::read_settings(&settings)?;
+        file::set_journal(&connection, path)?;
         let path = path.to_owned();
         Ok(Store { connection, path, secrets, matcher, failures_max, digests, manifest })
     }

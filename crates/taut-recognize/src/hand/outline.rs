@@ -174,14 +174,14 @@ impl Outline {
 /// pixel inside and 1 at that of the pixel outside.
 fn crossing(crack: &Crack, level: &impl Fn([i64; 2]) -> Option<f64>) -> Option<f64> {
     /// Pixels on each side of the crack that are looked at: the edge of a hand is blurred over as many.
-    const REACH: i64 = 3;
+    const SIDE_PIXELS: i64 = 3;
     let value = |place: i64| {
         level([0, 1].map(|c| crack.inside[c] + place * (crack.outside[c] - crack.inside[c])))
     };
     let own = value(0)?;
     let step = if own > 0.0 { 1 } else { -1 };
     let (mut place, mut before) = (0, own);
-    for _ in 0..REACH {
+    for _ in 0..SIDE_PIXELS {
         let next = value(place + step)?;
         if (next > 0.0) != (own > 0.0) {
             return Some(place as f64 + step as f64 * (before / (before - next)));

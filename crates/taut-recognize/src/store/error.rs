@@ -68,7 +68,8 @@ pub enum StoreError {
     },
     /// The store is older than the manifest that was kept elsewhere.
     #[error(
-        "the store was rolled back: it has had {found} changes, and its manifest elsewhere says {expected}; restore the latest copy"
+        "the store was rolled back: it has had {found} changes, and its manifest elsewhere says {expected} (equal numbers: other changes); \
+         restore the latest copy"
     )]
     RolledBack {
         /// Changes of the store.
@@ -84,6 +85,35 @@ pub enum StoreError {
         "this is no manifest of a store: expected `taut-manifest-1`, a number and two values in hexadecimal digits"
     )]
     NoManifest,
+    /// Fewer scans than the error rates of the matcher were measured with: the threshold would accept too many.
+    #[error(
+        "{found} scans are too few: the error rates of the matcher are those of templates of {needed} scans or more"
+    )]
+    TooFewScans {
+        /// Scans given.
+        found: usize,
+        /// Scans of a template, at least.
+        needed: u64,
+    },
+    /// Two scans are one: a template of it is no better than one of a single scan.
+    #[error("scan {scan} has the features of an earlier one: scan the hand again for each")]
+    SameScan {
+        /// Which scan, from 1.
+        scan: usize,
+    },
+    /// An index does not fit the store.
+    #[error(
+        "the index is that of another store, or the person found was deleted or locked after it was made: make it again"
+    )]
+    OldIndex,
+    /// A person is deleted, and the file is not compacted.
+    #[error(
+        "the person is deleted and the records are overwritten, but the file could not be compacted: {problem}"
+    )]
+    NotCompacted {
+        /// What the system says.
+        problem: String,
+    },
     /// Nobody has this name.
     #[error("the store has no person of this name")]
     UnknownPerson,
@@ -92,7 +122,7 @@ pub enum StoreError {
     NameTaken,
     /// The name cannot be stored.
     #[error(
-        "a name has 1 to {bytes_max} bytes, none of them a control character; this one does not"
+        "a name has 1 to {bytes_max} bytes, no space at its ends, and no character that is invisible or turns text around; this one does not"
     )]
     Name {
         /// Bytes of a name, at most.

@@ -51,7 +51,9 @@ pub(super) struct Header {
 pub(super) fn connect(path: &Path) -> Result<Connection, StoreError> {
     let explained = |error| explain(path, error);
     let flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_NO_MUTEX;
-    let connection = Connection::open_with_flags(path, flags).map_err(explained)?;
+    // With a folder before it no name is a URI, nor that of a store in memory.
+    let place = Path::new(".").join(path);
+    let connection = Connection::open_with_flags(place, flags).map_err(explained)?;
     connection.busy_timeout(LOCK_WAIT).map_err(explained)?;
     connection.set_db_config(DbConfig::SQLITE_DBCONFIG_DEFENSIVE, true).map_err(explained)?;
     let set = |name: &str, value: &str| {
@@ -76,8 +78,13 @@ pub(super) fn connect(path: &Path) -> Result<Connection, StoreError> {
     }
     // Takes the lock, which stays.
     connection.execute_batch("BEGIN EXCLUSIVE; COMMIT").map_err(explained)?;
-    set("journal_mode", "TRUNCATE")?;
     Ok(connection)
+}
+
+/// Sets the kind of the journal, which changes the file: once it is known to be a store.
+pub(super) fn set_journal(connection: &Connection, path: &Path) -> Result<(), StoreError> {
+    let set = connection.pragma_update_and_check(None, "journal_mode", "TRUNCATE", |_| Ok(()));
+    set.map_err(|error| explain(path, error))
 }
 
 /// Fills an empty file.
@@ -240,7 +247,9 @@ pub(super) fn write_person(
 
 /// Compacts the file, so that no page holds what was deleted.
 pub(super) fn compact(connection: &Connection, path: &Path) -> Result<(), StoreError> {
-    connection.execute_batch("VACUUM").map_err(|error| explain(path, error))
+    connection
+        .execute_batch("VACUUM")
+        .map_err(|error| StoreError::NotCompacted { problem: explain(path, error).to_string() })
 }
 
 /// What an error of SQLite means for a person.

@@ -83,6 +83,11 @@ impl Key {
         let mut content = Zeroizing::new(Vec::with_capacity(FILE_BYTES_MAX as usize + 1));
         file.take(FILE_BYTES_MAX + 1).read_to_end(&mut content).map_err(failed)?;
         if let Ok(bytes) = <[u8; KEY_BYTES]>::try_from(content.as_slice()) {
+            // Random bytes are all printable once in 10¹³ times.
+            if bytes.iter().all(|byte| (b' '..=b'~').contains(byte)) {
+                let problem = "32 printable characters are a passphrase and no key: make one with `taut hand key`";
+                return Err(bad(&origin, problem));
+            }
             return Ok(Key::from_bytes(bytes));
         }
         Key::from_text(std::str::from_utf8(&content).unwrap_or_default(), &origin)

@@ -54,6 +54,8 @@ pub struct PeopleIndex {
     /// The number of the person of each template.
     people: Vec<i64>,
     side: Side,
+    /// The number of the store.
+    store: [u8; 16],
 }
 
 impl PeopleIndex {
@@ -69,10 +71,12 @@ impl PeopleIndex {
 }
 
 impl Store {
-    /// Enrolls a person with one or more scans of one hand; three or more make errors fewer. Returns the number of the person.
+    /// Enrolls a person with scans of one hand, at least as many as those with which the error rates of the matcher were measured.
+    /// Returns the number of the person.
     ///
     /// # Errors
-    /// [`StoreError::Name`], [`StoreError::NameTaken`], [`StoreError::TwoHands`], [`StoreError::ScansDiffer`], and
+    /// [`StoreError::Name`], [`StoreError::NameTaken`], [`StoreError::TwoHands`], [`StoreError::ScansDiffer`],
+    /// [`StoreError::TooFewScans`], [`StoreError::SameScan`], and
     /// [`StoreError::Recognize`] for no scans, too many, or features that the matcher does not take.
     pub fn enroll(&mut self, name: &str, scans: &[Scan]) -> Result<i64, StoreError> {
         check_name(name)?;
@@ -86,6 +90,14 @@ impl Store {
         let side = scans[0].side;
         if let Some(place) = scans.iter().position(|scan| scan.side != side) {
             return Err(StoreError::TwoHands { scan: place + 1 });
+        }
+        let needed = self.matcher.rates().enrolled;
+        if (scans.len() as u64) < needed {
+            return Err(StoreError::TooFewScans { found: scans.len(), needed });
+        }
+        let is_repeated = |place: &usize| scans[..*place].contains(&scans[*place]);
+        if let Some(place) = (1..scans.len()).find(is_repeated) {
+            return Err(StoreError::SameScan { scan: place + 1 });
         }
         if let Some(place) = self.outlier(&mapped)? {
             return Err(StoreError::ScansDiffer { scan: place + 1 });
@@ -162,6 +174,7 @@ impl Store {
     pub fn index(&self, side: Side) -> Result<PeopleIndex, StoreError> {
         let (mut means, mut scans, mut people) = (vec![], vec![], vec![]);
         each_person(&self.connection, |person, row| {
+            self.check(person, &row)?;
             let (own, template) = self.template(person, &row)?;
             if own == side && self.failures(person, &row)? < self.failures_max {
                 means.extend_from_slice(template.mean());
@@ -171,7 +184,7 @@ impl Store {
             Ok(())
         })?;
         let index = Index::from_parts(means, scans, self.matcher.dim())?;
-        Ok(PeopleIndex { index, people, side })
+        Ok(PeopleIndex { index, people, side, store: self.secrets.store() })
     }
 
     /// Finds the person of the index who is nearest to a scan; none where that one is not accepted.
@@ -180,8 +193,8 @@ impl Store {
     /// times that of a verification.
     ///
     /// # Errors
-    /// [`StoreError::OtherHand`] where the index is that of the other hand, [`StoreError::UnknownPerson`] where the person was deleted
-    /// after the index was made, and [`StoreError::Recognize`] for features that the matcher does not take.
+    /// [`StoreError::OtherHand`] where the index is that of the other hand, [`StoreError::OldIndex`] where it is that of another store,
+    /// or the person was deleted or locked after it was made, and [`StoreError::Recognize`] for features that the matcher does not take.
     pub fn identify(
         &self,
         index: &PeopleIndex,
@@ -190,12 +203,19 @@ impl Store {
         if index.side != scan.side {
             return Err(StoreError::OtherHand { found: scan.side });
         }
+        if index.store != self.secrets.store() {
+            return Err(StoreError::OldIndex);
+        }
         let mapped = self.matcher.map(&scan.features)?;
         let Some(nearest) = index.index.nearest(&mapped, self.matcher.threshold())? else {
             return Ok(None);
         };
         let number = index.people[nearest.place];
-        let row = file::person(&self.connection, number)?.ok_or(StoreError::UnknownPerson)?;
+        let row = file::person(&self.connection, number)?.ok_or(StoreError::OldIndex)?;
+        self.check(number, &row)?;
+        if self.failures(number, &row)? >= self.failures_max {
+            return Err(StoreError::OldIndex);
+        }
         let name = self.name(number, &row)?;
         Ok(Some(Identification { number, name, distance: nearest.distance }))
     }
@@ -207,6 +227,7 @@ impl Store {
     pub fn people(&self) -> Result<Vec<Person>, StoreError> {
         let mut people = vec![];
         each_person(&self.connection, |number, row| {
+            self.check(number, &row)?;
             let (side, template) = self.template(number, &row)?;
             let failures = self.failures(number, &row)?;
             people.push(Person {
@@ -225,7 +246,7 @@ impl Store {
     /// Deletes a person: the records are overwritten, and the file is compacted.
     ///
     /// # Errors
-    /// [`StoreError::UnknownPerson`] and [`StoreError::Damaged`].
+    /// [`StoreError::UnknownPerson`], [`StoreError::Damaged`], and [`StoreError::NotCompacted`] after the deletion.
     pub fn delete(&mut self, name: &str) -> Result<(), StoreError> {
         let (person, _) = self.find(name)?;
         self.put(person, None)?;
@@ -243,7 +264,19 @@ impl Store {
 
     fn find(&self, name: &str) -> Result<(i64, Row), StoreError> {
         let lookup = self.secrets.lookup(name);
-        find_person(&self.connection, &lookup)?.ok_or(StoreError::UnknownPerson)
+        let found = find_person(&self.connection, &lookup)?;
+        let (person, row) = found.ok_or(StoreError::UnknownPerson)?;
+        self.check(person, &row)?;
+        Ok((person, row))
+    }
+
+    /// Refuses records that are not those of the manifest: another process that ignores the lock may have written them since the store
+    /// was opened.
+    fn check(&self, person: i64, row: &Row) -> Result<(), StoreError> {
+        match self.digests.people.get(&person) == Some(&row.digest(&self.secrets, person)) {
+            true => Ok(()),
+            false => Err(tampered("a record", person)),
+        }
     }
 
     fn set_failures(

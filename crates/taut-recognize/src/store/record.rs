@@ -44,7 +44,13 @@ pub(super) fn settings_digest(secrets: &Secrets, settings: &[u8]) -> [u8; 32] {
 
 /// Refuses names that are empty, too long, or have control characters.
 pub(super) fn check_name(name: &str) -> Result<(), StoreError> {
-    match (1..=NAME_BYTES_MAX).contains(&name.len()) && !name.contains(char::is_control) {
+    // Zero width, and marks of the direction of writing: with them two names would look alike.
+    let is_hidden = |c: char| {
+        c.is_control()
+            || matches!(c, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}')
+    };
+    let is_plain = name.trim() == name && !name.contains(is_hidden);
+    match (1..=NAME_BYTES_MAX).contains(&name.len()) && is_plain {
         true => Ok(()),
         false => Err(StoreError::Name { bytes_max: NAME_BYTES_MAX }),
     }

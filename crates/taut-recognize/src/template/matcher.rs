@@ -10,7 +10,7 @@ use taut_points::Points;
 use super::Template;
 use crate::Error;
 use crate::classify::{Labeled, Whitener};
-use crate::evaluate::{ScoreSet, person_disjoint_folds};
+use crate::evaluate::{ScoreSet, clopper_pearson, person_disjoint_folds};
 
 /// What the JSON of a matcher calls its format.
 const FORMAT: &str = "taut-matcher";
@@ -72,10 +72,10 @@ impl Rates {
 
     /// The probability that somebody unknown is within the threshold of one of `people` templates, if these are independent.
     ///
-    /// Where no false match was seen, the rate is taken as 3 divided by the comparisons (the rule of 3).
+    /// The rate is taken at the upper end of its 95 % interval (Clopper and Pearson), which takes comparisons as independent.
     pub fn chance_among(&self, people: u64) -> f64 {
-        let errors = if self.false_matches == 0 { 3.0 } else { self.false_matches as f64 };
-        let rate = (errors / self.impostor as f64).min(1.0);
+        let interval = clopper_pearson(self.false_matches, self.impostor, 0.95);
+        let rate = interval.map_or(1.0, |interval| interval.high);
         -(people as f64 * (-rate).ln_1p()).exp_m1()
     }
 }

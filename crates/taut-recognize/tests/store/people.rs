@@ -109,7 +109,11 @@ fn scans_that_do_not_belong_together_are_refused() {
     let mut nan = scan(0, 0);
     nan.features[3] = f64::NAN;
     assert!(matches!(store.enroll("x", &[nan.clone()]), Err(StoreError::Recognize(_))));
-    for bad in ["", "a\tb", &"x".repeat(1001)] {
+    let few = store.enroll("x", &scans(0)[..2]).unwrap_err();
+    assert!(matches!(few, StoreError::TooFewScans { found: 2, needed: 3 }), "{few}");
+    let same = [scan(0, 0), scan(0, 1), scan(0, 0)];
+    assert!(matches!(store.enroll("x", &same), Err(StoreError::SameScan { scan: 3 })));
+    for bad in ["", "a\tb", " a", "a ", "a\u{202e}b", "a\u{200b}", &"x".repeat(1001)] {
         assert!(matches!(store.enroll(bad, &scans(0)), Err(StoreError::Name { .. })));
     }
     assert!(store.is_empty());
@@ -169,4 +173,46 @@ fn key_files_that_others_may_read_are_refused() {
         let refused = Key::from_file(&path).unwrap_err().to_string();
         assert!(refused.contains("chmod 600"), "{refused}");
     }
+}
+
+#[test]
+fn an_index_that_is_older_than_a_lock_or_a_deletion_names_nobody() {
+    let place = Place::new();
+    let mut store = place.open();
+    for person in 0..3 {
+        store.enroll(&name(person), &scans(person)).unwrap();
+    }
+    let index = store.index(Side::Right).unwrap();
+    assert_eq!(store.identify(&index, &scan(1, 4)).unwrap().unwrap().name, name(1));
+    while store.verify(&name(1), &scan(2, 4)).unwrap().attempts_left > 0 {}
+    assert!(matches!(store.identify(&index, &scan(1, 4)), Err(StoreError::OldIndex)));
+    store.delete(&name(2)).unwrap();
+    assert!(matches!(store.identify(&index, &scan(2, 4)), Err(StoreError::OldIndex)));
+    assert_eq!(store.identify(&index, &scan(0, 4)).unwrap().unwrap().name, name(0));
+    let other = Place::new();
+    let refused = other.open().identify(&index, &scan(0, 4)).unwrap_err();
+    assert!(matches!(refused, StoreError::OldIndex), "{refused}");
+}
+
+#[test]
+fn passphrases_and_files_of_others_are_refused_and_left_as_they_are() {
+    let folder = tempfile::tempdir().unwrap();
+    let phrase = folder.path().join("phrase");
+    std::fs::write(&phrase, b"correct horse battery staple 123").unwrap();
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        std::fs::set_permissions(&phrase, std::fs::Permissions::from_mode(0o600)).unwrap();
+    }
+    let refused = Key::from_file(&phrase).unwrap_err();
+    assert!(refused.to_string().contains("passphrase"), "{refused}");
+    let foreign = folder.path().join("foreign");
+    let connection = rusqlite::Connection::open(&foreign).unwrap();
+    connection.pragma_update_and_check(None, "journal_mode", "WAL", |_| Ok(())).unwrap();
+    connection.execute_batch("CREATE TABLE mine (x); INSERT INTO mine VALUES (1)").unwrap();
+    drop(connection);
+    let before = std::fs::read(&foreign).unwrap();
+    let refused = Store::open(&foreign, &Key::from_bytes([1; 32]), None).unwrap_err();
+    assert!(matches!(refused, StoreError::NoStore { .. }), "{refused}");
+    assert_eq!(std::fs::read(&foreign).unwrap(), before);
 }

@@ -1,6 +1,6 @@
 //! From the scores of all splits to rates.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::split::{Outcome, Probe, Scored};
 use super::{OpenSetFigures, ProtocolOptions, ProtocolRates};
@@ -72,7 +72,8 @@ impl<'a> Tally<'a> {
     }
 }
 
-/// The interval of the share of probes that are errors, by draws of people.
+/// The interval of the share of probes that are errors, by draws of people. Where few people have errors, draws of them know little of
+/// the others: the upper end is not below that of as many trials as there are different samples, with the errors among these.
 fn over_people(
     probes: &[Probe],
     person: &[u32],
@@ -86,8 +87,11 @@ fn over_people(
         *errors += f64::from(u8::from(is_error(probe)));
         *trials += 1.0;
     }
-    if counts.values().all(|&[errors, _]| errors == 0.0) {
-        return clopper_pearson(0, samples, options.confidence);
+    let wrong: BTreeSet<usize> =
+        probes.iter().filter(|probe| is_error(probe)).map(|probe| probe.sample).collect();
+    let exact = clopper_pearson(wrong.len() as u64, samples, options.confidence)?;
+    if wrong.is_empty() {
+        return Ok(exact);
     }
     let (people, counts): (Vec<u32>, Vec<[f64; 2]>) = counts.into_iter().unzip();
     let ratio = |drawn: &[usize]| {
@@ -95,7 +99,9 @@ fn over_people(
         sum(0) / sum(1)
     };
     let ProtocolOptions { replicates, confidence, seed, .. } = *options;
-    bootstrap_over_people(&people, &BootstrapOptions { replicates, confidence, seed }, ratio)
+    let options = BootstrapOptions { replicates, confidence, seed };
+    let drawn = bootstrap_over_people(&people, &options, ratio)?;
+    Ok(Interval { high: drawn.high.max(exact.high), ..drawn })
 }
 
 /// The trade-off of identification: shares of probes accepted under a wrong name, and rejected.

@@ -92,7 +92,7 @@ impl<'a> Plan<'a> {
         }
         of_person.retain(|own| own.len() >= training);
         let (people, folds) = (of_person.len(), options.folds);
-        if people < 2 * folds {
+        if people / 2 < folds {
             let expected =
                 "at most half as many as there are people with enough samples for training";
             return Err(Error::option("folds", folds.to_string(), expected));

@@ -65,14 +65,14 @@ struct Answer {
 }
 
 impl Answer {
-    /// Prints a decision.
-    fn print(
+    /// A decision as text, printed once the manifest is written.
+    fn text(
         &self,
         mut words: String,
         mut fields: Value,
         distance: Option<f64>,
         store: &Store,
-    ) -> anyhow::Result<()> {
+    ) -> String {
         if let Some(distance) = distance.filter(|_| self.scores) {
             let threshold = store.matcher().threshold();
             words +=
@@ -80,15 +80,14 @@ impl Answer {
             fields["distance"] = json!(distance);
             fields["threshold"] = json!(threshold);
         }
-        let text = if self.json { fields.to_string() + "\n" } else { words };
-        writing::print(text.as_bytes())
+        if self.json { fields.to_string() + "\n" } else { words }
     }
 }
 
 impl VerifyArgs {
     pub(super) fn run(&self) -> anyhow::Result<Outcome> {
         let scan = self.images.scan(&self.path)?;
-        self.store.with(|store| {
+        let (text, outcome) = self.store.with(|store| {
             let found = store.verify(&self.person, &scan)?;
             let words = match found.is_accepted {
                 true => "Accepted\n".to_owned(),
@@ -99,16 +98,18 @@ impl VerifyArgs {
             };
             let fields =
                 json!({ "accepted": found.is_accepted, "attempts_left": found.attempts_left });
-            self.answer.print(words, fields, Some(found.distance), store)?;
-            Ok(if found.is_accepted { Outcome::Done } else { Outcome::CheckFailed })
-        })
+            let text = self.answer.text(words, fields, Some(found.distance), store);
+            Ok((text, if found.is_accepted { Outcome::Done } else { Outcome::CheckFailed }))
+        })?;
+        writing::print(text.as_bytes())?;
+        Ok(outcome)
     }
 }
 
 impl IdentifyArgs {
     pub(super) fn run(&self) -> anyhow::Result<Outcome> {
         let scan = self.images.scan(&self.path)?;
-        self.store.with(|store| {
+        let (text, outcome) = self.store.with(|store| {
             let index = store.index(scan.side)?;
             let found = store.identify(&index, &scan)?;
             let people = index.len() as u64;
@@ -132,8 +133,10 @@ impl IdentifyArgs {
                 "false_match_estimate": risk,
             });
             let distance = found.as_ref().map(|found| found.distance);
-            self.answer.print(words, fields, distance, store)?;
-            Ok(if found.is_some() { Outcome::Done } else { Outcome::CheckFailed })
-        })
+            let text = self.answer.text(words, fields, distance, store);
+            Ok((text, if found.is_some() { Outcome::Done } else { Outcome::CheckFailed }))
+        })?;
+        writing::print(text.as_bytes())?;
+        Ok(outcome)
     }
 }

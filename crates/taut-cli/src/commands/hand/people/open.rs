@@ -32,6 +32,9 @@ impl StoreArgs {
         work: impl FnOnce(&mut Store) -> anyhow::Result<R>,
     ) -> anyhow::Result<R> {
         let key = self.key()?;
+        if let Some(path) = &self.manifest {
+            writing::check_writable(&[path], &[&self.store])?;
+        }
         let kept = self.kept()?;
         let store = Store::open(&self.store, &key, kept.as_ref())?;
         self.work(store, kept, work)
