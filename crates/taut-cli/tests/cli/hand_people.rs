@@ -59,7 +59,11 @@ fn the_enrolled_are_accepted_found_and_deleted() {
 
     let list = |options: &str| folder.taut(&format!("hand list {STORE} {options}")).ends(0);
     assert!(!list("").out.contains("Ada") && !list("--json").out.contains("Ada"));
-    list("--names").stdout_has(&["2 enrolled; matcher of synthetic", "Ada\n", "Grace\n"]);
+    list("--names").stdout_has(&[
+        "2 enrolled; matcher of 280 synthetic hands, FMR ",
+        "Ada\n",
+        "Grace\n",
+    ]);
     folder.taut(&format!("hand delete {STORE} --person Ada")).ends(0);
     assert_eq!(list("--names --json").json()["people"][0]["name"], "Grace");
 }
