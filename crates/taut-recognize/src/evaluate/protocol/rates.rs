@@ -1,6 +1,6 @@
 //! From the scores of all splits to rates.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use super::split::{Outcome, Probe, Scored};
 use super::{OpenSetFigures, ProtocolOptions, ProtocolRates};
@@ -73,7 +73,7 @@ impl<'a> Tally<'a> {
 }
 
 /// The interval of the share of probes that are errors, by draws of people. Where few people have errors, draws of them know little of
-/// the others: the upper end is not below that of as many trials as there are different samples, with the errors among these.
+/// the others: the upper end is not below that of as many trials as there are different samples, with the same share of errors.
 fn over_people(
     probes: &[Probe],
     person: &[u32],
@@ -87,10 +87,10 @@ fn over_people(
         *errors += f64::from(u8::from(is_error(probe)));
         *trials += 1.0;
     }
-    let wrong: BTreeSet<usize> =
-        probes.iter().filter(|probe| is_error(probe)).map(|probe| probe.sample).collect();
-    let exact = clopper_pearson(wrong.len() as u64, samples, options.confidence)?;
-    if wrong.is_empty() {
+    let sum = |which: usize| counts.values().map(|of_person| of_person[which]).sum::<f64>();
+    let errors = (sum(0) / sum(1) * samples as f64).ceil() as u64;
+    let exact = clopper_pearson(errors.min(samples), samples, options.confidence)?;
+    if errors == 0 {
         return Ok(exact);
     }
     let (people, counts): (Vec<u32>, Vec<[f64; 2]>) = counts.into_iter().unzip();
