@@ -12,7 +12,7 @@ const MODELS: [Model; 4] = [
 ];
 
 /// Events for the largest body, which has a second.
-const LARGEST_EVENTS: u64 = 150_000;
+const LARGEST_EVENTS: u64 = 180_000;
 
 /// Events for one body that is compared with a region of drake: some 5 bodies of 50 planes. Four times as many change the volume by
 /// less than 1 %.

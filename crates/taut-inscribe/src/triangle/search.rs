@@ -21,7 +21,7 @@ use super::rows::{self, Condition, Entered};
 use super::tile::Tiles;
 use super::tree::{self, Leaf, Log, Node, Reason};
 use super::{TriangleOptions, starts};
-use crate::frontier::{Frontier, Waiting};
+use crate::frontier::{CELLS_AT_ONCE, Frontier, Waiting};
 use crate::program::{self, Column};
 
 /// How much larger than the area sought that of the boxes alone may be for conditions to be worth their cost.
@@ -59,11 +59,11 @@ type Listed = (Cell, Arc<[u32]>);
 
 /// What is known of a cell after it was examined.
 struct Examined {
-    cell: Cell,
     reason: Reason,
     /// The bound of the area; `None` for a cell that holds no triangle of the polygon.
     bound: Option<f64>,
-    list: Arc<[u32]>,
+    /// The groups of edges, where they are not those of the parent.
+    list: Option<Arc<[u32]>>,
     /// A triangle that is larger than the best one was.
     larger: Option<Candidate>,
 }
@@ -109,8 +109,9 @@ pub(super) fn search(
         return Ok(search.found(false));
     }
     let list: Arc<[u32]> = Arc::new([target.groups.root()]);
-    let examined = search.examine([root.clone(), root.clone(), root], &list);
-    search.add(examined);
+    let cell = [root.clone(), root.clone(), root];
+    let examined = search.examine(&cell, &list);
+    search.add(cell, &list, examined);
     let is_complete = loop {
         options.monitor.check()?;
         let room = options.max_cells.saturating_sub(search.nodes.len() as u64) / 2;
@@ -157,45 +158,42 @@ impl Search<'_> {
     }
 
     /// Looks for a reason that closes a cell, and for a larger triangle.
-    fn examine(&self, cell: Cell, parents: &Arc<[u32]>) -> Examined {
-        let closed = |cell, reason| {
-            let list = parents.clone();
-            Examined { cell, reason, bound: None, list, larger: None }
-        };
-        if cell::is_disordered(&cell) {
-            return closed(cell, Reason::Disordered);
+    fn examine(&self, cell: &Cell, parents: &[u32]) -> Examined {
+        let closed = |reason| Examined { reason, bound: None, list: None, larger: None };
+        if cell::is_disordered(cell) {
+            return closed(Reason::Disordered);
         }
         if cell.iter().any(|tile| tile.is_outside) {
-            return closed(cell, Reason::Outside);
+            return closed(Reason::Outside);
         }
-        let bound = doubled_area(&cell, &[], self.error);
+        let bound = doubled_area(cell, &[], self.error);
         if bound <= self.goal() {
-            return Examined { bound: Some(bound), ..closed(cell, Reason::Area) };
+            return Examined { bound: Some(bound), ..closed(Reason::Area) };
         }
-        let lines = cell::lines(&cell);
+        let lines = cell::lines(cell);
         let (kept, conditions) =
             match rows::examine(&self.target.groups, &lines, parents, self.error) {
                 Entered::Surely(edge, share) => {
-                    return closed(cell, Reason::Entered(Leaf::Point(edge, share)));
+                    return closed(Reason::Entered(Leaf::Point(edge, share)));
                 }
                 Entered::Perhaps(kept, conditions) => (kept, conditions),
             };
-        let mean = centroid(&cell::middle(&cell));
+        let mean = centroid(&cell::middle(cell));
         if lines.iter().all(|side| side.range(mean)[0] > self.error) && !self.tiles.is_inside(mean)
         {
-            return closed(cell, Reason::MeanOutside);
+            return closed(Reason::MeanOutside);
         }
-        let list = if kept[..] == parents[..] { parents.clone() } else { kept.into() };
-        let mut found = Examined { bound: Some(bound), list, ..closed(cell, Reason::Area) };
+        let list = (kept[..] != *parents).then(|| kept.into());
+        let mut found = Examined { bound: Some(bound), list, ..closed(Reason::Area) };
         if bound <= WEIGHED_MAX * self.goal() {
-            self.weigh(&mut found, conditions, bound);
+            self.weigh(cell, &mut found, conditions, bound);
         }
         found
     }
 
     /// Makes a node of a cell, and keeps it to be split if its bound does not close it.
-    fn add(&mut self, examined: Examined) -> usize {
-        let Examined { cell, reason, bound, list, larger } = examined;
+    fn add(&mut self, cell: Cell, parents: &Arc<[u32]>, examined: Examined) -> usize {
+        let Examined { reason, bound, list, larger } = examined;
         let node = self.nodes.len();
         self.nodes.push(Node::Leaf(reason));
         if let Some(larger) = larger.filter(|larger| larger.doubled > self.best) {
@@ -204,7 +202,9 @@ impl Search<'_> {
         match bound {
             None => {}
             Some(bound) if bound <= self.goal() => self.frontier.close(bound),
-            Some(bound) => self.frontier.push(bound, node, (cell, list)),
+            Some(bound) => {
+                self.frontier.push(bound, node, (cell, list.unwrap_or_else(|| parents.clone())));
+            }
         }
         node
     }
@@ -212,11 +212,11 @@ impl Search<'_> {
     /// Looks for weights that bound the area in a cell, and for a larger triangle.
     fn weigh(
         &self,
+        cell: &Cell,
         examined: &mut Examined,
         mut conditions: Vec<(f64, Condition)>,
         mut bound: f64,
     ) {
-        let cell = &examined.cell;
         if conditions.len() > CONDITIONS_MAX {
             conditions.select_nth_unstable_by(CONDITIONS_MAX, |one, other| {
                 other.0.total_cmp(&one.0).then(one.1.key().cmp(&other.1.key()))
@@ -279,17 +279,19 @@ impl Search<'_> {
                 None => self.frontier.close(waiting.bound),
             }
         }
+        // Threads change no count of references: counts lie beside what other threads read.
         let this = &*self;
-        let children: Vec<(usize, u8, [Examined; 2])> = split
-            .into_par_iter()
-            .map(|(Waiting { node, cell: (_, list), .. }, coordinate, [below, above])| {
-                let examine = |cell| this.examine(cell, &list);
-                let (below, above) = rayon::join(|| examine(below), || examine(above));
-                (node, coordinate, [below, above])
+        let children: Vec<[Examined; 2]> = split
+            .par_iter()
+            .with_max_len(CELLS_AT_ONCE)
+            .map(|(Waiting { cell: (_, list), .. }, _, halves)| {
+                halves.each_ref().map(|half| this.examine(half, list))
             })
             .collect();
-        for (node, coordinate, examined) in children {
-            let children = examined.map(|child| self.add(child));
+        for ((waiting, coordinate, [low, high]), [below, above]) in split.into_iter().zip(children)
+        {
+            let Waiting { node, cell: (_, list), .. } = waiting;
+            let children = [self.add(low, &list, below), self.add(high, &list, above)];
             self.nodes[node] = Node::Split(coordinate, children);
         }
     }

@@ -163,19 +163,6 @@ impl Matcher {
         self.rates
     }
 
-    /// The same matcher with another threshold, to which the measured rates do not apply.
-    ///
-    /// # Errors
-    /// [`Error::Input`] for a negative number, NaN and infinities.
-    pub fn with_threshold(mut self, threshold: f64) -> Result<Self, Error> {
-        if !(threshold.is_finite() && threshold >= 0.0) {
-            let value = taut_points::shown_number(threshold);
-            return Err(Error::option("threshold", value, "a number from 0"));
-        }
-        self.threshold = threshold;
-        Ok(self)
-    }
-
     /// Maps the features of a scan.
     ///
     /// # Errors

@@ -37,11 +37,7 @@ pub(crate) fn matcher() -> Matcher {
     let names: Vec<String> = (0..40).map(|i| i.to_string()).collect();
     let points = Points::new(&values, DIM).unwrap();
     let options = MatcherOptions { fmr_max: 0.0, ..MatcherOptions::default() };
-    // Between the distances of one person, of some 20, and those of two, of some thousands.
-    Matcher::train(Labeled::new(points, &labels, &names).unwrap(), &options)
-        .unwrap()
-        .with_threshold(60.0)
-        .unwrap()
+    Matcher::train(Labeled::new(points, &labels, &names).unwrap(), &options).unwrap()
 }
 
 /// A folder with a store.
