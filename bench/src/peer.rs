@@ -79,6 +79,8 @@ const PEERS: &[(&str, &str, &str)] = &[
     ("sklearn-mcd-", "sklearn", "mcd.py REST"),
     ("one-class-", "sklearn", "recognize.py REST"),
     ("classify-", "sklearn", "classifiers.py REST"),
+    ("opencv-", "cv2", "hands.py REST"),
+    ("imageproc", "", "rust/release/peers NAME"),
     ("conic-", "cvxpy", "conic.py REST"),
     ("set-cover", "highspy", "centers.py NAME"),
     ("medoids", "sklearn_extra.cluster", "centers.py NAME"),

@@ -1,6 +1,7 @@
 //! Balls in the feature space of a kernel, and classifiers, beside scikit-learn; the nearest of many templates.
 
 pub(crate) mod classifiers;
+mod hands;
 mod identify;
 mod kernel;
 pub(crate) mod sets;
@@ -16,6 +17,8 @@ pub(crate) const AREA: Area<Run> = Area {
         runs("classifiers", classifiers::classifiers).about(
             "Accuracies on public data, beside scikit-learn's classifiers on the same halves.",
         ),
+        runs("hands", hands::hands)
+            .about("Scans of a million pixels, and parts of their measurement beside OpenCV and imageproc."),
         runs("identify", identify::nearest)
             .about("The nearest of a million templates, beside comparing with all of them."),
     ],

@@ -1,9 +1,11 @@
 //! spade and delaunator as peers: `peers NAME FILE` builds one triangulation in the plane and prints one line of JSON.
-//! quickheap as a peer: `peers quickheap FILE OUTPUT` and `peers quickheap-keys FILE OUTPUT`, see `queue`.
+//! quickheap as a peer: `peers quickheap FILE OUTPUT` and `peers quickheap-keys FILE OUTPUT`, see `queue`; `peers imageproc FILE OUTPUT`,
+//! see `images`.
 //!
 //! The line is described in `bench/peers/delaunay.hpp`; time and memory are taken by the code that takes those of taut.
 #![forbid(unsafe_code)]
 
+mod images;
 #[path = "../../../src/meter.rs"]
 mod meter;
 mod queue;
@@ -19,6 +21,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().collect();
     let (name, path) = match &arguments[..] {
         [_, name, path] => (name, path),
+        [_, name, path, output] if name == "imageproc" => return images::serve(path, output),
         [_, name, path, output] => return queue::serve(name, path, output),
         _ => return Err("expected NAME and FILE".into()),
     };
