@@ -7,10 +7,11 @@ use crate::prelude::*;
 /// Versions of the peers that `bench/setup` and Cargo.lock name.
 const PEERS: &str = "\
     cyminiball 2.1.2; miniball (PyPI) 1.2.0; miniball (crate) 0.5.0; extsort 0.5.0; fast_hilbert \
-    2.1.0; indexset 0.16.0; kiddo 6.3.0; numpy (sort) 2.4.6; quickheap 0.2.0; imageproc 0.27.0; opencv-python-headless 5.0.0.93; rand 0.10.3; rdst \
-    0.20.14; transpose 0.2.3; voracious_radix_sort 1.2.0; scikit-learn 1.8.0; cvxpy 1.7.5; \
-    clarabel 0.11.1; dynesty 3.1.0; highspy 1.15.1; scikit-learn-extra 0.3.0; concorde_rs 0.1.1; \
-    elkai 2.0.1; open3d 0.20.0; pymeshlab 2025.7.post1";
+    2.1.0; indexset 0.16.0; kiddo 6.3.0; numpy (sort) 2.4.6; quickheap 0.2.0; imageproc 0.27.0; \
+    opencv-python-headless 5.0.0.93; rand 0.10.3; rdst 0.20.14; transpose 0.2.3; \
+    voracious_radix_sort 1.2.0; scikit-learn 1.8.0; cvxpy 1.7.5; clarabel 0.11.1; dynesty 3.1.0; \
+    highspy 1.15.1; scikit-learn-extra 0.3.0; concorde_rs 0.1.1; elkai 2.0.1; open3d 0.20.0; \
+    pymeshlab 2025.7.post1";
 
 /// Machine, versions and date, as one JSON object.
 pub(crate) fn describe() -> Value {
