@@ -316,3 +316,20 @@ fn the_table_of_a_threshold_is_the_formula() {
     assert!((lab_b([0, 0, 255]) + 107.86).abs() < 0.05);
     assert!((lab_b([255, 255, 0]) - 94.48).abs() < 0.05);
 }
+
+/// The images that a fuzzer begins with; what it finds is put beside them.
+#[test]
+fn seeds_of_the_fuzzer_give_an_image_and_no_panic() {
+    let folder =
+        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/seeds/hand_image");
+    let mut hands = 0;
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let bytes = std::fs::read(&path).unwrap();
+        RgbImage::decode(&bytes, LIMIT)
+            .unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        let options = HandOptions { dots_per_inch: Some(40.0), ..HandOptions::default() };
+        hands += usize::from(Hand::from_image(&bytes, &options).is_ok());
+    }
+    assert!(hands > 0);
+}

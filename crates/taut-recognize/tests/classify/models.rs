@@ -194,3 +194,18 @@ fn huge_and_tiny_coordinates_are_an_error_or_an_answer() {
         }
     }
 }
+
+/// The models that a fuzzer begins with, one of each method, can be loaded and classify.
+#[test]
+fn seeds_of_the_fuzzer_are_models() {
+    let folder =
+        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/seeds/classifier_model");
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let json = std::fs::read_to_string(&path).unwrap();
+        let model =
+            Model::from_json(&json).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        let points = Points::new(&[3.0, -1.0, 0.0, 0.0], 2).unwrap();
+        assert_eq!(model.predict(points).unwrap().len(), 2);
+    }
+}
