@@ -612,6 +612,22 @@ pub enum Error {
         /// The file.
         path: String,
     },
+    /// The single precision of the format would move a vertex by a visible part of the mesh.
+    #[error(
+        "{path}: coordinate {column} of vertex {vertex}, both counted from 0, is {value:?}, which the single precision of {format} moves by more than 1/8192 of the mesh's longest side: move the mesh nearer to the origin, or write ply, obj or off"
+    )]
+    MeshPrecision {
+        /// The file.
+        path: String,
+        /// The format.
+        format: Format,
+        /// The vertex, from 0.
+        vertex: usize,
+        /// The coordinate: 0, 1 or 2.
+        column: usize,
+        /// Its value.
+        value: f64,
+    },
     /// A coordinate does not fit into the single precision of the format.
     #[error(
         "{path}: coordinate {column} of vertex {vertex}, both counted from 0, is {value:?}, too large for the single precision of {format}: scale the mesh, or write ply, obj or off"

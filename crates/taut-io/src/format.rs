@@ -48,7 +48,7 @@ impl fmt::Display for Content {
 /// | pov, as `mesh2` | no | yes | normals | exact |
 ///
 /// Exact is what reads back to the same bits. A binary stl file, glb and gltf round coordinates to single precision, which can
-/// make one place of two.
+/// make one place of two; a surface so far from the origin that this would be seen is not written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Format {
     /// Text, a point per line, columns parted by commas (or semicolons or tabs, found in the first row); of curves, a row

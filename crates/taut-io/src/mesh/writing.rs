@@ -14,6 +14,9 @@ use crate::{Content, Error, Format};
 /// Simplices in one piece of output.
 const PIECE_SIMPLICES: usize = 1 << 14;
 
+/// How far single precision may move a coordinate, as a share of the longest side of the mesh: less than a picture shows.
+const MOVED_MAX: f64 = 1.0 / 8192.0;
+
 /// Options to write a mesh. Write `MeshOptions { encoding: Encoding::Text, ..Default::default() }`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MeshOptions {
@@ -76,8 +79,8 @@ pub fn write_mesh(
 /// # Errors
 /// Before anything is written: [`Error::UnknownFormat`], [`Error::NotBuilt`] and [`Error::NotWritable`] of the format,
 /// [`Error::MeshWidth`] and [`Error::Dimension`] of a triangulation, [`Error::MeshAttributes`], [`Error::MeshNormal`],
-/// [`Error::NoTriangles`] and [`Error::MeshRange`] of a surface. Then [`Error::MeshTooLarge`], [`Error::Points`] and those of
-/// [`create`](crate::create) and of writing.
+/// [`Error::NoTriangles`], [`Error::MeshRange`] and [`Error::MeshPrecision`] of a surface. Then [`Error::MeshTooLarge`],
+/// [`Error::Points`] and those of [`create`](crate::create) and of writing.
 ///
 /// # Panics
 /// If an id of a triangulation is no row of its points, or its ids make no whole number of simplices.
@@ -166,12 +169,28 @@ fn check_surface(
         Format::Stl => encoding == Encoding::Binary,
         _ => false,
     };
+    if single { check_single(vertices, shown, format) } else { Ok(()) }
+}
+
+/// Checks that single precision holds the coordinates, and moves none by a visible part of the mesh.
+fn check_single(vertices: &[[f64; 3]], shown: &str, format: Format) -> Result<(), Error> {
     let flat = vertices.as_flattened();
-    match flat.iter().position(|&value| single && !(value as f32).is_finite()) {
+    let named = |place: usize| (shown.to_owned(), place / 3, place % 3, flat[place]);
+    if let Some(place) = flat.iter().position(|&value| !(value as f32).is_finite()) {
+        let (path, vertex, column, value) = named(place);
+        return Err(Error::MeshRange { path, format, vertex, column, value });
+    }
+    let side = |k: usize| {
+        let values = || vertices.iter().map(|at| at[k]);
+        values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
+    };
+    let longest = side(0).max(side(1)).max(side(2));
+    let is_moved = |&value: &f64| (f64::from(value as f32) - value).abs() > MOVED_MAX * longest;
+    match flat.iter().position(|value| longest > 0.0 && is_moved(value)) {
         None => Ok(()),
         Some(place) => {
-            let (vertex, column, value) = (place / 3, place % 3, flat[place]);
-            Err(Error::MeshRange { path: path(), format, vertex, column, value })
+            let (path, vertex, column, value) = named(place);
+            Err(Error::MeshPrecision { path, format, vertex, column, value })
         }
     }
 }

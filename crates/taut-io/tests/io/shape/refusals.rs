@@ -170,6 +170,25 @@ fn what_a_format_cannot_hold_is_refused_before_anything_is_written() {
             refused.contains("coordinate 0 of vertex 3, both counted from 0, is -1e300, too large"),
             "{refused}"
         );
+        // Far from the origin, and so small that single precision has no numbers for it.
+        let moved = |scale: f64, at: f64| Surface {
+            vertices: [[0.0, 0.0], [1.0, 0.0], [0.0, 1.1]]
+                .map(|[x, y]| [scale * x + at, scale * y, 0.3])
+                .to_vec(),
+            triangles: vec![[0, 1, 2]],
+            ..Default::default()
+        };
+        assert!(write_with(&moved(1.0, 1000.1), &path(name), Encoding::Binary).is_ok());
+        let refused = said(&moved(1.0, 5e5 + 0.1), name);
+        assert!(
+            refused.contains("moves by more than 1/8192 of the mesh's longest side"),
+            "{refused}"
+        );
+        let flat = |scale| Surface {
+            vertices: moved(scale, 0.0).vertices.iter().map(|p| [p[0], p[1], 0.0]).collect(),
+            ..moved(scale, 0.0)
+        };
+        assert!(said(&flat(1e-50), name).contains("1/8192"));
     }
     let points = Surface { triangles: Vec::new(), ..single() };
     for format in written() {
