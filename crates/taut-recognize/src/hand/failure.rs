@@ -126,8 +126,10 @@ pub enum Failure {
         "the boundary pixels are not one closed curve, as the tracing of the thesis needs; use the sub-pixel tracing"
     )]
     BrokenBoundary,
-    /// Two fingers touch, or are too close for their valley to be found.
-    #[error("{first} and {second} touch, or nearly so, at pixel {at}; spread them")]
+    /// Two fingers touch, or are too close for their valley to be found, or something joins them.
+    #[error(
+        "{first} and {second} touch, or nearly so, or are joined, at pixel {at}; spread them, and remove what joins them"
+    )]
     FingersTouching {
         /// The finger nearer to the thumb.
         first: FingerName,
@@ -226,6 +228,8 @@ pub enum Sign {
     FadingTip,
     /// The width has a step.
     WidthStep,
+    /// The sides are as bright at their edges as within, as those of a flat cover.
+    FlatSides,
     /// The tip is not where the axis of the finger leads.
     SkewTip,
 }
@@ -237,6 +241,7 @@ impl fmt::Display for Sign {
             Self::FlatTip => "its tip is flat",
             Self::FadingTip => "its tip fades out, as one that is not on the glass",
             Self::WidthStep => "its width has a step",
+            Self::FlatSides => "its edges are not shaded as skin is",
             Self::SkewTip => "its tip is off its axis",
         })
     }

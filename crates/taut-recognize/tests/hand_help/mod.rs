@@ -158,14 +158,14 @@ impl Rates {
         println!("root mean square of tips {tips:.2} pixels, of valleys {valleys:.2} pixels");
     }
 
-    /// Asserts what is reached: one free hand in 100 is refused, and one of some 150 pairs of fused fingers is silently
-    /// wrong. The goals are one in 200, and none.
+    /// Asserts what is reached: every hand that is cut off is refused, no cover, fused or lifted finger is silently wrong,
+    /// and 4 free hands of 668 are refused. The goal for these is one in 200.
     pub(super) fn assert_goals(&self) {
         for (kind, tally) in &self.tallies {
-            // A patch that ends at the web moves a valley by as much as valleys of people differ; two free fingers that
-            // nearly touch change a valley too.
+            // The truth of two fingers that nearly touch has its valley where the slit between them is closed by a pixel;
+            // the ends of thumbs and little fingers hang on valleys that are nearly flat.
             let limit = match *kind {
-                "fused" | "close fingers" => 1 + tally.scans / 250,
+                "close fingers" => 1 + tally.scans / 250,
                 "free" => 1 + tally.scans / 400,
                 _ => 0,
             };
@@ -175,12 +175,10 @@ impl Rates {
         if let Some(cut) = self.tallies.get("cut off") {
             assert_eq!(cut.measured, 0, "hands that are cut off without a failure");
         }
-        // One refusal in 100, and one more for the small sample of the short run.
+        // The short run has too few scans for a rate.
         let refused = free.scans - free.measured;
-        assert!(
-            f64::from(refused) <= 1.0 + 0.01 * f64::from(free.scans),
-            "{refused} free hands refused"
-        );
+        let allowed = (0.006 * f64::from(free.scans)).max(1.0);
+        assert!(f64::from(refused) <= allowed, "{refused} free hands refused");
         let (tips, valleys) = (Self::rms(&self.tips), Self::rms(&self.valleys));
         assert!(tips <= 0.7 && valleys <= 0.7, "tips {tips}, valleys {valleys}");
     }
