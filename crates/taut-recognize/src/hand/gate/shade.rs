@@ -14,10 +14,10 @@ use super::super::profile::Axis;
 use super::Sheet;
 
 /// How deep in the hand its edge is dark, in mm, and at least in pixels: beyond the blur of the edge.
-const NEAR: [f64; 2] = [0.55, 2.0];
+const EDGE_DEPTH: [f64; 2] = [0.55, 2.0];
 
 /// How deep the shading has ended, in mm, and at least in pixels.
-const DEEP: [f64; 2] = [2.2, 6.0];
+const INNER_DEPTH: [f64; 2] = [2.2, 6.0];
 
 /// The least shading that is evidence, in levels of 255: synthetic hands have 16 to 33, and noise 1.5 in one pixel.
 const SHADING_MIN: f64 = 8.0;
@@ -98,7 +98,7 @@ fn sides(axis: &Axis, finger: FingerName, sheet: &Sheet<'_>) -> Vec<Sides> {
     let count = ((high - low) / pixels(STATION_MM)).max(0.0) as usize;
     let stations: Vec<f64> = (0..count).map(|k| high - k as f64 * pixels(STATION_MM)).collect();
     let [u, v] = axis.direction();
-    let depths = [NEAR, DEEP].map(|[mm, least]| pixels(mm).max(least));
+    let depths = [EDGE_DEPTH, INNER_DEPTH].map(|[mm, least]| pixels(mm).max(least));
     let side = |along: f64, from: f64, to: f64| {
         let middle = axis.point(along);
         let at = |depth: f64| {
