@@ -6,7 +6,7 @@ use image::{DynamicImage, ImageFormat};
 use taut_recognize::hand::color::{
     APPROXIMATION_MAX, FIXED_THRESHOLD, ThresholdTable, approximate_lab_b, lab_b,
 };
-use taut_recognize::hand::{Failure, Hand, HandError, HandOptions, ImageError, RgbImage};
+use taut_recognize::hand::{Failure, Gate, Hand, HandError, HandOptions, ImageError, RgbImage};
 
 const LIMIT: u64 = 1_000_000;
 
@@ -326,7 +326,8 @@ fn files_of_the_fuzzer_give_no_panic() {
     for entry in std::fs::read_dir(folder).unwrap() {
         let bytes = std::fs::read(entry.unwrap().path()).unwrap();
         images += usize::from(RgbImage::decode(&bytes, LIMIT).is_ok());
-        let options = HandOptions { dots_per_inch: Some(40.0), ..HandOptions::default() };
+        let options =
+            HandOptions { dots_per_inch: Some(40.0), gate: Gate::Report, ..HandOptions::default() };
         hands += usize::from(Hand::from_image(&bytes, &options).is_ok());
     }
     assert!(images >= 8 && hands >= 1, "{images} images, {hands} hands");

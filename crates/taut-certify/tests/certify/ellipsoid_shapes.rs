@@ -120,13 +120,16 @@ fn shapes_that_are_none_are_refused() {
 }
 
 /// |F(x − c)| over many points of the border of an ellipsoid, climbing from each: x ← the point farthest in the direction
-/// in which |F(x − c)| grows fastest.
+/// in which |F(x − c)| grows fastest. Then from the opposite point, as one maximum may be less than the greatest, and lies on its own side.
 fn reach_by_climbing(answer: &Ellipsoid, center: &[f64], root: &[Vec<f64>], seed: u64) -> f64 {
     let dim = center.len();
     let mut best: f64 = 0.0;
     for start in numbers(12 * dim, seed).chunks(dim) {
         let mut w = start.to_vec();
-        for _ in 0..2000 {
+        for step in 0..4000 {
+            if step == 2000 {
+                w.iter_mut().for_each(|v| *v = -*v);
+            }
             let length = dot(&w, &w).sqrt();
             w.iter_mut().for_each(|v| *v /= length);
             let point: Vec<f64> = (0..dim).map(|j| center[j] + dot(&root[j], &w)).collect();

@@ -125,7 +125,7 @@ fn a_matcher_is_learned_from_a_folder() {
         .stdout_has(&["A matcher of ", " scans of 10 people", "\n  FNMR "]);
     let matcher: serde_json::Value = serde_json::from_str(&folder.text("matcher.json")).unwrap();
     assert_eq!((&matcher["format"], &matcher["source"]), (&json!("taut-matcher"), &json!("tests")));
-    let image = image(0, 0);
+    let image = image(1, 0);
     folder.taut("hand key -o key").ends(0);
     let enrol = format!("hand enrol --create --store s --key key --person A {image} --model");
     folder.taut(&format!("{enrol} key")).ends(2).stderr_has(&["key: this is no model of taut"]);
