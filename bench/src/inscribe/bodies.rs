@@ -11,9 +11,6 @@ const MODELS: [Model; 4] = [
     model("horse", 10, [[0.67, 0.72], [0.57, 0.62], [0.0, 0.0]], 0.0),
 ];
 
-/// Events for the largest body, which has a second.
-const LARGEST_EVENTS: u64 = 180_000;
-
 /// Events for one body that is compared with a region of drake: some 5 bodies of 50 planes. Four times as many change the volume by
 /// less than 1 %.
 const REGION_EVENTS: u64 = 250;
@@ -66,9 +63,8 @@ pub(super) fn packing(context: &Context, out: &mut Outcome) -> Result<()> {
         for (what, count, bounds) in
             packings.into_iter().chain([("disjoint", count, Some(disjoint))])
         {
-            let events = if what == "one" { base.events.min(LARGEST_EVENTS) } else { base.events };
             let disjoint = what == "disjoint";
-            let options = BodiesOptions { count, disjoint, events, ..base.clone() };
+            let options = BodiesOptions { count, disjoint, ..base.clone() };
             let packed = pack(context, &mesh, &options)?;
             let answer = &packed.found.answer;
             let bodies = answer.bodies.len();
