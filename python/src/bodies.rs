@@ -10,17 +10,19 @@ use crate::found::{Found, solve_points};
 use crate::numbers::whole;
 
 /// Convex bodies inside the mesh whose triangles are the rows of an array. `facets` is the most facets of a body, if they are free,
-/// else the number of directions.
+/// else the number of directions, unless these are `given`.
 #[pyfunction]
 pub(crate) fn inscribed_bodies(
     py: Python<'_>,
     rows: &Bound<'_, PyAny>,
     is_free: bool,
     facets: &Bound<'_, PyAny>,
+    given: Vec<[i64; 3]>,
     objective: &str,
     count: &Bound<'_, PyAny>,
     disjoint: bool,
     at: Vec<[f64; 3]>,
+    ends: Vec<[f64; 3]>,
     coverage: Option<f64>,
     close_holes: bool,
     events: &Bound<'_, PyAny>,
@@ -34,6 +36,7 @@ pub(crate) fn inscribed_bodies(
 ) -> PyResult<Found> {
     let shape = match is_free {
         true => BodyShape::Free(whole("facets", facets, "from 8 to 256")?),
+        false if !given.is_empty() => BodyShape::Directions(&given),
         false => BodyShape::Dop(whole("directions", facets, "6, 14, 18 or 26")?),
     };
     let objective = choice::<Objective>("objective", objective)?;
@@ -58,6 +61,7 @@ pub(crate) fn inscribed_bodies(
             count,
             disjoint,
             at: &at,
+            ends: &ends,
             coverage,
             close_holes,
             events,
@@ -66,4 +70,10 @@ pub(crate) fn inscribed_bodies(
         };
         taut::inscribe::inscribed_bodies(source, &options)
     })
+}
+
+/// The rows of the 12 triangles of the bounding box of points.
+#[pyfunction]
+pub(crate) fn box_rows(points: Vec<[f64; 3]>) -> Vec<f64> {
+    taut::inscribe::box_rows(&points)
 }

@@ -23,6 +23,7 @@ pub(crate) fn body_mesh<'py>(
         disjoint: false,
         caps: vec![],
         at: vec![],
+        ends: vec![],
         bodies: vec![],
     };
     let (vertices, triangles) = answer.mesh(&body);

@@ -16,20 +16,28 @@ BodiesMethod = Literal["recreate", "thesis"]
 ThesisSeeds = Literal["grid", "center", "random"]
 
 
-def triangle_rows(vertices: ArrayLike, triangles: ArrayLike) -> Rows:
+def triangle_rows(
+    vertices: ArrayLike,
+    triangles: ArrayLike | None,
+    *,
+    obstacles: ArrayLike | None = None,
+) -> Rows:
     """The triangles of a mesh as rows of nine numbers: the coordinates of their corners.
 
     Parameters
     ----------
     vertices : array_like of shape (n, 3)
         The vertices, finite real numbers.
-    triangles : array_like of int, shape (m, 3)
-        The triangles, as numbers of vertices from 0.
+    triangles : array_like of int, shape (m, 3), or None
+        The triangles, as numbers of vertices from 0. With None the vertices are points that no body contains, after the 12
+        triangles of their bounding box.
+    obstacles : array_like of shape (p, 3), optional
+        Points that no body contains: rows with three equal corners, after the triangles.
 
     Returns
     -------
-    ndarray of shape (m, 9)
-        Float32 or float64, as `vertices`.
+    ndarray of shape (m, 9), with obstacles (m + p, 9)
+        Float32 where all that is given is, else float64.
 
     Raises
     ------
@@ -42,7 +50,20 @@ def triangle_rows(vertices: ArrayLike, triangles: ArrayLike) -> Rows:
     >>> taut.triangle_rows([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 2, 1]])
     array([[0., 0., 0., 0., 1., 0., 1., 0., 0.]])
     """
+    rows = _mesh_rows(vertices, triangles)
+    if obstacles is None:
+        return rows
+    return as_rows(np.concatenate([rows, _point_rows("obstacles", as_rows(obstacles))]))
+
+
+def _mesh_rows(vertices: ArrayLike, triangles: ArrayLike | None) -> Rows:
+    """The rows of a mesh, or of points in their bounding box."""
     places = as_rows(vertices)
+    if triangles is None:
+        points = _point_rows("vertices", places)
+        ends = [places.min(axis=0), places.max(axis=0)] if len(places) else []
+        walls = np.array(_native.box_rows([end.tolist() for end in ends]), dtype=places.dtype)
+        return as_rows(np.concatenate([walls.reshape(-1, 9), points]))
     if places.shape[1] != 3:
         raise ValueError(f"vertices have shape {places.shape}: expected (n, 3)")
     ids = np.asarray(triangles)
@@ -55,10 +76,18 @@ def triangle_rows(vertices: ArrayLike, triangles: ArrayLike) -> Rows:
     return as_rows(places[ids].reshape(-1, 9))
 
 
+def _point_rows(name: str, places: Rows) -> Rows:
+    """Points as triangles with three equal corners."""
+    if places.shape[1] != 3:
+        raise ValueError(f"{name} have shape {places.shape}: expected (n, 3)")
+    return as_rows(np.tile(places, 3))
+
+
 def inscribed_bodies(
     vertices: ArrayLike,
-    triangles: ArrayLike,
+    triangles: ArrayLike | None,
     *,
+    obstacles: ArrayLike | None = None,
     facets: int = 256,
     objective: Objective = "volume",
     count: int | None = None,
@@ -77,9 +106,11 @@ def inscribed_bodies(
     ----------
     vertices : array_like of shape (n, 3)
         The vertices, finite real numbers. Vertices with equal coordinates are one.
-    triangles : array_like of int, shape (m, 3)
+    triangles : array_like of int, shape (m, 3), or None
         The triangles, as numbers of vertices from 0. Each edge belongs to an even number of triangles, unless
-        `close_holes` is set.
+        `close_holes` is set. With None the bodies are among the vertices, in their bounding box.
+    obstacles : array_like of shape (q, 3), optional
+        Points that no body contains.
     facets : int from 8 to 256, default 256
         Most facets of a body; more facets cover more.
     objective : {"volume", "occlusion"}, default "volume"
@@ -89,8 +120,8 @@ def inscribed_bodies(
         points in `at`, if these are more.
     disjoint : bool, default False
         Whether no two bodies may overlap.
-    at : array_like of shape (p, 3), optional
-        Points that the first bodies contain, one each.
+    at : array_like of shape (p, 3) or (p, 2, 3), optional
+        Points that the first bodies contain, one each, or segments by their two ends.
     coverage : float, optional
         The part of the inside to cover, above 0 and at most 1: no more bodies are added once they cover it, by the points
         that the search counts.
@@ -105,7 +136,7 @@ def inscribed_bodies(
     -------
     Solution
         ``answer`` is an `InscribedBodies`; then ``certificate`` and ``trace``. Its `check` takes the rows that
-        `triangle_rows` makes. ``trace.counters`` has ``covered`` of ``sample_points`` points inside that the search did
+        `triangle_rows` makes, with the same obstacles. ``trace.counters`` has ``covered`` of ``sample_points`` points inside that the search did
         not see.
 
     Raises
@@ -127,10 +158,10 @@ def inscribed_bodies(
     >>> found.check(taut.triangle_rows(vertices, triangles)).at
     1
     """
-    rows = triangle_rows(vertices, triangles)
+    rows = triangle_rows(vertices, triangles, obstacles=obstacles)
     return Solution(
         _native.inscribed_bodies(
-            rows, True, facets, objective, _count(count, coverage), disjoint, _points(at), coverage, close_holes,
+            rows, True, facets, [], objective, _count(count, coverage), disjoint, *_segments(at), coverage, close_holes,
             events, seed, "recreate", "grid", 32, 5, False, False,
         ),
         rows,
@@ -139,9 +170,10 @@ def inscribed_bodies(
 
 def inscribed_dops(
     vertices: ArrayLike,
-    triangles: ArrayLike,
+    triangles: ArrayLike | None,
     *,
-    directions: int = 18,
+    obstacles: ArrayLike | None = None,
+    directions: int | ArrayLike = 18,
     objective: Objective = "volume",
     count: int | None = None,
     disjoint: bool = False,
@@ -166,11 +198,15 @@ def inscribed_dops(
     ----------
     vertices : array_like of shape (n, 3)
         The vertices, finite real numbers. Vertices with equal coordinates are one.
-    triangles : array_like of int, shape (m, 3)
+    triangles : array_like of int, shape (m, 3), or None
         The triangles, as numbers of vertices from 0. Each edge belongs to an even number of triangles, unless
-        `close_holes` is set.
-    directions : {6, 14, 18, 26}, default 18
-        Directions of the facets.
+        `close_holes` is set. With None the bodies are among the vertices, in their bounding box.
+    obstacles : array_like of shape (q, 3), optional
+        Points that no body contains.
+    directions : {6, 14, 18, 26} or array_like of int, shape (k, 3), default 18
+        Directions of the facets: how many of those along the axes and diagonals, or from 3 to 13 of your own, no two of them
+        parallel, not all in one plane, with absolute values that add up to at most 63. Each of these makes two facets, along it
+        and against it.
     objective : {"volume", "occlusion"}, default "volume"
         What the search counts: the part of the inside that bodies cover, or the lines through the mesh that they hide.
     count : int from 1 to 1000, optional
@@ -178,8 +214,8 @@ def inscribed_dops(
         points in `at`, if these are more.
     disjoint : bool, default False
         Whether no two bodies may overlap.
-    at : array_like of shape (p, 3), optional
-        Points that the first bodies contain, one each.
+    at : array_like of shape (p, 3) or (p, 2, 3), optional
+        Points that the first bodies contain, one each, or segments by their two ends.
     coverage : float, optional
         The part of the inside to cover, above 0 and at most 1: no more bodies are added once they cover it, by the points
         that the search counts.
@@ -209,7 +245,7 @@ def inscribed_dops(
     -------
     Solution
         ``answer`` is an `InscribedBodies`; then ``certificate`` and ``trace``. Its `check` takes the rows that
-        `triangle_rows` makes. ``trace.counters`` has ``covered`` of ``sample_points`` points inside that the search did
+        `triangle_rows` makes, with the same obstacles. ``trace.counters`` has ``covered`` of ``sample_points`` points inside that the search did
         not see.
 
     Raises
@@ -231,10 +267,11 @@ def inscribed_dops(
     >>> found.check(taut.triangle_rows(vertices, triangles)).bodies
     1
     """
-    rows = triangle_rows(vertices, triangles)
+    rows = triangle_rows(vertices, triangles, obstacles=obstacles)
+    kind, given = _directions(directions)
     return Solution(
         _native.inscribed_bodies(
-            rows, False, directions, objective, _count(count, coverage), disjoint, _points(at), coverage, close_holes,
+            rows, False, kind, given, objective, _count(count, coverage), disjoint, *_segments(at), coverage, close_holes,
             events, seed, method, seeds, cells, votes, translate, merge,
         ),
         rows,
@@ -246,10 +283,27 @@ def _count(count: int | None, coverage: float | None) -> int:
     return count if count is not None else 1 if coverage is None else 1000
 
 
-def _points(at: ArrayLike | None) -> list[list[float]]:
-    """The points that bodies are to contain."""
+def _directions(directions: int | ArrayLike) -> tuple[int, list[list[int]]]:
+    """How many directions there are, and those given, if they are no number."""
+    if np.ndim(directions) == 0:
+        # What is no whole number is refused behind.
+        return directions, []  # type: ignore[return-value]
+    given = np.asarray(directions)
+    if given.ndim != 2 or given.shape[1] != 3 or given.dtype.kind not in "iu" or not len(given):
+        shape = f"shape {given.shape} and dtype {given.dtype}"
+        raise ValueError(f"`directions` has {shape}: expected a number, or whole numbers, (k, 3)")
+    found: list[list[int]] = given.tolist()
+    return 6, found
+
+
+def _segments(at: ArrayLike | None) -> tuple[list[list[float]], list[list[float]]]:
+    """The points that bodies are to contain, and other ends where they are segments."""
     places = np.empty((0, 3)) if at is None else np.asarray(at, dtype=np.float64)
+    if places.ndim == 3 and places.shape[1:] == (2, 3):
+        from_: list[list[float]] = places[:, 0].tolist()
+        to: list[list[float]] = places[:, 1].tolist()
+        return from_, to
     if places.ndim != 2 or places.shape[1] != 3:
-        raise ValueError(f"`at` has shape {places.shape}: expected (p, 3)")
+        raise ValueError(f"`at` has shape {places.shape}: expected (p, 3), or (p, 2, 3) for segments")
     found: list[list[float]] = places.tolist()
-    return found
+    return found, []

@@ -23,6 +23,7 @@ __all__ = [
     "farthest_first",
     "generate",
     "inscribed_circle",
+    "box_rows",
     "inscribed_bodies",
     "inscribed_ellipse",
     "inscribed_ellipsoid",
@@ -105,9 +106,10 @@ def generate(
     out: Rows, distribution: str, seed: int, thickness: float | None, count: int | None, spread: float | None,
     vertices: int | None, side: int | None, angle: float | None, turns: float | None, noise: float | None,
 ) -> None: ...
+def box_rows(points: list[list[float]]) -> list[float]: ...
 def inscribed_bodies(
-    rows: Rows, is_free: bool, facets: int, objective: str, count: int, disjoint: bool, at: list[list[float]],
-    coverage: float | None, close_holes: bool, events: int, seed: int, method: str, seeds: str, cells: int, votes: int,
+    rows: Rows, is_free: bool, facets: int, given: list[list[int]], objective: str, count: int, disjoint: bool,
+    at: list[list[float]], ends: list[list[float]], coverage: float | None, close_holes: bool, events: int, seed: int, method: str, seeds: str, cells: int, votes: int,
     translate: bool, merge: bool,
 ) -> Found: ...
 def inscribed_circle(rows: Rows, epsilon: float, max_cells: int) -> Found: ...

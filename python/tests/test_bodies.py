@@ -125,3 +125,44 @@ def test_points_without_room_and_shapes_without_inside_are_refused():
         taut.inscribed_bodies(OCTAHEDRON, FACES, coverage=2.0)
     with pytest.raises(ValueError, match="`facets` is 257"):
         taut.inscribed_bodies(OCTAHEDRON, FACES, facets=257)
+
+
+def test_bodies_stay_clear_of_points():
+    points = np.random.default_rng(1).random((200, 3))
+    corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
+    among = np.concatenate([points, corners])
+    for found, rows in [
+        (taut.inscribed_bodies(OCTAHEDRON, FACES, obstacles=points, events=2000, count=3),
+         taut.triangle_rows(OCTAHEDRON, FACES, obstacles=points)),
+        (taut.inscribed_bodies(among, None, events=2000, count=3), taut.triangle_rows(among, None)),
+        (taut.inscribed_dops(among, None, directions=[[1, 2, 0], [-2, 1, 0], [0, 0, 1]], events=2000, count=3),
+         taut.triangle_rows(among, None)),
+    ]:
+        verdict = found.check(rows)
+        assert verdict.points >= 200 and verdict.bodies == 3
+        for body in range(3):
+            normals, offsets = found.answer.half_spaces(body)
+            assert not np.any(np.all(points @ normals.T < offsets, axis=1))
+        with pytest.raises(taut.Violation):
+            found.check(taut.triangle_rows(OCTAHEDRON, FACES))
+    with pytest.raises(ValueError, match=r"obstacles have shape \(1, 2\)"):
+        taut.triangle_rows(OCTAHEDRON, FACES, obstacles=[[1.0, 2.0]])
+
+
+def test_bodies_contain_segments():
+    segments = np.array([[[0.5, 0.1, 0], [-0.5, 0, 0.1]], [[0, 0, 0.2], [0, 0, 0.2]]])
+    found = taut.inscribed_bodies(OCTAHEDRON, FACES, at=segments, events=2000)
+    assert found.check(ROWS).at == 2 and np.array_equal(found.answer.ends, segments[:, 1])
+    for body, ends in enumerate(segments):
+        normals, offsets = found.answer.half_spaces(body)
+        assert np.all(ends @ normals.T <= offsets)
+    assert taut.Solution.from_json(found.to_json()) == found
+
+
+def test_directions_can_be_given():
+    found = taut.inscribed_dops(OCTAHEDRON, FACES, directions=[[1, 1, 1], [1, 1, -1], [1, -1, 1], [-1, 1, 1]], events=1000)
+    assert found.check(ROWS).largest > 1.3333 and found.answer.bodies[0].normals.shape == (8, 3)
+    with pytest.raises(ValueError, match="no two are parallel"):
+        taut.inscribed_dops(OCTAHEDRON, FACES, directions=[[1, 0, 0], [0, 1, 0], [-2, 0, 0]])
+    with pytest.raises(ValueError, match=r"whole numbers, \(k, 3\)"):
+        taut.inscribed_dops(OCTAHEDRON, FACES, directions=[[1.5, 0, 0]])

@@ -70,7 +70,7 @@ const METHODS: [(&str, BodiesMethod, bool); 4] = [
 fn pack(
     plan: &Plan,
     mesh: &Mesh,
-    (shape, count): (BodyShape, usize),
+    (shape, count): (BodyShape<'_>, usize),
     (method, disjoint): (BodiesMethod, bool),
 ) -> Result<(usize, f64, f64)> {
     let points = Points::new(mesh.as_flattened().as_flattened(), 9)?;

@@ -15,7 +15,8 @@ pub use violation::BodiesViolation;
 /// Convex bodies inside a triangle mesh.
 ///
 /// The rows of the source are the triangles of the mesh, of dimension 9: the coordinates of the first corner, the second and
-/// the third. Corners with equal coordinates are one vertex. With the caps, which close its holes, the mesh is closed: each edge
+/// the third. Corners with equal coordinates are one vertex, and a row of three such corners is a point that no body contains.
+/// With the caps, which close its holes, the mesh is closed: each edge
 /// belongs to an even number of triangles and caps. A point is inside when a ray from it crosses an odd number of triangles (even-odd rule), however the triangles
 /// are turned.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -34,6 +35,9 @@ pub struct InscribedBodies {
     pub caps: Vec<[u64; 3]>,
     /// Points that the first bodies contain, one each, in the coordinates of the mesh.
     pub at: Vec<[f64; 3]>,
+    /// Other ends of segments that the first bodies contain, one for each point in `at`; or none, also where a file says nothing of them.
+    #[serde(default)]
+    pub ends: Vec<[f64; 3]>,
     /// The bodies, in the order in which they were found.
     pub bodies: Vec<ConvexBody>,
 }
@@ -96,7 +100,9 @@ pub struct BodiesVerdict {
     pub disjoint: bool,
     /// How many caps close the mesh.
     pub caps: u64,
-    /// How many points given are in a body, the first in the first body and so on.
+    /// How many rows are points, which no body contains.
+    pub points: u64,
+    /// How many points or segments given are in a body, the first in the first body and so on.
     pub at: u64,
     /// The sum of the volumes of the bodies is at least this.
     pub volume_lower: f64,
@@ -114,7 +120,7 @@ impl InscribedBodies {
     /// use taut_certify::{ConvexBody, InscribedBodies};
     /// let body = ConvexBody { normals: vec![[1, 0, 0]], offsets: vec![3], volume: 0.0 };
     /// let answer = InscribedBodies { exponent: -1, origin: [5, 0, 0], disjoint: false, caps: vec![], at: vec![],
-    ///     bodies: vec![body] };
+    ///     ends: vec![], bodies: vec![body] };
     /// assert_eq!(answer.half_spaces(&answer.bodies[0]), [([1.0, 0.0, 0.0], 4.0)]);
     /// ```
     pub fn half_spaces(&self, body: &ConvexBody) -> Vec<([f64; 3], f64)> {

@@ -14,7 +14,7 @@ impl InscribedBodies {
     /// use taut_certify::{ConvexBody, InscribedBodies};
     /// let normals = vec![[-1, 0, 0], [0, -1, 0], [0, 0, -1], [1, 1, 1]];
     /// let body = ConvexBody { normals, offsets: vec![0, 0, 0, 6], volume: 36.0 };
-    /// let answer = InscribedBodies { exponent: 0, origin: [0; 3], disjoint: false, caps: vec![], at: vec![], bodies: vec![body] };
+    /// let answer = InscribedBodies { exponent: 0, origin: [0; 3], disjoint: false, caps: vec![], at: vec![], ends: vec![], bodies: vec![body] };
     /// let (vertices, triangles) = answer.mesh(&answer.bodies[0]);
     /// assert_eq!((vertices.len(), triangles.len()), (4, 4));
     /// ```
@@ -85,6 +85,7 @@ mod tests {
             disjoint: false,
             caps: vec![],
             at: vec![],
+            ends: vec![],
             bodies: vec![body],
         };
         let (vertices, triangles) = answer.mesh(&answer.bodies[0]);
@@ -107,6 +108,7 @@ mod tests {
             disjoint: false,
             caps: vec![],
             at: vec![],
+            ends: vec![],
             bodies: vec![body],
         };
         let (vertices, triangles) = answer.mesh(&answer.bodies[0]);
@@ -123,6 +125,7 @@ mod tests {
             disjoint: false,
             caps: vec![],
             at: vec![],
+            ends: vec![],
             bodies: vec![body],
         };
         assert_eq!(answer.mesh(&answer.bodies[0]), (vec![], vec![]));

@@ -3,8 +3,10 @@
 //! *Guarantee.* All facets of all bodies are drawn. The mesh is translucent around them; of a large mesh a sample of its corners is
 //! drawn instead, and the caption says so.
 
+use std::fmt::Write as _;
+
 use taut_certify::{InscribedBodies, Solution};
-use taut_points::{PointSource, gather};
+use taut_points::{Blocks, PointSource, Scratch, gather};
 
 use crate::marks::{agree, all_there, dot_size};
 use crate::number::{count, counted, short};
@@ -14,7 +16,7 @@ use crate::{
 };
 
 /// Triangles of a mesh that is drawn with all its triangles, at most: each is a polygon of the picture.
-const MESH_TRIANGLES_MAX: u64 = 6000;
+const MESH_TRIANGLES_MAX: usize = 6000;
 
 /// The picture of convex bodies inside the mesh whose triangles are the rows of `source`.
 ///
@@ -28,12 +30,12 @@ pub fn bodies_figures(
     options.check()?;
     agree("number of coordinates", 9, source.dim())?;
     let answer = &solution.answer;
-    let triangles = counted(source.len(), "triangle");
     let bodies = match answer.bodies.len() as u64 {
         1 => "1 body".to_owned(),
         more => format!("{} bodies", count(more)),
     };
-    let (mesh, note) = mesh(source, options)?;
+    let Kinds { triangles, points } = Kinds::of(source)?;
+    let (mesh, note) = mesh(source, &triangles, options)?;
     let volume: f64 = answer.bodies.iter().map(|body| body.volume).sum();
     let closed_by = match &answer.caps[..] {
         [] => String::new(),
@@ -54,10 +56,22 @@ pub fn bodies_figures(
         layer("bodies", Tone::Answer, Shape3::Surface(facets(answer)?)),
         layer("mesh", Tone::Point, mesh),
     ];
+    if !points.is_empty() {
+        let shown = some(&points, points.len().min(options.max_points));
+        layers.push(layer(
+            "obstacle points",
+            Tone::Second,
+            dots(source, &shown, "obstacle point")?,
+        ));
+    }
     if !answer.caps.is_empty() {
         layers.push(layer("caps", Tone::Second, Shape3::Mesh(caps(answer, source)?)));
     }
-    let title = format!("Convex bodies in a mesh of {triangles}");
+    let mut title =
+        format!("Convex bodies in a mesh of {}", counted(triangles.len() as u64, "triangle"));
+    if !points.is_empty() {
+        let _ = write!(title, " and among {}", counted(points.len() as u64, "point"));
+    }
     Ok(vec![Figure::Space(Scene3::space(title, caption, layers, options))])
 }
 
@@ -97,31 +111,72 @@ fn caps(answer: &InscribedBodies, source: &dyn PointSource) -> Result<Mesh3, Err
     Ok(Mesh3 { vertices, triangles })
 }
 
+/// The numbers of the rows that are triangles, and of those that are points: these have three equal corners.
+struct Kinds {
+    triangles: Vec<u64>,
+    points: Vec<u64>,
+}
+
+impl Kinds {
+    fn of(source: &dyn PointSource) -> Result<Self, Error> {
+        let mut kinds = Kinds { triangles: vec![], points: vec![] };
+        let (blocks, mut scratch) = (Blocks::of(source), Scratch::new());
+        let mut row = [0.0; 9];
+        for block in 0..blocks.count() {
+            let range = blocks.range(block);
+            let first = range.start;
+            let rows = source.read(range, &mut scratch)?;
+            for k in 0..rows.len() {
+                rows.copy_row(k, &mut row);
+                let [a, b, c] = *row.as_chunks::<3>().0 else { continue };
+                let kind = if a == b && b == c { &mut kinds.points } else { &mut kinds.triangles };
+                kind.push(first + k as u64);
+            }
+        }
+        Ok(kinds)
+    }
+}
+
+/// So many of some rows, spread evenly over them.
+fn some(rows: &[u64], shown: usize) -> Vec<u64> {
+    (0..shown).map(|k| rows[k * rows.len() / shown]).collect()
+}
+
 /// The mesh, or a sample of its corners, and what to say about the latter.
-fn mesh(source: &dyn PointSource, options: &DrawOptions) -> Result<(Shape3, String), Error> {
-    let is_whole = source.len() <= MESH_TRIANGLES_MAX;
-    let shown = if is_whole { source.len() } else { source.len().min(options.max_points as u64) };
-    let row = |k: u64| (u128::from(k) * u128::from(source.len()) / u128::from(shown.max(1))) as u64;
-    let rows: Vec<u64> = (0..shown).map(row).collect();
-    let values = gather(source, &rows)?;
+fn mesh(
+    source: &dyn PointSource,
+    rows: &[u64],
+    options: &DrawOptions,
+) -> Result<(Shape3, String), Error> {
+    if rows.len() <= MESH_TRIANGLES_MAX {
+        let vertices = corners(source, rows)?;
+        let triangles = (0..rows.len()).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+        return Ok((Shape3::Mesh(Mesh3 { vertices, triangles }), String::new()));
+    }
+    let shown = rows.len().min(options.max_points);
+    let dots = dots(source, &some(rows, shown), "corner of a triangle")?;
+    let note = format!(" Of the mesh one corner of {} triangles is drawn.", count(shown as u64));
+    Ok((dots, note))
+}
+
+/// The corners of some rows.
+fn corners(source: &dyn PointSource, rows: &[u64]) -> Result<Vec<[f64; 3]>, Error> {
+    let values = gather(source, rows)?;
     if let Some(at) = values.iter().position(|x| !x.is_finite()) {
         let what = format!("coordinate {} of triangle {}", at % 9, rows[at / 9]);
         return Err(Error::NonFinite { what, value: values[at] });
     }
-    let corners = values.as_chunks::<3>().0;
-    if is_whole {
-        let triangles = (0..rows.len()).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
-        let mesh = Mesh3 { vertices: corners.to_vec(), triangles };
-        return Ok((Shape3::Mesh(mesh), String::new()));
-    }
+    Ok(values.as_chunks::<3>().0.to_vec())
+}
+
+/// The first corners of some rows as points.
+fn dots(source: &dyn PointSource, rows: &[u64], label: &str) -> Result<Shape3, Error> {
     let size = dot_size(rows.len());
     let point = |(at, &row): (&[f64; 3], &u64)| Point3 {
         id: Some(row),
         at: *at,
         size,
-        label: "corner of a triangle".to_owned(),
+        label: label.to_owned(),
     };
-    let points = corners.iter().step_by(3).zip(&rows).map(point).collect();
-    let note = format!(" Of the mesh one corner of {} triangles is drawn.", count(shown));
-    Ok((Shape3::Points(points), note))
+    Ok(Shape3::Points(corners(source, rows)?.iter().step_by(3).zip(rows).map(point).collect()))
 }

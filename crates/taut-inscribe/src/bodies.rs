@@ -1,4 +1,4 @@
-//! Large convex bodies inside a triangle mesh, with facets in k fixed directions (k-dops) or in any directions.
+//! Large convex bodies inside a triangle mesh and among points, with facets in k fixed directions (k-dops) or in any directions.
 //!
 //! *Problem.* Find bodies {x : uⱼ·x ≤ hⱼ} inside a mesh that cover as much of its inside as possible.
 //! *Idea.* Coordinates are rounded to a grid of 2⁻²⁴ of the longest side ([`mesh`]), and holes are closed if this is asked for
@@ -28,8 +28,10 @@ mod options;
 mod pack;
 mod polytope;
 mod proof;
+mod rows;
 mod samples;
 mod scores;
+mod segment;
 mod thesis;
 mod tree;
 mod vectors;
@@ -55,10 +57,10 @@ use self::proof::Proved;
 use self::tree::Tree;
 use crate::random::Random;
 
-pub use self::mesh::triangle_rows;
 pub use self::options::{
     BodiesMethod, BodiesOptions, BodiesThesisOptions, BodyShape, Objective, ThesisSeeds,
 };
+pub use self::rows::{box_rows, point_rows, surface_rows, triangle_rows};
 
 /// Points by which coverage is reported; the search does not see them. The standard error is below 0.2 %.
 const REPORTED_POINTS: usize = 60_000;
@@ -72,13 +74,18 @@ const REPORTED_POINTS_GIVEN: usize = 3_000;
 /// Each row is a triangle: the three coordinates of each of its three corners. [`triangle_rows`] makes such rows from vertices
 /// and triangles. The rows are read once and kept in memory. Bodies depend on the mesh and the options alone.
 ///
+/// *Obstacles.* A row with three equal corners is a point that no body contains: [`point_rows`] makes them. Among points alone
+/// bodies need a mesh around these, as that of [`box_rows`]. A second closed mesh inside the first takes its inside away, by the
+/// even-odd rule: what is in two such meshes is inside again. A surface that is not closed keeps bodies out if each of its
+/// triangles comes twice.
+///
 /// The search for k-dops with k = 26 also improves the bodies of k = 18 and 14, and these the bodies of k = 6, so that more
 /// directions never cover fewer of the points that the search counts. One body alone is improved by its volume, and more directions
 /// never make it smaller.
 ///
 /// # Errors
 /// [`Error::Open`] with an edge where the mesh is not closed, unless [`BodiesOptions::close_holes`] is set; [`Error::NoInside`],
-/// [`Error::Ambiguous`], [`Error::At`], [`Error::Grid`], and [`Error::Input`] for bad rows or options, and for what reading says.
+/// [`Error::Ambiguous`], [`Error::At`], [`Error::Grid`], [`Error::FarPoint`], and [`Error::Input`] for bad rows or options, and for what reading says.
 pub fn inscribed_bodies(
     triangles: &dyn PointSource,
     options: &BodiesOptions<'_>,
@@ -88,6 +95,10 @@ pub fn inscribed_bodies(
     let mut random = Random::new(options.seed);
     let kind = if let BodyShape::Dop(kind) = options.shape { kind } else { 6 };
     let tree = Arc::new(Tree::new(&mesh.corners, &Arc::new(Directions::of(kind))));
+    let turned = match options.shape {
+        BodyShape::Directions(given) => Arc::new(tree.turned(&Arc::new(Directions::given(given)?))),
+        _ => Arc::clone(&tree),
+    };
     let given = given::starts(&mesh, &tree, options)?;
     let [scored, reported] = match options.at.len() >= options.count {
         true => [pack::SCORED_POINTS_GIVEN, REPORTED_POINTS_GIVEN],
@@ -97,7 +108,7 @@ pub fn inscribed_bodies(
     let mut hidden = || Sample::draw(&tree, lines::SCORED_LINES, &mut random);
     let lines = (options.objective == Objective::Occlusion).then(&mut hidden);
     let input = Input::new(&mesh, &tree, &points, lines.as_ref(), &given, options);
-    let (found, searched) = search(&input, &tree)?;
+    let (found, searched) = search(&input, &turned)?;
     if found.bodies.is_empty() {
         return Err(if mesh.caps.is_empty() { Error::NoInside } else { Error::Ambiguous });
     }
@@ -114,11 +125,12 @@ pub fn inscribed_bodies(
         ("searched_hidden", searched.hidden),
         ("searched_lines", lines.map_or(0, |lines| lines.lines.len() as u64)),
         ("searched_points", points.len() as u64),
-        ("triangles", mesh.corners.len() as u64 - mesh.caps.len() as u64),
+        ("obstacle_points", mesh.points),
+        ("triangles", mesh.corners.len() as u64 - mesh.caps.len() as u64 - mesh.points),
     ];
     let method = match (options.method, options.shape) {
         (BodiesMethod::Thesis(_), _) => "thesis",
-        (BodiesMethod::Recreate, BodyShape::Dop(_)) => "dops",
+        (BodiesMethod::Recreate, BodyShape::Dop(_) | BodyShape::Directions(_)) => "dops",
         (BodiesMethod::Recreate, BodyShape::Free(_)) => "free",
     };
     let trace = Trace {
@@ -136,6 +148,7 @@ pub fn inscribed_bodies(
         disjoint: options.is_disjoint(),
         caps: mesh.caps,
         at: options.at.to_vec(),
+        ends: options.ends.to_vec(),
         bodies: found.bodies,
     };
     let (proofs, pairs, points_hash) = (found.proofs, found.pairs, mesh.points_hash);
@@ -162,7 +175,7 @@ fn search(input: &Input<'_>, tree: &Arc<Tree>) -> Result<(Proved, Searched), Err
         return Ok((proof::prove(input.mesh, tree, dops, true)?, searched));
     }
     match options.shape {
-        BodyShape::Dop(_) => {
+        BodyShape::Dop(_) | BodyShape::Directions(_) => {
             let found = warm::pack(input, tree)?;
             let searched = Searched {
                 bodies: found.bodies.len() as u64,

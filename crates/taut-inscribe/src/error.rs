@@ -104,6 +104,15 @@ pub enum Error {
         /// The longest side of the bounding box.
         side: f64,
     },
+    /// A point that bodies may not contain is too far from the mesh.
+    #[error(
+        "row {row} is a point more than 2^29 units of the grid from the corner of the bounding box of the mesh, which is at least 32 \
+         times its longest side: leave the point out, as no body comes near it"
+    )]
+    FarPoint {
+        /// The row, from 0.
+        row: u64,
+    },
     /// A triangle names a vertex that does not exist.
     #[error("triangle {row} names vertex {vertex}, but there are {vertices} vertices")]
     NoVertex {

@@ -83,7 +83,8 @@ pub fn occlusion(
         bodies.extend(facets.iter().map(|ids| ids.map(|id| vertices[id as usize])));
     }
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    for corner in mesh.as_flattened() {
+    // Points beside the mesh, rows with equal corners, meet no line.
+    for corner in mesh.iter().filter(|[a, b, c]| a != b || b != c).flatten() {
         for c in 0..3 {
             (low[c], high[c]) = (low[c].min(corner[c]), high[c].max(corner[c]));
         }

@@ -52,6 +52,8 @@ class InscribedBodies(Record):
         The triangles that close the mesh, if it has holes: corner c of row r has number ``3 * r + c``. Read-only.
     at : ndarray of float64, shape (p, 3)
         Points that the first bodies contain, one each. Read-only.
+    ends : ndarray of float64, shape (p, 3) or (0, 3)
+        Other ends of segments that the first bodies contain, or none. Read-only.
     bodies : tuple of ConvexBody
         The bodies, in the order in which they were found.
     """
@@ -61,6 +63,7 @@ class InscribedBodies(Record):
     disjoint: bool
     caps: RowNumbers = table(ROW, 3)
     at: Floats = table(FLOAT, 3)
+    ends: Floats = table(FLOAT, 3)
     bodies: tuple[ConvexBody, ...] = each(ConvexBody)
 
     def half_spaces(self, body: int) -> tuple[Floats, Floats]:
@@ -184,8 +187,10 @@ class BodiesVerdict(Record):
         Whether they are disjoint, which then was proved.
     caps : int
         How many caps close the mesh.
+    points : int
+        How many rows are points, which no body contains.
     at : int
-        How many points given are in a body, the first in the first body and so on.
+        How many points or segments given are in a body, the first in the first body and so on.
     volume_lower, volume_upper : float
         Bounds of the sum of the volumes.
     largest : float
@@ -195,6 +200,7 @@ class BodiesVerdict(Record):
     bodies: int
     disjoint: bool
     caps: int
+    points: int
     at: int
     volume_lower: float
     volume_upper: float

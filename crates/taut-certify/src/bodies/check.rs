@@ -1,13 +1,15 @@
 //! The checker of inscribed bodies, in whole numbers.
 //!
 //! *Grid.* Each coordinate lies between two whole numbers of units, its floor and its ceiling, which are found exactly: [`grid`].
+//! *Points.* A row with three equal corners is a point. It has no edges and no ray crosses it; that no body contains it is checked as for
+//! any triangle.
 //! *Closed.* Each edge of the mesh belongs to an even number of triangles and caps, by the coordinates as given. Caps have corners
 //! of the mesh, and are no more than triangulations of its holes need: [`closed`]. From here on caps are triangles of the mesh.
 //! *Empty.* No triangle meets the interior of a body, wherever its corners lie between floor and ceiling: [`empty`].
 //! *Inside.* One point of each body is inside the mesh whose corners are the floors, by the parity of exact crossings: [`parity`].
 //! Moved from the coordinates as given to their floors, triangles never meet the body, so the point is inside the mesh as given.
 //! A body is convex, no triangle meets it, and one point is inside: so all of it is inside, and it is bounded.
-//! *At.* The points given are in the first bodies, wherever they lie between floor and ceiling.
+//! *At.* The points and the ends of segments given are in the first bodies, wherever they lie between floor and ceiling.
 //! *Volume.* The volume of each body comes from its exact vertices, with bounded rounding: [`volume`].
 //! *Cost.* O(n log n) for n triangles, and O(n) for most bodies.
 
@@ -59,6 +61,7 @@ pub(super) fn check(
     let mut triangles = read(source, certificate, monitor)?;
     let rows = triangles.len();
     lengths(answer, certificate)?;
+    let points = triangles.iter().filter(|[a, b, c]| a == b && b == c).count() as u64;
     triangles.extend(caps(&triangles, &answer.caps)?);
     closed::is_closed(&triangles, rows)?;
     let grid = Grid::of(answer.exponent, answer.origin)?;
@@ -68,6 +71,7 @@ pub(super) fn check(
         bodies: answer.bodies.len() as u64,
         disjoint: answer.disjoint,
         caps: answer.caps.len() as u64,
+        points,
         at: answer.at.len() as u64,
         volume_lower: 0.0,
         volume_upper: 0.0,
@@ -81,8 +85,8 @@ pub(super) fn check(
         if !parity::is_inside(proof.inside, &boxes) {
             return Err(BodiesViolation::Outside { body: at }.into());
         }
-        if let Some(&point) = answer.at.get(at) {
-            reaches(at, body, grid.around(point)?)?;
+        for point in answer.at.get(at).into_iter().chain(answer.ends.get(at)) {
+            reaches(at, body, grid.around(*point)?)?;
         }
         let [lower, upper] = volume::bounds(body, proof.inside).map(|v| v * unit * unit * unit);
         let is_right = body.volume >= lower * (1.0 - VOLUME_SLACK)
@@ -130,7 +134,9 @@ fn lengths(answer: &InscribedBodies, certificate: &BodiesCertificate) -> Result<
     let pairs = if answer.disjoint { bodies * bodies.saturating_sub(1) / 2 } else { 0 };
     agree("the list of pairs", certificate.pairs.len(), pairs)?;
     // Each point needs a body; there may be more bodies.
-    agree("the list of points given", answer.at.len(), answer.at.len().min(bodies))
+    agree("the list of points given", answer.at.len(), answer.at.len().min(bodies))?;
+    let ends = answer.ends.len();
+    agree("the list of ends of segments", ends, if ends > 0 { answer.at.len() } else { 0 })
 }
 
 /// The caps as triangles.

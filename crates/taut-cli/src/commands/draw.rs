@@ -10,6 +10,7 @@ use taut::certify::with_solution;
 use crate::commands::verify::{judge, read_answer, shown};
 use crate::effort::Effort;
 use crate::exit::Outcome;
+use crate::input::obstacles::Obstacles;
 use crate::input::reading::{Opened, Points, Reading};
 use crate::output::picture::{Drawing, Picture, PictureOptions};
 use crate::output::writing;
@@ -33,6 +34,8 @@ pub(crate) struct Args {
     #[arg(long)]
     no_verify: bool,
     #[command(flatten)]
+    obstacles: Obstacles,
+    #[command(flatten)]
     options: PictureOptions,
     #[command(flatten)]
     reading: Reading,
@@ -46,7 +49,7 @@ impl Args {
         writing::check_writable(&[&self.out], &[&self.answer, &self.points.path])?;
         let watch = self.effort.start()?;
         let answer = read_answer(&self.answer, &self.points.path)?;
-        let points = self.reading.open_for(&self.points.path, &answer)?;
+        let points = self.reading.open_for(&self.points.path, &self.obstacles, &answer)?;
         let drawing = with_solution!(&answer, found => self.drawing(found, &points, &watch)?);
         match drawing {
             Ok(drawing) => {

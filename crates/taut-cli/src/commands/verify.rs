@@ -16,6 +16,7 @@ use taut_io::{Content, Format, Mesh, open_mesh};
 use crate::effort::Effort;
 use crate::exit::Outcome;
 use crate::input::answer_file;
+use crate::input::obstacles::Obstacles;
 use crate::input::reading::{Opened, Reading};
 use crate::output::files::{self, FileSummary};
 use crate::output::writing;
@@ -44,6 +45,8 @@ pub(crate) struct Args {
     #[arg(long, value_name = "REAL", value_parser = epsilon, allow_negative_numbers = true)]
     epsilon: Option<f64>,
     #[command(flatten)]
+    obstacles: Obstacles,
+    #[command(flatten)]
     reading: Reading,
     #[command(flatten)]
     effort: Effort,
@@ -53,13 +56,17 @@ impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
         let watch = self.effort.start()?;
         if Format::of_path_for(&self.answer, Content::Triangulation).is_some() {
+            self.obstacles.refuse()?;
             return self.run_mesh(&watch);
         }
         let answer = match read_document(&self.answer, &self.files[0])? {
-            AnyDocument::Files(found) => return self.run_files(&found, &watch),
+            AnyDocument::Files(found) => {
+                self.obstacles.refuse()?;
+                return self.run_files(&found, &watch);
+            }
             AnyDocument::Points(answer) => *answer,
         };
-        let points = self.reading.open_for(self.only_file()?, &answer)?;
+        let points = self.reading.open_for(self.only_file()?, &self.obstacles, &answer)?;
         let source = points.source();
         let judged = with_solution!(&answer, found => {
             judge(found, &points, &watch)?.map(|verdict| Summary::claims(found, &verdict, source))

@@ -12,6 +12,7 @@ use taut::points::{InputError, ReadError, ScalarKind, shown_number};
 use taut::{AnySolution, PointSource};
 use taut_io::{Columns, Content, Feature, Format, Header, Input, RawLayout, ReadOptions};
 
+use crate::input::obstacles::Obstacles;
 use crate::input::size;
 use crate::output::numbers::coordinates;
 use crate::output::writing;
@@ -120,16 +121,35 @@ impl Reading {
         Ok(Opened { input: taut_io::open(path, &options)? })
     }
 
-    /// Opens the triangles of the mesh of `path`, a row for each.
-    pub(crate) fn open_triangles(&self, path: &Path) -> anyhow::Result<Opened> {
-        Ok(Opened { input: taut_io::open_triangles(path, &self.options()?)? })
+    /// Opens the triangles of the mesh of `path`, a row for each, and what bodies in it stay clear of; see [`Obstacles`].
+    pub(crate) fn open_mesh(&self, path: &Path, obstacles: &Obstacles) -> anyhow::Result<Opened> {
+        obstacles.around(Opened { input: taut_io::open_triangles(path, &self.options()?)? }, self)
+    }
+
+    /// Opens the rows of an obstacle: of a mesh its triangles, else points.
+    pub(super) fn open_obstacle(&self, path: &Path) -> anyhow::Result<Opened> {
+        let options = self.options()?;
+        let input = match taut_io::open_triangles(path, &options) {
+            // A mesh without triangles is a cloud of points.
+            Err(taut_io::Error::EmptyMesh { .. }) => taut_io::open(path, &options)?,
+            opened => opened?,
+        };
+        Ok(Opened { input })
     }
 
     /// Opens the rows that an answer of some kind is about.
-    pub(crate) fn open_for(&self, path: &Path, answer: &AnySolution) -> anyhow::Result<Opened> {
+    pub(crate) fn open_for(
+        &self,
+        path: &Path,
+        obstacles: &Obstacles,
+        answer: &AnySolution,
+    ) -> anyhow::Result<Opened> {
         match answer {
-            AnySolution::Bodies(_) => self.open_triangles(path),
-            _ => self.open(path),
+            AnySolution::Bodies(_) => self.open_mesh(path, obstacles),
+            _ => {
+                obstacles.refuse()?;
+                self.open(path)
+            }
         }
     }
 }
@@ -143,6 +163,12 @@ impl Opened {
     pub(crate) fn of_bytes(bytes: &[u8], name: &str) -> anyhow::Result<Self> {
         let input = taut_io::open_bytes(bytes.to_vec(), name, &ReadOptions::default())?;
         Ok(Opened { input })
+    }
+
+    /// The same file with other points.
+    pub(super) fn with_source(mut self, source: Box<dyn PointSource>, name: String) -> Self {
+        (self.input.source, self.input.path) = (source, name);
+        self
     }
 
     pub(crate) fn source(&self) -> &dyn PointSource {

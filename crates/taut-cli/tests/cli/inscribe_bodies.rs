@@ -85,3 +85,102 @@ fn bodies_are_added_until_the_coverage_is_reached() {
     folder.taut("inscribe dops mesh.off --coverage 1.5").ends(2).stderr_has(&["--coverage", "1.5"]);
     folder.taut("inscribe bodies mesh.off --facets 5").ends(2).stderr_has(&["--facets", "is 5"]);
 }
+
+/// A cube, points in it, and an open square.
+fn scene() -> TestFolder {
+    let folder = TestFolder::new();
+    let corner = |k: usize| format!("{} {} {}\n", 4 * (k & 1), 4 * (k >> 1 & 1), 4 * (k >> 2 & 1));
+    let corners: String = (0..8).map(corner).collect();
+    let faces = "4 0 2 3 1\n4 4 5 7 6\n4 0 1 5 4\n4 2 6 7 3\n4 0 4 6 2\n4 1 3 7 5\n";
+    folder.put("cube.off", format!("OFF\n8 6 0\n{corners}{faces}"));
+    folder.put("points.csv", "x,y,z\n2,2,2\n1,1,3\n9,9,9\n");
+    folder.put("wall.off", "OFF\n4 2 0\n1.5 0 0\n1.5 4 0\n1.5 4 4\n1.5 0 4\n3 0 1 2\n3 0 2 3\n");
+    folder
+}
+
+#[test]
+fn bodies_stay_clear_of_points_and_walls() {
+    let folder = scene();
+    let obstacles = "--obstacles points.csv --obstacles wall.off";
+    let command = format!(
+        "inscribe bodies cube.off {obstacles} --count 3 --events 2000 -o bodies.json --draw bodies.svg"
+    );
+    folder
+        .taut(&command)
+        .ends(0)
+        .stdout_has(&["3 convex bodies in a mesh of 16 triangles and among 3 points\n"]);
+    folder.taut(&format!("verify bodies.json cube.off {obstacles}")).ends(0).stdout_has(&[
+        "Verified: 3 convex bodies in a mesh of 16 triangles and among 3 points",
+        "none of 3 points is in a body; proved",
+    ]);
+    folder.taut(&format!("draw bodies.json cube.off {obstacles} -o again.html")).ends(0);
+    assert!(folder.text("again.html").contains("obstacle point"));
+    folder.taut("verify bodies.json cube.off").ends(1);
+    folder
+        .taut("inscribe dops cube.off --obstacles wall.off -k 6 --events 500 -o dop.json --json")
+        .ends(0)
+        .stdout_has(&["\"volume\":39.99"]);
+    // What the answer is about may not be written over.
+    let before = folder.text("points.csv");
+    folder.taut("inscribe bodies cube.off --obstacles points.csv -o points.csv").ends(2);
+    assert_eq!(folder.text("points.csv"), before);
+}
+
+#[test]
+fn bodies_among_points_are_in_their_bounding_box() {
+    let folder = scene();
+    let command = "inscribe dops points.csv --direction 1,0,0 --direction 0,1,0 --direction 0,0,1 --events 500 \
+                   -o bodies.json";
+    folder.taut(command).ends(0).stdout_has(&["in a mesh of 12 triangles and among 3 points"]);
+    folder.taut("verify bodies.json points.csv").ends(0).stdout_has(&["none of 3 points"]);
+    folder.put("ragged.csv", "1,2\n3,4\n");
+    folder
+        .taut("inscribe bodies cube.off --obstacles ragged.csv")
+        .ends(2)
+        .stderr_has(&["ragged.csv: rows have 2 numbers"]);
+    folder.put("nan.csv", "1,2,3\n3,nan,4\n");
+    folder
+        .taut("inscribe bodies cube.off --obstacles nan.csv")
+        .ends(2)
+        .stderr_has(&["nan.csv, row 2, column 1: the value is NaN"]);
+    folder.put("far.csv", "1e9,2,3\n");
+    folder
+        .taut("inscribe bodies cube.off --obstacles far.csv")
+        .ends(2)
+        .stderr_has(&["cube.off with far.csv: row 12 is a point", "leave the point out"]);
+    folder.taut("ball points.csv -o ball.json").ends(0);
+    folder
+        .taut("verify ball.json points.csv --obstacles points.csv")
+        .ends(2)
+        .stderr_has(&["--obstacles belongs to bodies in a mesh"]);
+}
+
+#[test]
+fn bodies_contain_segments() {
+    let folder = scene();
+    let command = "inscribe bodies cube.off --obstacles wall.off --at 2,0.5,0.5,3.5,3.5,3.5 --at 1,1,1 --events 800 \
+                   -o bodies.json";
+    folder.taut(command).ends(0).stdout_has(&["2 convex bodies"]);
+    folder
+        .taut("verify bodies.json cube.off --obstacles wall.off")
+        .ends(0)
+        .stdout_has(&["2 given segments in as many bodies, in their order; proved"]);
+    folder
+        .taut("inscribe bodies cube.off --obstacles wall.off --at 1,1,1,2,2,2")
+        .ends(2)
+        .stderr_has(&["point 0", "meets the surface"]);
+}
+
+#[test]
+fn directions_of_ones_own_are_checked() {
+    let folder = scene();
+    for (options, expected) in [
+        ("--direction 1,0,0 --direction 0,1,0", "from 3 to 13"),
+        ("--direction 1,0,0 --direction 0,1,0 --direction 1,1,0", "not all in one plane"),
+        ("--direction 1,0,0 --direction 0,1,0 --direction 0,0,64", "at most 63"),
+        ("-k 14 --direction 1,0,0 --direction 0,1,0 --direction 0,0,1", "cannot be used with"),
+        ("--direction 1,0,0.5", "three whole numbers"),
+    ] {
+        folder.taut(&format!("inscribe dops cube.off {options}")).ends(2).stderr_has(&[expected]);
+    }
+}

@@ -2,11 +2,16 @@
 
 use std::collections::BTreeSet;
 
+use taut_points::InputError;
+
 /// Numbers of directions there are.
 pub(super) const KINDS: [usize; 4] = [6, 14, 18, 26];
 
 /// Directions of a body, at most.
 pub(super) const DIRECTIONS_MAX: usize = 26;
+
+/// The sum |u₀| + |u₁| + |u₂| of a direction, at most: heights of points of the grid are below 2³⁰ then.
+const DIRECTION_SUM_MAX: i64 = 63;
 
 /// One number for each direction; those beyond the number of directions are 0.
 pub(super) type Offsets = [i32; DIRECTIONS_MAX];
@@ -17,7 +22,7 @@ pub(super) struct Combination {
     pub(super) terms: Vec<(usize, i64)>,
 }
 
-/// The directions u₀, u₁, …, of which u₁ = −u₀, u₃ = −u₂ and so on. The first six are those of the axes.
+/// The directions u₀, u₁, …, of which u₁ = −u₀, u₃ = −u₂ and so on.
 pub(super) struct Directions {
     pub(super) normals: Vec<[i64; 3]>,
     /// The same in floating point.
@@ -40,8 +45,53 @@ impl Directions {
     pub(super) fn of(kind: usize) -> Self {
         let edges: &[[i64; 3]] = if kind >= 18 { &EDGES } else { &[] };
         let corners: &[[i64; 3]] = if kind == 14 || kind == 26 { &CORNERS } else { &[] };
-        let pairs = AXES.iter().chain(edges).chain(corners);
-        let normals: Vec<_> = pairs.flat_map(|u| [*u, u.map(|n| -n)]).collect();
+        Self::with_opposites(AXES.iter().chain(edges).chain(corners).copied())
+    }
+
+    /// Directions that were given, each without common divisor, and their opposites.
+    ///
+    /// # Errors
+    /// [`InputError::Option`] for fewer than 3 directions or more than 13, for one that is 0, parallel to another or beyond
+    /// [`DIRECTION_SUM_MAX`], and for directions in one plane.
+    pub(super) fn given(directions: &[[i64; 3]]) -> Result<Self, InputError> {
+        let wrong = |value: String, expected| {
+            Err(InputError::Option { name: "directions", value, expected })
+        };
+        let count = directions.len();
+        if !(3..=DIRECTIONS_MAX / 2).contains(&count) {
+            return wrong(
+                count.to_string(),
+                "from 3 to 13 directions, whose opposites come by themselves",
+            );
+        }
+        let mut reduced: Vec<[i64; 3]> = vec![];
+        for &direction in directions {
+            let shown = || format!("{direction:?}");
+            let sum = direction.iter().fold(0i64, |sum, n| sum.saturating_add(n.saturating_abs()));
+            if !(1..=DIRECTION_SUM_MAX).contains(&sum) {
+                return wrong(
+                    shown(),
+                    "whole numbers, not all 0, whose absolute values add up to at most 63",
+                );
+            }
+            let divisor = direction.iter().fold(0, |divisor, &n| gcd(divisor, n.abs()));
+            let direction = direction.map(|n| n / divisor);
+            if reduced.contains(&direction) || reduced.contains(&direction.map(|n| -n)) {
+                return wrong(shown(), "directions of which no two are parallel");
+            }
+            reduced.push(direction);
+        }
+        let directions = Self::with_opposites(reduced.into_iter());
+        match directions.span_space() {
+            true => Ok(directions),
+            false => {
+                wrong(format!("{count} directions"), "directions that are not all in one plane")
+            }
+        }
+    }
+
+    fn with_opposites(directions: impl Iterator<Item = [i64; 3]>) -> Self {
+        let normals: Vec<_> = directions.flat_map(|u| [u, u.map(|n| -n)]).collect();
         let combinations = (0..normals.len()).map(|i| combinations(&normals, i)).collect();
         let floats = normals.iter().map(|u| u.map(|n| n as f64)).collect();
         Directions { normals, floats, combinations }
@@ -49,6 +99,17 @@ impl Directions {
 
     pub(super) fn len(&self) -> usize {
         self.normals.len()
+    }
+
+    /// Whether the axes are among the directions.
+    pub(super) fn hold_axes(&self) -> bool {
+        AXES.iter().all(|axis| self.normals.contains(axis))
+    }
+
+    /// Whether the directions are not all in one plane.
+    fn span_space(&self) -> bool {
+        let all = &self.normals;
+        all.iter().any(|&u| all.iter().any(|&v| all.iter().any(|&w| determinant(u, v, w) != 0)))
     }
 
     /// uᵢ·p.

@@ -16,10 +16,10 @@ use taut_points::Monitor;
 use super::cloud::Cloud;
 use super::grow::ANCHOR_MARGIN;
 use super::lines::Line;
-use super::pack::{Family, Start};
+use super::pack::{Family, Segment, Start};
 use super::polytope::{self, Sides};
 use super::tree::{self, Tree};
-use super::vectors::dot;
+use super::vectors::{dot, minus};
 use crate::Error;
 use crate::random::Random;
 
@@ -43,12 +43,22 @@ const SHIFT_MAX: f64 = 0.9;
 pub(super) struct FreeBody {
     pub(super) sides: Sides,
     pub(super) anchor: [i32; 3],
-    /// Whether the body has to contain the point.
-    pub(super) is_given: bool,
-    /// Whether the body is still the cube around its start, which several facets together keep apart from some triangles.
-    is_cube: bool,
+    /// The ends of a segment that the body has to contain, if there is one.
+    pub(super) kept: Option<Segment>,
+    stage: Stage,
     /// The points to cover in the body.
     covered: Arc<Vec<[f64; 3]>>,
+}
+
+/// How far a body has grown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Stage {
+    /// The cube around its start, which several facets together keep apart from some triangles.
+    Cube,
+    /// The box around a segment, of which nothing is known.
+    Box,
+    /// Each triangle is behind one facet.
+    Grown,
 }
 
 /// What bodies grow in, and the points to cover.
@@ -88,19 +98,35 @@ impl<'a> Free<'a> {
     /// The body with planes around the center of a metric; `None` where there is none.
     fn around(&mut self, metric: &Metric, body: &FreeBody) -> Option<FreeBody> {
         let blocks = Blocks { tree: &self.tree, obstacles: &self.obstacles };
-        let point = body.anchor.map(f64::from);
-        let kept = Kept { point, margin: f64::from(ANCHOR_MARGIN) };
-        let kept = body.is_given.then_some(kept);
+        let kept = body.kept.map(|ends| Kept {
+            ends: ends.map(|end| end.map(f64::from)),
+            margin: f64::from(ANCHOR_MARGIN),
+        });
         let (sides, events) = planes::around(&blocks, metric, kept, self.facets_max);
         self.events += events;
         let anchor =
-            if body.is_given { body.anchor } else { metric.center.map(|x| x.round() as i32) };
+            if body.kept.is_some() { body.anchor } else { metric.center.map(|x| x.round() as i32) };
         let sides = sides?;
         if !sides.contains(anchor.map(f64::from)) {
             return None;
         }
         let covered = Arc::new(self.points.inside(&sides));
-        Some(FreeBody { sides, anchor, is_given: body.is_given, is_cube: false, covered })
+        Some(FreeBody { sides, anchor, kept: body.kept, stage: Stage::Grown, covered })
+    }
+
+    /// The metric in which a body first grows: round around a point, long around a segment.
+    fn first_metric(&self, body: &FreeBody) -> Metric {
+        let round = Metric::round(body.anchor.map(f64::from));
+        let Some(ends) = body.kept else { return round };
+        let [from, to] = ends.map(|end| end.map(f64::from));
+        let along = minus(to, from);
+        let length = dot(along, along).sqrt();
+        if length == 0.0 {
+            return round;
+        }
+        let clearance = self.tree.clearance(ends);
+        let factor = clearance / (clearance + length / 2.0);
+        round.stretched(along.map(|x| x / length), factor)
     }
 
     /// A direction of length 1.
@@ -133,16 +159,21 @@ impl Family for Free<'_> {
         squares.fold(distance * distance, f64::min).sqrt()
     }
 
-    fn small(&self, start: &Start) -> FreeBody {
-        // The first six directions of any tree are those of the axes.
-        let normals = self.tree.directions.floats[..6].to_vec();
-        let point = start.point.map(f64::from);
-        // A cube in the ball of the clearance.
-        let offset = |u: &[f64; 3]| (dot(*u, point) + 0.57 * start.clearance).floor();
+    fn small(&mut self, start: &Start) -> Option<FreeBody> {
+        let (normals, stage) = match start.is_point() {
+            true => (self.tree.directions.floats.clone(), Stage::Cube),
+            false => (planes::box_normals(start.ends)?, Stage::Box),
+        };
+        let ends = start.ends.map(|end| end.map(f64::from));
+        // A cube in the ball of the clearance, or a box among all such balls around points of the segment.
+        let offset = |u: &[f64; 3]| {
+            let kept = dot(*u, ends[0]).max(dot(*u, ends[1]));
+            (kept + 0.57 * start.clearance * dot(*u, *u).sqrt()).floor()
+        };
         let offsets = normals.iter().map(offset).collect();
         let sides = Sides { normals, offsets };
-        let covered = Arc::new(vec![]);
-        FreeBody { sides, anchor: start.point, is_given: start.is_given, is_cube: true, covered }
+        let kept = start.is_given.then_some(start.ends);
+        Some(FreeBody { sides, anchor: start.point, kept, stage, covered: Arc::new(vec![]) })
     }
 
     fn aim(&mut self, points: Vec<[i32; 3]>, lines: Option<Vec<Line>>) {
@@ -164,11 +195,11 @@ impl Family for Free<'_> {
     fn grow(&mut self, body: &mut FreeBody) -> Result<(), Error> {
         self.monitor.check()?;
         self.prepare(body);
-        let mut metric = Metric::round(body.anchor.map(f64::from));
+        let mut metric = self.first_metric(body);
         for _ in 0..=ROUNDS {
             let Some(found) = self.around(&metric, body) else { break };
             let next = Metric::of_inertia(&found.covered);
-            if found.covered.len() >= body.covered.len() {
+            if body.stage == Stage::Box || found.covered.len() >= body.covered.len() {
                 *body = found;
             }
             let Some(next) = next else { break };

@@ -7,10 +7,11 @@ use taut_points::Monitor;
 use super::clip::{self, Scratch};
 use super::directions::{DIRECTIONS_MAX, Directions, Offsets, opposite};
 use super::lines::Line;
-use super::pack::{Family, Start};
+use super::pack::{Family, Segment, Start};
 use super::polytope::{self, Sides};
 use super::scores::Scores;
 use super::tree::{self, Tree};
+use super::vectors::dot;
 use crate::Error;
 use crate::random::Random;
 
@@ -42,8 +43,8 @@ pub(super) const ANCHOR_MARGIN: i32 = 12;
 pub(super) struct Dop {
     pub(super) h: Offsets,
     pub(super) anchor: [i32; 3],
-    /// Whether the body has to contain the point.
-    pub(super) is_given: bool,
+    /// The ends of a segment that the body has to contain, if there is one.
+    pub(super) kept: Option<Segment>,
     /// The triangle that stopped each facet last, by its place in the order of the tree, if one did: a first guess for the next
     /// time.
     pub(super) stops: [Option<u32>; DIRECTIONS_MAX],
@@ -51,8 +52,14 @@ pub(super) struct Dop {
 
 impl Dop {
     /// A body that has not grown yet.
-    pub(super) fn new(h: Offsets, anchor: [i32; 3], is_given: bool) -> Self {
-        Dop { h, anchor, is_given, stops: [None; _] }
+    pub(super) fn new(h: Offsets, anchor: [i32; 3]) -> Self {
+        Dop { h, anchor, kept: None, stops: [None; _] }
+    }
+
+    /// The height along direction i that facet i has to leave in the body.
+    fn kept_height(&self, directions: &Directions, i: usize) -> i64 {
+        let ends = self.kept.unwrap_or([self.anchor; 2]);
+        ends.iter().map(|&end| directions.along(i, end)).fold(i64::MIN, i64::max)
     }
 }
 
@@ -120,13 +127,23 @@ pub(super) struct Space<'a> {
     pub(super) events: u64,
     /// The points to cover.
     pub(super) scores: Scores,
+    /// Whether the axes are among the directions, so that bodies around balls are hardly larger than these.
+    holds_axes: bool,
     monitor: Monitor<'a>,
+}
+
+/// Units of the grid between what a body has to contain and its facet i, at least.
+fn margin(directions: &Directions, i: usize) -> i32 {
+    let sum: i64 = directions.normals[i].iter().map(|n| n.abs()).sum();
+    ANCHOR_MARGIN * sum as i32
 }
 
 impl<'a> Space<'a> {
     pub(super) fn new(tree: &Arc<Tree>, random: Random, monitor: Monitor<'a>) -> Self {
         let tree = Arc::clone(tree);
-        Space { tree, obstacles: vec![], random, events: 0, scores: Scores::default(), monitor }
+        let holds_axes = tree.directions.hold_axes();
+        let (scores, obstacles) = (Scores::default(), vec![]);
+        Space { tree, obstacles, random, events: 0, scores, holds_axes, monitor }
     }
 
     /// Moves facets outward in random order until each meets a triangle or is redundant.
@@ -180,12 +197,19 @@ impl<'a> Space<'a> {
         self.obstacles.iter().fold(event.height, of_one)
     }
 
+    /// Whether nothing is in a body: facet 0 of the flat body at the opposite facet can move to its place.
+    pub(super) fn is_empty(&mut self, h: &Offsets) -> bool {
+        let mut flat = Dop::new(*h, [0; 3]);
+        flat.h[0] = -h[opposite(0)];
+        self.event(0, &mut flat, h[0]) == h[0]
+    }
+
     /// Moves some facets inward, but not beyond a point, and grows the body again.
     fn ruin_and_recreate(&mut self, dop: &Dop) -> Result<Dop, Error> {
         let directions = Arc::clone(&self.tree.directions);
         let mut changed = dop.clone();
         let points = &self.scores.points;
-        let draws = if dop.is_given { 0 } else { ANCHOR_DRAWS_MAX.min(points.len()) };
+        let draws = if dop.kept.is_some() { 0 } else { ANCHOR_DRAWS_MAX.min(points.len()) };
         for _ in 0..draws {
             let p = points[self.random.below(points.len())];
             if directions.contains(&dop.h, p) {
@@ -198,8 +222,7 @@ impl<'a> Space<'a> {
             let i = self.random.below(directions.len());
             let width = f64::from(changed.h[i] + changed.h[opposite(i)]);
             let inward = (RUINED_WIDTH_MAX * self.random.unit() * width) as i32;
-            let sum: i64 = directions.normals[i].iter().map(|n| n.abs()).sum();
-            let least = directions.along(i, changed.anchor) as i32 + ANCHOR_MARGIN * sum as i32;
+            let least = changed.kept_height(&directions, i) as i32 + margin(&directions, i);
             changed.h[i] = (changed.h[i] - inward).max(least.min(changed.h[i]));
         }
         directions.tighten(&mut changed.h);
@@ -223,15 +246,30 @@ impl Family for Space<'_> {
         self.obstacles.iter().map(|obstacle| obstacle.distance(p)).fold(distance, f64::min)
     }
 
-    fn small(&self, start: &Start) -> Dop {
-        let mut h = [0; _];
-        for (j, u) in self.tree.directions.normals.iter().enumerate() {
-            // A cube around a ball of radius r lies in a ball of radius √3·r, and so do bodies with more directions.
-            let length = (u.iter().map(|n| n * n).sum::<i64>() as f64).sqrt();
-            let reach = 0.57 * start.clearance * length;
-            h[j] = (self.tree.directions.along(j, start.point) as f64 + reach) as i32;
+    fn small(&mut self, start: &Start) -> Option<Dop> {
+        let directions = Arc::clone(&self.tree.directions);
+        let kept = start.is_given.then_some(start.ends);
+        let mut dop = Dop { kept, ..Dop::new([0; _], start.point) };
+        // A cube around a ball of radius r lies in a ball of radius √3·r, and so do bodies with more directions.
+        let mut reach = 0.57 * start.clearance;
+        let fits = self.holds_axes && start.is_point();
+        loop {
+            let mut is_least = true;
+            for (j, u) in directions.floats.iter().enumerate() {
+                let kept = dop.kept_height(&directions, j);
+                let outward = (reach * dot(*u, *u).sqrt()) as i32;
+                let least = margin(&directions, j);
+                is_least &= outward <= least;
+                dop.h[j] = kept as i32 + if fits { outward } else { outward.max(least) };
+            }
+            if fits || self.is_empty(&dop.h) {
+                return Some(dop);
+            }
+            if is_least {
+                return None;
+            }
+            reach /= 2.0;
         }
-        Dop::new(h, start.point, start.is_given)
     }
 
     fn aim(&mut self, points: Vec<[i32; 3]>, lines: Option<Vec<Line>>) {

@@ -16,6 +16,9 @@ const EXPONENTS: std::ops::RangeInclusive<i32> = -300..=310;
 /// Coordinates in units are below this: farther from the origin a mesh has no digits left.
 const UNITS_MAX: f64 = (1u64 << 60) as f64;
 
+/// Units from the origin of the grid to a point beside the mesh, at most: a certificate allows coordinates up to 2³⁰.
+const POINT_UNITS_MAX: f64 = (1u64 << 29) as f64;
+
 /// Most triangles, so that rows have 32-bit numbers.
 const TRIANGLES_MAX: u64 = u32::MAX as u64 / 4;
 
@@ -30,38 +33,16 @@ type Triangle = [[f64; 3]; 3];
 pub(super) struct GridMesh {
     pub(super) exponent: i32,
     pub(super) origin: [i64; 3],
-    /// The corners of each row and then of each cap, rounded to the nearest point of the grid. Coordinates are from 0 to 2²⁴ + 1.
+    /// The corners of each row and then of each cap, rounded to the nearest point of the grid. Coordinates are from 0 to 2²⁴ + 1; rows
+    /// that are points beyond the bounding box of the triangles are moved to at most 2 units from it.
     pub(super) corners: Vec<[[i32; 3]; 3]>,
     /// The triangles that close the mesh: corner c of row r is number 3·r + c.
     pub(super) caps: Vec<[u64; 3]>,
     /// Whether all coordinates are on the grid.
     pub(super) is_exact: bool,
+    /// How many rows are points.
+    pub(super) points: u64,
     pub(super) points_hash: PointsHash,
-}
-
-/// The rows of a mesh, as [`inscribed_bodies`](crate::inscribed_bodies) reads them: for each triangle the coordinates of its corners.
-///
-/// ```
-/// let vertices = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-/// let rows = taut_inscribe::triangle_rows(&vertices, &[[0, 2, 1]])?;
-/// assert_eq!(rows, [0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0]);
-/// # Ok::<(), taut_inscribe::Error>(())
-/// ```
-///
-/// # Errors
-/// [`Error::NoVertex`] for a triangle that names a vertex that does not exist.
-pub fn triangle_rows(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<Vec<f64>, Error> {
-    let mut rows = Vec::with_capacity(9 * triangles.len());
-    for (row, triangle) in triangles.iter().enumerate() {
-        for &vertex in triangle {
-            let Some(place) = vertices.get(vertex as usize) else {
-                let vertices = vertices.len();
-                return Err(Error::NoVertex { row: row as u64, vertex, vertices });
-            };
-            rows.extend(place);
-        }
-    }
-    Ok(rows)
 }
 
 impl GridMesh {
@@ -90,9 +71,16 @@ impl GridMesh {
             caps.iter().map(|cap| cap.map(|corner| all[corner as usize])).collect();
         triangles.extend(closing);
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-        for corner in triangles.as_flattened() {
-            for c in 0..3 {
-                (low[c], high[c]) = (low[c].min(corner[c]), high[c].max(corner[c]));
+        let mut points = 0;
+        for triangle in &triangles {
+            if is_point(triangle) {
+                points += 1;
+                continue;
+            }
+            for corner in triangle {
+                for c in 0..3 {
+                    (low[c], high[c]) = (low[c].min(corner[c]), high[c].max(corner[c]));
+                }
             }
         }
         let side = (0..3).map(|c| high[c] - low[c]).fold(0.0, f64::max);
@@ -108,18 +96,27 @@ impl GridMesh {
             return Err(Error::Grid { side });
         }
         let origin = low.map(|x| (x * per_unit).floor() as i64);
+        // Beyond the bounding box a point meets no body, wherever it is.
+        let [least, most] = [low, high].map(|corner| corner.map(|x| x * per_unit));
         let mut is_exact = true;
-        let corners = triangles.iter().map(|triangle| {
-            triangle.map(|corner| {
+        let mut corners = Vec::with_capacity(triangles.len());
+        for (row, triangle) in triangles.iter().enumerate() {
+            let units = triangle.map(|corner| corner.map(|x| x * per_unit));
+            for (x, units) in triangle.as_flattened().iter().zip(units.as_flattened()) {
+                is_exact &= *units == units.round() && units / per_unit == *x;
+            }
+            let off = |c: usize| units[0][c] - origin[c] as f64;
+            if is_point(triangle) && (0..3).any(|c| off(c).abs() > POINT_UNITS_MAX) {
+                return Err(Error::FarPoint { row: row as u64 });
+            }
+            corners.push(units.map(|corner| {
                 [0, 1, 2].map(|c| {
-                    let units = corner[c] * per_unit;
-                    is_exact &= units == units.round() && units / per_unit == corner[c];
-                    (units.round() as i64 - origin[c]) as i32
+                    let near = corner[c].clamp(least[c].floor() - 2.0, most[c].ceil() + 2.0);
+                    (near.round() as i64 - origin[c]) as i32
                 })
-            })
-        });
-        let corners = corners.collect();
-        Ok(GridMesh { exponent, origin, corners, caps, is_exact, points_hash })
+            }));
+        }
+        Ok(GridMesh { exponent, origin, corners, caps, is_exact, points, points_hash })
     }
 
     /// Whether the mesh without its caps makes a point an inner one: caps fill less than a third of the view from there.
@@ -136,6 +133,11 @@ impl GridMesh {
         let most = f64::from(1 << SIDE_BITS);
         place.iter().all(|x| (0.0..=most).contains(x)).then(|| place.map(|x| x as i32))
     }
+}
+
+/// Whether a row is a point that bodies do not contain: a triangle with three equal corners.
+pub(super) fn is_point([a, b, c]: &Triangle) -> bool {
+    a == b && b == c
 }
 
 /// The exponent e of a positive number with 2^e ≤ x < 2^(e + 1); less for subnormal numbers, more for what is not finite.
@@ -167,7 +169,7 @@ fn rows(
 }
 
 /// Whether each edge belongs to an even number of triangles. Faster than to sort the edges, which an open mesh needs.
-fn is_closed(triangles: &[Triangle]) -> bool {
+pub(super) fn is_closed(triangles: &[Triangle]) -> bool {
     let mut numbers: HashMap<[u64; 3], u32> = HashMap::with_capacity(triangles.len());
     let mut odd: HashSet<[u32; 2]> = HashSet::with_capacity(triangles.len());
     for triangle in triangles {

@@ -2,7 +2,7 @@
 
 use taut_points::{InputError, Monitor};
 
-use super::directions::KINDS;
+use super::directions::{Directions, KINDS};
 
 /// The fewest facets of a body that are allowed: with fewer the planes through the nearest points hardly ever bound a body.
 const FACETS_MIN: usize = 8;
@@ -12,9 +12,12 @@ const FACETS_MAX: usize = 256;
 
 /// The facets of bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BodyShape {
+pub enum BodyShape<'a> {
     /// Facets in so many fixed directions (k-dops): 6, 14, 18 or 26.
     Dop(usize),
+    /// Facets in these directions and against them: from 3 to 13, no two parallel, not all in one plane, in whole numbers whose
+    /// absolute values add up to at most 63 in each.
+    Directions(&'a [[i64; 3]]),
     /// Facets in any directions, at most so many of each body: from 8 to 256. More facets cover more.
     Free(usize),
 }
@@ -125,7 +128,7 @@ pub enum BodiesMethod {
 #[derive(Clone, Debug, PartialEq)]
 pub struct BodiesOptions<'a> {
     /// The facets of bodies. Default [`BodyShape::Free`] with 256 facets.
-    pub shape: BodyShape,
+    pub shape: BodyShape<'a>,
     /// How bodies are found. Default [`BodiesMethod::Recreate`].
     pub method: BodiesMethod,
     /// How the search tells which bodies are better. Default [`Objective::Volume`].
@@ -137,6 +140,9 @@ pub struct BodiesOptions<'a> {
     /// Points that the first bodies contain, one each, in the coordinates of the mesh. Where they are more than `count`, there
     /// are as many bodies as points. Default none.
     pub at: &'a [[f64; 3]],
+    /// Other ends of segments, if not none one for each point in `at`: the bodies contain the segments between both. Where the
+    /// ends are equal, that is a point. Default none.
+    pub ends: &'a [[f64; 3]],
     /// The part of the inside that is to be covered, above 0 and at most 1: no more bodies are added once they cover it, by the
     /// points that the search counts. Default none.
     pub coverage: Option<f64>,
@@ -160,6 +166,7 @@ impl Default for BodiesOptions<'_> {
             count: 1,
             disjoint: false,
             at: &[],
+            ends: &[],
             coverage: None,
             close_holes: false,
             events: 200_000,
@@ -183,6 +190,9 @@ impl BodiesOptions<'_> {
             BodyShape::Dop(directions) if !KINDS.contains(&directions) => {
                 return wrong("directions", directions.to_string(), "6, 14, 18 or 26");
             }
+            BodyShape::Directions(directions) => {
+                Directions::given(directions)?;
+            }
             BodyShape::Free(facets) if !(FACETS_MIN..=FACETS_MAX).contains(&facets) => {
                 return wrong("facets", facets.to_string(), "from 8 to 256");
             }
@@ -193,6 +203,10 @@ impl BodiesOptions<'_> {
         }
         if self.at.len() > 1000 {
             return wrong("at", format!("{} points", self.at.len()), "at most 1000 points");
+        }
+        if !self.ends.is_empty() && self.ends.len() != self.at.len() {
+            let expected = "none, or one for each point of `at`";
+            return wrong("ends", format!("{} points", self.ends.len()), expected);
         }
         if let Some(part) = self.coverage
             && !(part > 0.0 && part <= 1.0)

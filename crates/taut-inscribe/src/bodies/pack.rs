@@ -50,8 +50,8 @@ pub(super) trait Family {
     /// Returns the distance from a point to the nearest obstacle, at most `distance`.
     fn clearance(&self, p: [i32; 3], distance: f64) -> f64;
 
-    /// Returns a small body around a start.
-    fn small(&self, start: &Start) -> Self::Body;
+    /// Returns a small body around a start; `None` where there is none in these directions.
+    fn small(&mut self, start: &Start) -> Option<Self::Body>;
 
     /// Sets the points that bodies are to cover from now on, and the lines that they are to hide, if these decide.
     fn aim(&mut self, points: Vec<[i32; 3]>, lines: Option<Vec<Line>>);
@@ -81,14 +81,25 @@ pub(super) trait Family {
     fn contains(&self, body: &Self::Body, p: [i32; 3]) -> bool;
 }
 
-/// A point from which a body starts.
+/// The ends of a segment on the grid; of a point twice the same.
+pub(super) type Segment = [[i32; 3]; 2];
+
+/// A point, or a segment, from which a body starts.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Start {
+    /// The point, or the middle of the segment.
     pub(super) point: [i32; 3],
+    pub(super) ends: Segment,
     /// The distance to the nearest triangle or obstacle, at most.
     pub(super) clearance: f64,
-    /// Whether the user asks for a body that contains the point.
+    /// Whether the user asks for a body that contains the segment.
     pub(super) is_given: bool,
+}
+
+impl Start {
+    pub(super) fn is_point(&self) -> bool {
+        self.ends[0] == self.ends[1]
+    }
 }
 
 /// What every search gets.
@@ -246,8 +257,13 @@ impl<'a, F: Family> Packing<'a, F> {
         let until = |spent: u64, body: usize| {
             spent + greedy.saturating_sub(spent) / (count - body).min(expected) as u64
         };
-        for start in self.input.given {
-            self.push(self.family.small(start));
+        for (at, start) in self.input.given.iter().enumerate() {
+            self.set_obstacles(None);
+            let Some(body) = self.family.small(start) else {
+                let problem = "is in no body with facets in these directions: take more directions, or free facets";
+                return Err(Error::At { at, problem });
+            };
+            self.push(body);
         }
         for body in 0..self.bodies.len() {
             self.aim_around(body);
@@ -278,7 +294,7 @@ impl<'a, F: Family> Packing<'a, F> {
         let open = if self.input.lines.is_some() { lines } else { points };
         let mut grown: Vec<(u64, F::Body)> = vec![];
         for start in self.starts(&open) {
-            let mut body = self.family.small(&start);
+            let Some(mut body) = self.family.small(&start) else { continue };
             self.family.grow(&mut body)?;
             grown.push((self.family.score(&body), body));
         }
@@ -347,7 +363,7 @@ impl<'a, F: Family> Packing<'a, F> {
         let is_start = clearance >= CLEARANCE_MIN
             && input.tree.is_inside(point) == Some(true)
             && input.mesh.sees_mesh(point);
-        is_start.then_some(Start { point, clearance, is_given: false })
+        is_start.then_some(Start { point, ends: [point; 2], clearance, is_given: false })
     }
 
     /// What says which of two bodies is better.

@@ -52,7 +52,7 @@ pub(super) fn prove(
                 proved.bodies.push(body);
                 proved.proofs.push(proof);
             }
-            None if dop.is_given => return Err(unproved(at)),
+            None if dop.kept.is_some() => return Err(unproved(at)),
             None => {}
         }
     }

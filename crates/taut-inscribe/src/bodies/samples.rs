@@ -11,8 +11,8 @@ const FIRST_LINES: f64 = 40.0;
 
 /// About as many points inside as wanted; fewer where the grid has not so many, none where the mesh has no inside.
 pub(super) fn points(tree: &Tree, wanted: usize, random: &mut Random) -> Vec<[i32; 3]> {
-    let extent = |c: usize| f64::from(tree.extent(2 * c)) + f64::from(tree.extent(2 * c + 1));
-    let side = extent(0).max(extent(1)).max(extent(2));
+    let [_, half] = tree.bounds(0);
+    let side = 2.0 * half.into_iter().fold(0.0, f64::max);
     let first = (side / FIRST_LINES).max(1.0);
     let found = spread(tree, first, &mut random.clone()).len().max(1);
     let distance = first * (found as f64 / wanted as f64).cbrt();
@@ -20,8 +20,7 @@ pub(super) fn points(tree: &Tree, wanted: usize, random: &mut Random) -> Vec<[i3
 }
 
 fn spread(tree: &Tree, distance: f64, random: &mut Random) -> Vec<[i32; 3]> {
-    let low = [0, 1].map(|c| -f64::from(tree.extent(2 * c + 1)));
-    let high = [0, 1].map(|c| f64::from(tree.extent(2 * c)));
+    let [low, high] = tree.corners_of_bounds().map(|corner| corner.map(f64::from));
     let mut points = vec![];
     let lines = |c: usize| ((high[c] - low[c]) / distance).ceil() as usize;
     for i in 0..lines(0) {

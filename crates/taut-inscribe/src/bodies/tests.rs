@@ -83,8 +83,11 @@ fn events_equal_brute_force_and_do_not_see_subdivision() {
     let (mut events, mut stopped) = (0, 0);
     // In the long tests more than 10⁵ events.
     let bodies = if std::env::var_os("TAUT_LONG_TESTS").is_some() { 800 } else { 16 };
-    for kind in KINDS {
-        let directions = Arc::new(Directions::of(kind));
+    let of_kinds = KINDS.map(|kind| (kind, Directions::of(kind)));
+    let skew = [[1, 2, 3], [-2, 1, 0], [5, -3, 1], [0, 1, -1], [7, 7, -1]];
+    let given = [&skew[..], &skew[..3]].map(|u| (2 * u.len(), Directions::given(u).unwrap()));
+    for (kind, directions) in of_kinds.into_iter().chain(given) {
+        let directions = Arc::new(directions);
         for (count, side) in [(1, 6), (60, 8), (200, 30), (300, 200), (100, 4000)] {
             for _ in 0..bodies {
                 let all = soup(&mut random, count, side);

@@ -15,7 +15,7 @@ mod votes;
 
 use std::sync::Arc;
 
-use super::directions::{Offsets, opposite};
+use super::directions::Offsets;
 use super::grow::{Dop, Space};
 use super::pack::{Family, Input, distance};
 use super::tree::Tree;
@@ -171,7 +171,7 @@ impl Search<'_> {
         let margin = MERGED_MARGIN * other.distance;
         let (one, two) = (self.scaled(seed, margin), self.scaled(other.point, margin));
         let h = std::array::from_fn(|j| one[j].max(two[j]));
-        self.is_empty(&h).then(|| Dop::new(h, seed, false))
+        self.space.is_empty(&h).then(|| Dop::new(h, seed))
     }
 
     /// The dop around a point with facets at this distance.
@@ -185,11 +185,10 @@ impl Search<'_> {
         h
     }
 
-    /// Whether nothing is in a dop: facet 0 of the flat dop at the opposite facet can move to its place.
-    fn is_empty(&mut self, h: &Offsets) -> bool {
-        let mut flat = Dop::new(*h, [0; 3], false);
-        flat.h[0] = -h[opposite(0)];
-        self.space.event(0, &mut flat, h[0]) == h[0]
+    /// Whether nothing is in the dop around a point.
+    fn is_empty(&mut self, center: [i32; 3], reach: f64) -> bool {
+        let h = self.scaled(center, reach);
+        self.space.is_empty(&h)
     }
 
     /// Doubles the size of a dop as long as nothing is in it and it is not larger than the mesh.
@@ -197,18 +196,18 @@ impl Search<'_> {
         let [_, half] = self.space.tree.bounds(0);
         let most = half.into_iter().fold(0.0, f64::max);
         let (mut center, mut reach) = (seed, FIRST_REACH);
-        if !self.is_empty(&self.scaled(center, reach)) {
+        if !self.is_empty(center, reach) {
             return None;
         }
         for _ in 0..=TRANSLATIONS_MAX {
-            while reach < most && self.is_empty(&self.scaled(center, 2.0 * reach)) {
+            while reach < most && self.is_empty(center, 2.0 * reach) {
                 reach *= 2.0;
             }
             let moved = if self.thesis.translate { self.away(center, reach) } else { None };
             let Some(moved) = moved else { break };
             center = moved;
         }
-        Some(Dop::new(self.scaled(center, reach), center, false))
+        Some(Dop::new(self.scaled(center, reach), center))
     }
 
     /// The center of a dop moved away from what would stop facets within its size; `None` where it has no room to move.
@@ -217,14 +216,14 @@ impl Search<'_> {
         let (h, doubled) = (self.scaled(center, reach), self.scaled(center, 2.0 * reach));
         let mut off = [0.0; 3];
         for (i, u) in directions.floats.iter().enumerate() {
-            let stopped = self.space.event(i, &mut Dop::new(h, center, false), doubled[i]);
+            let stopped = self.space.event(i, &mut Dop::new(h, center), doubled[i]);
             let part = f64::from(doubled[i] - stopped) / f64::from(doubled[i] - h[i]).max(1.0);
             let length = u.iter().map(|n| n * n).sum::<f64>().sqrt();
             off = [0, 1, 2].map(|c| off[c] - part * u[c] / length);
         }
         let length = off.iter().map(|x| x * x).sum::<f64>().sqrt();
         let moved = [0, 1, 2].map(|c| center[c] + (0.5 * reach * off[c] / length).round() as i32);
-        let has_room = length > 0.0 && moved != center && self.is_empty(&self.scaled(moved, reach));
+        let has_room = length > 0.0 && moved != center && self.is_empty(moved, reach);
         has_room.then_some(moved)
     }
 

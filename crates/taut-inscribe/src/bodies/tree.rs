@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::clip::{self, Scratch, TOUCH};
 use super::directions::{Directions, Offsets, opposite};
+use super::segment;
 use super::vectors::{dot, minus, nearest};
 
 /// Triangles of a leaf, at most. With the cost of a clipped triangle at about ten times that of a node, 2 to 8 differ little.
@@ -21,10 +22,15 @@ struct Node {
     other: u32,
 }
 
+/// The lower and the upper corner of the bounding box of the triangles of a node.
+type Bounds = [[i32; 3]; 2];
+
 /// Triangles in an order in which neighbors are near each other.
 pub(super) struct Tree {
     pub(super) directions: Arc<Directions>,
     nodes: Arc<Vec<Node>>,
+    /// One for each node; apart from the nodes, as events need none.
+    bounds: Arc<Vec<Bounds>>,
     /// For each node the least uⱼ·x of its triangles, direction by direction.
     node_heights: Vec<i32>,
     /// For each triangle the least uⱼ·x.
@@ -60,9 +66,11 @@ impl Tree {
         split(&mut nodes, &mut order, 0);
         let rows: Vec<u32> = order.iter().map(|item| item.row).collect();
         let corners: Vec<_> = rows.iter().map(|&row| triangles[row as usize]).collect();
+        let bounds = bounds_of(&nodes, &corners);
         Self::with_heights(
             Arc::clone(directions),
             Arc::new(nodes),
+            Arc::new(bounds),
             Arc::new(corners),
             Arc::new(rows),
         )
@@ -70,18 +78,19 @@ impl Tree {
 
     /// Builds the tree of the same triangles for other directions.
     pub(super) fn turned(&self, directions: &Arc<Directions>) -> Self {
-        let (nodes, corners, rows) = (&self.nodes, &self.corners, &self.rows);
         Self::with_heights(
             Arc::clone(directions),
-            Arc::clone(nodes),
-            Arc::clone(corners),
-            Arc::clone(rows),
+            Arc::clone(&self.nodes),
+            Arc::clone(&self.bounds),
+            Arc::clone(&self.corners),
+            Arc::clone(&self.rows),
         )
     }
 
     fn with_heights(
         directions: Arc<Directions>,
         nodes: Arc<Vec<Node>>,
+        bounds: Arc<Vec<Bounds>>,
         corners: Arc<Vec<[[i32; 3]; 3]>>,
         rows: Arc<Vec<u32>>,
     ) -> Self {
@@ -107,7 +116,7 @@ impl Tree {
                 };
             }
         }
-        Tree { directions, nodes, node_heights, heights, corners, rows }
+        Tree { directions, nodes, bounds, node_heights, heights, corners, rows }
     }
 
     /// The parts of a node; the root is node 0.
@@ -121,11 +130,14 @@ impl Tree {
 
     /// The center and the half sides of the box of a node.
     pub(super) fn bounds(&self, at: u32) -> [[f64; 3]; 2] {
-        let heights = &self.node_heights[at as usize * self.directions.len()..][..6];
-        let (low, high) =
-            (|c: usize| f64::from(heights[2 * c]), |c: usize| -f64::from(heights[2 * c + 1]));
-        let along = |part: fn(f64, f64) -> f64| [0, 1, 2].map(|c| part(low(c), high(c)));
+        let [low, high] = self.bounds[at as usize].map(|corner| corner.map(f64::from));
+        let along = |part: fn(f64, f64) -> f64| [0, 1, 2].map(|c| part(low[c], high[c]));
         [along(|low, high| (low + high) / 2.0), along(|low, high| (high - low) / 2.0)]
+    }
+
+    /// The lower and the upper corner of the bounding box of all triangles.
+    pub(super) fn corners_of_bounds(&self) -> Bounds {
+        self.bounds[0]
     }
 
     /// The largest uᵢ·x of all triangles.
@@ -233,12 +245,11 @@ impl Tree {
 
     /// Calls a function for each triangle that the vertical line through (x + ε, y + ε²) crosses, until it returns false.
     fn column(&self, p: [i32; 3], mut each: impl FnMut(usize) -> bool) -> bool {
-        let k = self.directions.len();
-        let spans = |heights: &[i32]| {
-            heights[0] <= p[0] && -heights[1] >= p[0] && heights[2] <= p[1] && -heights[3] >= p[1]
-        };
         self.walk(
-            |at| spans(&self.node_heights[at * k..][..k]),
+            |at| {
+                let [low, high] = self.bounds[at];
+                low[0] <= p[0] && high[0] >= p[0] && low[1] <= p[1] && high[1] >= p[1]
+            },
             |t| {
                 let [a, b, c] = &self.corners[t];
                 let is_crossed = passes(p, a, b) ^ passes(p, b, c) ^ passes(p, c, a);
@@ -249,25 +260,39 @@ impl Tree {
 
     /// The squared distance from a point to the nearest triangle.
     pub(super) fn squared_distance(&self, p: [i32; 3]) -> f64 {
-        let k = self.directions.len();
         let p = p.map(f64::from);
-        let to_box = |at: usize| {
-            let heights = &self.node_heights[at * k..][..6];
-            let off = |c: usize| {
-                let (low, high) = (f64::from(heights[2 * c]), -f64::from(heights[2 * c + 1]));
-                (low - p[c]).max(p[c] - high).max(0.0)
-            };
-            off(0) * off(0) + off(1) * off(1) + off(2) * off(2)
-        };
+        self.least(
+            |bounds| squared_distance_to_box(p, bounds),
+            |corners| squared_distance(p, corners),
+        )
+    }
+
+    /// The distance from a segment to the nearest triangle, within some 10⁻⁶ of its length.
+    pub(super) fn clearance(&self, ends: [[i32; 3]; 2]) -> f64 {
+        let ends = ends.map(|end| end.map(f64::from));
+        let squared = self.least(
+            |bounds| segment::least(ends, |p| squared_distance_to_box(p, bounds)).0,
+            |corners| segment::least(ends, |p| squared_distance(p, corners)).0,
+        );
+        squared.sqrt()
+    }
+
+    /// The least of a function on triangles, by a lower bound for those in a box.
+    fn least(
+        &self,
+        of_box: impl Fn([[f64; 3]; 2]) -> f64,
+        of_triangle: impl Fn(&[[f64; 3]; 3]) -> f64,
+    ) -> f64 {
+        let of_node = |at: usize| of_box(self.bounds[at].map(|corner| corner.map(f64::from)));
         let mut least = f64::INFINITY;
-        let mut stack = vec![(0, to_box(0))];
-        while let Some((at, distance)) = stack.pop() {
+        let mut stack = vec![(0, of_node(0))];
+        while let Some((at, bound)) = stack.pop() {
             let node = &self.nodes[at];
-            if distance >= least {
+            if bound >= least {
                 continue;
             }
             if node.other > 0 {
-                let mut children = [at + 1, node.other as usize].map(|at| (at, to_box(at)));
+                let mut children = [at + 1, node.other as usize].map(|at| (at, of_node(at)));
                 if children[0].1 <= children[1].1 {
                     children.swap(0, 1);
                 }
@@ -275,8 +300,7 @@ impl Tree {
                 continue;
             }
             for corners in &self.corners[node.first as usize..node.end as usize] {
-                let corners = corners.map(|q| q.map(f64::from));
-                least = least.min(squared_distance(p, &corners));
+                least = least.min(of_triangle(&corners.map(|q| q.map(f64::from))));
             }
         }
         least
@@ -344,6 +368,26 @@ fn split(nodes: &mut Vec<Node>, items: &mut [Centered], first: u32) {
     split(nodes, upper, first + middle as u32);
 }
 
+/// The bounding boxes of the triangles of nodes. Children come after their parents.
+fn bounds_of(nodes: &[Node], corners: &[[[i32; 3]; 3]]) -> Vec<Bounds> {
+    let along =
+        |p: [i32; 3], q: [i32; 3], pick: fn(i32, i32) -> i32| [0, 1, 2].map(|c| pick(p[c], q[c]));
+    let joined = |[low, high]: Bounds, [other_low, other_high]: Bounds| {
+        [along(low, other_low, i32::min), along(high, other_high, i32::max)]
+    };
+    let mut bounds = vec![[[0; 3]; 2]; nodes.len()];
+    for (at, node) in nodes.iter().enumerate().rev() {
+        bounds[at] = match node.other {
+            0 => {
+                let own = corners[node.first as usize..node.end as usize].as_flattened().iter();
+                own.map(|&p| [p, p]).reduce(joined).unwrap_or([[0; 3]; 2])
+            }
+            other => joined(bounds[at + 1], bounds[other as usize]),
+        };
+    }
+    bounds
+}
+
 /// Whether the edge between two corners, seen from above, passes at the x of the point beyond its y, for the point moved by
 /// (ε, ε²).
 fn passes(p: [i32; 3], a: &[i32; 3], b: &[i32; 3]) -> bool {
@@ -367,5 +411,11 @@ fn cross(a: [i128; 3], b: [i128; 3]) -> [i128; 3] {
 /// The squared distance from a point to a triangle.
 pub(super) fn squared_distance(p: [f64; 3], corners: &[[f64; 3]; 3]) -> f64 {
     let off = nearest(corners.map(|corner| minus(corner, p)));
+    dot(off, off)
+}
+
+/// The squared distance from a point to the box between two corners.
+fn squared_distance_to_box(p: [f64; 3], [low, high]: [[f64; 3]; 2]) -> f64 {
+    let off = [0, 1, 2].map(|c| (low[c] - p[c]).max(p[c] - high[c]).max(0.0));
     dot(off, off)
 }

@@ -5,6 +5,7 @@
 
 use std::sync::Arc;
 
+use super::BodyShape;
 use super::directions::{self, DIRECTIONS_MAX, Directions, Offsets};
 use super::grow::{Dop, Space};
 use super::pack::{Input, Packing};
@@ -12,7 +13,7 @@ use super::tree::Tree;
 use crate::Error;
 use crate::random::Random;
 
-/// A search with 6 directions stops after this part of the events: its bodies have few facets, and are a start at best.
+/// A search with the directions of the axes stops after this part of the events: its bodies have few facets, and are a start at best.
 const EVENTS_PART_OF_6: u64 = 8;
 
 /// The part of the events that improves the bodies of a smaller set of directions.
@@ -31,14 +32,21 @@ pub(super) struct Packed<B> {
     value: u64,
 }
 
-/// Finds bodies with the directions of a tree.
+/// Finds bodies with the directions of a tree, which are one of [`directions::KINDS`] or were given.
 pub(super) fn pack(input: &Input<'_>, tree: &Arc<Tree>) -> Result<Packed<Dop>, Error> {
     let k = tree.directions.len();
     let mut found: Vec<(usize, Packed<Dop>)> = vec![];
+    if let BodyShape::Directions(_) = input.options.shape {
+        return search(input, tree, &found);
+    }
     for kind in directions::KINDS.into_iter().filter(|&kind| kind < k && is_part(kind, k)) {
         let smaller = Arc::new(tree.turned(&Arc::new(Directions::of(kind))));
-        let packed = search(input, &smaller, &found)?;
-        found.push((kind, packed));
+        match search(input, &smaller, &found) {
+            Ok(packed) => found.push((kind, packed)),
+            // More directions may have a body around a segment where fewer have none.
+            Err(Error::At { .. }) => {}
+            Err(error) => return Err(error),
+        }
     }
     search(input, tree, &found)
 }
@@ -55,7 +63,9 @@ fn search(
     smaller: &[(usize, Packed<Dop>)],
 ) -> Result<Packed<Dop>, Error> {
     let (k, options) = (tree.directions.len(), input.options);
-    let budget = if k == 6 { options.events.div_ceil(EVENTS_PART_OF_6) } else { options.events };
+    let is_of_axes = k == 6 && matches!(options.shape, BodyShape::Dop(_));
+    let budget =
+        if is_of_axes { options.events.div_ceil(EVENTS_PART_OF_6) } else { options.events };
     let random = Random::new(options.seed ^ k as u64);
     let mut packing = Packing::new(input, Space::new(tree, random, options.monitor));
     packing.fill(budget)?;

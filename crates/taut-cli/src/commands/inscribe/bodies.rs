@@ -16,6 +16,7 @@ use taut::{Monitor, Solution};
 use crate::effort::Effort;
 use crate::exit::Outcome;
 use crate::input::choice::choice;
+use crate::input::obstacles::Obstacles;
 use crate::input::reading::{Opened, Reading};
 use crate::output::writing::Outputs;
 use crate::pipeline::{Find, Input, Output};
@@ -31,11 +32,13 @@ const COUNT_MAX: usize = 1000;
 Each edge of the mesh must belong to an even number of triangles; if not, the message names one, and --close-holes closes the
 mesh by triangles that the answer names. Inside is decided by the even-odd rule, however triangles are turned. That each body
 lies inside is proved. How much of the inside the bodies cover is an estimate, and nothing is claimed about how much such bodies
-can cover.
+can cover. To check an answer with --obstacles, or draw it, give verify and draw the same.
 Exit: 0 found · 1 the check failed · 2 bad input or usage, nothing written
 Example: taut inscribe bodies horse.off --count 10 -o bodies.json --draw bodies.html &&
          taut verify bodies.json horse.off
-         taut inscribe bodies bunny.off --close-holes --coverage 0.9 --facets 26 -o bodies.glb")]
+         taut inscribe bodies bunny.off --close-holes --coverage 0.9 --facets 26 -o bodies.glb
+         taut inscribe bodies room.stl --obstacles scan.xyz --at 0.5,0,1,2.5,0,1 -o region.json
+         taut inscribe bodies scan.xyz --count 20 --parts free")]
 pub(super) struct Bodies {
     /// Most facets of a body, from 8 to 256; more facets cover more
     #[arg(long, value_name = "F", default_value_t = 256)]
@@ -47,9 +50,12 @@ pub(super) struct Bodies {
 /// What a search for bodies in a mesh needs, whatever their facets.
 #[derive(Debug, clap::Args)]
 pub(super) struct Search {
-    /// The mesh: .off, .obj, .ply or .stl, or points with 9 coordinates, the corners of a triangle in each row
+    /// The mesh: .off, .obj, .ply or .stl, or points with 9 coordinates, the corners of a triangle in each row; or points with 3, among
+    /// which the bodies are to be, in their bounding box
     #[arg(value_name = "MESH")]
     path: PathBuf,
+    #[command(flatten)]
+    obstacles: Obstacles,
     /// What the search counts: the part of the inside that bodies cover, or the lines through the mesh that they hide
     #[arg(long, value_name = "NAME", default_value = Objective::default().name(), value_parser = choice::<Objective>())]
     objective: Objective,
@@ -59,9 +65,10 @@ pub(super) struct Search {
     /// Find bodies that do not overlap
     #[arg(long)]
     disjoint: bool,
-    /// A point that a body has to contain; the first body contains the first one, and so on
-    #[arg(long, value_name = "X,Y,Z", value_parser = point, allow_hyphen_values = true)]
-    at: Vec<[f64; 3]>,
+    /// A point that a body has to contain, or a segment by the six numbers of its ends; the first body contains the first one, and
+    /// so on
+    #[arg(long, value_name = "X,Y,Z", value_parser = segment, allow_hyphen_values = true)]
+    at: Vec<[[f64; 3]; 2]>,
     /// Stop once this part of the inside is covered, above 0 and at most 1, by the points that the search counts
     #[arg(long, value_name = "PART", allow_hyphen_values = true)]
     coverage: Option<f64>,
@@ -85,11 +92,21 @@ pub(super) struct Search {
     effort: Effort,
 }
 
-/// Reads three numbers between commas.
-fn point(text: &str) -> Result<[f64; 3], String> {
+/// The points that bodies have to contain, and where some are segments the other ends of all.
+#[derive(Debug, Default)]
+pub(super) struct Seeds {
+    at: Vec<[f64; 3]>,
+    ends: Vec<[f64; 3]>,
+}
+
+/// Reads three numbers between commas, a point, or six, the ends of a segment.
+fn segment(text: &str) -> Result<[[f64; 3]; 2], String> {
     let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
-    let found = numbers.ok().and_then(|numbers| <[f64; 3]>::try_from(numbers).ok());
-    found.ok_or_else(|| "expected three numbers between commas, as 0.5,-1,2".to_owned())
+    match numbers.as_deref() {
+        Ok(&[x, y, z]) => Ok([[x, y, z]; 2]),
+        Ok(&[x, y, z, u, v, w]) => Ok([[x, y, z], [u, v, w]]),
+        _ => Err("expected three numbers between commas, as 0.5,-1,2, or six".to_owned()),
+    }
 }
 
 /// Explains why no bodies were found; of a mesh with holes also which option closes them.
@@ -110,6 +127,10 @@ impl Search {
 
     pub(super) fn check_options(&self) -> anyhow::Result<()> {
         self.output().refuse_pictures_as_json()?;
+        for obstacle in self.obstacles.paths() {
+            self.exports.check(obstacle)?;
+            self.output().check_files(obstacle, &[])?;
+        }
         self.exports.check(&self.path)
     }
 
@@ -127,7 +148,7 @@ impl Search {
     }
 
     pub(super) fn open(&self) -> anyhow::Result<Opened> {
-        self.reading.open_triangles(&self.path)
+        self.reading.open_mesh(&self.path, &self.obstacles)
     }
 
     pub(super) fn solve(
@@ -152,14 +173,24 @@ impl Search {
         Ok((found, hidden))
     }
 
-    pub(super) fn options(&self, shape: BodyShape) -> BodiesOptions<'_> {
+    pub(super) fn seeds(&self) -> Seeds {
+        let (at, ends): (Vec<_>, Vec<_>) = self.at.iter().map(|&[from, to]| (from, to)).unzip();
+        if at == ends { Seeds { at, ends: vec![] } } else { Seeds { at, ends } }
+    }
+
+    pub(super) fn options<'a>(
+        &'a self,
+        shape: BodyShape<'a>,
+        seeds: &'a Seeds,
+    ) -> BodiesOptions<'a> {
         let many = if self.coverage.is_some() { COUNT_MAX } else { BodiesOptions::default().count };
         BodiesOptions {
             shape,
             objective: self.objective,
             count: self.count.unwrap_or(many),
             disjoint: self.disjoint,
-            at: &self.at,
+            at: &seeds.at,
+            ends: &seeds.ends,
             coverage: self.coverage,
             close_holes: self.close_holes,
             events: self.events,
@@ -194,7 +225,8 @@ impl Find for Bodies {
         mesh: &Opened,
         watch: &Watch,
     ) -> anyhow::Result<(Solution<InscribedBodies>, Option<Occlusion>)> {
-        self.search.solve(self.search.options(BodyShape::Free(self.facets)), mesh, watch)
+        let (shape, seeds) = (BodyShape::Free(self.facets), self.search.seeds());
+        self.search.solve(self.search.options(shape, &seeds), mesh, watch)
     }
 
     fn side_fields(&self, hidden: &Option<Occlusion>) -> Vec<Field> {
@@ -231,21 +263,26 @@ mod tests {
     #[test]
     fn the_defaults_are_those_of_the_library() {
         let found = options("bodies mesh.off");
-        let shape = BodyShape::Free(found.facets);
-        assert_eq!(found.search.options(shape), BodiesOptions::default());
+        let (shape, none) = (BodyShape::Free(found.facets), super::Seeds::default());
+        assert_eq!(found.search.options(shape, &none), BodiesOptions::default());
         let found = options("bodies mesh.off --objective occlusion");
-        assert_eq!(found.search.options(shape).objective, Objective::Occlusion);
+        assert_eq!(found.search.options(shape, &none).objective, Objective::Occlusion);
         let found = options("bodies mesh.off --coverage 0.5 --at=1,-2,.5 --at -1e3,0,0");
-        let found = found.search.options(shape);
+        let seeds = found.search.seeds();
+        let found = found.search.options(shape, &seeds);
         assert_eq!((found.count, found.coverage), (1000, Some(0.5)));
         assert_eq!(found.at, [[1.0, -2.0, 0.5], [-1e3, 0.0, 0.0]]);
+        assert!(found.ends.is_empty());
+        let seeds = options("bodies mesh.off --at 1,2,3 --at=-1,2,3,4,5,-6").search.seeds();
+        assert_eq!(seeds.at, [[1.0, 2.0, 3.0], [-1.0, 2.0, 3.0]]);
+        assert_eq!(seeds.ends, [[1.0, 2.0, 3.0], [4.0, 5.0, -6.0]]);
     }
 
     #[test]
-    fn a_point_has_three_numbers() {
-        for wrong in ["", "1,2", "1,2,3,4", "1,2,x", "1 2 3"] {
-            assert!(super::point(wrong).is_err(), "{wrong}");
+    fn a_point_has_three_numbers_and_a_segment_six() {
+        for wrong in ["", "1,2", "1,2,3,4", "1,2,3,4,5", "1,2,3,4,5,6,7", "1,2,x", "1 2 3"] {
+            assert!(super::segment(wrong).is_err(), "{wrong}");
         }
-        assert_eq!(super::point("1, 2, 3"), Ok([1.0, 2.0, 3.0]));
+        assert_eq!(super::segment("1, 2, 3"), Ok([[1.0, 2.0, 3.0]; 2]));
     }
 }

@@ -6,7 +6,7 @@ use taut::inscribe::{
 };
 use taut::{Monitor, Solution};
 
-use super::bodies::Search;
+use super::bodies::{Search, Seeds};
 use crate::exit::Outcome;
 use crate::input::choice::choice;
 use crate::input::reading::Opened;
@@ -21,16 +21,22 @@ use crate::watch::Watch;
 Each edge of the mesh must belong to an even number of triangles; if not, the message names one, and --close-holes closes the
 mesh by triangles that the answer names. Inside is decided by the even-odd rule, however triangles are turned. That each body
 lies inside is proved. How much of the inside the bodies cover is an estimate, and nothing is claimed about how much such bodies
-can cover. Bodies with facets in any directions cover more: taut inscribe bodies.
+can cover. Bodies with facets in any directions cover more: taut inscribe bodies. To check an answer with --obstacles, or draw
+it, give verify and draw the same.
 The method thesis finds disjoint bodies without a budget of events; its inside test needs triangles that are turned alike.
 Exit: 0 found · 1 the check failed · 2 bad input or usage, nothing written
 Example: taut inscribe dops horse.off --count 10 -o bodies.json --draw bodies.html &&
          taut verify bodies.json horse.off
-         taut inscribe dops horse.off --count 10 -o bodies.glb --parts collision")]
+         taut inscribe dops horse.off --count 10 -o bodies.glb --parts collision
+         taut inscribe dops horse.off --direction 3,4,0 --direction=-4,3,0 --direction 0,0,1")]
 pub(super) struct Dops {
     /// Directions of the facets: 6, 14, 18 or 26
-    #[arg(short = 'k', long, value_name = "K", default_value_t = 18)]
+    #[arg(short = 'k', long, value_name = "K", default_value_t = 18, conflicts_with = "direction")]
     directions: usize,
+    /// A direction of facets of your own, in whole numbers whose absolute values add up to at most 63; give from 3 to 13, each
+    /// makes two facets, along it and against it
+    #[arg(long, value_name = "X,Y,Z", value_parser = direction, allow_hyphen_values = true)]
+    direction: Vec<[i64; 3]>,
     /// The way to find them
     #[arg(long, value_name = "NAME", default_value = BodiesMethod::default().name(), value_parser = choice::<BodiesMethod>())]
     method: BodiesMethod,
@@ -51,6 +57,13 @@ pub(super) struct Dops {
     merge: bool,
     #[command(flatten)]
     search: Search,
+}
+
+/// Reads three whole numbers between commas.
+fn direction(text: &str) -> Result<[i64; 3], String> {
+    let numbers: Result<Vec<i64>, _> = text.split(',').map(|part| part.trim().parse()).collect();
+    let found = numbers.ok().and_then(|numbers| <[i64; 3]>::try_from(numbers).ok());
+    found.ok_or_else(|| "expected three whole numbers between commas, as 1,-2,0".to_owned())
 }
 
 impl Find for Dops {
@@ -78,7 +91,7 @@ impl Find for Dops {
         mesh: &Opened,
         watch: &Watch,
     ) -> anyhow::Result<(Solution<InscribedBodies>, Option<Occlusion>)> {
-        self.search.solve(self.options(), mesh, watch)
+        self.search.solve(self.options(&self.search.seeds()), mesh, watch)
     }
 
     fn side_fields(&self, hidden: &Option<Occlusion>) -> Vec<Field> {
@@ -102,7 +115,11 @@ impl Find for Dops {
 }
 
 impl Dops {
-    fn options(&self) -> BodiesOptions<'_> {
+    fn options<'a>(&'a self, seeds: &'a Seeds) -> BodiesOptions<'a> {
+        let shape = match &self.direction[..] {
+            [] => BodyShape::Dop(self.directions),
+            given => BodyShape::Directions(given),
+        };
         let method = match self.method {
             BodiesMethod::Thesis(_) => BodiesMethod::Thesis(BodiesThesisOptions {
                 seeds: self.seeds,
@@ -113,7 +130,7 @@ impl Dops {
             }),
             other => other,
         };
-        BodiesOptions { method, ..self.search.options(BodyShape::Dop(self.directions)) }
+        BodiesOptions { method, ..self.search.options(shape, seeds) }
     }
 }
 
@@ -132,14 +149,21 @@ mod tests {
             super::Dops::from_arg_matches(&matches).unwrap()
         };
         let usual = BodiesOptions { shape: BodyShape::Dop(18), ..Default::default() };
-        assert_eq!(found("dops mesh.off").options(), usual);
+        let none = super::Seeds::default();
+        assert_eq!(found("dops mesh.off").options(&none), usual);
+        let given = "dops mesh.off --direction 1,-2,0 --direction=-1,0,0 --direction 0,0,7";
+        let expected = BodyShape::Directions(&[[1, -2, 0], [-1, 0, 0], [0, 0, 7]]);
+        assert_eq!(found(given).options(&none).shape, expected);
+        for wrong in ["1,2", "1,2,0.5", "1,2,3,4", ""] {
+            assert!(super::direction(wrong).is_err(), "{wrong}");
+        }
         let thesis = found("dops mesh.off --method thesis");
         let expected = BodiesMethod::Thesis(BodiesThesisOptions::default());
-        assert_eq!(thesis.options(), BodiesOptions { method: expected, ..usual.clone() });
+        assert_eq!(thesis.options(&none), BodiesOptions { method: expected, ..usual.clone() });
         let line =
             "dops mesh.off --method thesis --seeds random --cells 9 --votes 2 --translate --merge";
         let seeds = ThesisSeeds::Random;
         let other = BodiesThesisOptions { seeds, cells: 9, votes: 2, translate: true, merge: true };
-        assert_eq!(found(line).options().method, BodiesMethod::Thesis(other));
+        assert_eq!(found(line).options(&none).method, BodiesMethod::Thesis(other));
     }
 }

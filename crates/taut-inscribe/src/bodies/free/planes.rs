@@ -10,13 +10,19 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
+use super::super::pack::Segment;
 use super::super::polytope::Sides;
+use super::super::segment;
 use super::super::tree::{Parts, Tree};
-use super::super::vectors::{dot, minus, nearest};
+use super::super::vectors::{cross, dot, minus, nearest};
 use super::metric::Metric;
 
 /// Entries of a normal, at most: a normal is turned by at most about 2⁻¹⁴, and products with coordinates have 39 bits.
 const NORMAL_MAX: f64 = 8191.0;
+
+/// Two axes, one of which is not nearly parallel to a direction.
+const X: [f64; 3] = [1.0, 0.0, 0.0];
+const Y: [f64; 3] = [0.0, 1.0, 0.0];
 
 /// The part of its first distance from the center by which a plane may move inward to replace other planes.
 const INWARD_PART: f64 = 1.0 / 256.0;
@@ -24,10 +30,10 @@ const INWARD_PART: f64 = 1.0 / 256.0;
 /// The part of its distance from the center by which a plane moves inward at once, at most, where no more planes are allowed.
 const FORCED_PART_MAX: f64 = 0.95;
 
-/// A point that a body has to contain, with each plane at least so many units times the sum |uᵢ|₁ of its normal away from it.
+/// A segment that a body has to contain, with each plane at least so many units times the sum |uᵢ|₁ of its normal away from it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Kept {
-    pub(super) point: [f64; 3],
+    pub(super) ends: [[f64; 3]; 2],
     pub(super) margin: f64,
 }
 
@@ -80,7 +86,7 @@ impl Entry {
 }
 
 /// Returns at most `most` planes around the center that no triangle and no obstacle enters, and how often a plane was placed or
-/// moved; `None` where there are no such planes, or they would cut off the point to be kept.
+/// moved; `None` where there are no such planes, or they would cut off the segment to be kept.
 pub(super) fn around(
     blocks: &Blocks<'_>,
     metric: &Metric,
@@ -229,8 +235,15 @@ impl Planes<'_> {
             let low = least(u);
             (low > dot(u, from) && self.keeps(u, low)).then_some((u, low))
         };
-        let kept = self.kept.map(|kept| kept.point);
-        let (u, low) = plane(center).or_else(|| plane(kept?))?;
+        // From the point of the segment that is nearest to the triangles a plane keeps them out, if any does.
+        let nearest_kept = || {
+            let near = |from: [f64; 3]| {
+                let off = nearest_of(self.metric, from, triangles);
+                dot(off, off)
+            };
+            self.kept.map(|kept| segment::least(kept.ends, near).1)
+        };
+        let (u, low) = plane(center).or_else(|| plane(nearest_kept()?))?;
         match self.sides.normals.iter().position(|v| *v == u) {
             Some(j) => self.sides.offsets[j] = low,
             None => {
@@ -243,10 +256,12 @@ impl Planes<'_> {
         Some(())
     }
 
-    /// Whether a plane leaves the point to be kept in the body, with its margin.
+    /// Whether a plane leaves the segment to be kept in the body, with its margin.
     fn keeps(&self, u: [f64; 3], offset: f64) -> bool {
         let sum = u[0].abs() + u[1].abs() + u[2].abs();
-        self.kept.is_none_or(|kept| dot(u, kept.point) + kept.margin * sum <= offset)
+        self.kept.is_none_or(|kept| {
+            kept.ends.iter().all(|&end| dot(u, end) + kept.margin * sum <= offset)
+        })
     }
 }
 
@@ -271,4 +286,18 @@ fn whole(normal: [f64; 3]) -> Option<[f64; 3]> {
     let divisor =
         rounded.iter().fold(0, |divisor, &n| super::super::directions::gcd(divisor, n.abs()));
     Some(rounded.map(|n| (n / divisor) as f64))
+}
+
+/// The normals of a box along a segment, each with its opposite; `None` for a point.
+pub(super) fn box_normals(ends: Segment) -> Option<Vec<[f64; 3]>> {
+    let [from, to] = ends.map(|end| end.map(f64::from));
+    let along = minus(to, from);
+    let across = cross(along, if along[0].abs() <= along[1].abs() { X } else { Y });
+    let directions = [along, across, cross(along, across)];
+    let mut normals = vec![];
+    for direction in directions {
+        let u = whole(direction)?;
+        normals.extend([u, u.map(|n| 0.0 - n)]);
+    }
+    Some(normals)
 }

@@ -8,8 +8,8 @@ use super::super::mesh::GridMesh;
 use super::super::polytope::{self, Sides};
 use super::super::proof::{Proved, inner_point, separated, unproved};
 use super::super::tree::Tree;
-use super::FreeBody;
 use super::disjoint::{Shape, separation};
+use super::{FreeBody, Stage};
 use crate::Error;
 
 /// Proves bodies one by one and leaves out those without proof, which rounding may cause for bodies of a few units.
@@ -26,7 +26,7 @@ pub(in super::super) fn prove(
     for (at, body) in bodies.into_iter().enumerate() {
         let found = prove_one(mesh, tree, &body, if disjoint { &kept } else { &[] });
         let Some((shape, with_others, inside, combined)) = found else {
-            if body.is_given {
+            if body.kept.is_some() {
                 return Err(unproved(at));
             }
             continue;
@@ -53,9 +53,10 @@ type Found = (Shape, Vec<Vec<u64>>, [i32; 3], Vec<Vec<u64>>);
 
 /// Proves that one body is inside, and disjoint from others.
 fn prove_one(mesh: &GridMesh, tree: &Tree, body: &FreeBody, others: &[Shape]) -> Option<Found> {
-    let (mut sides, combined) = match body.is_cube {
-        true => separated_cube(tree, body)?,
-        false => (body.sides.clone(), vec![]),
+    let (mut sides, combined) = match body.stage {
+        Stage::Cube => separated_cube(tree, body)?,
+        Stage::Box => return None,
+        Stage::Grown => (body.sides.clone(), vec![]),
     };
     if !mesh.is_exact {
         // Floors and ceilings of coordinates differ by at most one unit from the rounded coordinates.
@@ -76,7 +77,7 @@ fn separated_cube(tree: &Tree, body: &FreeBody) -> Option<(Sides, Vec<Vec<u64>>)
     for (h, &offset) in h.iter_mut().zip(&body.sides.offsets) {
         *h = offset as i32;
     }
-    let cube = Dop::new(h, body.anchor, body.is_given);
+    let cube = Dop::new(h, body.anchor);
     let (h, combined) = separated(tree, &cube)?;
     Some((Sides::of_dop(&tree.directions, &h), combined))
 }

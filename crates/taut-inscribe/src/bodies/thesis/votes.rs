@@ -25,7 +25,8 @@ impl Votes {
     pub(super) fn of(triangles: &[[[i32; 3]; 3]], count: usize) -> Self {
         let mut normals: BTreeMap<[i32; 3], [f64; 3]> = BTreeMap::new();
         let mut volume = 0.0;
-        for corners in triangles {
+        // Rows that are points have no normal, and no vote.
+        for corners in triangles.iter().filter(|[a, b, c]| a != b || b != c) {
             let [a, b, c] = corners.map(|corner| corner.map(f64::from));
             let normal = cross(minus(b, a), minus(c, a));
             volume += dot(a, normal);

@@ -1,9 +1,9 @@
 //! Shapes whose largest bodies are known.
 
-use taut_inscribe::BodiesOptions;
+use taut_inscribe::{BodiesOptions, BodyShape};
 
 use super::shapes::{
-    Mesh, cuboid, directions, hull, l_shape, octahedron, options, permutations, proved,
+    Mesh, cuboid, directions, hull, l_shape, octahedron, options, permutations, proved, solve,
 };
 
 /// The volume proved is within rounding to the grid of the volume expected: each of k facets is moved by at most 4 units of
@@ -75,4 +75,48 @@ fn a_cavity_is_not_inside() {
     mesh.extend(cuboid([2.0; 3], [6.0; 3]));
     let (_, verdict) = proved(&mesh, &options(6));
     assert!((verdict.largest - 128.0).abs() < 1e-4, "{verdict:?}");
+}
+
+/// Given directions: polyhedra whose facets they are, and refusals.
+#[test]
+fn given_directions_fill_their_shapes() {
+    // A parallelepiped between planes with normals (1, 2, 0), (0, 1, 3), (1, −1, 1), from −1 to 1 along each: by the inverse matrix.
+    let given = [[1, 2, 0], [0, 1, 3], [1, -1, 1]];
+    let inverse =
+        [[4.0, -2.0, 6.0], [3.0, 1.0, -3.0], [-1.0, 3.0, 1.0]].map(|row| row.map(|x| x / 10.0));
+    let signs = (0..8).map(|bits| [0, 1, 2].map(|c| if bits >> c & 1 == 1 { 1.0 } else { -1.0 }));
+    let vertices: Vec<[f64; 3]> = signs
+        .map(|s: [f64; 3]| {
+            inverse.map(|row: [f64; 3]| row[0] * s[0] + row[1] * s[1] + row[2] * s[2])
+        })
+        .collect();
+    let floats = given.map(|u| u.map(|n| n as f64));
+    let normals: Vec<[f64; 3]> = floats.into_iter().flat_map(|u| [u, u.map(|x| -x)]).collect();
+    let mesh = hull(&vertices, &normals);
+    let expected = 8.0 / 10.0;
+    let scaled = [[2, 4, 0], [0, -3, -9], [1, -1, 1]];
+    let more = [[1, 2, 0], [0, 1, 3], [1, -1, 1], [1, 0, 0], [31, -1, 31]];
+    for directions in [&given[..], &scaled, &more] {
+        let options = BodiesOptions { shape: BodyShape::Directions(directions), ..options(6) };
+        let (found, verdict) = proved(&mesh, &options);
+        assert!((verdict.largest - expected).abs() < 1e-5, "{directions:?}: {verdict:?}");
+        assert_eq!(found.answer.bodies[0].normals.len(), 2 * directions.len());
+        assert_eq!(found.trace.method, "dops");
+    }
+    // Fixed directions cover less of it.
+    assert!(proved(&mesh, &options(26)).1.largest < 0.9 * expected);
+    let refused: [(&[[i64; 3]], &str); 7] = [
+        (&[[1, 0, 0], [0, 1, 0]], "from 3 to 13"),
+        (&[[1, 0, 0]; 14], "from 3 to 13"),
+        (&[[1, 0, 0], [0, 1, 0], [0, 0, 0]], "not all 0"),
+        (&[[1, 0, 0], [0, 1, 0], [0, 0, i64::MIN]], "at most 63"),
+        (&[[1, 0, 0], [0, 1, 0], [32, 32, 0]], "at most 63"),
+        (&[[1, 0, 0], [0, 1, 0], [-2, 0, 0], [0, 0, 1]], "no two are parallel"),
+        (&[[1, 0, 0], [0, 1, 0], [1, 1, 0]], "not all in one plane"),
+    ];
+    for (directions, expected) in refused {
+        let shape = BodyShape::Directions(directions);
+        let error = solve(&mesh, &BodiesOptions { shape, ..options(6) }).unwrap_err();
+        assert!(error.to_string().contains(expected), "{directions:?}: {error}");
+    }
 }

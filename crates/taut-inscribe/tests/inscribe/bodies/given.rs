@@ -91,3 +91,115 @@ fn points_without_room_are_refused_with_the_reason() {
     let error = solve(&cavity, &BodiesOptions { at: &[[4.0; 3]], ..free(256) }).unwrap_err();
     assert!(error.to_string().contains("is outside of the mesh"), "{error}");
 }
+
+/// Whether a body contains all of a segment.
+fn contains_segment(
+    found: &taut_certify::Solution<taut_certify::InscribedBodies>,
+    body: usize,
+    [from, to]: [[f64; 3]; 2],
+) -> bool {
+    contains(found, body, from) && contains(found, body, to)
+}
+
+#[test]
+fn each_body_contains_its_segment() {
+    let mesh = wavy(16, None);
+    let at = around_the_tube();
+    // Along the tube, across it, and a point.
+    let ends: Vec<[f64; 3]> = at
+        .iter()
+        .enumerate()
+        .map(|(k, p)| match k {
+            0 => *p,
+            1 => [p[0], p[1], p[2] + 0.3],
+            _ => [p[0] - 0.25 * p[1], p[1] + 0.25 * p[0], p[2]],
+        })
+        .collect();
+    for shape in [BodyShape::Dop(26), BodyShape::Free(20), BodyShape::Free(256)] {
+        for disjoint in [false, true] {
+            let options =
+                BodiesOptions { shape, at: &at, ends: &ends, count: 6, disjoint, ..free(256) };
+            let (found, verdict) = proved(&mesh, &options);
+            assert_eq!((verdict.at, found.answer.ends.len()), (5, 5));
+            for (body, (from, to)) in at.iter().zip(&ends).enumerate() {
+                assert!(contains_segment(&found, body, [*from, *to]), "{shape:?}, body {body}");
+            }
+            let text = found.to_json();
+            let read = taut_certify::AnySolution::from_json(&text).unwrap();
+            assert_eq!(read.to_json(), text);
+        }
+    }
+}
+
+/// A long segment near the diagonal of a thin slab, which no box along the axes contains.
+#[test]
+fn a_body_around_a_segment_follows_it() {
+    // A prism with the diagonal of the plane as its axis: |x − y| ≤ 0.1, 0 ≤ x + y ≤ 10, 0 ≤ z ≤ 0.1.
+    let corner = |s: f64, t: f64, z: f64| [(s + t) / 2.0, (s - t) / 2.0, z];
+    let vertices: Vec<[f64; 3]> = [0.0, 10.0]
+        .into_iter()
+        .flat_map(|s| [-0.1, 0.1].map(|t| [0.0, 0.1].map(|z| corner(s, t, z))))
+        .flatten()
+        .collect();
+    let normals = [[1.0, 1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 0.0, 1.0]];
+    let normals: Vec<[f64; 3]> = normals.into_iter().flat_map(|u| [u, u.map(|x| -x)]).collect();
+    let mesh = super::shapes::hull(&vertices, &normals);
+    let (from, to) = (corner(0.2, 0.0, 0.05), corner(9.8, 0.01, 0.06));
+    let (at, ends) = ([from], [to]);
+    let around = |options| BodiesOptions { at: &at, ends: &ends, ..options };
+    let volume = 10.0 * 0.2 / 2.0 * 0.1;
+    let given = [[1, 1, 0], [1, -1, 0], [0, 0, 1]];
+    let shapes = [
+        options(18),
+        free(256),
+        free(8),
+        BodiesOptions { shape: BodyShape::Directions(&given), ..options(6) },
+    ];
+    for options in shapes {
+        let (found, verdict) = proved(&mesh, &around(options.clone()));
+        assert!(contains_segment(&found, 0, [from, to]), "{:?}", options.shape);
+        assert!(verdict.largest > 0.999 * volume, "{:?}: {verdict:?}", options.shape);
+    }
+    // Along the axes there is none.
+    let error = solve(&mesh, &around(options(6))).unwrap_err();
+    assert!(error.to_string().contains("no body with facets in these directions"), "{error}");
+}
+
+#[test]
+fn segments_that_leave_the_mesh_are_refused() {
+    // Between the arms of the L.
+    let (at, ends) = ([[1.9, 0.5, 0.5]], [[0.5, 1.9, 0.5]]);
+    for options in [options(18), free(256)] {
+        let error = solve(&l_shape(), &BodiesOptions { at: &at, ends: &ends, ..options.clone() });
+        assert!(
+            error
+                .unwrap_err()
+                .to_string()
+                .contains("point 0 of those that bodies are to contain (from 0) meets the surface")
+        );
+        let outside = [[f64::NAN, 0.0, 0.0]];
+        let error =
+            solve(&l_shape(), &BodiesOptions { at: &at, ends: &outside, ..options.clone() });
+        assert!(error.unwrap_err().to_string().contains("is not finite"));
+        let error = solve(&l_shape(), &BodiesOptions { at: &at, ends: &[[0.5; 3]; 2], ..options });
+        assert!(error.unwrap_err().to_string().contains("`ends`"));
+    }
+    // Two segments that cross have no disjoint bodies.
+    let (at, ends) = ([[0.2, 0.5, 0.5], [0.5, 0.2, 0.5]], [[0.8, 0.5, 0.5], [0.5, 0.8, 0.5]]);
+    let both = BodiesOptions { at: &at, ends: &ends, disjoint: true, ..free(256) };
+    let error = solve(&l_shape(), &both).unwrap_err();
+    assert!(error.to_string().contains("too near another point"), "{error}");
+    assert_eq!(proved(&l_shape(), &BodiesOptions { disjoint: false, ..both }).1.at, 2);
+}
+
+/// A segment that is moved out of its body is rejected.
+#[test]
+fn the_checker_looks_at_both_ends() {
+    let options = BodiesOptions { at: &[[0.5; 3]], ends: &[[1.5, 0.5, 0.5]], ..free(256) };
+    let (found, _) = proved(&l_shape(), &options);
+    for ends in [vec![[1.5, 1.5, 0.5]], vec![[f64::NAN; 3]], vec![[0.5; 3]; 2]] {
+        let mut moved = found.clone();
+        moved.answer.ends = ends;
+        assert!(moved.check(&super::shapes::points(&l_shape())).is_err());
+    }
+}

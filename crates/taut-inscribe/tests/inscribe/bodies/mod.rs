@@ -8,6 +8,7 @@ mod holes;
 mod laws;
 mod models;
 mod mutations;
+mod obstacles;
 mod occlusion;
 mod shapes;
 mod thesis;

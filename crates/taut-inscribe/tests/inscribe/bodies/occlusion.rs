@@ -21,6 +21,7 @@ fn boxes(sizes: &[[i64; 2]]) -> InscribedBodies {
         origin: [0; 3],
         disjoint: false,
         at: vec![],
+        ends: vec![],
         caps: vec![],
         bodies,
     }

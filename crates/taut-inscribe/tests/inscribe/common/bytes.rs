@@ -120,8 +120,22 @@ pub(crate) fn mesh(bytes: &[u8]) -> bool {
         // A hole.
         triangles.pop();
     }
+    if shape & 8 != 0 {
+        // Points among the triangles, one of them a corner.
+        triangles.extend(corners.iter().rev().take(5).map(|&point| [point; 3]));
+    }
     let Ok(points) = Points::new(triangles.as_flattened().as_flattened(), 9) else { return false };
+    let directions: Vec<[i64; 3]> = rest
+        .as_chunks::<3>()
+        .0
+        .iter()
+        .take(3 + usize::from(*seed % 11))
+        .map(|place| place.map(|byte| i64::from(byte % 32) - 11))
+        .collect();
+    let ends = corners.last().copied();
+    let is_segment = shape & 16 != 0;
     let shape = match shape % 8 {
+        _ if shape & 32 != 0 => BodyShape::Directions(&directions),
         0..=1 => BodyShape::Dop(6),
         2..=3 => BodyShape::Dop(14),
         4 => BodyShape::Dop(18),
@@ -134,6 +148,8 @@ pub(crate) fn mesh(bytes: &[u8]) -> bool {
         .take(4)
         .fold([0.0; 3], |sum: [f64; 3], p| [0, 1, 2].map(|c| sum[c] + 0.25 * p[c]));
     let at = [middle];
+    // Most of the way to a corner.
+    let ends = ends.map(|end| [0, 1, 2].map(|c| 0.3 * middle[c] + 0.7 * end[c]));
     let options = BodiesOptions {
         shape,
         count: 1 + usize::from(*seed % 3),
@@ -141,6 +157,7 @@ pub(crate) fn mesh(bytes: &[u8]) -> bool {
         disjoint: build & 8 != 0,
         close_holes: build & 16 != 0,
         at: if build & 32 != 0 { &at } else { &[] },
+        ends: if build & 32 != 0 && is_segment { ends.as_slice() } else { &[] },
         seed: u64::from(*seed),
         ..Default::default()
     };

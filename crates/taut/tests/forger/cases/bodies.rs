@@ -1,6 +1,6 @@
 //! Convex bodies in triangle meshes.
 
-use taut::inscribe::{BodiesOptions, BodyShape, inscribed_bodies};
+use taut::inscribe::{BodiesOptions, BodyShape, inscribed_bodies, point_rows};
 
 use super::{Case, Input, Solved, cases, document};
 
@@ -9,7 +9,10 @@ pub fn all() -> Vec<Case> {
     cases(meshes(), solve)
 }
 
-/// Returns small meshes, two of them with a hole, some of them far from 0, large, small, or with corners that are not on the grid.
+/// Three directions that are no axes.
+const SKEW: [[i64; 3]; 3] = [[1, 2, 0], [-2, 1, 0], [1, 0, 5]];
+
+/// Returns small meshes, one among points, two of them with a hole, some of them far from 0, large, small, or with corners that are not on the grid.
 fn meshes() -> Vec<Input> {
     let octahedron = || {
         let end = |k: usize, sign: f64| {
@@ -42,6 +45,8 @@ fn meshes() -> Vec<Input> {
     let tetrahedron = tetrahedron.into_iter().flatten().flat_map(|k: usize| corners[k]).collect();
     let nested = [cuboid([0.0; 3], [8.0; 3]), cuboid([2.0, 2.0, 3.0], [6.0, 5.0, 6.0])].concat();
     let two = [cuboid([0.0; 3], [1.0; 3]), cuboid([3.0, 0.5, 0.5], [4.0, 2.0, 1.5])].concat();
+    let points = [[0.5, 0.25, 0.75], [0.1, 0.8, 0.2], [2.0, 3.0, -1.0]];
+    let among_points = [cuboid([0.0; 3], [1.0; 3]), point_rows(&points)].concat();
     // Without its last triangle, and without two that share an edge.
     let open_octahedron = octahedron()[..63].to_vec();
     let open_cube = cuboid([0.0; 3], [1.0; 3])[18..].to_vec();
@@ -57,6 +62,7 @@ fn meshes() -> Vec<Input> {
         ("two boxes", two),
         ("an octahedron with a hole", open_octahedron),
         ("a cube with a hole", open_cube),
+        ("a cube with points in it and beside it", among_points),
     ];
     found.into_iter().map(|(name, values)| Input::new(name, values, 9)).collect()
 }
@@ -68,6 +74,7 @@ fn solve(input: &Input) -> Vec<Solved> {
     let corners = input.values.as_chunks::<3>().0;
     let mean = |c: usize| corners.iter().map(|p| p[c] / corners.len() as f64).sum::<f64>();
     let at = [[0, 1, 2].map(|c| corners[0][c] + (mean(c) - corners[0][c]) / 3.0)];
+    let ends = [[0, 1, 2].map(|c| at[0][c] + (mean(c) - at[0][c]) / 5.0)];
     let ways = [
         ("6", dop(6)),
         ("14", dop(14)),
@@ -75,6 +82,8 @@ fn solve(input: &Input) -> Vec<Solved> {
         ("26, two", BodiesOptions { count: 2, ..dop(26) }),
         ("free, two disjoint", BodiesOptions { count: 2, disjoint: true, ..base.clone() }),
         ("free, around a point", BodiesOptions { count: 2, at: &at, ..base.clone() }),
+        ("free, around a segment", BodiesOptions { at: &at, ends: &ends, ..base.clone() }),
+        ("6 facets askew", BodiesOptions { shape: BodyShape::Directions(&SKEW), ..base.clone() }),
         ("9 facets", BodiesOptions { shape: BodyShape::Free(9), ..base.clone() }),
         (
             "12 facets, around a point",

@@ -12,9 +12,9 @@ impl Summary for InscribedBodies {
     const FOUND: &'static str = "the bodies found";
 
     fn title(report: &Report<'_, Self>) -> String {
-        let triangles = counted(report.points.source().len(), "triangle");
-        let bodies = bodies(report.found.answer.bodies.len() as u64);
-        format!("{bodies} in a mesh of {triangles}")
+        let found = report.found;
+        let points = found.trace.counters.get("obstacle_points").copied().unwrap_or(0);
+        in_mesh(found.answer.bodies.len() as u64, report.points.source().len(), points)
     }
 
     fn fields(report: &Report<'_, Self>) -> Vec<Field> {
@@ -56,12 +56,7 @@ impl Summary for InscribedBodies {
         3
     }
 
-    fn claims(
-        _found: &Solution<Self>,
-        verdict: &Self::Verdict,
-        source: &dyn PointSource,
-    ) -> Claims {
-        let (bodies, triangles) = (bodies(verdict.bodies), counted(source.len(), "triangle"));
+    fn claims(found: &Solution<Self>, verdict: &Self::Verdict, source: &dyn PointSource) -> Claims {
         let (lower, upper) = (exact(verdict.volume_lower), exact(verdict.volume_upper));
         let mut fields = vec![
             Field::proved("inside", inside(verdict.caps))
@@ -72,13 +67,19 @@ impl Summary for InscribedBodies {
             Field::proved("largest", format!("a body of volume ≥ {}", exact(verdict.largest))),
         ];
         if verdict.at > 0 {
-            let points = counted(verdict.at, "given point");
-            fields.push(Field::proved("at", format!("{points} in as many bodies, in their order")));
+            let what = if found.answer.ends.is_empty() { "given point" } else { "given segment" };
+            let given = counted(verdict.at, what);
+            fields.push(Field::proved("at", format!("{given} in as many bodies, in their order")));
+        }
+        if verdict.points > 0 {
+            let points = counted(verdict.points, "point");
+            fields.push(Field::proved("obstacles", format!("none of {points} is in a body")));
         }
         if verdict.disjoint {
             fields.push(Field::proved("disjoint", "no two bodies overlap"));
         }
-        Claims { what: format!("{bodies} in a mesh of {triangles}"), gap: None, fields }
+        let what = in_mesh(verdict.bodies, source.len(), verdict.points);
+        Claims { what, gap: None, fields }
     }
 }
 
@@ -106,9 +107,17 @@ pub(super) fn occlusion(found: &Occlusion) -> Field {
     ))
 }
 
-fn bodies(number: u64) -> String {
-    match number {
+/// Bodies, and the rows among which they are, of which some are points.
+fn in_mesh(bodies: u64, rows: u64, points: u64) -> String {
+    let bodies = match bodies {
         1 => "1 convex body".to_owned(),
         more => format!("{} convex bodies", count(more)),
+    };
+    let triangles = counted(rows - points.min(rows), "triangle");
+    match points {
+        0 => format!("{bodies} in a mesh of {triangles}"),
+        points => {
+            format!("{bodies} in a mesh of {triangles} and among {}", counted(points, "point"))
+        }
     }
 }
