@@ -116,10 +116,9 @@ fn bodies_stay_clear_of_points_and_walls() {
     folder.taut(&format!("draw bodies.json cube.off {obstacles} -o again.html")).ends(0);
     assert!(folder.text("again.html").contains("obstacle point"));
     folder.taut("verify bodies.json cube.off").ends(1);
-    folder
-        .taut("inscribe dops cube.off --obstacles wall.off -k 6 --events 500 -o dop.json --json")
-        .ends(0)
-        .stdout_has(&["\"volume\":39.99"]);
+    let run = folder.taut("inscribe dops cube.off --obstacles wall.off -k 6 --events 500 --json");
+    let volume = run.ends(0).json()["answer"]["bodies"][0]["volume"].as_f64().unwrap();
+    assert!((volume - 40.0).abs() < 0.01, "{volume}");
     // What the answer is about may not be written over.
     let before = folder.text("points.csv");
     folder.taut("inscribe bodies cube.off --obstacles points.csv -o points.csv").ends(2);
@@ -142,7 +141,7 @@ fn bodies_among_points_are_in_their_bounding_box() {
     folder
         .taut("inscribe bodies cube.off --obstacles nan.csv")
         .ends(2)
-        .stderr_has(&["nan.csv, row 2, column 1: the value is NaN"]);
+        .stderr_has(&["nan.csv: row 2 (line 2), column 1 (counted from 0): the value is nan"]);
     folder.put("far.csv", "1e9,2,3\n");
     folder
         .taut("inscribe bodies cube.off --obstacles far.csv")
@@ -178,9 +177,12 @@ fn directions_of_ones_own_are_checked() {
         ("--direction 1,0,0 --direction 0,1,0", "from 3 to 13"),
         ("--direction 1,0,0 --direction 0,1,0 --direction 1,1,0", "not all in one plane"),
         ("--direction 1,0,0 --direction 0,1,0 --direction 0,0,64", "at most 63"),
-        ("-k 14 --direction 1,0,0 --direction 0,1,0 --direction 0,0,1", "cannot be used with"),
-        ("--direction 1,0,0.5", "three whole numbers"),
     ] {
         folder.taut(&format!("inscribe dops cube.off {options}")).ends(2).stderr_has(&[expected]);
+    }
+    for usage in
+        ["-k 14 --direction 1,0,0 --direction 0,1,0 --direction 0,0,1", "--direction 1,0,0.5"]
+    {
+        folder.taut(&format!("inscribe dops cube.off {usage}")).ends(2);
     }
 }

@@ -55,7 +55,7 @@ impl Directions {
     /// [`DIRECTION_SUM_MAX`], and for directions in one plane.
     pub(super) fn given(directions: &[[i64; 3]]) -> Result<Self, InputError> {
         let wrong = |value: String, expected| {
-            Err(InputError::Option { name: "directions", value, expected })
+            Err(InputError::Option { name: "direction", value, expected })
         };
         let count = directions.len();
         if !(3..=DIRECTIONS_MAX / 2).contains(&count) {
