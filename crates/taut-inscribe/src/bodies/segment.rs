@@ -3,7 +3,7 @@
 use super::vectors::{minus, plus};
 
 /// Steps of the search: each leaves two thirds, and 2⁻³⁵ of the segment is left.
-const STEPS: usize = 60;
+const THIRDING_STEPS: usize = 60;
 
 /// Returns the least of a convex function on the segment between two points, and where it is: by thirds, of which one is left out
 /// at a time.
@@ -15,7 +15,7 @@ pub(super) fn least(
     let at = |share: f64| plus(from, share, along);
     let (mut low, mut high) = (0.0, 1.0);
     if along != [0.0; 3] {
-        for _ in 0..STEPS {
+        for _ in 0..THIRDING_STEPS {
             let third = (high - low) / 3.0;
             if of_point(at(low + third)) <= of_point(at(high - third)) {
                 high -= third;
