@@ -125,3 +125,10 @@ def test_points_without_room_and_shapes_without_inside_are_refused():
         taut.inscribed_bodies(OCTAHEDRON, FACES, coverage=2.0)
     with pytest.raises(ValueError, match="`facets` is 257"):
         taut.inscribed_bodies(OCTAHEDRON, FACES, facets=257)
+
+
+@pytest.mark.parametrize("options", [{"votes": 7}, {"cells": 9}, {"seeds": "center"}, {"translate": True}, {"merge": True}])
+def test_options_of_other_methods_are_refused(options):
+    name = next(iter(options))
+    with pytest.raises(ValueError, match=f"option `{name}` is of method thesis, not of recreate"):
+        taut.inscribed_dops(OCTAHEDRON, FACES, **options)
