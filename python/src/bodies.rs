@@ -5,7 +5,7 @@ use taut::inscribe::{
     BodiesMethod, BodiesOptions, BodiesThesisOptions, BodyShape, Objective, ThesisSeeds,
 };
 
-use crate::choice::choice;
+use crate::choice::{check_method_options, choice};
 use crate::found::{Found, solve_points};
 use crate::numbers::whole;
 
@@ -42,14 +42,27 @@ pub(crate) fn inscribed_bodies(
     let objective = choice::<Objective>("objective", objective)?;
     let count = whole("count", count, "from 1 to 1000")?;
     let events = whole("events", events, "at least 1")?;
-    let method = match choice::<BodiesMethod>("method", method)? {
-        BodiesMethod::Thesis(_) => BodiesMethod::Thesis(BodiesThesisOptions {
-            seeds: choice::<ThesisSeeds>("seeds", seeds)?,
-            cells: whole("cells", cells, "from 2 to 256")?,
-            votes: whole("votes", votes, "from 1 to 100")?,
-            translate,
-            merge,
-        }),
+    let thesis = BodiesThesisOptions {
+        seeds: choice::<ThesisSeeds>("seeds", seeds)?,
+        cells: whole("cells", cells, "from 2 to 256")?,
+        votes: whole("votes", votes, "from 1 to 100")?,
+        translate,
+        merge,
+    };
+    let usual = BodiesThesisOptions::default();
+    let changed = [
+        ("seeds", thesis.seeds != usual.seeds),
+        ("cells", thesis.cells != usual.cells),
+        ("votes", thesis.votes != usual.votes),
+        ("translate", translate),
+        ("merge", merge),
+    ];
+    let chosen = choice::<BodiesMethod>("method", method)?;
+    check_method_options(method, &changed, |_, method: &BodiesMethod| {
+        matches!(method, BodiesMethod::Thesis(_))
+    })?;
+    let method = match chosen {
+        BodiesMethod::Thesis(_) => BodiesMethod::Thesis(thesis),
         other => other,
     };
     let seed = whole("seed", seed, "from 0 to 2^64 - 1")?;

@@ -25,3 +25,21 @@ pub(crate) fn one_of<T>(
         PyValueError::new_err(format!("option `{option}` is {word:?}: expected one of {names}"))
     })
 }
+
+/// Refuses options with another value than the usual one that the method does not have, rather than ignoring them.
+pub(crate) fn check_method_options<M: Choice>(
+    method: &str,
+    changed: &[(&str, bool)],
+    has: impl Fn(&str, &M) -> bool,
+) -> PyResult<()> {
+    for (option, _) in changed.iter().filter(|(_, is_changed)| *is_changed) {
+        let of = M::CHOICES.iter().filter(|(_, choice, _)| has(option, choice));
+        let names: Vec<&str> = of.map(|(name, ..)| *name).collect();
+        if !names.contains(&method) {
+            let names = names.join(" and ");
+            let message = format!("option `{option}` is of method {names}, not of {method}");
+            return Err(PyValueError::new_err(message));
+        }
+    }
+    Ok(())
+}

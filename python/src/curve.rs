@@ -4,7 +4,7 @@ use pyo3::prelude::*;
 use taut::reconstruct::{CurveThesisOptions, Ends};
 use taut::{CurveMethod, CurveOptions, Items};
 
-use crate::choice::choice;
+use crate::choice::{check_method_options, choice};
 use crate::found::{Found, solve_points};
 use crate::items::raise;
 use crate::numbers::whole;
@@ -22,10 +22,20 @@ pub(crate) fn curve(
     places: bool,
     threads: &Bound<'_, PyAny>,
 ) -> PyResult<Found> {
+    let chosen = choice::<CurveMethod>("method", method)?;
     let thesis = CurveThesisOptions { rho, omega, feature };
+    let usual = CurveThesisOptions::default();
+    let changed = [
+        ("rho", rho != usual.rho),
+        ("omega", omega != usual.omega),
+        ("feature", feature.is_some()),
+    ];
+    check_method_options(method, &changed, |_, method: &CurveMethod| {
+        matches!(method, CurveMethod::Thesis(_) | CurveMethod::ThesisCrude(_))
+    })?;
     thesis.check().map_err(|error| raise(error, Items::Points, 0))?;
     let options = CurveOptions {
-        method: match choice("method", method)? {
+        method: match chosen {
             CurveMethod::Thesis(_) => CurveMethod::Thesis(thesis),
             CurveMethod::ThesisCrude(_) => CurveMethod::ThesisCrude(thesis),
             other => other,

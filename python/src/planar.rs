@@ -7,7 +7,7 @@ use taut::inscribe::{
     RectangleOptions, TriangleMethod, TriangleOptions, TriangleThesisOptions,
 };
 
-use crate::choice::choice;
+use crate::choice::{check_method_options, choice};
 use crate::found::{Found, solve_points};
 use crate::numbers::whole;
 
@@ -56,7 +56,18 @@ pub(crate) fn inscribed_ellipse(
     let sample_count = whole("sample_count", sample_count, "a number from 12 to 1000")?;
     let seed = whole("seed", seed, "0 to 2**64 - 1")?;
     let thesis = EllipseThesisOptions { sample_count, fatness, angle, seed };
-    let method = match choice("method", method)? {
+    let usual = EllipseThesisOptions::default();
+    let changed = [
+        ("sample_count", sample_count != usual.sample_count),
+        ("fatness", fatness != usual.fatness),
+        ("angle", angle != usual.angle),
+        ("seed", seed != usual.seed),
+    ];
+    let chosen = choice::<EllipseMethod>("method", method)?;
+    check_method_options(method, &changed, |_, method: &EllipseMethod| {
+        matches!(method, EllipseMethod::Thesis(_) | EllipseMethod::FivePoint(_))
+    })?;
+    let method = match chosen {
         EllipseMethod::Thesis(_) => EllipseMethod::Thesis(thesis),
         EllipseMethod::FivePoint(_) => EllipseMethod::FivePoint(thesis),
         other => other,
@@ -82,7 +93,14 @@ pub(crate) fn inscribed_triangle(
     let sample_count = whole("sample_count", sample_count, "a number from 3 to 4096")?;
     let seed = whole("seed", seed, "0 to 2**64 - 1")?;
     let thesis = TriangleThesisOptions { sample_count, seed };
-    let method = match choice("method", method)? {
+    let usual = TriangleThesisOptions::default();
+    let changed =
+        [("sample_count", sample_count != usual.sample_count), ("seed", seed != usual.seed)];
+    let chosen = choice::<TriangleMethod>("method", method)?;
+    check_method_options(method, &changed, |_, method: &TriangleMethod| {
+        matches!(method, TriangleMethod::Thesis(_))
+    })?;
+    let method = match chosen {
         TriangleMethod::Thesis(_) => TriangleMethod::Thesis(thesis),
         other => other,
     };

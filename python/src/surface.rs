@@ -7,7 +7,7 @@ use taut::reconstruct::thesis::{AlphaFilter, Extent, Priority, ThesisOptions};
 use taut::reconstruct::{Denoise, HullOptions, Positions, SurfaceMode};
 use taut::{SurfaceMethod, SurfaceOptions};
 
-use crate::choice::choice;
+use crate::choice::{check_method_options, choice};
 use crate::found::{Found, solve_points};
 use crate::numbers::whole;
 
@@ -55,15 +55,9 @@ pub(crate) fn surface(
         ("priority", priority != usual.priority),
         ("restarts", restarts),
     ];
-    for (name, is_given) in given {
-        let methods = SurfaceOptions::methods_of(name);
-        if is_given && !methods.contains(&method) {
-            let names: Vec<&str> = methods.iter().map(|method| method.name()).collect();
-            let (names, method) = (names.join(" and "), method.name());
-            let message = format!("option `{name}` is of method {names}, not of {method}");
-            return Err(PyValueError::new_err(message));
-        }
-    }
+    check_method_options(method.name(), &given, |option, method| {
+        SurfaceOptions::methods_of(option).contains(method)
+    })?;
     let filter = alpha.map_or(AlphaFilter::None, AlphaFilter::Circumradius);
     let method = match method {
         Kind::Tree if open => SurfaceMethod::Tree(SurfaceMode::Open),

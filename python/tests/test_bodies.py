@@ -166,3 +166,10 @@ def test_directions_can_be_given():
         taut.inscribed_dops(OCTAHEDRON, FACES, directions=[[1, 0, 0], [0, 1, 0], [-2, 0, 0]])
     with pytest.raises(ValueError, match=r"whole numbers, \(k, 3\)"):
         taut.inscribed_dops(OCTAHEDRON, FACES, directions=[[1.5, 0, 0]])
+
+
+@pytest.mark.parametrize("options", [{"votes": 7}, {"cells": 9}, {"seeds": "center"}, {"translate": True}, {"merge": True}])
+def test_options_of_other_methods_are_refused(options):
+    name = next(iter(options))
+    with pytest.raises(ValueError, match=f"option `{name}` is of method thesis, not of recreate"):
+        taut.inscribed_dops(OCTAHEDRON, FACES, **options)

@@ -121,9 +121,10 @@ def test_answers_travel_and_lies_are_found(rings):
     ("options", "message"),
     [
         ({"method": "splines"}, "expected one of auto, fit, thesis"),
-        ({"rho": 0.5}, "`rho` is 0.5: expected a number of at least 1"),
-        ({"omega": 0.0}, "`omega` is 0: expected a number above 0"),
-        ({"omega": float("nan")}, "omega"),
+        ({"rho": 0.5, "method": "thesis"}, "`rho` is 0.5: expected a number of at least 1"),
+        ({"omega": 0.0, "method": "thesis-crude"}, "`omega` is 0: expected a number above 0"),
+        ({"omega": float("nan"), "method": "thesis"}, "`omega` is NaN"),
+        ({"feature": 1.0}, "option `feature` is of method thesis and thesis-crude, not of auto"),
         ({"threads": 0}, "threads"),
     ],
 )

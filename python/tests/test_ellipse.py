@@ -45,3 +45,8 @@ def test_bad_rings_are_refused_by_row():
 
 def test_a_notebook_shows_the_ellipse():
     assert "<svg" in taut.inscribed_ellipse(RECTANGLE)._repr_html_()
+
+
+def test_options_of_other_methods_are_refused():
+    with pytest.raises(ValueError, match="option `fatness` is of method thesis and five-point, not of branch-and-bound"):
+        taut.inscribed_ellipse([[0, 0], [1, 0], [0, 1]], fatness=-3.0)

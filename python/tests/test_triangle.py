@@ -47,3 +47,8 @@ def test_bad_rings_are_refused_by_row():
 
 def test_a_notebook_shows_the_triangle():
     assert "<svg" in taut.inscribed_triangle(HEXAGON)._repr_html_()
+
+
+def test_options_of_other_methods_are_refused():
+    with pytest.raises(ValueError, match="option `seed` is of method thesis, not of branch-and-bound"):
+        taut.inscribed_triangle([[0, 0], [1, 0], [0, 1]], seed=7)

@@ -91,4 +91,25 @@ mod tests {
             commands.extend(command.get_subcommands());
         }
     }
+    /// Lines are broken where the terminal ends. A line that goes on in the next one would be broken twice.
+    #[test]
+    fn help_leaves_breaking_lines_to_the_terminal() {
+        const HEADS: [&str; 5] = ["Exit: ", "Example: ", "See: ", "Start: ", " "];
+        let top = super::Cli::command();
+        let mut commands = vec![&top];
+        while let Some(command) = commands.pop() {
+            let help = command.get_after_help().map(|help| help.to_string()).unwrap_or_default();
+            let lines: Vec<&str> = help.lines().collect();
+            let has_head = |line: &str| HEADS.iter().any(|head| line.starts_with(head));
+            for pair in lines.windows(2) {
+                let goes_on =
+                    !pair.iter().any(|line| has_head(line)) && !pair[0].ends_with(['.', ':']);
+                assert!(!goes_on, "{}: {}", command.get_name(), pair[0]);
+            }
+            for line in lines.iter().filter(|line| has_head(line)) {
+                assert!(line.chars().count() <= 100, "{}: {line}", command.get_name());
+            }
+            commands.extend(command.get_subcommands());
+        }
+    }
 }

@@ -22,7 +22,7 @@ pub(crate) struct Effort {
     /// Threads to use, 1 to 1024; no result depends on it [default: TAUT_THREADS, or one for each processor]
     #[arg(long, value_name = "N", value_parser = threads)]
     threads: Option<usize>,
-    /// Say nothing but errors; the exit code tells how it went
+    /// Say nothing but errors and the JSON that --json asks for; the exit code tells how it went
     #[arg(short, long)]
     pub(crate) quiet: bool,
     /// When to show progress on standard error

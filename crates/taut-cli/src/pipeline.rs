@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::bail;
 use taut::{Monitor, Solution};
+use taut_io::Format;
 
 use crate::clock::Clock;
 use crate::commands::verify::judge;
@@ -45,12 +46,18 @@ pub(crate) trait Find {
         }
     }
 
+    /// Refuses options that the method does not have.
+    fn check_method_options(&self) -> anyhow::Result<()> {
+        Ok(())
+    }
+
     /// Refuses options and names of files, before any work.
     fn check_options(&self) -> anyhow::Result<()> {
+        self.check_method_options()?;
         if let Some(samples) = self.samples() {
             samples.check(self.output())?;
         }
-        self.output().refuse_pictures_as_json()
+        self.output().refuse_other_formats(self.input().path)
     }
 
     /// Files that are written beside `-o` and `--draw`.
@@ -161,6 +168,7 @@ pub(crate) fn run(command: &impl Find) -> anyhow::Result<Outcome> {
 
     let report = Report { found: &found, points: &points, verdict };
     let (title, mut fields) = (report.title(), report.fields());
+    fields.extend(points.origin());
     fields.extend(command.side_fields(&extra));
     let drawn = match picture {
         Some(picture) => {
@@ -242,6 +250,21 @@ impl<'a> Output<'a> {
         match self.out.filter(|out| Picture::of_path(out).is_ok()) {
             Some(out) => bail!("{}: -o writes JSON; draw with --draw {0}", out.display()),
             None => Ok(()),
+        }
+    }
+
+    /// Refuses the extension of anything else where JSON is written, except those of plain text. That an output would replace the
+    /// input is said first.
+    pub(crate) fn refuse_other_formats(&self, input: &Path) -> anyhow::Result<()> {
+        self.refuse_pictures_as_json()?;
+        let Some(out) = self.out else { return Ok(()) };
+        match Format::of_path(out).0 {
+            None | Some(Format::Whitespace) => Ok(()),
+            Some(format) => {
+                writing::check_writable(&[out], &[input])?;
+                let name = format.name();
+                bail!("{}: -o writes JSON, no {name} file: name it .json", out.display())
+            }
         }
     }
 

@@ -80,6 +80,7 @@ impl<A: Summary> Report<'_, A> {
 }
 
 /// A number with its name, and what there is to say about it where there is room for words.
+#[derive(Clone)]
 pub(crate) struct Field {
     pub(crate) name: &'static str,
     pub(crate) value: String,

@@ -63,7 +63,7 @@ pub enum Error {
     /// The mesh has a boundary: some edge belongs to an odd number of triangles.
     #[error(
         "the mesh is not closed: {edges} of its edges belong to an odd number of triangles, the first of them the edge from \
-         {from:?} to {to:?} of triangle {row}; close the holes of the mesh, or let them be closed by triangles"
+         {from:?} to {to:?} of triangle {row} (from 0); close the holes of the mesh, or let them be closed by triangles"
     )]
     Open {
         /// How many such edges there are.
@@ -97,7 +97,7 @@ pub enum Error {
     },
     /// The grid cannot hold the mesh.
     #[error(
-        "the longest side of the mesh is {side:?}: expected from 1e-80 to 1e90, and no coordinate beyond 10^10 times that side; \
+        "the longest side of the mesh is {side:?}: expected from 1e-83 to 1e100, and no coordinate beyond 6.8e10 times that side; \
          scale the mesh, or shift it to the origin"
     )]
     Grid {

@@ -38,6 +38,12 @@ pub enum Error {
         /// The file.
         path: String,
     },
+    /// A link stands where a folder was expected: what it leads to would stay, and the link would go.
+    #[error("{path} is a link: name the folder to which it leads, or another one")]
+    LinkedFolder {
+        /// The link.
+        path: String,
+    },
     /// An earlier folder holds something that its replacement would remove.
     #[error(
         "{path} holds `{}`, which would be removed: name a new or an empty folder",

@@ -17,13 +17,13 @@ use crate::watch::Watch;
 /// Find k centers such that the farthest point is as near to one of them as can be, with proof.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-The search takes time exponential in k: seconds for ten centers in the plane, and for twenty a --max-nodes or a larger
+The search takes time exponential in k: seconds for ten centers in the plane, and for twenty a --max-nodes or a larger \
 --epsilon is wise. farthest-first takes any number of centers, and stream files larger than memory.
 Exit: 0 reached · 1 the check failed · 2 bad input or usage, nothing written ·
-      3 stopped early by the budget of nodes, of the search or of its proof, or where rounding hides the gap
-        that was asked for;
-        the gap reached is reported
-Example: taut centers points.csv -k 5 -o centers.json --draw centers.svg && taut verify centers.json points.csv
+      3 stopped early by the budget of nodes, of the search or of its proof, or where rounding
+        hides the gap that was asked for; the gap reached is reported
+Example: taut centers points.csv -k 5 -o centers.json --draw centers.svg &&
+         taut verify centers.json points.csv
          taut centers points.csv --elbow 1..10 --draw elbow.svg")]
 pub(crate) struct Args {
     #[command(flatten)]
@@ -86,7 +86,10 @@ impl Find for Args {
 
     fn check_options(&self) -> anyhow::Result<()> {
         self.check_method()?;
-        self.output().refuse_pictures_as_json()
+        match self.elbow {
+            Some(_) => self.output().refuse_pictures_as_json(),
+            None => self.output().refuse_other_formats(&self.points.path),
+        }
     }
 
     fn solve(&self, points: &Opened, watch: &Watch) -> anyhow::Result<(Solution<Centers>, ())> {

@@ -10,7 +10,7 @@ use taut_io::{Content, Format, Polyline, polylines_file};
 
 use crate::effort::Effort;
 use crate::exit::Outcome;
-use crate::input::choice::choice;
+use crate::input::choice::{check_method_options, choice};
 use crate::input::reading::{Opened, Points, Reading};
 use crate::output::picture::Picture;
 use crate::output::writing::Outputs;
@@ -20,8 +20,9 @@ use crate::watch::Watch;
 /// Find the curves that points of the plane were sampled from, noisy or not, and say whether the sampling was dense enough.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-Certified means: closed curves without crossings, sampled so densely beside their own features that a smooth curve with these
-samples has the same loops. Where that cannot be said, the reason is told, and the exit code is 0 all the same.
+Certified means: closed curves without crossings, sampled so densely beside their own features that a smooth curve \
+with these samples has the same loops. Where that cannot be said, the reason is told, and the exit code is 0 all the \
+same.
 Exit: 0 done · 1 the check failed · 2 bad input or usage, nothing written
 Example: taut curve points.csv -o curve.json --draw curve.svg && taut verify curve.json points.csv
          taut curve points.csv -o curve.geojson")]
@@ -36,12 +37,12 @@ pub(crate) struct Args {
     /// Leave ends as they are where samples end, and join none across a gap; of a tour make a path
     #[arg(long)]
     open: bool,
-    /// Of thesis and thesis-crude, ρ: how much longer than wide the coarse disk of a point must be, at least 1
-    #[arg(long, value_name = "REAL", default_value_t = CurveThesisOptions::default().rho, allow_negative_numbers = true)]
-    rho: f64,
-    /// Of thesis and thesis-crude, ω: the first disk of a point holds (ln n)^(1 + ω) points; above 0
-    #[arg(long, value_name = "REAL", default_value_t = CurveThesisOptions::default().omega, allow_negative_numbers = true)]
-    omega: f64,
+    /// Of thesis and thesis-crude, ρ: how much longer than wide the coarse disk of a point must be, at least 1 [default: 4]
+    #[arg(long, value_name = "REAL", allow_negative_numbers = true)]
+    rho: Option<f64>,
+    /// Of thesis and thesis-crude, ω: the first disk of a point holds (ln n)^(1 + ω) points; above 0 [default: 0.1]
+    #[arg(long, value_name = "REAL", allow_negative_numbers = true)]
+    omega: Option<f64>,
     /// Of thesis and thesis-crude, the least distance of the curves from their medial axis, in the unit of the points; by default
     /// it is estimated
     #[arg(long, value_name = "REAL", allow_negative_numbers = true)]
@@ -90,6 +91,14 @@ impl Find for Args {
     }
 
     fn check_options(&self) -> anyhow::Result<()> {
+        let given = [
+            ("rho", self.rho.is_some()),
+            ("omega", self.omega.is_some()),
+            ("feature", self.feature.is_some()),
+        ];
+        check_method_options(self.method.name(), &given, |_, method: &CurveMethod| {
+            matches!(method, CurveMethod::Thesis(_) | CurveMethod::ThesisCrude(_))
+        })?;
         self.line_format()?;
         match &self.svg_path {
             Some(path) if Format::of_path(path).0 != Some(Format::Svg) => {
@@ -177,7 +186,12 @@ impl Args {
     }
 
     fn thesis(&self) -> CurveThesisOptions {
-        CurveThesisOptions { rho: self.rho, omega: self.omega, feature: self.feature }
+        let usual = CurveThesisOptions::default();
+        CurveThesisOptions {
+            rho: self.rho.unwrap_or(usual.rho),
+            omega: self.omega.unwrap_or(usual.omega),
+            feature: self.feature,
+        }
     }
 }
 

@@ -27,7 +27,7 @@ use crate::watch::Watch;
 /// Triangulate points in the plane or in space, with proof.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-Ids are rows of the input, from 0. Of equal points the first stands for all; the others are listed as duplicates.
+Ids are rows of the input, from 0. Of equal points the first stands for all; the others are listed as duplicates. \
 Points on a line or on a plane in space are no error: their chain or their triangles are the answer.
 Exit: 0 done · 1 the check failed · 2 bad input or usage, nothing written
 Example: taut delaunay points.csv -o mesh.ply --draw mesh.html && taut verify mesh.ply points.csv")]

@@ -13,8 +13,8 @@ use crate::watch::Watch;
 /// Find the smallest polytope with facets in k directions (k-dop) around points of space or a mesh, with proof.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-Of a mesh (.ply, .obj, .off, .stl) all vertices are points, used or not. Each offset is the least number that is at least u·p for
-all points p, so that no facet can move inward.
+Of a mesh (.ply, .obj, .off, .stl) all vertices are points, used or not. Each offset is the least number that is at \
+least u·p for all points p, so that no facet can move inward.
 Exit: 0 found · 1 the check failed · 2 bad input or usage, nothing written
 Example: taut dop horse.off -k 18 -o dop.json --draw dop.html && taut verify dop.json horse.off")]
 pub(crate) struct Args {

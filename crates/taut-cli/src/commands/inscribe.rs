@@ -22,9 +22,9 @@ use crate::watch::Watch;
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Example: taut inscribe circle ring.csv -o circle.json --draw circle.svg
-See: taut inscribe bodies --help, taut inscribe circle --help, taut inscribe dops --help, taut inscribe ellipse --help,
-     taut inscribe ellipsoid --help, taut inscribe polygon --help, taut inscribe rectangle --help,
-     taut inscribe triangle --help")]
+See: taut inscribe bodies --help, taut inscribe circle --help, taut inscribe dops --help,
+     taut inscribe ellipse --help, taut inscribe ellipsoid --help, taut inscribe polygon --help,
+     taut inscribe rectangle --help, taut inscribe triangle --help")]
 pub(crate) struct Args {
     #[command(subcommand)]
     body: Body,
@@ -45,7 +45,7 @@ enum Body {
 /// Find the ellipsoid of largest volume inside a polytope, given by half-spaces.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-A row a₁, …, a_d, b is the half-space of all x with a₁x₁ + … + a_d x_d ≤ b. The polytope must have an end in every
+A row a₁, …, a_d, b is the half-space of all x with a₁x₁ + … + a_d x_d ≤ b. The polytope must have an end in every \
 direction and an interior point; if not, the message tells why.
 Exit: 0 reached · 1 the check failed · 2 bad input or usage, nothing written ·
       3 stopped early by the budget of steps, or where rounding hides the gap that was asked for;

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{anyhow, bail};
+use anyhow::anyhow;
 use taut::certify::{Surface, SurfaceMethod as Kind};
 use taut::points::{PointSource, Scratch};
 use taut::reconstruct::thesis::{AlphaFilter, Extent, Priority, ThesisOptions};
@@ -12,7 +12,7 @@ use taut_io::{Content, Format, Mesh, MeshOptions, mesh_file, open_mesh};
 
 use crate::effort::Effort;
 use crate::exit::Outcome;
-use crate::input::choice::choice;
+use crate::input::choice::{check_method_options, choice};
 use crate::input::reading::{Opened, Points, Reading};
 use crate::output::meshes::mesh_format;
 use crate::output::writing::{self, Outputs};
@@ -22,12 +22,14 @@ use crate::watch::Watch;
 /// Find the surface that points of space were sampled from: triangles between the points, and whether they are a surface.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-Certified means: an oriented manifold of Delaunay triangles that meets itself nowhere. Where that cannot be said, the reason is
-told, and the exit code is 0 all the same.
-A mesh has the points as vertices, in their order, used or not; normals and colors of a ply, obj, off or xyz file go with them.
+Certified means: an oriented manifold of Delaunay triangles that meets itself nowhere. Where that cannot be said, the \
+reason is told, and the exit code is 0 all the same.
+A mesh has the points as vertices, in their order, used or not; normals and colors of a ply, obj, off or xyz file go \
+with them.
 Exit: 0 done · 1 the check failed · 2 bad input or usage, nothing written
 Example: taut surface bunny.ply -o bunny.stl
-         taut surface points.csv -o surface.json --draw surface.html && taut verify surface.json points.csv")]
+         taut surface points.csv -o surface.json --draw surface.html &&
+         taut verify surface.json points.csv")]
 pub(crate) struct Args {
     #[command(flatten)]
     points: Points,
@@ -158,15 +160,9 @@ impl Args {
             ("priority", self.priority.is_some()),
             ("restarts", self.restarts),
         ];
-        for (name, is_given) in options {
-            let methods = SurfaceOptions::methods_of(name);
-            if is_given && !methods.contains(&self.method) {
-                let names: Vec<&str> = methods.iter().map(|method| method.name()).collect();
-                let method = self.method.name();
-                bail!("--{name} is of --method {}, not of {method}", names.join(" and "));
-            }
-        }
-        Ok(())
+        check_method_options(self.method.name(), &options, |option, method| {
+            SurfaceOptions::methods_of(option).contains(method)
+        })
     }
 
     /// The file of the mesh, with what the file of the points says of them.

@@ -30,9 +30,9 @@ use crate::watch::Watch;
 Columns and the like have to be chosen as for the answer: the certificate knows its points by a hash.
 Exit: 0 proved · 1 rejected, with the first violation, or a larger gap than --epsilon ·
       2 bad input or usage
-A mesh of simplices (.ply, .obj, .off, .vtu, .parquet) is judged as a Delaunay triangulation, without certificate.
-A sorted or transposed file is judged with the file it was made from, or alone by the hash of the certificate; a sample is
-made from no file.
+A mesh of simplices (.ply, .obj, .off, .vtu, .parquet) is judged as a Delaunay triangulation, without certificate. A \
+sorted or transposed file is judged with the file it was made from, or alone by the hash of the certificate; a sample \
+is made from no file.
 Example: taut verify ball.json points.csv --epsilon 1e-6")]
 pub(crate) struct Args {
     /// The answer, as `taut ball -o`, `taut memory sort --certificate` and their like write it; - is standard input

@@ -8,6 +8,7 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use taut::certify::Fault;
 use taut::certify::Violation;
 use taut::enclose::Error as SolveError;
+use taut::inscribe::Error as InscribeError;
 use taut::points::{InputError, ReadError, ScalarKind, shown_number};
 use taut::{AnySolution, PointSource};
 use taut_io::{Columns, Content, Feature, Format, Header, Input, RawLayout, ReadOptions};
@@ -16,6 +17,7 @@ use crate::input::obstacles::Obstacles;
 use crate::input::size;
 use crate::output::numbers::coordinates;
 use crate::output::writing;
+use crate::reports::Field;
 
 #[derive(Clone, Debug, clap::Args)]
 #[command(next_help_heading = "Reading")]
@@ -97,7 +99,7 @@ impl Reading {
         if path == Path::new("-") && std::io::stdin().is_terminal() {
             writing::print_error("reading points from the terminal; Ctrl-D ends them");
         }
-        Ok(Opened { input: taut_io::open(path, &self.options()?)? })
+        Ok(Opened::of(taut_io::open(path, &self.options()?)?))
     }
 
     /// Opens the points of `path`, with a column of labels if one is named, and with the columns of these names where the file has
@@ -115,15 +117,15 @@ impl Reading {
             match taut_io::open(path, &ReadOptions { columns, ..options.clone() }) {
                 // A file without names has its columns in the order of the model; a stream cannot be read twice.
                 Err(taut_io::Error::NoNames { .. }) if !writing::is_stream(path) => {}
-                opened => return Ok(Opened { input: opened? }),
+                opened => return Ok(Opened::of(opened?)),
             }
         }
-        Ok(Opened { input: taut_io::open(path, &options)? })
+        Ok(Opened::of(taut_io::open(path, &options)?))
     }
 
     /// Opens the triangles of the mesh of `path`, a row for each, and what bodies in it stay clear of; see [`Obstacles`].
     pub(crate) fn open_mesh(&self, path: &Path, obstacles: &Obstacles) -> anyhow::Result<Opened> {
-        obstacles.around(Opened { input: taut_io::open_triangles(path, &self.options()?)? }, self)
+        obstacles.around(Opened::of(taut_io::open_triangles(path, &self.options()?)?), self)
     }
 
     /// Opens the rows of an obstacle: of a mesh its triangles, else points.
@@ -134,7 +136,7 @@ impl Reading {
             Err(taut_io::Error::EmptyMesh { .. }) => taut_io::open(path, &options)?,
             opened => opened?,
         };
-        Ok(Opened { input })
+        Ok(Opened::of(input))
     }
 
     /// Opens the rows that an answer of some kind is about.
@@ -157,12 +159,28 @@ impl Reading {
 /// Points that were opened, and what is known of their file.
 pub(crate) struct Opened {
     input: Input,
+    /// What is known of how they were made of other points.
+    origin: Option<Field>,
 }
 
 impl Opened {
+    fn of(input: Input) -> Self {
+        Opened { input, origin: None }
+    }
+
     pub(crate) fn of_bytes(bytes: &[u8], name: &str) -> anyhow::Result<Self> {
         let input = taut_io::open_bytes(bytes.to_vec(), name, &ReadOptions::default())?;
-        Ok(Opened { input })
+        Ok(Opened::of(input))
+    }
+
+    /// The same points, with what is known of how they were made of others.
+    pub(crate) fn made(self, origin: Field) -> Self {
+        Opened { origin: Some(origin), ..self }
+    }
+
+    /// What is known of how the points were made of others.
+    pub(crate) fn origin(&self) -> Option<Field> {
+        self.origin.clone()
     }
 
     /// The same file with other points.
@@ -195,6 +213,7 @@ impl Opened {
         match error.into() {
             taut::Error::Input(error) => self.explain_input(error),
             taut::Error::Enclose(error) => self.explain_enclosing(error),
+            taut::Error::Inscribe(error) => self.explain_inscribing(error),
             other => anyhow!("{}: {other}", self.name()),
         }
     }
@@ -280,6 +299,28 @@ impl Opened {
             SolveError::Undecided => anyhow!("{}: {error}", self.name()),
             SolveError::Empty | SolveError::Overflow => anyhow!("{}: {error}", self.name()),
             other => other.into(),
+        }
+    }
+
+    /// Returns what is refused of rings, with rows of the file.
+    fn explain_inscribing(&self, error: InscribeError) -> anyhow::Error {
+        match error {
+            InscribeError::NotSimple { edge, other } => {
+                let [a, b, c, d] = [edge[0], edge[1], other[0], other[1]].map(|row| self.row(row));
+                anyhow!(
+                    "{}: the edge from row {a} to row {b} meets the edge from row {c} to row {d}: rings may neither cross nor \
+                     touch themselves or each other",
+                    self.name()
+                )
+            }
+            InscribeError::RingNumber { row, value } => anyhow!(
+                "{}, row {}: the number of the ring is {}: expected 0 in the first row, and in each other row that of the row \
+                 before or one more",
+                self.name(),
+                self.row(row),
+                shown_number(value)
+            ),
+            other => anyhow!("{}: {other}", self.name()),
         }
     }
 

@@ -9,14 +9,16 @@ use taut::points::{PointSource, Scratch};
 use taut::{CurveOptions, curve};
 
 use crate::input::reading::Opened;
+use crate::output::numbers::{coordinates, counted, short};
 use crate::output::writing::{Outputs, print_error};
 use crate::pipeline::{Input, Output};
+use crate::reports::Field;
 
 /// How points become rings.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Samples {
     /// Take points as samples of closed curves in any order, and join them first as `taut curve` does; what is proved is proved of
-    /// the polygon found
+    /// the polygon found, and the report says whether the samples are dense enough for it
     #[arg(long)]
     samples: bool,
     /// Of --samples, write the polygon found as .csv with columns x, y, ring, for `taut verify`
@@ -46,15 +48,18 @@ impl Samples {
         if !self.samples {
             return Ok(opened);
         }
-        let found = curve(opened.source(), &CurveOptions::default())
-            .map_err(|error| opened.explain(error))?
-            .answer;
+        let joined = curve(opened.source(), &CurveOptions::default())
+            .map_err(|error| opened.explain(error))?;
+        let verdict = joined.check(opened.source())?;
+        let found = joined.answer;
         let outliers = found.outliers.len();
         if outliers > 0 && !input.effort.quiet {
             print_error(&format!("{}: no curve accounts for {outliers} points", opened.name()));
         }
         let text = rings(&found, opened.name())?;
-        Opened::of_bytes(text.as_bytes(), &format!("the polygon through {}.csv", opened.name()))
+        let name = format!("the polygon through {}.csv", opened.name());
+        let polygon = Opened::of_bytes(text.as_bytes(), &name)?;
+        Ok(polygon.made(said(&found, verdict.doubt.map(|doubt| doubt.to_string()))))
     }
 
     /// The file of the polygon, if it is asked for.
@@ -76,6 +81,30 @@ impl Samples {
         }
         outputs.add(path, text.as_bytes())
     }
+}
+
+/// Returns what is known of curves through samples: whether they are certified, and where else a curve was perhaps open.
+fn said(found: &Curve, doubt: Option<String>) -> Field {
+    let curves = counted(found.curves.len() as u64, "closed curve");
+    let field = Field::evidence("samples", format!("joined to {curves}"));
+    let Some(doubt) = doubt else { return field.remark("sampled densely enough") };
+    let all = || {
+        found.curves.iter().flat_map(|curve| {
+            let next = curve.vertices.iter().cycle().skip(1);
+            curve.vertices.iter().zip(next)
+        })
+    };
+    let length = |(a, b): &(&[f64; 2], &[f64; 2])| (b[0] - a[0]).hypot(b[1] - a[1]);
+    let longest = all().max_by(|one, other| length(one).total_cmp(&length(other)));
+    let gap = longest.map_or(String::new(), |edge| {
+        let ([a, b], length) =
+            ([edge.0, edge.1].map(|p| coordinates(p, length(&edge))), length(&edge));
+        format!(
+            "; if a curve is open, the polygon closes it: its longest edge, {}, is from {a} to {b}",
+            short(length)
+        )
+    });
+    field.remark(format!("not certified: {doubt}{gap}"))
 }
 
 /// The names of the columns of a polygon.

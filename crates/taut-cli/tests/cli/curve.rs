@@ -299,11 +299,18 @@ fn what_is_wrong_is_named() {
         ("curve none.csv", &["none.csv"]),
         ("curve missing.csv", &["missing.csv: no such file"]),
         (
-            "curve islands.csv --rho 0.5",
+            "curve islands.csv --method thesis --rho 0.5",
             &["option `--rho` is 0.5: expected a number of at least 1"],
         ),
-        ("curve islands.csv --omega 0", &["option `--omega` is 0: expected a number above 0"]),
-        ("curve islands.csv --omega=-inf", &["option `--omega`"]),
+        (
+            "curve islands.csv --method thesis-crude --omega 0",
+            &["option `--omega` is 0: expected a number above 0"],
+        ),
+        ("curve islands.csv --method thesis --omega=-inf", &["option `--omega` is -inf"]),
+        (
+            "curve islands.csv --feature 1",
+            &["--feature is of --method thesis and thesis-crude, not of auto"],
+        ),
         ("curve islands.csv -o a.svg", &["a.svg", "--draw a.svg", "--path a.svg"]),
         ("curve islands.csv -o a.png", &["a.png", "--draw a.png"]),
         ("curve islands.csv -o a.ply", &["a.ply: -o writes .json, .csv or .geojson"]),

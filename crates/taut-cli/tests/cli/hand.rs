@@ -99,7 +99,14 @@ fn recognition_is_evaluated_from_scans_and_from_their_table() {
             "hand evaluate --synthetic 6x4 --seed 3 {protocol} --table features.csv --draw rates.svg"
         ))
         .ends(0)
-        .stdout_has(&["24 scans of 6 people\n", "Training with 2 scans of ", "thesis-box", "all-plda"]);
+        .stdout_has(&[
+            "24 scans of 6 people\n",
+            "Training with 2 scans of ",
+            "thesis-box",
+            "all-plda",
+            "  2 training scans, unseen people: ",
+            "36 different comparisons of impostors, at most: 300 are needed to tell rejections at FAR ≤ 1 %",
+        ]);
     assert!(folder.text("rates.svg").contains("false rejection rate"));
     folder
         .taut(&format!("hand evaluate features.csv --seed 3 {protocol} --json -o table.json"))
@@ -148,4 +155,15 @@ fn an_evaluation_that_cannot_be_is_refused() {
     refused("anna-1.png --labels labels.csv", &["no column `file`"]);
     std::fs::create_dir(folder.path("empty")).unwrap();
     refused("empty", &["the folder has no scans"]);
+}
+
+#[test]
+fn scans_of_others_in_a_folder_of_synthetic_ones_stay() {
+    let folder = TestFolder::new();
+    let command = "hand synthesize scans --people 1 --scans 1 --quiet";
+    folder.taut(command).ends(0);
+    folder.taut(command).ends(0);
+    folder.put("scans/person-0000-scan-07.png", "mine");
+    folder.taut(command).ends(2).stderr_has(&["scans holds `person-0000-scan-07.png`"]);
+    assert_eq!(folder.text("scans/person-0000-scan-07.png"), "mine");
 }

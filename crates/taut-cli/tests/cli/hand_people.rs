@@ -122,7 +122,7 @@ fn a_matcher_is_learned_from_a_folder() {
     folder
         .taut("hand train scans -o matcher.json --scans 1 --fmr 0.2 --source tests")
         .ends(0)
-        .stdout_has(&["A matcher of ", " scans of 10 people", "\n  FNMR "]);
+        .stdout_has(&["A matcher of ", " scans of 10 people", " right, 0 left\n", "\n  FNMR "]);
     let matcher: serde_json::Value = serde_json::from_str(&folder.text("matcher.json")).unwrap();
     assert_eq!((&matcher["format"], &matcher["source"]), (&json!("taut-matcher"), &json!("tests")));
     let image = image(1, 0);
@@ -137,4 +137,37 @@ fn a_matcher_is_learned_from_a_folder() {
         .stderr_has(&["no file is named PERSON-scan-NUMBER"]);
     folder.taut("hand train scans -o m.json --fmr 2").ends(2).stderr_has(&["option `--fmr` is 2"]);
     folder.taut("hand train scans -o m.json --scans 3").ends(2).stderr_has(&["more scans"]);
+}
+
+#[test]
+fn a_matcher_of_both_hands_says_so() {
+    let folder = TestFolder::new();
+    folder.taut("hand synthesize scans --people 10 --scans 3 --clean --seed 4 --quiet").ends(0);
+    folder
+        .taut("hand synthesize left --left --people 10 --scans 3 --clean --seed 4 --quiet")
+        .ends(0);
+    for person in 0..10 {
+        let name =
+            |folder: &str, scan: u32| format!("{folder}/person-{person:04}-scan-{scan:02}.png");
+        let (from, to) = (folder.path(&name("left", 0)), folder.path(&name("scans", 3)));
+        std::fs::copy(from, to).unwrap();
+    }
+    folder.taut("hand train scans -o matcher.json --scans 1 --fmr 0.2").ends(0).stdout_has(&[
+        "\n  hands ",
+        " left; both of ",
+        " people, and compared as one hand",
+    ]);
+}
+
+#[test]
+fn a_failed_enrollment_leaves_no_new_store() {
+    let folder = TestFolder::new();
+    folder.taut("hand synthesize scans --people 2 --scans 3 --clean --seed 3 --quiet").ends(0);
+    folder.taut("hand key -o key").ends(0);
+    let files = folder.files();
+    let others = format!("{} {} {}", image(0, 0), image(0, 1), image(1, 0));
+    let enrol = format!("hand enrol --create {STORE} --person Ada");
+    folder.taut(&format!("{enrol} {others}")).ends(2);
+    assert_eq!(folder.files(), files);
+    folder.taut(&format!("{enrol} {}", scans(0))).ends(0);
 }

@@ -133,17 +133,17 @@ fn a_changed_answer_is_rejected_with_its_row() {
 fn rings_that_are_no_polygon_are_refused() {
     let folder = TestFolder::new();
     folder.put("bow.csv", "0,0\n2,2\n2,0\n0,2\n");
-    folder.taut("inscribe circle bow.csv -o circle.json").ends(2).stderr_has(&[
-        "bow.csv: the edge from point 0 to point 1 meets the edge from point 2 to point 3",
-    ]);
+    folder
+        .taut("inscribe circle bow.csv -o circle.json")
+        .ends(2)
+        .stderr_has(&["bow.csv: the edge from row 1 to row 2 meets the edge from row 3 to row 4"]);
     assert_eq!(folder.files(), ["bow.csv"]);
     folder.put("two.csv", "0,0\n2,2\n0,0\n");
     folder.taut("inscribe circle two.csv").ends(2).stderr_has(&["has 2 distinct vertices"]);
     folder.put("space.csv", "0,0,1\n2,2,1\n0,1,0\n");
-    folder
-        .taut("inscribe circle space.csv")
-        .ends(2)
-        .stderr_has(&["the ring number of point 0 is 1.0: expected 0 for the first point"]);
+    folder.taut("inscribe circle space.csv").ends(2).stderr_has(&[
+        "space.csv, row 1: the number of the ring is 1: expected 0 in the first row",
+    ]);
     folder.put("four.csv", "0,0,1,1\n2,2,1,1\n0,1,0,1\n");
     folder
         .taut("inscribe circle four.csv")

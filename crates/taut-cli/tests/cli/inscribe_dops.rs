@@ -133,5 +133,5 @@ fn the_procedure_of_the_thesis_gives_disjoint_bodies_with_proofs() {
     let refused = "inscribe dops mesh.off --method thesis --votes 0";
     folder.taut(refused).ends(2).stderr_has(&["option `--votes` is 0: expected from 1 to 100"]);
     let refused = "inscribe dops mesh.off --method thesis --at 0,0,0";
-    folder.taut(refused).ends(2).stderr_has(&["--at", "none with method thesis"]);
+    folder.taut(refused).ends(2).stderr_has(&["--at is of --method recreate, not of thesis"]);
 }

@@ -58,7 +58,7 @@ fn changed_ellipses_and_bad_polygons_are_refused() {
     folder
         .taut("inscribe ellipse bad.csv")
         .ends(2)
-        .stderr_has(&["bad.csv", "the ring number of point 4 is 2.0"]);
+        .stderr_has(&["bad.csv", "bad.csv, row 5: the number of the ring is 2"]);
     folder.put("crossed.csv", FRAME.replace("3,3,1", "5,3,1"));
     folder.taut("inscribe ellipse crossed.csv").ends(2).stderr_has(&["meets the edge"]);
     folder.taut("inscribe ellipse frame.csv --epsilon 0").ends(2).stderr_has(&["`--epsilon` is 0"]);

@@ -108,3 +108,43 @@ fn formats_and_folders_that_are_not_written_are_refused_before_any_work() {
     assert_eq!(folder.text("parts/body-0.obj"), "v 0 0 0\n");
     assert_eq!(folder.files(), ["cube.off", "mine", "parts"]);
 }
+
+#[test]
+fn files_of_others_in_an_earlier_folder_of_parts_stay() {
+    let folder = folder();
+    let command = "inscribe dops cube.off --events 500 --parts parts";
+    folder.taut(command).ends(0);
+    let body = folder.text("parts/body-0.obj");
+    // A body that the lists do not name, an own mesh under a name of theirs, and a list that somebody changed.
+    let urdf = folder.text("parts/bodies.urdf");
+    for (name, text) in [
+        ("parts/body-7.obj", &body),
+        ("parts/body-0.obj", &"v 0 0 0\n".to_owned()),
+        ("parts/bodies.urdf", &urdf.replace("</link>", "<inertial/></link>")),
+    ] {
+        let earlier = folder.path(name).exists().then(|| folder.text(name));
+        folder.put(name, text);
+        folder.taut(command).ends(2).stderr_has(&["parts holds `", "which would be removed"]);
+        assert_eq!(&folder.text(name), text);
+        match earlier {
+            Some(earlier) => folder.put(name, earlier),
+            None => std::fs::remove_file(folder.path(name)).unwrap(),
+        }
+    }
+    folder.taut(command).ends(0);
+    for within in ["-o parts/bodies.json", "--draw parts/bodies.svg", "-o new/bodies.json"] {
+        let parts = if within.contains("new") { "new" } else { "parts" };
+        folder
+            .taut(&format!("inscribe dops cube.off --events 500 {within} --parts {parts}"))
+            .ends(2)
+            .stderr_has(&[&format!("lies in `{parts}`, which is replaced as a whole")]);
+    }
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink(folder.path("parts"), folder.path("link")).unwrap();
+        folder
+            .taut("inscribe dops cube.off --events 500 --parts link")
+            .ends(2)
+            .stderr_has(&["link is a link: name the folder to which it leads"]);
+    }
+}

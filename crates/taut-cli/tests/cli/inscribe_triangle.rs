@@ -60,7 +60,7 @@ fn changed_triangles_and_bad_polygons_are_refused() {
     folder
         .taut("inscribe triangle bad.csv")
         .ends(2)
-        .stderr_has(&["bad.csv", "the ring number of point 4 is 2.0"]);
+        .stderr_has(&["bad.csv", "bad.csv, row 5: the number of the ring is 2"]);
     folder.put("crossed.csv", FRAME.replace("3,1.5,1", "9,1.5,1"));
     folder.taut("inscribe triangle crossed.csv").ends(2).stderr_has(&["meets the edge"]);
     folder

@@ -19,6 +19,7 @@ mod inscribe_circle;
 mod inscribe_dops;
 mod inscribe_ellipse;
 mod inscribe_exports;
+mod inscribe_options;
 mod inscribe_polygon;
 mod inscribe_rectangle;
 mod inscribe_triangle;

@@ -190,3 +190,36 @@ pub(super) fn around(center: [f64; 2]) -> impl Iterator<Item = Candidate> {
         })
     })
 }
+
+/// Rectangles around a point along the longest edge and along the axis of least inertia of the vertices, as long and as wide as the
+/// polygon is there, and less long: in a thin polygon those of fixed directions and ratios are tiny.
+pub(super) fn along(edges: &[Segment], center: [f64; 2]) -> impl Iterator<Item = Candidate> {
+    slopes_of(edges).into_iter().flat_map(move |slope| {
+        let [x, y] = [height(0, slope, center), height(1, slope, center)];
+        let reach = [0, 1, 2, 3].map(|side| {
+            edges.iter().fold(0.0f64, |most, edge| most.max(height(side, slope, edge[0])))
+        });
+        let ratio = (reach[0] + reach[2]) / (reach[1] + reach[3]);
+        [ratio, ratio.sqrt()]
+            .into_iter()
+            .filter_map(move |ratio| Candidate::of([x + ratio, y + 1.0, ratio - x, 1.0 - y, slope]))
+    })
+}
+
+/// The slopes of the longest edge and of the axis of least inertia.
+fn slopes_of(edges: &[Segment]) -> [f64; 2] {
+    let (mut longest, mut length, mut moments) = ([1.0, 0.0], 0.0, [0.0; 3]);
+    let count = edges.len() as f64;
+    let mean = [0, 1].map(|k| edges.iter().map(|edge| edge[0][k]).sum::<f64>() / count);
+    for [a, b] in edges {
+        let [dx, dy] = [b[0] - a[0], b[1] - a[1]];
+        if dx.hypot(dy) > length {
+            (longest, length) = ([dx, dy], dx.hypot(dy));
+        }
+        let [x, y] = [a[0] - mean[0], a[1] - mean[1]];
+        moments = [moments[0] + x * x, moments[1] + x * y, moments[2] + y * y];
+    }
+    let angle = 0.5 * (2.0 * moments[1]).atan2(moments[0] - moments[2]);
+    let slope = |[dx, dy]: [f64; 2]| if dx.abs() >= dy.abs() { dy / dx } else { -dx / dy };
+    [slope(longest), slope([angle.cos(), angle.sin()])]
+}

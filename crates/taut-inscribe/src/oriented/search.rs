@@ -17,7 +17,7 @@ use crate::program::{self, Column};
 use crate::units::Units;
 
 use super::OrientedRectangleOptions;
-use super::ascent::{Candidate, around};
+use super::ascent::{Candidate, along, around};
 use super::cell::{Cell, MARGIN, SLOPE, height, point_at};
 use super::report::{Reported, rounded};
 use super::rows::{Boundary, Condition, Found, Terms, largest};
@@ -146,6 +146,7 @@ impl Search<'_> {
         for center in inner_points(&self.target.units.edges, self.target.units.extent) {
             let center = [0, 1].map(|k| center[k] - self.target.pivot[k]);
             let largest = around(center)
+                .chain(along(edges, center))
                 .filter_map(|found| found.freed(edges.iter().copied(), f64::INFINITY))
                 .max_by(|one, other| one.area.total_cmp(&other.area));
             starts.extend(largest);

@@ -260,3 +260,24 @@ fn holes_of_tiny_or_no_extent_are_not_overlooked() {
         }
     }
 }
+
+/// In a thin polygon the gap is large, but the rectangle is the largest one known.
+#[test]
+fn thin_polygons_have_rectangles_as_long_as_they_are() {
+    for width in [1e-3, 1e-5] {
+        // Of the trapezoid with the height w between (0.1, 0.8 w) and (0.7, w), the best rectangle has the area 0.528 w.
+        let trapezoid = [[0.0, 0.0], [1.0, 0.0], [0.7, width], [0.1, 0.8 * width]];
+        let rectangle = [[0.0, 0.0], [1.0, 0.0], [1.0, width], [0.0, width]];
+        for (ring, area) in [(trapezoid, 0.528 * width), (rectangle, width)] {
+            for angle in [0.0, 0.6, 2.5] {
+                let ring = turned(&ring, angle);
+                let options = OrientedRectangleOptions { max_cells: 100, ..Default::default() };
+                let points = rows(&[ring]);
+                let points = Points::new(&points, 3).unwrap();
+                let found = inscribed_oriented_rectangle(&points, &options).unwrap();
+                assert!(found.answer.area >= 0.99 * area, "{width}, {angle}: {found:?}");
+                found.check(&points).unwrap();
+            }
+        }
+    }
+}

@@ -2,7 +2,7 @@
 //!
 //! *Idea.* Files go to a temporary folder beside the name; [`AtomicFolder::commit`] renames it. An earlier folder is moved aside
 //! first and removed last.
-//! *Guarantee.* An earlier folder is replaced only if all it holds are files with names of the caller's own.
+//! *Guarantee.* An earlier folder is replaced only if all it holds are files that the caller knows as its own.
 //! *Trap.* A process that is killed leaves its temporary folder, `.taut-tmp-` and six letters, for a person to remove.
 
 use std::fs;
@@ -23,12 +23,12 @@ pub struct AtomicFolder {
     draft: TempDir,
 }
 
-/// Starts a folder that will be `path`. An earlier folder of that name is replaced; it may hold files alone, each with a name
+/// Starts a folder that will be `path`. An earlier folder of that name is replaced; it may hold files alone, each with a path
 /// for which `is_own` is true.
 ///
 /// # Errors
 /// Those of [`check_folder`].
-pub fn create_folder(path: &Path, is_own: fn(&str) -> bool) -> Result<AtomicFolder, Error> {
+pub fn create_folder(path: &Path, is_own: impl Fn(&Path) -> bool) -> Result<AtomicFolder, Error> {
     let draft = check(path, is_own)?;
     Ok(AtomicFolder { display: shown_path(path), path: path.to_owned(), draft })
 }
@@ -36,22 +36,23 @@ pub fn create_folder(path: &Path, is_own: fn(&str) -> bool) -> Result<AtomicFold
 /// Tests whether a folder can be made or replaced where `path` says; nothing is left.
 ///
 /// # Errors
-/// [`Error::NoFolder`] where a file stands there, [`Error::OtherFolder`] for an earlier folder that holds anything else,
+/// [`Error::NoFolder`] where a file stands there, [`Error::LinkedFolder`] where a link does, [`Error::OtherFolder`] for an earlier folder that holds anything else,
 /// [`Error::NotFound`] (of the folder around it), [`Error::Permission`], [`Error::Write`].
-pub fn check_folder(path: &Path, is_own: fn(&str) -> bool) -> Result<(), Error> {
+pub fn check_folder(path: &Path, is_own: impl Fn(&Path) -> bool) -> Result<(), Error> {
     check(path, is_own).map(drop)
 }
 
-fn check(path: &Path, is_own: fn(&str) -> bool) -> Result<TempDir, Error> {
+fn check(path: &Path, is_own: impl Fn(&Path) -> bool) -> Result<TempDir, Error> {
     let display = shown_path(path);
     let failed = |source| Error::writing(&display, source);
     match fs::symlink_metadata(path) {
+        Ok(meta) if meta.is_symlink() => return Err(Error::LinkedFolder { path: display }),
         Ok(meta) if !meta.is_dir() => return Err(Error::NoFolder { path: display }),
         Ok(_) => {
             for entry in fs::read_dir(path).map_err(failed)? {
                 let entry = entry.map_err(failed)?;
-                let name = entry.file_name().to_string_lossy().into_owned();
-                if !is_own(&name) || !entry.file_type().is_ok_and(|kind| kind.is_file()) {
+                if !entry.file_type().is_ok_and(|kind| kind.is_file()) || !is_own(&entry.path()) {
+                    let name = entry.file_name().to_string_lossy().into_owned();
                     return Err(Error::OtherFolder { path: display, name });
                 }
             }
@@ -108,8 +109,8 @@ fn publish(path: &Path, draft: &TempDir) -> io::Result<()> {
 mod tests {
     use super::*;
 
-    fn is_own(name: &str) -> bool {
-        name.ends_with(".obj")
+    fn is_own(path: &Path) -> bool {
+        path.extension().is_some_and(|extension| extension == "obj")
     }
 
     fn names(folder: &Path) -> Vec<String> {
@@ -150,6 +151,13 @@ mod tests {
         fs::create_dir(at("nested")).unwrap();
         fs::create_dir(at("nested/inner.obj")).unwrap();
         fs::write(at("file"), "").unwrap();
+        #[cfg(unix)]
+        {
+            std::os::unix::fs::symlink(at("notes"), at("link")).unwrap();
+            let said = check_folder(&at("link"), is_own).unwrap_err().to_string();
+            assert!(said.contains("link is a link"), "{said}");
+            fs::remove_file(at("link")).unwrap();
+        }
         for (name, word) in [
             ("notes", "letter.txt"),
             ("nested", "inner.obj"),

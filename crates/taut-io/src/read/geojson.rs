@@ -42,11 +42,14 @@ pub(super) fn read(job: &Job<'_>, stream: Box<dyn BufRead>) -> Result<Decoded, E
     })?;
     drop(text);
     let features = features(&document).map_err(damaged)?;
+    let of_feature = |problem| Error::Feature { path: job.path.to_owned(), problem };
     let chosen = match &job.options.feature {
-        None => 0..features.len(),
+        None => {
+            refuse_several(features).map_err(of_feature)?;
+            0..features.len()
+        }
         Some(wanted) => {
-            let number = choose(features, wanted)
-                .map_err(|problem| Error::Feature { path: job.path.to_owned(), problem })?;
+            let number = choose(features, wanted).map_err(of_feature)?;
             number..number + 1
         }
     };
@@ -118,10 +121,33 @@ fn name(feature: &Value) -> Option<&str> {
     })
 }
 
+/// Refuses features with several geometries, unless all are Points; what is wrong with a feature is said later.
+fn refuse_several(features: &[Value]) -> Result<(), Problem> {
+    let mut first: Option<(usize, bool)> = None;
+    for (number, feature) in features.iter().enumerate() {
+        let geometry = match field(feature, "geometry", "") {
+            Ok(Value::Null) => continue,
+            Ok(geometry) => geometry,
+            Err(_) => feature,
+        };
+        let is_point = kind(geometry, "").is_ok_and(|kind| kind == "Point");
+        match first {
+            Some((other, all_points)) if !(all_points && is_point) => {
+                return Err(format!(
+                    "feature {other} and feature {number} (from 0) are both geometries, and one is read unless all are Points: \
+                     choose one by its number or name with --select, as --select {other}, or write polygons that belong \
+                     together as one MultiPolygon"
+                ));
+            }
+            _ => first = first.or(Some((number, is_point))),
+        }
+    }
+    Ok(())
+}
+
 /// The rings of features, or all their other positions as one chain; `before` features come before them.
 fn chains(features: &[Value], before: usize) -> Result<Vec<Chain>, Problem> {
     let (mut found, mut points): (Vec<Chain>, Chain) = (vec![], vec![]);
-    let mut first: Option<(usize, bool)> = None;
     for (number, feature) in (before..).zip(features) {
         let place = format!("feature {number} (from 0)");
         let geometry = match kind(feature, &place)? {
@@ -132,15 +158,6 @@ fn chains(features: &[Value], before: usize) -> Result<Vec<Chain>, Problem> {
             continue;
         }
         let is_point = kind(geometry, &place)? == "Point";
-        match first {
-            Some((other, all_points)) if !(all_points && is_point) => {
-                return Err(format!(
-                    "feature {other} and feature {number} (from 0) are both geometries, and one is read unless all are Points: \
-                     keep one of them, or choose one by its number or name with --select"
-                ));
-            }
-            _ => first = first.or(Some((number, is_point))),
-        }
         let chains = geometry_chains(geometry, &place)?;
         match is_point {
             true => points.extend(chains.concat()),

@@ -27,7 +27,7 @@ pub(super) fn read(job: &Job<'_>, stream: Box<dyn BufRead>) -> Result<Decoded, E
         }
     };
     read_text(job, stream, "a text of WKT", |text, put| {
-        let mut parser = Parser { text, at: 0, put, is_wanted: true, ring: 0 };
+        let mut parser = Parser { path: job.path, text, at: 0, put, is_wanted: true, ring: 0 };
         let count = parser.geometries(wanted)?;
         match wanted {
             Some(number) if number >= count => {
@@ -41,6 +41,7 @@ pub(super) fn read(job: &Job<'_>, stream: Box<dyn BufRead>) -> Result<Decoded, E
 }
 
 struct Parser<'a, 'p> {
+    path: &'a str,
     text: &'a [u8],
     at: usize,
     put: &'a mut Put<'p>,
@@ -61,7 +62,6 @@ impl Parser<'_, '_> {
             if self.at == self.text.len() {
                 return Ok(count);
             }
-            let begin = self.at;
             self.is_wanted = wanted.is_none_or(|number| number == count);
             let (is_point, is_empty) = self.geometry()?;
             match first {
@@ -69,9 +69,9 @@ impl Parser<'_, '_> {
                 Some((other, all_points)) if !(all_points && is_point) => {
                     let problem = format!(
                         "geometry {other} and geometry {count} (from 0) are both there, and one is read unless all are POINTs: \
-                         keep one of them, or choose one with --select"
+                         choose one by its number with --select {other}, or write polygons that belong together as one MULTIPOLYGON"
                     );
-                    return Err(Stop::Text(begin, problem));
+                    return Err(Error::Feature { path: self.path.to_owned(), problem }.into());
                 }
                 _ => first = first.or(Some((count, is_point))),
             }
@@ -220,6 +220,10 @@ impl Parser<'_, '_> {
     }
 
     fn refuse<T>(&self, problem: &str) -> Result<T, Stop> {
-        Err(Stop::Text(self.at, problem.to_owned()))
+        let end = self.text.trim_ascii_end().len();
+        match self.at < end {
+            true => Err(Stop::Text(self.at, problem.to_owned())),
+            false => Err(Stop::Text(end, format!("the text ends early: {problem}"))),
+        }
     }
 }

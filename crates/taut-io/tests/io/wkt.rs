@@ -72,7 +72,11 @@ fn what_is_refused_is_named_by_line_and_byte() {
     for (document, words) in [
         (
             &*format!("POLYGON({SQUARE})\n POLYGON({HOLE})"),
-            "line 2: byte 2 of the line: geometry 0 and geometry 1",
+            "a.wkt: geometry 0 and geometry 1 (from 0) are both there",
+        ),
+        (
+            "POLYGON((1 2,\n3 4  \n\n",
+            "line 2: byte 4 of the line: the text ends early: expected a comma",
         ),
         ("POINT(1 2)\nLINESTRING(1 2,3 4)", "geometry 0 and geometry 1 (from 0) are both there"),
         ("GEOMETRYCOLLECTION(POINT(1 2))", "\"GEOMETRYCOLLECTION\" is not read"),

@@ -27,9 +27,10 @@ const PRINTED_CLASSES_MAX: usize = 12;
 /// Tell how good a model is on labeled points that it was not trained on.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-A rejected point counts as wrong. Intervals are those of Clopper and Pearson with a confidence of 95 %; they hold if the
-points do not depend on each other. FMR is the share of scores against other classes that are accepted, FNMR that of scores
-against the own class that are not, both at one threshold. Sensitivity and specificity are of the class named by --positive.
+A rejected point counts as wrong. Intervals are those of Clopper and Pearson with a confidence of 95 %; they hold if \
+the points do not depend on each other. FMR is the share of scores against other classes that are accepted, FNMR that \
+of scores against the own class that are not, both at one threshold. Sensitivity and specificity are of the class \
+named by --positive.
 Exit: 0 done · 2 bad input or usage
 Example: taut classify evaluate test.csv --label diagnosis --positive malignant --model model.json")]
 pub(super) struct Args {

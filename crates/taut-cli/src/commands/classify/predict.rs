@@ -15,8 +15,8 @@ use crate::output::writing::{self, Outputs};
 /// Find the classes of points with a trained model.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-A row of the output belongs to the same row of the points. The class of a rejected point is empty. Where the file and the
-model have names of columns, the model takes its own, and others do no harm.
+A row of the output belongs to the same row of the points. The class of a rejected point is empty. Where the file and \
+the model have names of columns, the model takes its own, and others do no harm.
 Exit: 0 done · 2 bad input or usage, nothing written
 Example: taut classify predict new.csv --model model.json -o classes.csv --scores")]
 pub(super) struct Args {

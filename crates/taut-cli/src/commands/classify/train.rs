@@ -21,9 +21,9 @@ use crate::output::writing::{self, Outputs};
 /// Learn a classifier from labeled points.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-All that is learned comes from these points alone: scaling, whitening, widths, thresholds, and the choice among several
-candidates, which inner folds make. Labels of CSV files may be any text; the model keeps them. It also keeps rows of the
-points, as they are after scaling.
+All that is learned comes from these points alone: scaling, whitening, widths, thresholds, and the choice among \
+several candidates, which inner folds make. Labels of CSV files may be any text; the model keeps them. It also keeps \
+rows of the points, as they are after scaling.
 Exit: 0 done · 2 bad input or usage, nothing written
 Example: taut classify train train.csv --label species --model model.json --method svm --reject 0.01")]
 pub(super) struct Args {

@@ -25,9 +25,10 @@ const SCANS_MAX: u64 = 1_000_000;
 /// Tell how well people are recognized by their hands: the experiment of the thesis, over many random splits.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-In each split some scans of each person are for training, and all others are probes. Every method sees the same splits. Scans
-that cannot be measured count as failures to acquire (FTA), people with too few scans as failures to enroll (FTE). The second
-half of the figures is for people from whom nothing was learned but their own template. Intervals come from draws of people.
+In each split some scans of each person are for training, and all others are probes. Every method sees the same \
+splits. Scans that cannot be measured count as failures to acquire (FTA), people with too few scans as failures to \
+enroll (FTE). The second half of the figures is for people from whom nothing was learned but their own template. \
+Intervals come from draws of people.
 Exit: 0 done · 2 bad input or usage, nothing written
 Example: taut hand evaluate scans --labels scans/truth.csv --draw rates.svg
          taut hand evaluate --synthetic 70x10 --seed 1 --table features.csv")]
@@ -112,6 +113,7 @@ impl Args {
             contenders: &contenders,
             found: &found,
             splits: self.splits,
+            folds: self.folds,
             far: self.far,
             heading: self.heading(),
         };

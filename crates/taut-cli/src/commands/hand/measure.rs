@@ -19,10 +19,11 @@ use crate::output::writing::{self, Outputs};
 /// Measure the hand in an image: the thirty features of the thesis, and the width profile.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-The hand lies flat with spread fingers on a background that is less yellow than skin, such as the white of a scanner. What
-cannot be measured reliably is refused with the reason: a hand that is cut off, fingers that touch, a ring or a bandage.
-Lengths are in mm, areas in mm².
-Exit: 0 measured · 2 bad input or usage, or an image that gives no reliable features; nothing written
+The hand lies flat with spread fingers on a background that is less yellow than skin, such as the white of a scanner. \
+What cannot be measured reliably is refused with the reason: a hand that is cut off, fingers that touch, a ring or a \
+bandage. Lengths are in mm, areas in mm².
+Exit: 0 measured · 2 bad input or usage, or an image that gives no reliable features;
+        nothing written
 Example: taut hand measure scan.png -o hand.json --draw hand.svg")]
 pub(super) struct Args {
     /// The image, in PNG, JPEG or TIFF

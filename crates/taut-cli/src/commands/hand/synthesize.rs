@@ -1,6 +1,7 @@
 //! `taut hand synthesize`.
 
-use std::path::PathBuf;
+use std::collections::HashSet;
+use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use rayon::prelude::*;
@@ -19,18 +20,25 @@ const SCANS_MAX: u64 = 1_000_000;
 /// The table of the folder.
 const TRUTH: &str = "truth.csv";
 
-/// Whether a file of an earlier folder is one of this command.
-fn is_own(name: &str) -> bool {
-    name == TRUTH || name.starts_with("person-") && name.ends_with(".png")
+/// Returns a test of whether a file is of an earlier run to this folder, by the table that is there.
+fn own_files(folder: &Path) -> impl Fn(&Path) -> bool {
+    let table = std::fs::read_to_string(folder.join(TRUTH)).unwrap_or_default();
+    let rows = table.strip_prefix(&header()).unwrap_or_default();
+    let mut names: HashSet<String> =
+        rows.lines().filter_map(|row| row.split(',').next()).map(str::to_owned).collect();
+    if !names.is_empty() {
+        names.insert(TRUTH.to_owned());
+    }
+    move |path| path.file_name().and_then(|name| name.to_str()).is_some_and(|n| names.contains(n))
 }
 
 /// Make synthetic scans of hands as PNG files, with a table of what they show.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-An earlier folder is replaced if it has such files alone. It gets a file for each scan, such as person-0000-scan-00.png, and truth.csv: the defect of the
-scan if it has one, the tips and valleys in pixels, and the features of the outline before it became pixels. People are drawn
-by published statistics of hands; colors and noise are design values, so that figures on these scans are no error rates of
-people.
+A folder of an earlier run is replaced if it has nothing but its files. It gets a file for each scan, such as \
+person-0000-scan-00.png, and truth.csv: the defect of the scan if it has one, the tips and valleys in pixels, and the \
+features of the outline before it became pixels. People are drawn by published statistics of hands; colors and noise \
+are design values, so that figures on these scans are no error rates of people.
 Exit: 0 done · 2 bad input or usage, nothing written
 Example: taut hand synthesize scans --people 70 --scans 10 --seed 1")]
 pub(super) struct Args {
@@ -62,7 +70,7 @@ pub(super) struct Args {
 impl Args {
     pub(super) fn run(&self) -> anyhow::Result<Outcome> {
         let generator = self.generator()?;
-        let folder = create_folder(&self.folder, is_own)?;
+        let folder = create_folder(&self.folder, own_files(&self.folder))?;
         let watch = self.effort.start()?;
         let all: Vec<(u64, u64)> =
             (0..self.people).flat_map(|p| (0..self.scans).map(move |s| (p, s))).collect();

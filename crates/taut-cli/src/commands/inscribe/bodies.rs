@@ -5,7 +5,7 @@ mod report;
 
 use std::path::PathBuf;
 
-use anyhow::anyhow;
+use anyhow::{anyhow, bail};
 use taut::certify::InscribedBodies;
 use taut::inscribe::{
     BodiesOptions, BodyShape, Error, Objective, Occlusion, OcclusionOptions, inscribed_bodies,
@@ -29,10 +29,11 @@ const COUNT_MAX: usize = 1000;
 /// Find large convex bodies inside a triangle mesh, with facets in any directions.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-Each edge of the mesh must belong to an even number of triangles; if not, the message names one, and --close-holes closes the
-mesh by triangles that the answer names. Inside is decided by the even-odd rule, however triangles are turned. That each body
-lies inside is proved. How much of the inside the bodies cover is an estimate, and nothing is claimed about how much such bodies
-can cover. To check an answer with --obstacles, or draw it, give verify and draw the same.
+Each edge of the mesh must belong to an even number of triangles; if not, the message names one, and --close-holes \
+closes the mesh by triangles that the answer names. Inside is decided by the even-odd rule, however triangles are \
+turned. That each body lies inside is proved. How much of the inside the bodies cover is an estimate, and nothing is \
+claimed about how much such bodies can cover. To check an answer with --obstacles, or draw it, give verify and draw the \
+same.
 Exit: 0 found · 1 the check failed · 2 bad input or usage, nothing written
 Example: taut inscribe bodies horse.off --count 10 -o bodies.json --draw bodies.html &&
          taut verify bodies.json horse.off
@@ -126,12 +127,24 @@ impl Search {
     }
 
     pub(super) fn check_options(&self) -> anyhow::Result<()> {
+        let points = self.at.len();
+        if let Some(count) = self.count.filter(|&count| count < points) {
+            bail!(
+                "option `--count` is {count}: expected at least {points}, as --at names {points} points that a body each has \
+                 to contain"
+            );
+        }
         self.output().refuse_pictures_as_json()?;
         for obstacle in self.obstacles.paths() {
             self.exports.check(obstacle)?;
             self.output().check_files(obstacle, &[])?;
         }
         self.exports.check(&self.path)
+    }
+
+    /// Tests whether bodies have to contain given points.
+    pub(super) fn has_points(&self) -> bool {
+        !self.at.is_empty()
     }
 
     pub(super) fn write(

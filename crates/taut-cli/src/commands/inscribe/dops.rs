@@ -8,7 +8,7 @@ use taut::{Monitor, Solution};
 
 use super::bodies::{Search, Seeds};
 use crate::exit::Outcome;
-use crate::input::choice::choice;
+use crate::input::choice::{check_method_options, choice};
 use crate::input::reading::Opened;
 use crate::output::writing::Outputs;
 use crate::pipeline::{Find, Input, Output};
@@ -18,12 +18,13 @@ use crate::watch::Watch;
 /// Find large convex bodies inside a triangle mesh, with facets in k fixed directions (k-dops).
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-Each edge of the mesh must belong to an even number of triangles; if not, the message names one, and --close-holes closes the
-mesh by triangles that the answer names. Inside is decided by the even-odd rule, however triangles are turned. That each body
-lies inside is proved. How much of the inside the bodies cover is an estimate, and nothing is claimed about how much such bodies
-can cover. Bodies with facets in any directions cover more: taut inscribe bodies. To check an answer with --obstacles, or draw
-it, give verify and draw the same.
-The method thesis finds disjoint bodies without a budget of events; its inside test needs triangles that are turned alike.
+Each edge of the mesh must belong to an even number of triangles; if not, the message names one, and --close-holes \
+closes the mesh by triangles that the answer names. Inside is decided by the even-odd rule, however triangles are \
+turned. That each body lies inside is proved. How much of the inside the bodies cover is an estimate, and nothing is \
+claimed about how much such bodies can cover. Bodies with facets in any directions cover more: taut inscribe bodies. \
+To check an answer with --obstacles, or draw it, give verify and draw the same.
+The method thesis finds disjoint bodies without a budget of events; its inside test needs triangles that are turned \
+alike.
 Exit: 0 found · 1 the check failed · 2 bad input or usage, nothing written
 Example: taut inscribe dops horse.off --count 10 -o bodies.json --draw bodies.html &&
          taut verify bodies.json horse.off
@@ -40,15 +41,15 @@ pub(super) struct Dops {
     /// The way to find them
     #[arg(long, value_name = "NAME", default_value = BodiesMethod::default().name(), value_parser = choice::<BodiesMethod>())]
     method: BodiesMethod,
-    /// Of thesis, where dops start
-    #[arg(long, value_name = "NAME", default_value = ThesisSeeds::default().name(), value_parser = choice::<ThesisSeeds>())]
-    seeds: ThesisSeeds,
-    /// Of thesis, cells of the grid of seeds along the longest side, from 2 to 256
-    #[arg(long, value_name = "N", default_value_t = BodiesThesisOptions::DEFAULT.cells)]
-    cells: usize,
-    /// Of thesis, how many of the nearest vertices vote on whether a point is inside, from 1 to 100
-    #[arg(long, value_name = "N", default_value_t = BodiesThesisOptions::DEFAULT.votes)]
-    votes: usize,
+    /// Of thesis, where dops start [default: grid]
+    #[arg(long, value_name = "NAME", value_parser = choice::<ThesisSeeds>())]
+    seeds: Option<ThesisSeeds>,
+    /// Of thesis, cells of the grid of seeds along the longest side, from 2 to 256 [default: 32]
+    #[arg(long, value_name = "N")]
+    cells: Option<usize>,
+    /// Of thesis, how many of the nearest vertices vote on whether a point is inside, from 1 to 100 [default: 5]
+    #[arg(long, value_name = "N")]
+    votes: Option<usize>,
     /// Of thesis, move a dop that has doubled its size away from what it touches, and double again
     #[arg(long)]
     translate: bool,
@@ -79,6 +80,17 @@ impl Find for Dops {
     }
 
     fn check_options(&self) -> anyhow::Result<()> {
+        let given = [
+            ("seeds", self.seeds.is_some()),
+            ("cells", self.cells.is_some()),
+            ("votes", self.votes.is_some()),
+            ("translate", self.translate),
+            ("merge", self.merge),
+            ("at", self.search.has_points()),
+        ];
+        check_method_options(self.method.name(), &given, |option, method: &BodiesMethod| {
+            matches!(method, BodiesMethod::Thesis(_)) != (option == "at")
+        })?;
         self.search.check_options()
     }
 
@@ -120,11 +132,12 @@ impl Dops {
             [] => BodyShape::Dop(self.directions),
             given => BodyShape::Directions(given),
         };
+        let usual = BodiesThesisOptions::default();
         let method = match self.method {
             BodiesMethod::Thesis(_) => BodiesMethod::Thesis(BodiesThesisOptions {
-                seeds: self.seeds,
-                cells: self.cells,
-                votes: self.votes,
+                seeds: self.seeds.unwrap_or(usual.seeds),
+                cells: self.cells.unwrap_or(usual.cells),
+                votes: self.votes.unwrap_or(usual.votes),
                 translate: self.translate,
                 merge: self.merge,
             }),

@@ -10,7 +10,7 @@ use taut::{Monitor, Solution};
 
 use crate::effort::Effort;
 use crate::exit::Outcome;
-use crate::input::choice::choice;
+use crate::input::choice::{check_method_options, choice};
 use crate::input::reading::{Opened, Reading};
 use crate::input::samples::Samples;
 use crate::pipeline::{Find, Input, Output, OutputOptions};
@@ -20,11 +20,11 @@ use crate::watch::Watch;
 /// Find the ellipse of largest area in a polygon, with or without holes.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-Two columns x, y are the vertices of one ring in order. A third column has the number of the ring, 0, 1, and so on, for
-polygons with holes or of several parts; inside is what an odd number of rings wind around. The last vertex of a ring may
-repeat its first. Rings may neither cross nor touch; if they do, the message names two edges by the vertices between
-which they lead, counted from 0. With another method than the default the bound is as near to the best ellipse known as ε says,
-and the gap is that of the ellipse which the method found.
+Two columns x, y are the vertices of one ring in order. A third column has the number of the ring, 0, 1, and so on, \
+for polygons with holes or of several parts; inside is what an odd number of rings wind around. The last vertex of a \
+ring may repeat its first. Rings may neither cross nor touch; if they do, the message names two edges by the rows \
+between which they lead. With another method than the default the bound is as near to the best ellipse known as ε \
+says, and the gap is that of the ellipse which the method found.
 Exit: 0 reached · 1 the check failed · 2 bad input or usage, nothing written ·
       3 stopped early by the budget of cells, or where rounding hides the gap that was asked for;
         the gap reached is reported
@@ -49,18 +49,18 @@ pub(super) struct Ellipse {
     /// Most cells of the certificate; where ε takes more, a larger gap is proved; at least 1
     #[arg(long, value_name = "N", default_value_t = EllipseOptions::default().max_cells)]
     max_cells: u64,
-    /// Of thesis and five-point, samples along the rings, 12 to 1000
-    #[arg(long, value_name = "N", default_value_t = EllipseThesisOptions::default().sample_count)]
-    sample_count: u64,
-    /// Of thesis and five-point, the least semi-axis in spacings of the samples, at least 0.5
-    #[arg(long, value_name = "REAL", default_value_t = EllipseThesisOptions::default().fatness, allow_negative_numbers = true)]
-    fatness: f64,
-    /// Of thesis and five-point, the largest angle between normals where ellipse and ring touch, in degrees below 90
-    #[arg(long, value_name = "DEGREES", default_value_t = EllipseThesisOptions::default().angle, allow_negative_numbers = true)]
-    angle: f64,
-    /// Of thesis and five-point, the seed of the order and of the perturbation of the samples
-    #[arg(long, value_name = "N", default_value_t = EllipseThesisOptions::default().seed)]
-    seed: u64,
+    /// Of thesis and five-point, samples along the rings, 12 to 1000 [default: 200]
+    #[arg(long, value_name = "N")]
+    sample_count: Option<u64>,
+    /// Of thesis and five-point, the least semi-axis in spacings of the samples, at least 0.5 [default: 1]
+    #[arg(long, value_name = "REAL", allow_negative_numbers = true)]
+    fatness: Option<f64>,
+    /// Of thesis and five-point, the largest angle between normals where ellipse and ring touch, in degrees below 90 [default: 45]
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
+    angle: Option<f64>,
+    /// Of thesis and five-point, the seed of the order and of the perturbation of the samples [default: 1]
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
     #[command(flatten)]
     output: OutputOptions,
     #[command(flatten)]
@@ -85,6 +85,18 @@ impl Find for Ellipse {
         Some(&self.samples)
     }
 
+    fn check_method_options(&self) -> anyhow::Result<()> {
+        let given = [
+            ("sample-count", self.sample_count.is_some()),
+            ("fatness", self.fatness.is_some()),
+            ("angle", self.angle.is_some()),
+            ("seed", self.seed.is_some()),
+        ];
+        check_method_options(self.method.name(), &given, |_, method: &EllipseMethod| {
+            matches!(method, EllipseMethod::Thesis(_) | EllipseMethod::FivePoint(_))
+        })
+    }
+
     fn solve(
         &self,
         ring: &Opened,
@@ -105,11 +117,12 @@ impl Find for Ellipse {
 
 impl Ellipse {
     fn options(&self) -> EllipseOptions<'static> {
+        let usual = EllipseThesisOptions::default();
         let thesis = EllipseThesisOptions {
-            sample_count: self.sample_count,
-            fatness: self.fatness,
-            angle: self.angle,
-            seed: self.seed,
+            sample_count: self.sample_count.unwrap_or(usual.sample_count),
+            fatness: self.fatness.unwrap_or(usual.fatness),
+            angle: self.angle.unwrap_or(usual.angle),
+            seed: self.seed.unwrap_or(usual.seed),
         };
         EllipseOptions {
             method: match self.method {

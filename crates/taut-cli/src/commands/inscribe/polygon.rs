@@ -18,10 +18,10 @@ use crate::watch::Watch;
 /// Find a large convex polygon in a polygon, with or without holes.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-Two columns x, y are the vertices of one ring in order. A third column has the number of the ring, 0, 1, and so on, for
-polygons with holes or of several parts; inside is what an odd number of rings wind around.
-The polygon found is a local optimum. That it is inside is proved, and so is a bound of the largest: the largest ellipse
-times 3√3/π, or the convex hull. The gap between them is up to 65 % even where no polygon is larger.
+Two columns x, y are the vertices of one ring in order. A third column has the number of the ring, 0, 1, and so on, \
+for polygons with holes or of several parts; inside is what an odd number of rings wind around.
+The polygon found is a local optimum. That it is inside is proved, and so is a bound of the largest: the largest \
+ellipse times 3√3/π, or the convex hull. The gap between them is up to 65 % even where no polygon is larger.
 Exit: 0 found · 1 the check failed · 2 bad input or usage, nothing written
 Example: taut inscribe polygon ring.csv -o polygon.json --draw polygon.svg &&
          taut verify polygon.json ring.csv")]

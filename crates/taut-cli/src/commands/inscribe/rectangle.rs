@@ -20,10 +20,10 @@ use crate::watch::Watch;
 /// Find the largest rectangle in a polygon, with or without holes: along the axes, or of any direction with --oriented.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-Two columns x, y are the vertices of one ring in order. A third column has the number of the ring, 0, 1, and so on, for
-polygons with holes or of several parts; inside is what an odd number of rings wind around. The last vertex of a ring may
-repeat its first. Rings may neither cross nor touch; if they do, the message names two edges by the vertices between
-which they lead, counted from 0.
+Two columns x, y are the vertices of one ring in order. A third column has the number of the ring, 0, 1, and so on, \
+for polygons with holes or of several parts; inside is what an odd number of rings wind around. The last vertex of a \
+ring may repeat its first. Rings may neither cross nor touch; if they do, the message names two edges by the rows \
+between which they lead.
 Exit: 0 reached · 1 the check failed · 2 bad input or usage, nothing written ·
       3 stopped early by the budget of cells, or where rounding hides the gap that was asked for;
         the gap reached is reported

@@ -10,7 +10,7 @@ use taut::{Monitor, Solution};
 
 use crate::effort::Effort;
 use crate::exit::Outcome;
-use crate::input::choice::choice;
+use crate::input::choice::{check_method_options, choice};
 use crate::input::reading::{Opened, Reading};
 use crate::input::samples::Samples;
 use crate::pipeline::{Find, Input, Output, OutputOptions};
@@ -20,11 +20,11 @@ use crate::watch::Watch;
 /// Find the triangle of largest area in a polygon, with or without holes.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-Two columns x, y are the vertices of one ring in order. A third column has the number of the ring, 0, 1, and so on, for
-polygons with holes or of several parts; inside is what an odd number of rings wind around. The last vertex of a ring may
-repeat its first. Rings may neither cross nor touch; if they do, the message names two edges by the vertices between
-which they lead, counted from 0. With another method than the default the bound is as near to the best triangle known as ε says,
-and the gap is that of the triangle which the method found.
+Two columns x, y are the vertices of one ring in order. A third column has the number of the ring, 0, 1, and so on, \
+for polygons with holes or of several parts; inside is what an odd number of rings wind around. The last vertex of a \
+ring may repeat its first. Rings may neither cross nor touch; if they do, the message names two edges by the rows \
+between which they lead. With another method than the default the bound is as near to the best triangle known as ε \
+says, and the gap is that of the triangle which the method found.
 Exit: 0 reached · 1 the check failed · 2 bad input or usage, nothing written ·
       3 stopped early by the budget of cells, or where rounding hides the gap that was asked for;
         the gap reached is reported
@@ -49,12 +49,12 @@ pub(super) struct Triangle {
     /// Most cells of the certificate; where ε takes more, a larger gap is proved; at least 1
     #[arg(long, value_name = "N", default_value_t = TriangleOptions::default().max_cells)]
     max_cells: u64,
-    /// Of thesis, random points in the polygon, 3 to 4096
-    #[arg(long, value_name = "N", default_value_t = TriangleThesisOptions::default().sample_count)]
-    sample_count: u64,
-    /// Of thesis, the seed of the random points
-    #[arg(long, value_name = "N", default_value_t = TriangleThesisOptions::default().seed)]
-    seed: u64,
+    /// Of thesis, random points in the polygon, 3 to 4096 [default: 300]
+    #[arg(long, value_name = "N")]
+    sample_count: Option<u64>,
+    /// Of thesis, the seed of the random points [default: 1]
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
     #[command(flatten)]
     output: OutputOptions,
     #[command(flatten)]
@@ -79,6 +79,13 @@ impl Find for Triangle {
         Some(&self.samples)
     }
 
+    fn check_method_options(&self) -> anyhow::Result<()> {
+        let given = [("sample-count", self.sample_count.is_some()), ("seed", self.seed.is_some())];
+        check_method_options(self.method.name(), &given, |_, method: &TriangleMethod| {
+            matches!(method, TriangleMethod::Thesis(_))
+        })
+    }
+
     fn solve(
         &self,
         ring: &Opened,
@@ -99,7 +106,11 @@ impl Find for Triangle {
 
 impl Triangle {
     fn options(&self) -> TriangleOptions<'static> {
-        let thesis = TriangleThesisOptions { sample_count: self.sample_count, seed: self.seed };
+        let usual = TriangleThesisOptions::default();
+        let thesis = TriangleThesisOptions {
+            sample_count: self.sample_count.unwrap_or(usual.sample_count),
+            seed: self.seed.unwrap_or(usual.seed),
+        };
         TriangleOptions {
             method: match self.method {
                 TriangleMethod::Thesis(_) => TriangleMethod::Thesis(thesis),

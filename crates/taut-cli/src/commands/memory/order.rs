@@ -21,7 +21,8 @@ use crate::watch::Watch;
 #[command(after_help = "\
 The order depends on the set of points alone; equal points are side by side, the first row first.
 Exit: 0 done · 1 the check failed · 2 bad input or usage, nothing written
-Example: taut memory order points.csv -o order.json --points sorted.csv && taut verify order.json points.csv")]
+Example: taut memory order points.csv -o order.json --points sorted.csv &&
+         taut verify order.json points.csv")]
 pub(super) struct Args {
     #[command(flatten)]
     points: Points,

@@ -15,8 +15,8 @@ use crate::output::writing::{self, Outputs};
 /// Draw K different numbers below N, in order: every set of K is equally likely.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-Which numbers these are depends on N, K and the seed alone. The time depends on K, not on N. The check draws them again,
-by code of its own.
+Which numbers these are depends on N, K and the seed alone. The time depends on K, not on N. The check draws them \
+again, by code of its own.
 Exit: 0 done · 1 the check failed · 2 bad input or usage
 Example: taut memory sample -n 1000000000 -k 1000 --seed 7 -o rows.txt --certificate rows.json
          taut verify rows.json rows.txt")]

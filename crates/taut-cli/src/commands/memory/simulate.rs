@@ -23,9 +23,9 @@ use crate::output::writing::{self, Outputs};
 /// Count the cache misses of an algorithm in simulated memories, beside the formula.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-The counts are exact and the same on every machine: addresses are simulated, too. A memory of M bytes holds blocks of B bytes;
-formulas are in words of 8 bytes, without a constant factor. --figure N counts again what figures 36 to 50 of the thesis
-measured, in the caches of its machines.
+The counts are exact and the same on every machine: addresses are simulated, too. A memory of M bytes holds blocks of \
+B bytes; formulas are in words of 8 bytes, without a constant factor. --figure N counts again what figures 36 to 50 of \
+the thesis measured, in the caches of its machines.
 Exit: 0 done · 2 bad input or usage, nothing written
 Example: taut memory simulate transpose -n 512 --memory 4K,16K,64K --block 64,512 --draw misses.svg
          taut memory simulate --figure 36 --draw figure.svg")]

@@ -19,11 +19,13 @@ use crate::output::writing;
 /// Sort a file of records of fixed width by their key, which may be larger than memory.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-Records with equal keys keep their order. Before it takes its name the output is read again and proved to be in order and to
-hold the records that were read, by a hash of 128 bits of all of them; `taut verify` reads the input once more, too. Without
---resume nothing is left behind, however the process ends; with it the input must be the same file, unchanged.
+Records with equal keys keep their order. Before it takes its name the output is read again and proved to be in order \
+and to hold the records that were read, by a hash of 128 bits of all of them; `taut verify` reads the input once more, \
+too. Without --resume nothing is left behind, however the process ends; with it the input must be the same file, \
+unchanged.
 Exit: 0 done · 1 the check failed, nothing written · 2 bad input or usage, nothing written
-Example: taut memory sort records.bin --width 32 --key 0:8 --kind u64 -o sorted.bin --certificate sorted.json
+Example: taut memory sort records.bin --width 32 --key 0:8 --kind u64 -o sorted.bin \\
+             --certificate sorted.json
          taut verify sorted.json records.bin sorted.bin")]
 pub(super) struct Args {
     /// The records, one after the other

@@ -21,11 +21,12 @@ use crate::watch::Watch;
 /// Transpose a matrix in a file, .npy or raw, which may be larger than memory.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-An .npy file says itself what it holds: elements of any fixed width, in C or Fortran order; its transpose is one in C
-order. Another file holds the elements row by row, after --offset bytes of something else, which are left out. Before the
-output takes its name both files are read again from end to end and compared; with --samples only so many elements are, once
-the output is there.
-Exit: 0 done · 1 the check failed, nothing written (but with --samples) · 2 bad input or usage, nothing written
+An .npy file says itself what it holds: elements of any fixed width, in C or Fortran order; its transpose is one in C \
+order. Another file holds the elements row by row, after --offset bytes of something else, which are left out. Before \
+the output takes its name both files are read again from end to end and compared; with --samples only so many elements \
+are, once the output is there.
+Exit: 0 done · 1 the check failed, nothing written (but with --samples) ·
+      2 bad input or usage, nothing written
 Example: taut memory transpose matrix.npy -o columns.npy --certificate columns.json
          taut verify columns.json matrix.npy columns.npy
          taut memory transpose matrix.bin --rows 1000000 --columns 300 --width 8 -o columns.bin")]

@@ -29,7 +29,7 @@ fn options_are_shown_without_hundreds_of_digits() {
         ("ellipsoid points.csv --robust mcd --coverage 1e308", "`--coverage` is 1e308:"),
         ("centers points.csv -k 1 --epsilon 1e308", "option `--epsilon` is 1e308:"),
         ("inscribe ellipsoid points.csv --epsilon 1e308", "option `--epsilon` is 1e308:"),
-        ("curve plane.csv --rho -1e308 --method nn-crust", "option `--rho` is -1e308:"),
+        ("curve plane.csv --rho -1e308 --method thesis", "option `--rho` is -1e308:"),
         ("surface points.csv --alpha -1e308 --method alpha", "option `--alpha` is -1e308:"),
         ("draw ball.json plane.csv -o a.svg --width 1e308", "option `--width` is 1e308:"),
         ("generate shell -n 1 -d 2 --thickness -1e308", "option `--thickness` is -1e308:"),

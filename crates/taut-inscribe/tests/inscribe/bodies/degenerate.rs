@@ -32,7 +32,7 @@ fn a_hole_is_named() {
         other => panic!("{other:?}"),
     }
     let error = solve(&[gone], &options(18)).unwrap_err();
-    assert!(error.to_string().contains("of triangle 0; close the holes"), "{error}");
+    assert!(error.to_string().contains("of triangle 0 (from 0); close the holes"), "{error}");
 }
 
 #[test]
@@ -42,7 +42,12 @@ fn numbers_and_options_out_of_range_are_refused() {
     mesh[2][1][0] = f64::NAN;
     let error = solve(&mesh, &options(6)).unwrap_err();
     assert!(matches!(error, Error::Input(InputError::NonFinite { row: 2, column: 3, .. })));
-    for (factor, shift) in [(1e300, 0.0), (f64::MAX, 0.0), (1e-300, 0.0), (1.0, 1e12)] {
+    for (factor, shift) in [(1.1e-83, 0.0), (0.9e100, 0.0), (1.99, 6.8e10 * 1.99)] {
+        assert!(solve(&scaled(&cube, factor, shift), &options(6)).is_ok(), "{factor} {shift}");
+    }
+    for (factor, shift) in
+        [(1e300, 0.0), (f64::MAX, 0.0), (1e-300, 0.0), (1.0, 1e12), (1.99, 7e10 * 1.99)]
+    {
         let error = solve(&scaled(&cube, factor, shift), &options(6)).unwrap_err();
         assert!(matches!(error, Error::Grid { .. }), "{factor} {shift}: {error}");
     }

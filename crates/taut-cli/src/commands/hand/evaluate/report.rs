@@ -19,6 +19,7 @@ pub(super) struct Report<'a> {
     pub(super) contenders: &'a [Contender],
     pub(super) found: &'a Protocol,
     pub(super) splits: usize,
+    pub(super) folds: usize,
     pub(super) far: f64,
     /// Where the scans come from.
     pub(super) heading: String,
@@ -51,6 +52,18 @@ impl Report<'_> {
             text += &self.line_of(row);
         }
         text += "\nNotes\n";
+        let mut before = None;
+        for row in &self.found.rows {
+            if before != Some(row.training) {
+                let which = [("", false), (", unseen people", true)];
+                for (which, is_unseen) in which {
+                    if let Some(warning) = self.impostors_warning(row, is_unseen) {
+                        text += &format!("  {} training scans{which}: {warning}\n", row.training);
+                    }
+                }
+                before = Some(row.training);
+            }
+        }
         for row in &self.found.rows {
             let rates = [("", &row.seen), (", unseen people", &row.unseen)];
             for (which, rates) in rates {
@@ -64,6 +77,28 @@ impl Report<'_> {
             }
         }
         text
+    }
+
+    /// Says so if impostors are too few for the false acceptance rate that was asked for.
+    ///
+    /// Splits compare the same scans and people again and again; different comparisons are those of a scan with another person,
+    /// of the same fold where people are unseen.
+    fn impostors_warning(&self, row: &ProtocolRow, is_unseen: bool) -> Option<String> {
+        let (rates, people) = match is_unseen {
+            true => (&row.unseen, row.people.div_ceil(self.folds)),
+            false => (&row.seen, row.people),
+        };
+        let different = rates.impostors.min(rates.samples * people.saturating_sub(1) as u64);
+        // The rule of 3: so many trials without an error show the rate with a confidence of 95 %.
+        let needed = (3.0 / self.far).ceil();
+        ((different as f64) < needed).then(|| {
+            format!(
+                "{} of impostors, at most: {} are needed to tell rejections at FAR ≤ {} (rule of 3, confidence 95 %)",
+                counted(different, "different comparison"),
+                if needed < 1e15 { count(needed as u64) } else { "more than 10¹⁵".to_owned() },
+                percent(self.far)
+            )
+        })
     }
 
     /// The words above the methods of one number of training scans.
@@ -117,6 +152,8 @@ impl Report<'_> {
                     "fte": row.fte,
                     "seen": json_of(&row.seen),
                     "unseen": json_of(&row.unseen),
+                    "impostors_warning": self.impostors_warning(row, false),
+                    "unseen_impostors_warning": self.impostors_warning(row, true),
                     "open_set": row.open.map(|open| json!({
                         "unknown": open.unknown,
                         "enrolled": open.enrolled,

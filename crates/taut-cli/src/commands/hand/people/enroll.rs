@@ -17,12 +17,14 @@ use crate::output::writing;
 /// Enroll a person in a store, by scans of one hand.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-Three scans or more make errors fewer. The store keeps their mean after whitening, encrypted, and no images. A scan that
-differs from the others more than scans of one hand do is refused. The default matcher was learned from synthetic hands:
-`taut hand train` learns one from scans of your scanner, and --model takes it. The name is not printed, but other users of the
-machine may see the command while it runs.
-Exit: 0 enrolled · 2 bad input or usage, or an image that gives no reliable features; nobody is enrolled
-Example: taut hand enrol --create --store people --key key --person Ada ada-1.png ada-2.png ada-3.png")]
+Three scans or more make errors fewer. The store keeps their mean after whitening, encrypted, and no images. A scan \
+that differs from the others more than scans of one hand do is refused. The default matcher was learned from synthetic \
+hands: `taut hand train` learns one from scans of your scanner, and --model takes it. The name is not printed, but \
+other users of the machine may see the command while it runs.
+Exit: 0 enrolled · 2 bad input or usage, or an image that gives no reliable features;
+        nobody is enrolled
+Example: taut hand enrol --create --store people --key key --person Ada \\
+             ada-1.png ada-2.png ada-3.png")]
 pub(crate) struct Args {
     /// Scans of one hand of the person, in PNG, JPEG or TIFF
     #[arg(value_name = "IMAGE", required = true)]

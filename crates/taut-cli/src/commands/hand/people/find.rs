@@ -14,8 +14,8 @@ use crate::output::writing::{self, printable};
 /// Verify that a scan is one of an enrolled person.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-Each comparison counts as failed until it is accepted; several failures in sequence lock the person, until `taut hand unlock`.
-Scores are not told unless --scores asks for them, as they help to improve a forged hand step by step.
+Each comparison counts as failed until it is accepted; several failures in sequence lock the person, until `taut hand \
+unlock`. Scores are not told unless --scores asks for them, as they help to improve a forged hand step by step.
 Exit: 0 accepted · 1 rejected · 2 not compared: bad input or usage, no such person, or a locked one
 Example: taut hand verify --store people --key key --person Ada scan.png")]
 pub(crate) struct VerifyArgs {
@@ -36,8 +36,9 @@ pub(crate) struct VerifyArgs {
 /// Find the enrolled person whose hand a scan shows.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-The answer is the nearest of all enrolled people, if it is as near as a verification asks for. Among n people an unknown hand
-has n chances to be near somebody's: the share of unknown people that may be named is told. Locked people are left out.
+The answer is the nearest of all enrolled people, if it is as near as a verification asks for. Among n people an \
+unknown hand has n chances to be near somebody's: the share of unknown people that may be named is told. Locked people \
+are left out.
 Exit: 0 somebody was found · 1 nobody was · 2 not compared: bad input or usage
 Example: taut hand identify --store people --key key scan.png")]
 pub(crate) struct IdentifyArgs {

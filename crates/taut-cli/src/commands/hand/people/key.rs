@@ -9,8 +9,8 @@ use crate::exit::Outcome;
 /// Make a secret key for a store of people.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-The key has 32 random bytes, written as hexadecimal digits to a new file that you alone may read. Without the key nobody reads
-the store, you included: keep a copy of it elsewhere, and no copy beside the store.
+The key has 32 random bytes, written as hexadecimal digits to a new file that you alone may read. Without the key \
+nobody reads the store, you included: keep a copy of it elsewhere, and no copy beside the store.
 Exit: 0 done · 2 bad input or usage, nothing written
 Example: taut hand key -o key")]
 pub(crate) struct Args {

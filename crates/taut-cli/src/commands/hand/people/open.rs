@@ -11,6 +11,9 @@ use crate::output::writing;
 /// The variable of the environment that holds a key.
 const KEY_VARIABLE: &str = "TAUT_HAND_KEY";
 
+/// What SQLite appends to the name of a store for the file by which it undoes changes.
+const JOURNAL_ENDING: &str = "-journal";
+
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Store")]
 pub(super) struct StoreArgs {
@@ -40,7 +43,7 @@ impl StoreArgs {
         self.work(store, kept, work)
     }
 
-    /// The same with a new store.
+    /// The same with a new store, which is removed again if the work failed and left it empty.
     pub(super) fn with_new<R>(
         &self,
         matcher: &Matcher,
@@ -54,8 +57,18 @@ impl StoreArgs {
                 bail!("{} exists: name a new file for the manifest of a new store", path.display());
             }
         }
-        let store = Store::create(&self.store, &key, matcher, options)?;
-        self.work(store, None, work)
+        let mut store = Store::create(&self.store, &key, matcher, options)?;
+        let done = work(&mut store);
+        if done.is_err() && store.is_empty() {
+            drop(store);
+            for ending in ["", JOURNAL_ENDING] {
+                let mut path = self.store.clone().into_os_string();
+                path.push(ending);
+                std::fs::remove_file(path).ok();
+            }
+            return done;
+        }
+        self.work(store, None, |_| done)
     }
 
     fn work<R>(

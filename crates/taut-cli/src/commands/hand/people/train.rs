@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, anyhow, bail};
 use taut::points::Points;
 use taut::recognize::classify::Labeled;
+use taut::recognize::hand::Side;
 use taut::recognize::template::{Matcher, MatcherOptions, SCANS_MAX};
 
 use super::scans::Images;
@@ -22,10 +23,10 @@ const MATCHER_BYTES_MAX: u64 = 1 << 26;
 /// Learn from scans how much scans of one person differ, and set the threshold of verification.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-Files are named PERSON-scan-NUMBER with an extension, as `taut hand synthesize` does. Half of the people teach the whitening, a
-quarter the threshold, and on the last quarter the error rates are measured. Images that show no measurable hand are left out
-and counted. The rates hold for people, scanners and poses like those of the folder: of synthetic hands they say nothing about
-people.
+Files are named PERSON-scan-NUMBER with an extension, as `taut hand synthesize` does. Half of the people teach the \
+whitening, a quarter the threshold, and on the last quarter the error rates are measured. Images that show no \
+measurable hand are left out and counted. Left and right hands are learned together, and the summary counts them. The \
+rates hold for people, scanners and poses like those of the folder: of synthetic hands they say nothing about people.
 Exit: 0 done · 2 bad input or usage, nothing written
 Example: taut hand train scans -o matcher.json --source 'synthetic hands'")]
 pub(crate) struct Args {
@@ -68,10 +69,12 @@ impl Args {
         let scans = watch.during("measuring scans", |_| self.images.measurable(&paths))?;
         let (mut values, mut labels) = (vec![], vec![]);
         let mut numbers = BTreeMap::new();
+        let mut hands = Hands::default();
         for ((person, _), scan) in files.iter().zip(&scans) {
             let Some(scan) = scan else { continue };
             let next = numbers.len() as u32;
             labels.push(*numbers.entry(person.clone()).or_insert(next));
+            hands.count(person, scan.side);
             values.extend_from_slice(&scan.features);
         }
         // Names come in order, so that numbers do, too.
@@ -90,7 +93,7 @@ impl Args {
         let mut outputs = Outputs::default();
         outputs.add(&self.out, (matcher.to_json() + "\n").as_bytes())?;
         if !self.effort.quiet && !writing::is_stream(&self.out) {
-            outputs.print(&summary(&matcher, names.len(), labels.len(), files.len()));
+            outputs.print(&summary(&matcher, names.len(), labels.len(), files.len(), &hands));
         }
         outputs.finish()?;
         Ok(Outcome::Done)
@@ -116,10 +119,49 @@ impl Args {
     }
 }
 
-fn summary(matcher: &Matcher, people: usize, measured: usize, files: usize) -> String {
+/// Scans of either hand.
+#[derive(Default)]
+struct Hands {
+    left: u64,
+    right: u64,
+    /// For each person whether there is a left hand, and a right one.
+    people: BTreeMap<String, [bool; 2]>,
+}
+
+impl Hands {
+    fn count(&mut self, person: &str, side: Side) {
+        let [left, right] = self.people.entry(person.to_owned()).or_default();
+        match side {
+            Side::Left => (self.left, *left) = (self.left + 1, true),
+            Side::Right => (self.right, *right) = (self.right + 1, true),
+        }
+    }
+
+    fn to_words(&self) -> String {
+        let both = self.people.values().filter(|hands| **hands == [true; 2]).count() as u64;
+        let mixed = match (self.left.min(self.right), both) {
+            (0, _) => String::new(),
+            (_, 0) => "; the matcher is one for both".to_owned(),
+            (_, both) => format!(
+                "; both of {}, and compared as one hand: name the hands of a person as two people",
+                if both == 1 { "1 person".to_owned() } else { format!("{} people", count(both)) }
+            ),
+        };
+        format!("{} right, {} left{mixed}", count(self.right), count(self.left))
+    }
+}
+
+fn summary(
+    matcher: &Matcher,
+    people: usize,
+    measured: usize,
+    files: usize,
+    hands: &Hands,
+) -> String {
     let rates = matcher.rates();
     format!(
         "A matcher of {} scans of {} people; {} of {} images show no measurable hand\n  \
+         hands      {}\n  \
          threshold  {}\n  \
          FMR        {} of {} comparisons (evidence)\n  \
          FNMR       {} of {} comparisons (evidence)\n",
@@ -127,6 +169,7 @@ fn summary(matcher: &Matcher, people: usize, measured: usize, files: usize) -> S
         count(people as u64),
         count((files - measured) as u64),
         count(files as u64),
+        hands.to_words(),
         short(matcher.threshold()),
         count(rates.false_matches),
         count(rates.impostor),

@@ -8,7 +8,7 @@ use taut::{Monitor, Solution};
 use taut_io::{AtomicFile, Format, Mesh, MeshOptions, mesh_file};
 
 use crate::output::meshes::mesh_format;
-use crate::output::parts::{is_part, parts};
+use crate::output::parts::{own_parts, parts};
 use crate::output::writing::Outputs;
 use crate::pipeline::Output;
 
@@ -22,8 +22,8 @@ pub(super) struct Exports {
     /// .pov; - is JSON on standard output
     #[arg(short, long, value_name = "FILE", help_heading = "Writing")]
     out: Option<PathBuf>,
-    /// Write each body as an obj file to this folder, with bodies.urdf and bodies.sdf, which name them as collision parts; an
-    /// earlier folder is replaced if it holds such files alone
+    /// Write each body as an obj file to this folder, with bodies.urdf and bodies.sdf, which name them as collision parts; a
+    /// folder of an earlier run is replaced as a whole, unless it holds anything else
     #[arg(long, value_name = "FOLDER", help_heading = "Writing")]
     parts: Option<PathBuf>,
     /// Print the JSON instead of the summary
@@ -52,13 +52,18 @@ impl Exports {
         if [&self.out, &self.draw].into_iter().flatten().any(|file| file == folder) {
             bail!("`{shown}` is named for two outputs: name another folder for the parts");
         }
-        taut_io::check_folder(folder, is_part)?;
-        if let (Ok(input), Ok(folder)) = (input.canonicalize(), folder.canonicalize())
-            && input.starts_with(folder)
-        {
+        for file in [&self.out, &self.draw].into_iter().flatten() {
+            if is_within(file, folder) {
+                bail!(
+                    "`{}` lies in `{shown}`, which is replaced as a whole: name another place for it",
+                    file.display()
+                );
+            }
+        }
+        if input != folder && is_within(input, folder) {
             bail!("`{shown}` holds the input: name another folder for the parts");
         }
-        Ok(())
+        Ok(taut_io::check_folder(folder, own_parts(folder))?)
     }
 
     pub(super) fn write(
@@ -79,6 +84,13 @@ impl Exports {
         }
         Ok(())
     }
+}
+
+/// Tests whether a file is or will be in a folder that may not be there yet.
+fn is_within(file: &Path, folder: &Path) -> bool {
+    let parent = file.parent().and_then(|parent| parent.canonicalize().ok());
+    let known = parent.zip(folder.canonicalize().ok());
+    file.starts_with(folder) || known.is_some_and(|(parent, folder)| parent.starts_with(folder))
 }
 
 /// All bodies as one mesh; no two bodies have a vertex in common.

@@ -32,10 +32,10 @@ impl Summary for InscribedEllipse {
         };
         let verified = "its center is inside, no edge enters it, and the gap is proved".to_owned();
         let [gap, verified] = gap_and_verified(proved, certificate.gap, verified);
-        let ([larger, smaller], angle) = semi_axes(&answer.axes);
+        let ([larger, smaller], angle) = semi_axes(&answer.axes, answer.area);
         vec![
             Field::new("area", exact(answer.area)),
-            center(&answer.center, larger),
+            center(&answer.center, smaller),
             Field::new("semi-axes", format!("{} and {}", exact(larger), exact(smaller)))
                 .remark(&*format!("the longer one at {angle:.3}° from the first axis")),
             gap,
@@ -67,12 +67,15 @@ impl Summary for InscribedEllipse {
 }
 
 /// The half lengths of the axes of {Gz : |z| ≤ 1}, the longer one first, and its angle in degrees from 0 to 180.
-fn semi_axes([[a, b], [c, d]]: &[[f64; 2]; 2]) -> ([f64; 2], f64) {
-    // The singular values from the two rotations that a matrix of two by two is the sum of.
+///
+/// The shorter one comes from the area: as a difference it would have no digits left in a long ellipse.
+fn semi_axes([[a, b], [c, d]]: &[[f64; 2]; 2], area: f64) -> ([f64; 2], f64) {
+    // Singular values and rotations from the two multiples of rotations that a matrix of two by two is the sum of.
     let (sum, difference) = ((a + d).hypot(c - b), (a - d).hypot(b + c));
     let angle = 0.5 * ((c - b).atan2(a + d) + (b + c).atan2(a - d));
-    let smaller = 0.5 * (sum - difference).abs();
-    ([0.5 * (sum + difference), smaller], angle.to_degrees().rem_euclid(180.0))
+    let larger = 0.5 * (sum + difference);
+    let smaller = (area / larger / std::f64::consts::PI).min(larger);
+    ([larger, smaller], angle.to_degrees().rem_euclid(180.0))
 }
 
 #[cfg(test)]
@@ -81,12 +84,20 @@ mod tests {
 
     #[test]
     fn semi_axes_are_those_of_the_ellipse() {
+        let pi = std::f64::consts::PI;
         let (sine, cosine) = 0.7f64.sin_cos();
         let axes = [[3.0 * cosine, -sine], [3.0 * sine, cosine]];
-        let ([larger, smaller], angle) = semi_axes(&axes);
+        let ([larger, smaller], angle) = semi_axes(&axes, 3.0 * pi);
         assert!((larger - 3.0).abs() < 1e-14 && (smaller - 1.0).abs() < 1e-14);
         assert!((angle - 0.7f64.to_degrees()).abs() < 1e-12, "{angle}");
-        let ([larger, smaller], angle) = semi_axes(&[[1.0, 0.0], [0.0, 2.0]]);
-        assert_eq!((larger, smaller, angle), (2.0, 1.0, 90.0));
+        let ([larger, smaller], angle) = semi_axes(&[[1.0, 0.0], [0.0, 2.0]], 2.0 * pi);
+        assert!((larger - 2.0).abs() + (smaller - 1.0).abs() < 1e-15 && angle == 90.0);
+    }
+
+    #[test]
+    fn the_shorter_axis_of_a_long_ellipse_keeps_its_digits() {
+        let axes = [[5e15, 0.0], [0.0, 0.5]];
+        let ([larger, smaller], _) = semi_axes(&axes, 2.5e15 * std::f64::consts::PI);
+        assert!(larger == 5e15 && (smaller - 0.5).abs() < 1e-15, "{smaller}");
     }
 }
