@@ -2,7 +2,7 @@
 #![no_main]
 
 #[allow(dead_code)]
-#[path = "../../crates/taut-oblivious/tests/memory_any/bytes.rs"]
+#[path = "../../crates/taut-oblivious/tests/oblivious/bytes.rs"]
 mod bytes;
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| bytes::sort_any(bytes));

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use flate2::read::GzDecoder;
 use taut_recognize::classify::{Cells, Method, Preset, Rule, Scaling, TrainOptions, Width, train};
 
-use crate::support::{Set, accuracy, names, preset};
+use super::support::{Set, accuracy, names, preset};
 
 /// The text of a file; says that it is not there if so.
 fn text(name: &str) -> Option<String> {

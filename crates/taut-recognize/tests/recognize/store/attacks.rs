@@ -3,7 +3,7 @@
 use rusqlite::Connection;
 use taut_recognize::store::{Key, Manifest, Store, StoreError};
 
-use crate::help::{Place, name, scan, scans};
+use super::help::{Place, name, scan, scans};
 
 /// Changes the file as somebody without the key can.
 fn change(place: &Place, sql: &str) {

@@ -5,7 +5,7 @@ use taut_recognize::classify::{
     Cells, Classifier, Covariance, Method, Preset, Rule, Scaling, Score, TrainOptions, Width, train,
 };
 
-use crate::support::{Draws, Set, names, preset};
+use super::support::{Draws, Set, names, preset};
 
 fn ball(width: Width, cells: Cells) -> Method {
     let rule = Rule::Ball { width, cells, nu: None, steps: None };

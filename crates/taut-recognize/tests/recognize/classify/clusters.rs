@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use taut_points::Points;
 use taut_recognize::classify::{ClusterOptions, Width, cluster};
 
-use crate::support::Draws;
+use super::support::Draws;
 
 /// A ring around a disk, then points far away, with the number of their part.
 fn ring_and_disk() -> (Vec<f64>, Vec<u32>) {

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use taut_recognize::store::{Key, Store};
 
-use crate::help::{Place, name, scan, scans};
+use super::help::{Place, name, scan, scans};
 
 /// Names the store to the child, which is this test program.
 const CHILD_VARIABLE: &str = "TAUT_TEST_STORE_OF_CHILD";
@@ -33,7 +33,7 @@ fn killing_a_process_loses_nobody_and_damages_nothing() {
     let mut enrolled = 0;
     for kill in 0..KILLS {
         let mut child = Command::new(std::env::current_exe().unwrap())
-            .args(["--exact", "crash::child_that_enrolls", "--nocapture"])
+            .args(["--exact", "store::crash::child_that_enrolls", "--nocapture"])
             .env(CHILD_VARIABLE, &place.path)
             .stdout(Stdio::null())
             .stderr(Stdio::piped())

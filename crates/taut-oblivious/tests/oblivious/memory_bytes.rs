@@ -1,13 +1,12 @@
 //! Any bytes as records to sort; the seeds of the fuzz target among them.
 
-#[path = "memory_any/bytes.rs"]
-mod bytes;
-
 use std::path::Path;
 
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
+
+use super::bytes;
 
 proptest! {
     #![proptest_config(Config {

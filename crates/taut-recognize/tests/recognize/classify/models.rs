@@ -5,7 +5,7 @@ use taut_points::Points;
 use taut_recognize::Error;
 use taut_recognize::classify::{Labeled, Model, Preset, TrainOptions, train};
 
-use crate::support::{Set, names, preset};
+use super::support::{Set, names, preset};
 
 fn trained(name: Preset) -> (Model, Set) {
     let set = Set::normal(3, 15, 3, 1.5, 20);

@@ -4,7 +4,7 @@ use taut_recognize::classify::{
     Cells, Method, Preset, PresetOptions, Rule, Scaling, TrainOptions, Width, train,
 };
 
-use crate::support::{Set, preset};
+use super::support::{Set, preset};
 
 #[test]
 fn svdd_leaves_at_most_the_share_outside_and_rejects_what_is_far() {

@@ -5,7 +5,7 @@ use taut_recognize::hand::Side;
 use taut_recognize::store::{Key, Scan, Store, StoreError, StoreOptions};
 use taut_recognize::template::Matcher;
 
-use crate::help::{DIM, Place, matcher, name, scan, scans};
+use super::help::{DIM, Place, matcher, name, scan, scans};
 
 #[test]
 fn the_enrolled_are_accepted_and_others_are_not() {
@@ -33,7 +33,7 @@ fn the_distance_is_that_of_the_mahalanobis_classifier() {
     use taut_points::Points;
     use taut_recognize::classify::{Labeled, Model, TrainOptions, Whitener, train};
     // Two scans each of four people: the classifier has one mean for each, as templates have.
-    let rows: Vec<Vec<f64>> = (0..8).map(|i| crate::help::features(i / 2, i % 2)).collect();
+    let rows: Vec<Vec<f64>> = (0..8).map(|i| super::help::features(i / 2, i % 2)).collect();
     let values: Vec<f64> = rows.concat();
     let names = ["a", "b", "c", "d"].map(str::to_owned);
     let labels = [0, 0, 1, 1, 2, 2, 3, 3];
@@ -41,7 +41,7 @@ fn the_distance_is_that_of_the_mahalanobis_classifier() {
     let options = TrainOptions { candidates: vec![Whitener::method()], ..TrainOptions::default() };
     let model: Model = train(data, &options).unwrap();
     let whitener = Whitener::learn(data).unwrap();
-    let probe = crate::help::features(2, 7);
+    let probe = super::help::features(2, 7);
     let scores = model.predict(Points::new(&probe, DIM).unwrap()).unwrap().remove(0).scores;
     for (person, score) in scores.into_iter().enumerate() {
         let mapped = [0, 1].map(|i| whitener.apply(&rows[2 * person + i]).unwrap());
