@@ -21,6 +21,38 @@ pub enum Error {
         /// Points given.
         given: u64,
     },
+    /// Bytes that should hold the front of a node do not, or fronts do not fit together.
+    #[error("a front is damaged: {what}")]
+    DamagedFront {
+        /// How that shows.
+        what: &'static str,
+    },
+    /// Bytes that should hold a tile do not.
+    #[error("a tile is damaged: {what}")]
+    DamagedTile {
+        /// How that shows.
+        what: &'static str,
+    },
+    /// What is unfinished at a node does not fit into the memory that was allowed.
+    #[error(
+        "{sites} points must be triangulated at once, which takes {needed} bytes: allow more memory than {budget} bytes for that and resume"
+    )]
+    Memory {
+        /// Points of the node.
+        sites: u64,
+        /// Bytes that they take.
+        needed: u64,
+        /// Bytes that there are for them.
+        budget: u64,
+    },
+    /// A file cannot be read or written.
+    #[error("{path}: {source}")]
+    File {
+        /// Which file.
+        path: String,
+        /// The error of the system.
+        source: std::io::Error,
+    },
     /// Invalid points or options, a read error, or cancellation by the caller.
     #[error(transparent)]
     Input(#[from] InputError),

@@ -44,6 +44,7 @@ mod kernel;
 mod numbers;
 mod options;
 mod order;
+pub mod outofcore;
 mod plane;
 mod query;
 mod rounds;

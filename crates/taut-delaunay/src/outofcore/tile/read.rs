@@ -1,0 +1,125 @@
+//! Reads a tile from bytes that may be anything.
+
+use super::super::bytes::{Reader, word_sum};
+use super::super::front::Link;
+use super::{HEADER, MAGIC, NO_NEIGHBOR, OTHER_TILE, TileHeader, TileLink, VERSION};
+use crate::Error;
+use crate::simplex::decode;
+
+/// One tile in memory; the module says what it holds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tile<const D: usize> {
+    /// The counts.
+    pub header: TileHeader,
+    /// The coordinates of the sites, owned ones first.
+    pub coordinates: Vec<[f64; D]>,
+    /// The smallest row of each site.
+    pub rows: Vec<u64>,
+    /// Rows that equal a smaller row, with the smallest row they equal.
+    pub duplicates: Vec<[u64; 2]>,
+    /// The vertices of the simplices, as numbers of sites of the tile.
+    pub simplices: Vec<u32>,
+    /// For each vertex of each simplex the simplex across the facet opposite, [`NO_NEIGHBOR`] or [`OTHER_TILE`].
+    pub neighbors: Vec<u32>,
+    /// The facets whose other side an earlier tile has.
+    pub links: Vec<TileLink>,
+}
+
+fn damaged(what: &'static str) -> Error {
+    Error::DamagedTile { what }
+}
+
+/// Reads the header of a tile of points of dimension `D`.
+fn read_header<const D: usize>(reader: &mut Reader<'_>) -> Option<TileHeader> {
+    if reader.take(8)? != MAGIC || reader.u32()? != VERSION || reader.u32()? != D as u32 {
+        return None;
+    }
+    let header = TileHeader {
+        vertices_per_simplex: reader.u32()?,
+        row_bytes: reader.u32()?,
+        tile: reader.u32().filter(|_| reader.u32().is_some())?,
+        owned: reader.u64()?,
+        sites: reader.u64()?,
+        duplicates: reader.u64()?,
+        simplices: reader.u64()?,
+        links: reader.u64()?,
+        hull: reader.u64()?,
+        fingerprint: taut_certify::Fingerprint(
+            u128::from(reader.u64()?) | u128::from(reader.u64()?) << 64,
+        ),
+    };
+    reader.take(HEADER - 96)?;
+    let known = header.vertices_per_simplex <= D as u32 + 1 && [4, 8].contains(&header.row_bytes);
+    (known && header.owned <= header.sites).then_some(header)
+}
+
+impl<const D: usize> Tile<D> {
+    /// The tile that these bytes are.
+    ///
+    /// # Errors
+    /// [`Error::DamagedTile`] if they are other bytes, or name sites or simplices that are not there.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
+        let body = bytes.len().checked_sub(8).ok_or(damaged("it ends too early"))?;
+        if Reader::new(&bytes[body..]).u64() != Some(word_sum(&bytes[..body])) {
+            return Err(damaged("its sum is wrong"));
+        }
+        let mut reader = Reader::new(&bytes[..body]);
+        let header = read_header::<D>(&mut reader)
+            .ok_or(damaged("it does not begin like a tile of points of this dimension"))?;
+        if header.bytes(D) != Some(bytes.len() as u64) {
+            return Err(damaged("its length is wrong"));
+        }
+        let tile = Self::read_body(header, &mut reader).ok_or(damaged("it ends too early"))?;
+        tile.check_numbers()?;
+        Ok(tile)
+    }
+
+    fn read_body(header: TileHeader, reader: &mut Reader<'_>) -> Option<Self> {
+        fn list<T>(count: u64, mut read: impl FnMut() -> Option<T>) -> Option<Vec<T>> {
+            (0..count).map(|_| read()).collect()
+        }
+        let wide = header.row_bytes == 8;
+        let row = |reader: &mut Reader<'_>| {
+            if wide { reader.u64() } else { reader.u32().map(u64::from) }
+        };
+        let numbers = header.simplices * u64::from(header.vertices_per_simplex);
+        Some(Self {
+            header,
+            coordinates: list(header.sites, || reader.points())?,
+            rows: list(header.sites, || row(reader))?,
+            duplicates: list(header.duplicates, || Some([row(reader)?, row(reader)?]))?,
+            simplices: list(numbers, || reader.u32())?,
+            neighbors: list(numbers, || reader.u32())?,
+            links: list(header.links, || {
+                let code = reader.u32()?;
+                Some(TileLink { code, link: Link { tile: reader.u32()?, code: reader.u32()? } })
+            })?,
+        })
+    }
+
+    fn check_numbers(&self) -> Result<(), Error> {
+        let TileHeader { sites, simplices, vertices_per_simplex, .. } = self.header;
+        if self.simplices.iter().any(|&v| u64::from(v) >= sites) {
+            return Err(damaged("a simplex has a site that is not there"));
+        }
+        let is_known = |&n: &u32| n == NO_NEIGHBOR || n == OTHER_TILE || u64::from(n) < simplices;
+        if !self.neighbors.iter().all(is_known) {
+            return Err(damaged("a neighbor is not there"));
+        }
+        let is_here = |link: &TileLink| {
+            let (simplex, facet) = decode(link.code);
+            let is_simplex =
+                u64::from(simplex) < simplices && (facet as u32) < vertices_per_simplex;
+            is_simplex || link.code == Link::OUTSIDE
+        };
+        if !self.links.iter().all(is_here) || !self.links.is_sorted_by_key(|link| link.code) {
+            return Err(damaged("a link is not of a simplex of the tile"));
+        }
+        Ok(())
+    }
+
+    /// The vertices of each simplex.
+    pub fn simplex_rows(&self) -> std::slice::ChunksExact<'_, u32> {
+        self.simplices.chunks_exact(self.header.vertices_per_simplex.max(1) as usize)
+    }
+}
