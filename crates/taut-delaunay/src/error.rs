@@ -45,6 +45,42 @@ pub enum Error {
         /// Bytes that there are for them.
         budget: u64,
     },
+    /// The file system has less room than the work needs.
+    #[error(
+        "{folder}: {needed} bytes are needed, but {free} are free: make room or choose another folder"
+    )]
+    Space {
+        /// The folder of the output.
+        folder: String,
+        /// Bytes that the work needs.
+        needed: u64,
+        /// Bytes that are free.
+        free: u64,
+    },
+    /// The folder of the output has other files, or a triangulation that was begun.
+    #[error("{folder} is not empty: resume what was begun there, or name a new folder")]
+    FolderTaken {
+        /// The folder.
+        folder: String,
+    },
+    /// Another process works in the folder of the output.
+    #[error("{folder}: another process works there")]
+    FolderLocked {
+        /// The folder.
+        folder: String,
+    },
+    /// A file of a folder with tiles is not what was written.
+    #[error("{path} is damaged: remove the folder and begin again")]
+    DamagedFolder {
+        /// The file.
+        path: String,
+    },
+    /// The points are not those that the work was begun with.
+    #[error("{folder}: the work there was begun with other points")]
+    OtherInput {
+        /// The folder.
+        folder: String,
+    },
     /// A file cannot be read or written.
     #[error("{path}: {source}")]
     File {

@@ -21,8 +21,10 @@
 //! | `tile` | what is finished, and its bytes |
 //! | `node` | the functions for drivers |
 //! | `driver` | from the leaves to the root, on several threads |
+//! | `disk` | points from a source to a folder of tiles |
 
 mod bytes;
+mod disk;
 mod driver;
 mod facets;
 mod front;
@@ -35,10 +37,13 @@ mod tile;
 mod tree;
 
 pub use crate::sites::Magnitudes;
+pub use disk::{
+    DiskPlan, FolderOptions, TiledTriangulation, delaunay_to_folder, plan_folder, tile_name,
+};
 pub use driver::{NodeRecord, Totals};
 pub use front::{Front, Link};
 pub use node::{Dim, Dimension, NodeJob, finish, merge, summarize};
 pub use points::NodePoints;
 pub use solve::Whole;
-pub use tile::{NO_NEIGHBOR, OTHER_TILE, Tile, TileHeader, TileLink};
+pub use tile::{NO_NEIGHBOR, OTHER_TILE, Tile, TileCounts, TileLink};
 pub use tree::{CellBox, FINE_LEVELS, LEVELS_MAX, Router, Tree};

@@ -19,7 +19,7 @@ use super::front::Front;
 use super::node::{Dim, Dimension, NodeJob, finish, merge, summarize};
 use super::points::NodePoints;
 use super::solve::Whole;
-use super::tile::TileHeader;
+use super::tile::TileCounts;
 use crate::Error;
 
 /// Where points, tiles and fronts are kept.
@@ -36,27 +36,19 @@ pub(super) trait Storage<const D: usize>: Sync {
     /// What is known of a node that was stored before, in another run perhaps.
     fn stored(&self, node: u32) -> Option<NodeRecord>;
 
-    /// What the nodes below brought was used by a node that is stored.
-    fn release(&self, used: &Used);
+    /// The points of a leaf that is stored are of no use any more.
+    fn release(&self, leaf: u32);
 }
 
-/// Writes a tile and returns its header and the front.
+/// Writes a tile and returns its counts and the front.
 pub(super) type WriteNode<'a, const D: usize> =
-    dyn FnMut(&str, &mut dyn Write) -> Result<(TileHeader, Front<D>), Error> + 'a;
-
-/// What a node was made of.
-pub(super) enum Used {
-    /// The points of this leaf.
-    Points(u32),
-    /// The fronts of these nodes.
-    Fronts(Vec<u32>),
-}
+    dyn FnMut(&str, &mut dyn Write) -> Result<(TileCounts, Front<D>), Error> + 'a;
 
 /// What is remembered of a node that is stored.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct NodeRecord {
-    /// The header of its tile.
-    pub header: TileHeader,
+    /// The counts of its tile.
+    pub counts: TileCounts,
     /// Sites that go up.
     pub front_sites: u64,
     /// Facets that go up.
@@ -103,8 +95,8 @@ pub struct Totals {
     pub root_sites: u64,
 }
 
-impl AddAssign<&TileHeader> for Totals {
-    fn add_assign(&mut self, tile: &TileHeader) {
+impl AddAssign<&TileCounts> for Totals {
+    fn add_assign(&mut self, tile: &TileCounts) {
         self.sites += tile.owned;
         self.duplicates += tile.duplicates;
         self.simplices += tile.simplices;
@@ -148,6 +140,11 @@ impl Walk {
             }
         }
         walk
+    }
+
+    /// The nodes in the order of the walk.
+    pub(super) fn nodes(&self) -> &[u32] {
+        &self.nodes
     }
 
     fn push(&mut self, node: u32, children: Option<[usize; 2]>, listed: &mut Vec<usize>) {
@@ -349,7 +346,7 @@ where
     }
 
     fn note(&self, board: &mut Board, task: &Task, record: &NodeRecord) {
-        board.totals += &record.header;
+        board.totals += &record.counts;
         if task.fronts.is_none() {
             board.totals.front_sites += record.front_sites;
         } else {
@@ -399,9 +396,8 @@ where
     }
 
     fn release(&self, task: &Task) {
-        self.storage.release(&match &task.fronts {
-            None => Used::Points(self.walk.nodes[task.place]),
-            Some(fronts) => Used::Fronts(fronts.clone()),
-        });
+        if task.fronts.is_none() {
+            self.storage.release(self.walk.nodes[task.place]);
+        }
     }
 }

@@ -19,7 +19,7 @@ use taut_points::{Monitor, Points};
 use super::front::Front;
 use super::points::NodePoints;
 use super::solve::{Outcome, Whole, solve};
-use super::tile::{LowerTile, TileHeader, TileOrder, write_lower, write_solved};
+use super::tile::{LowerTile, TileCounts, TileOrder, write_lower, write_solved};
 use crate::cells::{Geometry, InPlane, InSpace};
 use crate::kernel::Kernel;
 use crate::{DelaunayOptions, Error, delaunay};
@@ -57,7 +57,7 @@ pub trait Dimension<const D: usize>: sealed::Sealed {
         front: Front<D>,
         out: &mut dyn Write,
         monitor: &Monitor<'_>,
-    ) -> Result<(TileHeader, Front<D>), Error>;
+    ) -> Result<(TileCounts, Front<D>), Error>;
 }
 
 mod sealed {
@@ -74,7 +74,7 @@ impl Dimension<2> for Dim<2> {
         front: Front<2>,
         out: &mut dyn Write,
         monitor: &Monitor<'_>,
-    ) -> Result<(TileHeader, Front<2>), Error> {
+    ) -> Result<(TileCounts, Front<2>), Error> {
         run::<2, 3, InPlane>(whole, job, points, front, out, monitor)
     }
 }
@@ -87,7 +87,7 @@ impl Dimension<3> for Dim<3> {
         front: Front<3>,
         out: &mut dyn Write,
         monitor: &Monitor<'_>,
-    ) -> Result<(TileHeader, Front<3>), Error> {
+    ) -> Result<(TileCounts, Front<3>), Error> {
         run::<3, 4, InSpace>(whole, job, points, front, out, monitor)
     }
 }
@@ -105,7 +105,7 @@ pub fn summarize<const D: usize>(
     points: NodePoints<D>,
     out: &mut dyn Write,
     monitor: &Monitor<'_>,
-) -> Result<(TileHeader, Front<D>), Error>
+) -> Result<(TileCounts, Front<D>), Error>
 where
     Dim<D>: Dimension<D>,
 {
@@ -123,7 +123,7 @@ pub fn merge<const D: usize>(
     mut front: Front<D>,
     out: &mut dyn Write,
     monitor: &Monitor<'_>,
-) -> Result<(TileHeader, Front<D>), Error>
+) -> Result<(TileCounts, Front<D>), Error>
 where
     Dim<D>: Dimension<D>,
 {
@@ -145,12 +145,12 @@ pub fn finish<const D: usize>(
     front: Front<D>,
     out: &mut dyn Write,
     monitor: &Monitor<'_>,
-) -> Result<TileHeader, Error>
+) -> Result<TileCounts, Error>
 where
     Dim<D>: Dimension<D>,
 {
-    let (header, front) = merge(whole, NodeJob { node: 0, ..job }, front, out, monitor)?;
-    if front.is_empty() { Ok(header) } else { Err(SITES_LEFT) }
+    let (counts, front) = merge(whole, NodeJob { node: 0, ..job }, front, out, monitor)?;
+    if front.is_empty() { Ok(counts) } else { Err(SITES_LEFT) }
 }
 
 fn run<const D: usize, const V: usize, G: Geometry<D, V>>(
@@ -160,7 +160,7 @@ fn run<const D: usize, const V: usize, G: Geometry<D, V>>(
     front: Front<D>,
     mut out: &mut dyn Write,
     monitor: &Monitor<'_>,
-) -> Result<(TileHeader, Front<D>), Error> {
+) -> Result<(TileCounts, Front<D>), Error> {
     let failed = |source| Error::File { path: job.output.to_owned(), source };
     let name = (job.node, job.row_bytes);
     match solve::<D, V, G>(whole, job.node, points, front.facets, monitor)? {
@@ -168,9 +168,9 @@ fn run<const D: usize, const V: usize, G: Geometry<D, V>>(
             let unscale = whole.scale.inverse();
             let up = solved.sites_up();
             let order = TileOrder::of(&solved, &up);
-            let header = write_solved(&solved, &order, name, unscale, &mut out).map_err(failed)?;
+            let counts = write_solved(&solved, &order, name, unscale, &mut out).map_err(failed)?;
             let side = |slot, facet| order.side(solved.mesh.simplices(), slot, facet);
-            Ok((header, solved.front(job.node, &up, side, unscale)))
+            Ok((counts, solved.front(job.node, &up, side, unscale)))
         }
         Outcome::Lower { front, .. } if !front.facets.is_empty() => Err(FLAT_WITH_FACETS),
         Outcome::Lower { front, duplicates } if job.node != 0 => {

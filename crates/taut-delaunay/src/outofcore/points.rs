@@ -6,10 +6,14 @@
 //! *Guarantee.* Sites, their numbers and their rows are a function of the set of (point, row).
 
 use taut_oblivious::hilbert_order;
+use taut_oblivious::machine::prefetch;
 use taut_points::InputError;
 
 use crate::Error;
 use crate::sites::Scale;
+
+/// Points that are asked for ahead of their use, as they are not in the order of the curve: about the time memory takes.
+pub(super) const FETCH_AHEAD: usize = 16;
 
 /// Points with their rows, as they come.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -63,6 +67,10 @@ pub(super) fn order_sites<const D: usize>(points: &NodePoints<D>, scale: Scale) 
     let mut duplicates = Vec::new();
     let mut kept = 0;
     for i in 0..places.len() {
+        if let Some(&soon) = places.get(i + FETCH_AHEAD) {
+            prefetch(&points.coordinates, soon as usize);
+            prefetch(&points.rows, soon as usize);
+        }
         let place = places[i] as usize;
         let row = points.rows[place];
         let last = kept - usize::from(kept > 0);

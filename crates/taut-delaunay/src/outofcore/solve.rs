@@ -16,11 +16,12 @@
 //! behind one goes up with them, so that what goes up spans all dimensions.
 //! *Trap.* A node whose sites do not span all dimensions passes everything on.
 
+use taut_oblivious::machine::prefetch;
 use taut_points::Monitor;
 
 use super::facets::{FrozenLinks, States, facet_of, renumbered, unfinished};
 use super::front::{Front, FrozenFacet, Link};
-use super::points::{NodePoints, OrderedSites, order_sites};
+use super::points::{FETCH_AHEAD, NodePoints, OrderedSites, order_sites};
 use super::tree::Tree;
 use crate::affine::Span;
 use crate::canonical::arrangement;
@@ -79,7 +80,13 @@ pub(super) fn solve<const D: usize, const V: usize, G: Geometry<D, V>>(
     let OrderedSites { places, rows, duplicates } = order_sites(&points, whole.scale);
     let facets = reorder(&places, points.rows.len(), facets);
     let at = |i: usize| points.coordinates[places[i] as usize];
-    let scaled = |i: usize| at(i).map(|x| whole.scale.apply(x));
+    let scaled = |i: usize| {
+        // Points are not in the order of the curve.
+        if let Some(&soon) = places.get(i + FETCH_AHEAD) {
+            prefetch(&points.coordinates, soon as usize);
+        }
+        at(i).map(|x| whole.scale.apply(x))
+    };
     let Some(start) = start_simplex::<D, V, G>(places.len(), scaled) else {
         let coordinates = (0..places.len()).map(at).collect();
         return Ok(Outcome::Lower { front: Front { coordinates, rows, facets }, duplicates });
@@ -135,9 +142,12 @@ fn mark_open<const D: usize, const V: usize, G: Geometry<D, V>>(
     states: &mut States,
 ) -> Vec<u32> {
     let simplices = mesh.simplices();
-    let ghosts = (0u32..).zip(simplices).filter(|(_, s)| s.is_live() && s.is_ghost());
-    let unfinished: Vec<u32> =
-        ghosts.map(|(t, _)| t).filter(|&t| states.is_unfinished(t)).collect();
+    let mut ghosts: Vec<u32> = Vec::new();
+    for (t, simplex) in simplices.iter().enumerate() {
+        if states.is_unfinished(t as u32) && simplex.is_ghost() {
+            ghosts.push(t as u32);
+        }
+    }
     let site = |v: u32| mesh.site(v);
     let mut nodes = Vec::new();
     let mut may_conflict = |t: u32| {
@@ -169,7 +179,7 @@ fn mark_open<const D: usize, const V: usize, G: Geometry<D, V>>(
             }
         }
     };
-    unfinished.iter().for_each(|&ghost| ask(ghost, states, &mut open));
+    ghosts.iter().for_each(|&ghost| ask(ghost, states, &mut open));
     let mut next = 0;
     while next < open.len() {
         for neighbor in simplices[open[next] as usize].neighbors {

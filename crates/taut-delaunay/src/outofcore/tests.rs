@@ -3,4 +3,6 @@
 
 mod buckets;
 mod canonical;
+mod contract;
+mod properties;
 mod sets;

@@ -16,17 +16,19 @@
 //! | what | type |
 //! |---|---|
 //! | magic `TAUTTILE` | 8 bytes |
-//! | version, D, vertices of a simplex, bytes of a row (4 or 8), number of the tile, 0 | 6 × u32 |
-//! | owned sites, sites, duplicates, simplices, links, facets on the hull | 6 × u64 |
-//! | fingerprint of the simplices | u128 |
-//! | 0 | 32 bytes, so that the header has 128 |
+//! | version, D | 2 × u32 |
 //! | sites | sites × D × f64 |
 //! | rows of the sites | sites × u32 or u64 |
 //! | duplicates: a row and the smallest row it equals, ascending | duplicates × 2 × u32 or u64 |
-//! | simplices | simplices × vertices × u32 |
-//! | neighbors | simplices × vertices × u32 |
+//! | simplices: the vertices and the neighbors opposite them | simplices × (vertices + neighbors) × u32 |
 //! | links | links × 3 × u32 |
+//! | the last 104 bytes: magic `TAUTTILE` | 8 bytes |
+//! | version, D, vertices of a simplex, bytes of a row (4 or 8), number of the tile, 0 | 6 × u32 |
+//! | owned sites, sites, duplicates, simplices, links, facets on the hull | 6 × u64 |
+//! | fingerprint of the simplices | u128 |
 //! | sum of all words before | u64 |
+//!
+//! The counts come last, as a tile is written in one pass.
 
 mod read;
 mod write;
@@ -46,7 +48,9 @@ pub const OTHER_TILE: u32 = u32::MAX - 1;
 const MAGIC: &[u8; 8] = b"TAUTTILE";
 const VERSION: u32 = 1;
 /// Bytes before the sites.
-const HEADER: usize = 128;
+const HEAD_BYTES: usize = 16;
+/// Bytes of the counts, with the sum.
+pub(super) const COUNTS_BYTES: usize = 104;
 
 /// A facet between two tiles, as the later tile has it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,9 +61,9 @@ pub struct TileLink {
     pub link: Link,
 }
 
-/// The counts at the beginning of a tile.
+/// The counts at the end of a tile.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct TileHeader {
+pub struct TileCounts {
     /// Vertices of a simplex: 1 more than the dimension of the affine hull of all points, 0 if there are no simplices.
     pub vertices_per_simplex: u32,
     /// Bytes of a row, 4 or 8.
@@ -82,17 +86,16 @@ pub struct TileHeader {
     pub fingerprint: Fingerprint,
 }
 
-impl TileHeader {
+impl TileCounts {
     /// Bytes of the tile, with its sum; `None` if more than can be counted.
     pub fn bytes(&self, dimension: usize) -> Option<u64> {
         let simplex = 8 * u128::from(self.vertices_per_simplex);
         let row = u128::from(self.row_bytes);
-        let total = HEADER as u128
+        let total = (HEAD_BYTES + COUNTS_BYTES) as u128
             + u128::from(self.sites) * (8 * dimension as u128 + row)
             + u128::from(self.duplicates) * 2 * row
             + u128::from(self.simplices) * simplex
-            + u128::from(self.links) * 12
-            + 8;
+            + u128::from(self.links) * 12;
         u64::try_from(total).ok()
     }
 }

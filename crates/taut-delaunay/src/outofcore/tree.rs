@@ -193,6 +193,7 @@ impl<const D: usize> Tree<D> {
         for (&leaf, cell) in level.iter().zip(cells) {
             self.nodes[leaf as usize].cell = *cell;
         }
+        // Children come after their parents.
         for &parent in all.iter().rev() {
             if let Some([left, right]) = self.nodes[parent as usize].children {
                 let mut cell = self.nodes[left as usize].cell;
@@ -227,6 +228,17 @@ impl<const D: usize> Tree<D> {
     /// If there is no such node.
     pub fn cell(&self, node: u32) -> &CellBox<D> {
         &self.nodes[node as usize].cell
+    }
+
+    /// The tree of nodes that are given one by one; `None` if children do not come after their parents, or not there.
+    pub(crate) fn of_nodes(nodes: Vec<(CellBox<D>, Option<[u32; 2]>)>) -> Option<Self> {
+        let count = nodes.len();
+        let is_sound = |(node, &(_, children)): (usize, &(_, Option<[u32; 2]>))| {
+            children.is_none_or(|c| c.iter().all(|&k| (node + 1..count).contains(&(k as usize))))
+        };
+        let sound = count > 0 && nodes.iter().enumerate().all(is_sound);
+        let nodes = nodes.into_iter().map(|(cell, children)| Node { cell, children }).collect();
+        sound.then_some(Self { nodes })
     }
 
     /// The same tree of points multiplied with a power of two.

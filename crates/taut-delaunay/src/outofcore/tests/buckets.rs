@@ -6,7 +6,7 @@ use std::sync::Mutex;
 
 use taut_points::Monitor;
 
-use super::super::driver::{Course, NodeRecord, Storage, Totals, Used, Walk, WriteNode, run};
+use super::super::driver::{Course, NodeRecord, Storage, Totals, Walk, WriteNode, run};
 use super::super::{
     CellBox, Dim, Dimension, FINE_LEVELS, Front, Magnitudes, NodePoints, Router, Tile, Tree, Whole,
 };
@@ -29,9 +29,9 @@ impl<const D: usize> Storage<D> for Lists<D> {
 
     fn store(&self, node: u32, write: &mut WriteNode<'_, D>) -> Result<NodeRecord, Error> {
         let mut tile = Vec::new();
-        let (header, front) = write("memory", &mut tile as &mut dyn Write)?;
+        let (counts, front) = write("memory", &mut tile as &mut dyn Write)?;
         let record = NodeRecord {
-            header,
+            counts,
             front_sites: front.len() as u64,
             front_facets: front.facets.len() as u64,
         };
@@ -44,10 +44,8 @@ impl<const D: usize> Storage<D> for Lists<D> {
         None
     }
 
-    fn release(&self, used: &Used) {
-        if let Used::Points(leaf) = used {
-            self.buckets.lock().unwrap().remove(leaf);
-        }
+    fn release(&self, leaf: u32) {
+        self.buckets.lock().unwrap().remove(&leaf);
     }
 }
 

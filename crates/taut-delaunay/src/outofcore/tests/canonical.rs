@@ -20,7 +20,7 @@ fn sorted(mut rows: Vec<u64>) -> Vec<u64> {
 type Adjacency = BTreeMap<Vec<u64>, BTreeMap<u64, Option<Vec<u64>>>>;
 
 fn adjacency_of_tiles<const D: usize>(all: &[Tile<D>]) -> Adjacency {
-    let by_number: BTreeMap<u32, &Tile<D>> = all.iter().map(|t| (t.header.tile, t)).collect();
+    let by_number: BTreeMap<u32, &Tile<D>> = all.iter().map(|t| (t.counts.tile, t)).collect();
     let rows = |tile: &Tile<D>, simplex: u32| -> Vec<u64> {
         let vertices = tile.simplex_rows().nth(simplex as usize).expect("a simplex of the tile");
         vertices.iter().map(|&v| tile.rows[v as usize]).collect()
@@ -28,7 +28,7 @@ fn adjacency_of_tiles<const D: usize>(all: &[Tile<D>]) -> Adjacency {
     let mut adjacency = Adjacency::new();
     let mut open = BTreeMap::new();
     for tile in all {
-        let k = tile.header.vertices_per_simplex as usize;
+        let k = tile.counts.vertices_per_simplex as usize;
         for (number, neighbors) in (0u32..).zip(tile.neighbors.chunks(k.max(1))) {
             let ours = rows(tile, number);
             let mut across = BTreeMap::new();
@@ -36,7 +36,7 @@ fn adjacency_of_tiles<const D: usize>(all: &[Tile<D>]) -> Adjacency {
                 match n {
                     NO_NEIGHBOR => across.insert(ours[i], None),
                     OTHER_TILE => {
-                        open.insert((tile.header.tile, number << 2 | i as u32), ());
+                        open.insert((tile.counts.tile, number << 2 | i as u32), ());
                         None
                     }
                     _ => across.insert(ours[i], Some(sorted(rows(tile, n)))),
@@ -64,7 +64,7 @@ fn adjacency_of_tiles<const D: usize>(all: &[Tile<D>]) -> Adjacency {
                 let opposite = ours[facet];
                 let across = adjacency.get_mut(&sorted(ours)).unwrap();
                 assert!(across.insert(opposite, Some(sorted(its))).is_none(), "joined once");
-                let side = (sides[a].0.header.tile, sides[a].1);
+                let side = (sides[a].0.counts.tile, sides[a].1);
                 assert!(open.remove(&side).is_some(), "only open facets are joined");
             }
         }
@@ -88,7 +88,7 @@ fn adjacency_in_memory(simplices: &[u32], neighbors: &[u32], k: usize) -> Adjace
     all.map(simplex).collect()
 }
 
-fn check_same<const D: usize>(name: &str, points: &[[f64; D]], cuts: &[Cut])
+pub(super) fn check_same<const D: usize>(name: &str, points: &[[f64; D]], cuts: &[Cut])
 where
     Dim<D>: Dimension<D>,
 {
@@ -115,7 +115,7 @@ where
         let known: Vec<[u64; 2]> =
             expected.answer.duplicates.iter().map(|pair| pair.map(u64::from)).collect();
         assert_eq!(listed, known, "{name}: {cut:?}");
-        let owned = all.iter().flat_map(|t| &t.rows[..t.header.owned as usize]);
+        let owned = all.iter().flat_map(|t| &t.rows[..t.counts.owned as usize]);
         let owned: BTreeSet<u64> = owned.copied().collect();
         assert_eq!(owned.len() as u64, sites, "{name}: {cut:?}: each site has one owner");
         for tile in &all {

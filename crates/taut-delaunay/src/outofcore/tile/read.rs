@@ -2,7 +2,7 @@
 
 use super::super::bytes::{Reader, word_sum};
 use super::super::front::Link;
-use super::{HEADER, MAGIC, NO_NEIGHBOR, OTHER_TILE, TileHeader, TileLink, VERSION};
+use super::{COUNTS_BYTES, MAGIC, NO_NEIGHBOR, OTHER_TILE, TileCounts, TileLink, VERSION};
 use crate::Error;
 use crate::simplex::decode;
 
@@ -10,7 +10,7 @@ use crate::simplex::decode;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tile<const D: usize> {
     /// The counts.
-    pub header: TileHeader,
+    pub counts: TileCounts,
     /// The coordinates of the sites, owned ones first.
     pub coordinates: Vec<[f64; D]>,
     /// The smallest row of each site.
@@ -29,28 +29,31 @@ fn damaged(what: &'static str) -> Error {
     Error::DamagedTile { what }
 }
 
-/// Reads the header of a tile of points of dimension `D`.
-fn read_header<const D: usize>(reader: &mut Reader<'_>) -> Option<TileHeader> {
-    if reader.take(8)? != MAGIC || reader.u32()? != VERSION || reader.u32()? != D as u32 {
-        return None;
+impl TileCounts {
+    /// The counts of a tile of points of dimension `D` from its last 104 bytes; `None` if these are no such counts.
+    pub fn from_bytes<const D: usize>(bytes: &[u8]) -> Option<Self> {
+        let mut reader = Reader::new(bytes);
+        if reader.take(8)? != MAGIC || reader.u32()? != VERSION || reader.u32()? != D as u32 {
+            return None;
+        }
+        let counts = Self {
+            vertices_per_simplex: reader.u32()?,
+            row_bytes: reader.u32()?,
+            tile: reader.u32().filter(|_| reader.u32().is_some())?,
+            owned: reader.u64()?,
+            sites: reader.u64()?,
+            duplicates: reader.u64()?,
+            simplices: reader.u64()?,
+            links: reader.u64()?,
+            hull: reader.u64()?,
+            fingerprint: taut_certify::Fingerprint(
+                u128::from(reader.u64()?) | u128::from(reader.u64()?) << 64,
+            ),
+        };
+        let known =
+            counts.vertices_per_simplex <= D as u32 + 1 && [4, 8].contains(&counts.row_bytes);
+        (known && counts.owned <= counts.sites).then_some(counts)
     }
-    let header = TileHeader {
-        vertices_per_simplex: reader.u32()?,
-        row_bytes: reader.u32()?,
-        tile: reader.u32().filter(|_| reader.u32().is_some())?,
-        owned: reader.u64()?,
-        sites: reader.u64()?,
-        duplicates: reader.u64()?,
-        simplices: reader.u64()?,
-        links: reader.u64()?,
-        hull: reader.u64()?,
-        fingerprint: taut_certify::Fingerprint(
-            u128::from(reader.u64()?) | u128::from(reader.u64()?) << 64,
-        ),
-    };
-    reader.take(HEADER - 96)?;
-    let known = header.vertices_per_simplex <= D as u32 + 1 && [4, 8].contains(&header.row_bytes);
-    (known && header.owned <= header.sites).then_some(header)
 }
 
 impl<const D: usize> Tile<D> {
@@ -63,42 +66,54 @@ impl<const D: usize> Tile<D> {
         if Reader::new(&bytes[body..]).u64() != Some(word_sum(&bytes[..body])) {
             return Err(damaged("its sum is wrong"));
         }
-        let mut reader = Reader::new(&bytes[..body]);
-        let header = read_header::<D>(&mut reader)
-            .ok_or(damaged("it does not begin like a tile of points of this dimension"))?;
-        if header.bytes(D) != Some(bytes.len() as u64) {
+        let end = bytes.len().checked_sub(COUNTS_BYTES).ok_or(damaged("it ends too early"))?;
+        let counts = TileCounts::from_bytes::<D>(&bytes[end..])
+            .ok_or(damaged("it does not end like a tile of points of this dimension"))?;
+        if counts.bytes(D) != Some(bytes.len() as u64) {
             return Err(damaged("its length is wrong"));
         }
-        let tile = Self::read_body(header, &mut reader).ok_or(damaged("it ends too early"))?;
+        let tile = Self::read_body(counts, &mut Reader::new(&bytes[..end]));
+        let tile = tile.ok_or(damaged("it does not begin like a tile"))?;
         tile.check_numbers()?;
         Ok(tile)
     }
 
-    fn read_body(header: TileHeader, reader: &mut Reader<'_>) -> Option<Self> {
+    fn read_body(counts: TileCounts, reader: &mut Reader<'_>) -> Option<Self> {
         fn list<T>(count: u64, mut read: impl FnMut() -> Option<T>) -> Option<Vec<T>> {
             (0..count).map(|_| read()).collect()
         }
-        let wide = header.row_bytes == 8;
+        if reader.take(8)? != MAGIC || reader.u32()? != VERSION || reader.u32()? != D as u32 {
+            return None;
+        }
+        let wide = counts.row_bytes == 8;
         let row = |reader: &mut Reader<'_>| {
             if wide { reader.u64() } else { reader.u32().map(u64::from) }
         };
-        let numbers = header.simplices * u64::from(header.vertices_per_simplex);
-        Some(Self {
-            header,
-            coordinates: list(header.sites, || reader.points())?,
-            rows: list(header.sites, || row(reader))?,
-            duplicates: list(header.duplicates, || Some([row(reader)?, row(reader)?]))?,
-            simplices: list(numbers, || reader.u32())?,
-            neighbors: list(numbers, || reader.u32())?,
-            links: list(header.links, || {
-                let code = reader.u32()?;
-                Some(TileLink { code, link: Link { tile: reader.u32()?, code: reader.u32()? } })
-            })?,
-        })
+        let mut tile = Self {
+            counts,
+            coordinates: list(counts.sites, || reader.points())?,
+            rows: list(counts.sites, || row(reader))?,
+            duplicates: list(counts.duplicates, || Some([row(reader)?, row(reader)?]))?,
+            simplices: vec![],
+            neighbors: vec![],
+            links: vec![],
+        };
+        for _ in 0..counts.simplices {
+            for list in [&mut tile.simplices, &mut tile.neighbors] {
+                for _ in 0..counts.vertices_per_simplex {
+                    list.push(reader.u32()?);
+                }
+            }
+        }
+        tile.links = list(counts.links, || {
+            let code = reader.u32()?;
+            Some(TileLink { code, link: Link { tile: reader.u32()?, code: reader.u32()? } })
+        })?;
+        Some(tile)
     }
 
     fn check_numbers(&self) -> Result<(), Error> {
-        let TileHeader { sites, simplices, vertices_per_simplex, .. } = self.header;
+        let TileCounts { sites, simplices, vertices_per_simplex, .. } = self.counts;
         if self.simplices.iter().any(|&v| u64::from(v) >= sites) {
             return Err(damaged("a simplex has a site that is not there"));
         }
@@ -120,6 +135,6 @@ impl<const D: usize> Tile<D> {
 
     /// The vertices of each simplex.
     pub fn simplex_rows(&self) -> std::slice::ChunksExact<'_, u32> {
-        self.simplices.chunks_exact(self.header.vertices_per_simplex.max(1) as usize)
+        self.simplices.chunks_exact(self.counts.vertices_per_simplex.max(1) as usize)
     }
 }
