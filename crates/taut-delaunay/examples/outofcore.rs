@@ -1,6 +1,7 @@
 //! Time, processor time and peak memory of one triangulation, in memory or to a folder:
 //! `cargo run --release -p taut-delaunay --example outofcore -- uniform 2 10000000 512 2 /tmp/folder`, or `memory` in the
-//! place of the folder.
+//! place of the folder. The first call writes the points to a file of the temporary folder; a folder that was begun is
+//! resumed.
 
 use std::path::Path;
 use std::time::Instant;
@@ -88,8 +89,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         return Ok(());
     }
     let memory = memory.parse::<u64>()? << 20;
-    let options =
-        FolderOptions { memory, threads: Some(threads), monitor, ..FolderOptions::default() };
+    let resume = Path::new(target).join("manifest.txt").exists();
+    let threads = Some(threads);
+    let options = FolderOptions { memory, threads, resume, monitor, ..FolderOptions::default() };
     let found = delaunay_to_folder(&source, Path::new(target), &options)?;
     let wall = begun.elapsed().as_secs_f64();
     let (cpu, peak) = used();

@@ -49,8 +49,11 @@ fn fronts_that_were_changed_do_not_fit() {
         matches!(finished(&whole, front), Err(Error::DamagedFront { .. }))
     };
     // Without one of its facets a border is open: the flood comes behind it.
-    assert!(refused(&|front| drop(front.facets.remove(last / 2))));
-    assert!(refused(&|front| drop(front.facets.remove(0))));
+    for removed in [0, last / 2, last] {
+        assert!(refused(&|front| {
+            front.facets.remove(removed);
+        }));
+    }
     assert!(refused(&|front| front.facets[last].vertices.swap(0, 1)));
     assert!(refused(&|front| {
         let facet = FrozenFacet { vertices: [0, front.rows.len() as u32 - 1], ..front.facets[0] };
