@@ -97,7 +97,7 @@ pub struct Totals {
 
 impl AddAssign<&TileCounts> for Totals {
     fn add_assign(&mut self, tile: &TileCounts) {
-        self.sites += tile.owned;
+        self.sites += tile.owned();
         self.duplicates += tile.duplicates;
         self.simplices += tile.simplices;
         self.hull += tile.hull;

@@ -19,6 +19,8 @@ const UNFINISHED: u8 = 1 << 4;
 const BEHIND: u8 = 1 << 5;
 /// A point of another node may conflict with it.
 const OPEN: u8 = 1 << 6;
+/// One of its vertices is at infinity.
+const IS_GHOST: u8 = 1 << 7;
 
 /// What is known of each slot of a mesh.
 pub(super) struct States(Vec<u8>);
@@ -28,6 +30,18 @@ impl States {
     #[inline(always)]
     pub(super) fn is_unfinished(&self, t: u32) -> bool {
         self.0[t as usize] & UNFINISHED != 0
+    }
+
+    /// Tests whether the simplex was not finished below and has a vertex at infinity.
+    #[inline(always)]
+    pub(super) fn is_unfinished_ghost(&self, t: u32) -> bool {
+        self.0[t as usize] & (UNFINISHED | IS_GHOST) == UNFINISHED | IS_GHOST
+    }
+
+    /// Tests whether the simplex belongs to the tile of this node: it is final and finite.
+    #[inline(always)]
+    pub(super) fn is_of_tile(&self, t: usize) -> bool {
+        self.0[t] & (UNFINISHED | OPEN | IS_GHOST) == UNFINISHED
     }
 
     /// Tests whether the simplex is finished by this node: points of other nodes do not conflict.
@@ -104,16 +118,19 @@ pub(super) fn unfinished<const D: usize, const V: usize>(
     frozen: Vec<FrozenFacet<D>>,
 ) -> Result<(States, FrozenLinks), Error> {
     let damaged = |what| Error::DamagedFront { what };
-    if frozen.is_empty() {
-        let state = |s: &Simplex<V>| if s.is_live() { UNFINISHED } else { 0 };
-        return Ok((States(simplices.iter().map(state).collect()), FrozenLinks(vec![])));
-    }
     let mut states = vec![0u8; simplices.len()];
+    let all = if frozen.is_empty() { UNFINISHED } else { 0 };
+    for (state, simplex) in states.iter_mut().zip(simplices) {
+        let kind = if simplex.is_ghost() { all | IS_GHOST } else { all };
+        *state = if simplex.is_live() { kind } else { 0 };
+    }
+    if frozen.is_empty() {
+        return Ok((States(states), FrozenLinks(vec![])));
+    }
     let (starts, frozen) = by_smallest(sites, frozen);
     let mut found = Vec::with_capacity(frozen.len());
-    let live = (0u32..).zip(simplices).filter(|(_, s)| s.is_live());
-    for (t, simplex) in live {
-        for i in 0..V {
+    for (t, simplex) in (0u32..).zip(simplices) {
+        for i in 0..if simplex.is_live() { V } else { 0 } {
             let facet = facet_of::<D, V>(&simplex.vertices, i);
             let least = facet.iter().copied().min().unwrap_or(GHOST) as usize;
             let listed = starts[least] as usize..starts[least + 1] as usize;

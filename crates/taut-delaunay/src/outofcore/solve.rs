@@ -143,9 +143,9 @@ fn mark_open<const D: usize, const V: usize, G: Geometry<D, V>>(
 ) -> Vec<u32> {
     let simplices = mesh.simplices();
     let mut ghosts: Vec<u32> = Vec::new();
-    for (t, simplex) in simplices.iter().enumerate() {
-        if states.is_unfinished(t as u32) && simplex.is_ghost() {
-            ghosts.push(t as u32);
+    for t in 0..simplices.len() as u32 {
+        if states.is_unfinished_ghost(t) {
+            ghosts.push(t);
         }
     }
     let site = |v: u32| mesh.site(v);

@@ -2,12 +2,12 @@
 //!
 //! *Content.* The sites of the simplices with their rows; the simplices as numbers of sites of the tile; across each facet
 //! the neighbor. All simplices of all tiles are the triangulation, each once. Each site of the triangulation is *owned* by
-//! one tile, that of the node where its star was complete; other tiles may have copies of it.
+//! one tile, that of the node where its star was complete; other tiles may have copies of it, which they list.
 //! *Neighbors.* A neighbor is the number of a simplex of this tile, [`NO_NEIGHBOR`] on the hull, or [`OTHER_TILE`]. Of the
 //! two tiles at such a facet, the one that was finished later has it in its links: (simplex << 2 | facet here, tile,
 //! simplex << 2 | facet there), ascending; 0xFFFF_FFFF stands here where the facet turned out to lie on the hull. The later
 //! tile is of a node above the other, so a reader looks at few tiles.
-//! *Order.* Sites: owned ones first, then copies, each along the Hilbert curve of the node. Simplices: vertices begin with
+//! *Order.* Sites follow the Hilbert curve of the node. Simplices: vertices begin with
 //! the smallest and ascend as far as their orientation allows; simplices ascend by their vertices in ascending order.
 //! *Guarantee.* A function of the points and of the tree of cells, byte by byte.
 //!
@@ -21,10 +21,11 @@
 //! | rows of the sites | sites × u32 or u64 |
 //! | duplicates: a row and the smallest row it equals, ascending | duplicates × 2 × u32 or u64 |
 //! | simplices: the vertices and the neighbors opposite them | simplices × (vertices + neighbors) × u32 |
+//! | copies: the sites that other tiles own, ascending | copies × u32 |
 //! | links | links × 3 × u32 |
 //! | the last 104 bytes: magic `TAUTTILE` | 8 bytes |
 //! | version, D, vertices of a simplex, bytes of a row (4 or 8), number of the tile, 0 | 6 × u32 |
-//! | owned sites, sites, duplicates, simplices, links, facets on the hull | 6 × u64 |
+//! | copies, sites, duplicates, simplices, links, facets on the hull | 6 × u64 |
 //! | fingerprint of the simplices | u128 |
 //! | sum of all words before | u64 |
 //!
@@ -70,8 +71,8 @@ pub struct TileCounts {
     pub row_bytes: u32,
     /// The number of the tile: that of its node.
     pub tile: u32,
-    /// Sites that no other tile owns; the first ones.
-    pub owned: u64,
+    /// Sites that other tiles own.
+    pub copies: u64,
     /// All sites.
     pub sites: u64,
     /// Rows that equal a smaller row.
@@ -87,6 +88,11 @@ pub struct TileCounts {
 }
 
 impl TileCounts {
+    /// Sites that no other tile owns.
+    pub fn owned(&self) -> u64 {
+        self.sites - self.copies
+    }
+
     /// Bytes of the tile, with its sum; `None` if more than can be counted.
     pub fn bytes(&self, dimension: usize) -> Option<u64> {
         let simplex = 8 * u128::from(self.vertices_per_simplex);
@@ -95,6 +101,7 @@ impl TileCounts {
             + u128::from(self.sites) * (8 * dimension as u128 + row)
             + u128::from(self.duplicates) * 2 * row
             + u128::from(self.simplices) * simplex
+            + u128::from(self.copies) * 4
             + u128::from(self.links) * 12;
         u64::try_from(total).ok()
     }

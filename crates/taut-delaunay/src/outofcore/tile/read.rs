@@ -11,7 +11,7 @@ use crate::simplex::decode;
 pub struct Tile<const D: usize> {
     /// The counts.
     pub counts: TileCounts,
-    /// The coordinates of the sites, owned ones first.
+    /// The coordinates of the sites.
     pub coordinates: Vec<[f64; D]>,
     /// The smallest row of each site.
     pub rows: Vec<u64>,
@@ -21,6 +21,8 @@ pub struct Tile<const D: usize> {
     pub simplices: Vec<u32>,
     /// For each vertex of each simplex the simplex across the facet opposite, [`NO_NEIGHBOR`] or [`OTHER_TILE`].
     pub neighbors: Vec<u32>,
+    /// The sites that other tiles own, ascending.
+    pub copies: Vec<u32>,
     /// The facets whose other side an earlier tile has.
     pub links: Vec<TileLink>,
 }
@@ -40,7 +42,7 @@ impl TileCounts {
             vertices_per_simplex: reader.u32()?,
             row_bytes: reader.u32()?,
             tile: reader.u32().filter(|_| reader.u32().is_some())?,
-            owned: reader.u64()?,
+            copies: reader.u64()?,
             sites: reader.u64()?,
             duplicates: reader.u64()?,
             simplices: reader.u64()?,
@@ -52,7 +54,7 @@ impl TileCounts {
         };
         let known =
             counts.vertices_per_simplex <= D as u32 + 1 && [4, 8].contains(&counts.row_bytes);
-        (known && counts.owned <= counts.sites).then_some(counts)
+        (known && counts.copies <= counts.sites).then_some(counts)
     }
 }
 
@@ -96,6 +98,7 @@ impl<const D: usize> Tile<D> {
             duplicates: list(counts.duplicates, || Some([row(reader)?, row(reader)?]))?,
             simplices: vec![],
             neighbors: vec![],
+            copies: vec![],
             links: vec![],
         };
         for _ in 0..counts.simplices {
@@ -105,6 +108,7 @@ impl<const D: usize> Tile<D> {
                 }
             }
         }
+        tile.copies = list(counts.copies, || reader.u32())?;
         tile.links = list(counts.links, || {
             let code = reader.u32()?;
             Some(TileLink { code, link: Link { tile: reader.u32()?, code: reader.u32()? } })
@@ -116,6 +120,10 @@ impl<const D: usize> Tile<D> {
         let TileCounts { sites, simplices, vertices_per_simplex, .. } = self.counts;
         if self.simplices.iter().any(|&v| u64::from(v) >= sites) {
             return Err(damaged("a simplex has a site that is not there"));
+        }
+        let is_ascending = self.copies.is_sorted_by(|a, b| a < b);
+        if !is_ascending || self.copies.last().is_some_and(|&v| u64::from(v) >= sites) {
+            return Err(damaged("a copy is of a site that is not there"));
         }
         let is_known = |&n: &u32| n == NO_NEIGHBOR || n == OTHER_TILE || u64::from(n) < simplices;
         if !self.neighbors.iter().all(is_known) {

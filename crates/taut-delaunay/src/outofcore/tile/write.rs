@@ -29,11 +29,12 @@ const UNUSED: u32 = u32::MAX;
 
 /// The numbers of sites and simplices in the tile of a node.
 pub(in super::super) struct TileOrder {
-    /// For each site of the node its number in the tile.
+    /// For each site of the node its number in the tile, which ascends with the site.
     numbers: Vec<u32>,
     /// The sites of the tile.
     sites: Vec<u32>,
-    owned: usize,
+    /// The numbers of those that go up.
+    copies: Vec<u32>,
     /// The slots of the simplices of the tile.
     finite: Vec<u32>,
     /// For each slot its simplex in the tile.
@@ -52,17 +53,15 @@ impl TileOrder {
         solved: &Solved<D, V, G>,
         up: &[bool],
     ) -> Self {
-        let simplices = solved.mesh.simplices();
-        let mut is_ours = |t: usize| solved.states.is_final(t as u32) && !simplices[t].is_ghost();
-        let (numbers, sites, owned) = number_sites(simplices, up, &mut is_ours);
+        let (simplices, states) = (solved.mesh.simplices(), &solved.states);
         // First the smallest site of each slot, in place of the number of its simplex.
         let mut places = vec![UNUSED; simplices.len()];
         // Two ahead: while simplices are put in place, entry i + 1 runs from the beginning of site i to its end.
-        let mut starts = vec![0u32; sites.len() + 2];
-        for (t, simplex) in simplices.iter().enumerate() {
-            if is_ours(t) {
-                let least = least(simplex, &numbers);
-                places[t] = least;
+        let mut starts = vec![0u32; up.len() + 2];
+        for (t, (place, simplex)) in places.iter_mut().zip(simplices).enumerate() {
+            if states.is_of_tile(t) {
+                let least = simplex.vertices.iter().fold(UNUSED, |least, &v| least.min(v));
+                *place = least;
                 starts[least as usize + 2] += 1;
             }
         }
@@ -80,18 +79,25 @@ impl TileOrder {
         let mut run: Vec<RunKey> = Vec::new();
         for i in 0..starts.len() - 1 {
             let (begin, end) = (starts[i] as usize, starts[i + 1] as usize);
-            for ahead in end + FETCH_AHEAD - (end - begin)..end + FETCH_AHEAD {
+            for ahead in begin + FETCH_AHEAD..end + FETCH_AHEAD {
                 fetch(simplices, finite.get(ahead));
             }
-            if end - begin > 1 {
-                sort_run(&mut finite[begin..end], simplices, &numbers, &mut run);
+            match &mut finite[begin..end] {
+                [] | [_] => {}
+                [a, b] => {
+                    if run_key(simplices, *a) > run_key(simplices, *b) {
+                        std::mem::swap(a, b);
+                    }
+                }
+                slots => sort_run(slots, simplices, &mut run),
             }
         }
         drop(starts);
         for (place, &t) in finite.iter().enumerate() {
             places[t as usize] = place as u32;
         }
-        Self { numbers, sites, owned, finite, places }
+        let (numbers, sites, copies) = number_sites(simplices, up, |t| states.is_of_tile(t));
+        Self { numbers, sites, copies, finite, places }
     }
 
     /// The code in the tile of a facet of one of its simplices.
@@ -101,21 +107,10 @@ impl TileOrder {
         slot: u32,
         facet: usize,
     ) -> u32 {
-        let vertices = simplices[slot as usize].vertices.map(|v| self.numbers[v as usize]);
-        let arranged = arrangement(&vertices);
+        let arranged = arrangement(&simplices[slot as usize].vertices);
         let place = arranged.iter().position(|&i| usize::from(i) == facet).unwrap_or(0);
         code(self.places[slot as usize], place as u32)
     }
-}
-
-/// The smallest number of a site of a finite simplex.
-#[inline(always)]
-fn least<const V: usize>(simplex: &Simplex<V>, numbers: &[u32]) -> u32 {
-    let mut least = UNUSED;
-    for v in simplex.vertices {
-        least = least.min(numbers[v as usize]);
-    }
-    least
 }
 
 /// Asks for a slot that will be read soon.
@@ -128,72 +123,68 @@ fn fetch<const V: usize>(simplices: &[Simplex<V>], slot: Option<&u32>) {
     }
 }
 
-/// Sorts simplices with the same smallest site.
-fn sort_run<const V: usize>(
-    slots: &mut [u32],
-    simplices: &[Simplex<V>],
-    numbers: &[u32],
-    run: &mut Vec<RunKey>,
-) {
-    run.clear();
-    for &t in slots.iter() {
-        let mut sorted = [0u32; V];
-        for (number, v) in sorted.iter_mut().zip(simplices[t as usize].vertices) {
-            *number = numbers[v as usize];
-        }
-        for i in 1..V {
-            for j in (1..=i).rev() {
-                let (a, b) = (sorted[j - 1], sorted[j]);
-                (sorted[j - 1], sorted[j]) = (a.min(b), a.max(b));
-            }
-        }
-        // The smallest is the same for all; two or three others fit beside the slot.
-        let key = sorted[1..].iter().fold(0, |key: u128, &v| key << 32 | u128::from(v));
-        run.push(key << 32 | u128::from(t));
-        let mut at = run.len() - 1;
-        while at > 0 && run[at - 1] > run[at] && run.len() <= INSERTION_SORT_MAX {
-            run.swap(at - 1, at);
-            at -= 1;
+/// The key of a simplex among those with the same smallest site.
+#[inline(always)]
+fn run_key<const V: usize>(simplices: &[Simplex<V>], slot: u32) -> RunKey {
+    let mut sorted = simplices[slot as usize].vertices;
+    for i in 1..V {
+        for j in (1..=i).rev() {
+            let (a, b) = (sorted[j - 1], sorted[j]);
+            (sorted[j - 1], sorted[j]) = (a.min(b), a.max(b));
         }
     }
+    let key = sorted[1..].iter().fold(0, |key: u128, &v| key << 32 | u128::from(v));
+    key << 32 | u128::from(slot)
+}
+
+/// Sorts simplices with the same smallest site.
+fn sort_run<const V: usize>(slots: &mut [u32], simplices: &[Simplex<V>], run: &mut Vec<RunKey>) {
+    run.clear();
+    run.extend(slots.iter().map(|&t| run_key(simplices, t)));
     if run.len() > INSERTION_SORT_MAX {
         run.sort_unstable();
+    }
+    for i in 1..run.len().min(INSERTION_SORT_MAX + 1) {
+        let key = run[i];
+        let mut at = i;
+        while at > 0 && run[at - 1] > key {
+            run[at] = run[at - 1];
+            at -= 1;
+        }
+        run[at] = key;
     }
     slots.iter_mut().zip(run).for_each(|(slot, &mut key)| *slot = key as u32);
 }
 
-/// Numbers the owned sites first, then the others that simplices of the tile have.
+/// Numbers the owned sites and those others that simplices of the tile have; lists the sites and the numbers of the others.
 fn number_sites<const V: usize>(
     simplices: &[Simplex<V>],
     up: &[bool],
-    is_ours: &mut impl FnMut(usize) -> bool,
-) -> (Vec<u32>, Vec<u32>, usize) {
-    let mut numbers = vec![UNUSED; up.len()];
-    let mut sites: Vec<u32> = Vec::with_capacity(up.len());
-    for (v, &up) in up.iter().enumerate() {
-        if !up {
-            numbers[v] = sites.len() as u32;
-            sites.push(v as u32);
-        }
-    }
-    let owned = sites.len();
-    if owned < up.len() {
-        let mut is_copied = vec![false; up.len()];
+    is_of_tile: impl Fn(usize) -> bool,
+) -> (Vec<u32>, Vec<u32>, Vec<u32>) {
+    let mut is_copied = vec![false; up.len()];
+    if up.contains(&true) {
         for (t, simplex) in simplices.iter().enumerate() {
-            if is_ours(t) {
+            if is_of_tile(t) {
                 for v in simplex.vertices {
                     is_copied[v as usize] |= up[v as usize];
                 }
             }
         }
-        for (v, &is_copied) in is_copied.iter().enumerate() {
-            if is_copied {
-                numbers[v] = sites.len() as u32;
-                sites.push(v as u32);
+    }
+    let mut numbers = vec![UNUSED; up.len()];
+    let (mut sites, mut copies) = (Vec::with_capacity(up.len()), Vec::new());
+    for v in 0..up.len() {
+        if !up[v] || is_copied[v] {
+            let number = sites.len() as u32;
+            numbers[v] = number;
+            sites.push(v as u32);
+            if up[v] {
+                copies.push(number);
             }
         }
     }
-    (numbers, sites, owned)
+    (numbers, sites, copies)
 }
 
 /// Hashes of sites that were lately asked for, as simplices side by side have sites in common.
@@ -270,8 +261,8 @@ impl<'a, W: Write> Words<'a, W> {
         self.put(MAGIC)?;
         let TileCounts { vertices_per_simplex, row_bytes, tile, .. } = *counts;
         self.all([VERSION, dimension as u32, vertices_per_simplex, row_bytes, tile, 0])?;
-        let TileCounts { owned, sites, duplicates, simplices, links, hull, .. } = *counts;
-        for count in [owned, sites, duplicates, simplices, links, hull] {
+        let TileCounts { copies, sites, duplicates, simplices, links, hull, .. } = *counts;
+        for count in [copies, sites, duplicates, simplices, links, hull] {
             self.put(&count.to_le_bytes())?;
         }
         self.put(&counts.fingerprint.0.to_le_bytes())?;
@@ -294,7 +285,7 @@ pub(in super::super) fn write_solved<const D: usize, const V: usize, G: Geometry
         vertices_per_simplex: V as u32,
         row_bytes,
         tile,
-        owned: order.owned as u64,
+        copies: order.copies.len() as u64,
         sites: order.sites.len() as u64,
         duplicates: solved.duplicates.len() as u64,
         simplices: order.finite.len() as u64,
@@ -328,7 +319,7 @@ pub(in super::super) fn write_solved<const D: usize, const V: usize, G: Geometry
         }
         counts.fingerprint.add(hashes);
         let (mut vertices, mut neighbors) = ([0; V], [0; V]);
-        for (k, &i) in arrangement(&numbers).iter().enumerate() {
+        for (k, &i) in arrangement(&simplex.vertices).iter().enumerate() {
             let i = usize::from(i);
             vertices[k] = numbers[i];
             neighbors[k] = neighbor(solved, order, t, i);
@@ -348,6 +339,9 @@ pub(in super::super) fn write_solved<const D: usize, const V: usize, G: Geometry
     counts.hull += outside.len() as u64;
     links.extend(outside.into_iter().map(|link| TileLink { code: Link::OUTSIDE, link }));
     counts.links = links.len() as u64;
+    for &copy in &order.copies {
+        words.all([copy])?;
+    }
     for TileLink { code, link } in links {
         words.all([code, link.tile, link.code])?;
     }
@@ -429,7 +423,7 @@ pub(in super::super) fn write_lower<const D: usize>(
         vertices_per_simplex: vertices as u32,
         row_bytes,
         tile,
-        owned: sites.len() as u64,
+        copies: 0,
         sites: sites.len() as u64,
         duplicates: duplicates.len() as u64,
         simplices: (lower.simplices.len() / vertices.max(1)) as u64,
