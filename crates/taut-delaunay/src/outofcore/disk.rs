@@ -163,7 +163,7 @@ where
     plan.leaf_points = begun.leaf_points;
     plan.merge_above = begun.merge_above;
     if let Some(complete) = earlier.and_then(|manifest| manifest.complete) {
-        return Ok(finish(&folder, source, complete)?);
+        return finish(&folder, source, complete);
     }
     fs::create_dir_all(folder.work()).map_err(failed(&folder.work()))?;
     let lock_path = folder.work().join("lock");

@@ -4,7 +4,8 @@
 //! whatever the number of threads, so that the tree, and with it every byte of the output, does not depend on it; more
 //! threads than four leaves have room for wait for each other. Leaves are planned at four fifths of that size, as a sample
 //! cuts unevenly, and what is larger yet is cut again.
-//! *Measured.* Bytes a site: peak memory of leaves of uniform points, `bench outofcore`.
+//! *Measured.* Bytes a site: peak memory beside two leaves of uniform points at a time, example `outofcore`: 109 in the
+//! plane (3·10⁷ points in 128 leaves), less than 330 in space.
 
 use crate::Error;
 use crate::outofcore::tree::{FINE_LEVELS, LEVELS_MAX};

@@ -12,10 +12,13 @@ use super::super::{
 };
 use crate::Error;
 
+/// Bytes of a tile and of a front.
+type NodeBytes = (Vec<u8>, Vec<u8>);
+
 /// Lists by node.
 struct Lists<const D: usize> {
     buckets: Mutex<BTreeMap<u32, NodePoints<D>>>,
-    nodes: Mutex<BTreeMap<u32, (Vec<u8>, Vec<u8>)>>,
+    nodes: Mutex<BTreeMap<u32, NodeBytes>>,
 }
 
 impl<const D: usize> Storage<D> for Lists<D> {
