@@ -204,12 +204,13 @@ fn open_folder(folder: &Folder, resume: bool, plan: &DiskPlan) -> Result<Option<
     if !is_empty {
         return Err(Error::FolderTaken { folder: shown() });
     }
-    fs::create_dir_all(root).map_err(failed(root))?;
     let needed = plan.disk_bytes();
-    match free_bytes(root) {
-        Some(free) if free < needed => Err(Error::Space { folder: shown(), needed, free }),
-        _ => Ok(None),
+    let above = root.ancestors().find(|folder| folder.is_dir()).unwrap_or(Path::new("."));
+    if let Some(free) = free_bytes(above).filter(|&free| free < needed) {
+        return Err(Error::Space { folder: shown(), needed, free });
     }
+    fs::create_dir_all(root).map_err(failed(root))?;
+    Ok(None)
 }
 
 /// Distributes the points to leaves.

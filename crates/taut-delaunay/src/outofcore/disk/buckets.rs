@@ -161,3 +161,52 @@ pub(super) fn read_points<const D: usize>(
     })?;
     Ok(points)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn records_of_several_threads_come_back_with_rows_of_any_size() {
+        for row_bytes in [4, 8] {
+            let folder = tempfile::tempdir().unwrap();
+            let paths = [0, 1].map(|k| folder.path().join(format!("bucket-{k}")));
+            let buckets = [0, 1].map(|k| Bucket::open(&paths[k], 0).unwrap());
+            let last = if row_bytes == 4 { u64::from(u32::MAX) } else { u64::MAX };
+            std::thread::scope(|scope| {
+                for thread in 0..4u64 {
+                    let buckets = &buckets;
+                    scope.spawn(move || {
+                        let mut buffers = Buffers::new(2, 100, 3, row_bytes);
+                        for i in 0..500 {
+                            let row = last - 4 * i - thread;
+                            let p = [row as f64, thread as f64, -1.5];
+                            buffers.push(buckets, (i % 2) as usize, p, row).unwrap();
+                        }
+                        buffers.flush(buckets).unwrap();
+                    });
+                }
+            });
+            let mut rows = Vec::new();
+            for path in &paths {
+                let points = read_points::<3>(path, row_bytes, 1000).unwrap();
+                for (p, &row) in points.coordinates.iter().zip(&points.rows) {
+                    assert_eq!((p[0], p[2]), (row as f64, -1.5));
+                }
+                rows.extend(points.rows);
+            }
+            rows.sort_unstable();
+            assert_eq!(rows, (last - 1999..=last).collect::<Vec<_>>());
+        }
+    }
+
+    #[test]
+    fn a_bucket_is_cut_to_what_was_committed() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("bucket");
+        std::fs::write(&path, [7; 60]).unwrap();
+        assert_eq!(Bucket::open(&path, 40).unwrap().sync().unwrap(), 40);
+        assert_eq!(std::fs::metadata(&path).unwrap().len(), 40);
+        assert!(Bucket::open(&path, 41).is_err());
+    }
+}

@@ -157,3 +157,49 @@ fn what_is_not_finite_is_named() {
     let refused = delaunay_to_folder(&points, folder.path(), &options()).unwrap_err();
     assert!(refused.to_string().contains("coordinate 1 of point 15000"), "{refused}");
 }
+
+/// Nothing on a circle is final before the root, so all sites come together there.
+#[test]
+fn a_front_beyond_the_memory_is_refused_and_resumed_with_more() {
+    let source = GeneratedSource::new(Distribution::Sphere, 400_000, 2, 5, ScalarKind::F64);
+    let source = source.unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let refused = delaunay_to_folder(&source, folder.path(), &options());
+    let Err(Error::Memory { sites, needed, budget }) = refused else {
+        panic!("{refused:?}");
+    };
+    assert!(sites > 300_000 && needed > budget, "{sites} sites, {needed} bytes of {budget}");
+    let more = FolderOptions { memory: 2 * needed, resume: true, ..options() };
+    let found = delaunay_to_folder(&source, folder.path(), &more).unwrap();
+    let expected = delaunay(&source, &DelaunayOptions::default()).unwrap();
+    assert_eq!(found.totals.fingerprint, expected.certificate.fingerprint);
+    check_tiles::<2>(folder.path(), &found);
+}
+
+/// A file of the work that was changed is an error, not a wrong triangulation.
+#[test]
+fn damaged_files_are_refused() {
+    let source = GeneratedSource::new(Distribution::Uniform, 300_000, 2, 5, ScalarKind::F64);
+    let source = source.unwrap();
+    for name in ["manifest.txt", "work/tree", "work/bucket"] {
+        let folder = tempfile::tempdir().unwrap();
+        let cancel = std::sync::atomic::AtomicBool::new(false);
+        let stop =
+            |pass: u64, _: u64| cancel.store(pass == 2, std::sync::atomic::Ordering::Relaxed);
+        let monitor = Monitor { on_pass: Some(&stop), cancel: Some(&cancel), ..Monitor::silent() };
+        let stopped = FolderOptions { monitor, ..options() };
+        assert!(delaunay_to_folder(&source, folder.path(), &stopped).is_err());
+        let mut path = folder.path().join(name);
+        if name.ends_with("bucket") {
+            let names = files(&folder.path().join("work")).into_keys();
+            let bucket = names.filter(|name| name.starts_with("bucket")).min().unwrap();
+            path = folder.path().join("work").join(bucket);
+        }
+        let mut bytes = fs::read(&path).unwrap();
+        bytes.truncate(bytes.len() - 20);
+        fs::write(&path, bytes).unwrap();
+        let again = FolderOptions { resume: true, ..options() };
+        let refused = delaunay_to_folder(&source, folder.path(), &again);
+        assert!(matches!(refused, Err(Error::DamagedFolder { .. })), "{name}: {refused:?}");
+    }
+}

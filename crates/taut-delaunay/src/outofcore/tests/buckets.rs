@@ -96,7 +96,7 @@ where
     };
     let course = Course {
         merge_above: cut.merge_above,
-        row_bytes: 4,
+        row_bytes: if cut.stride == 1 { 4 } else { 8 },
         threads: cut.threads,
         budget: u64::MAX,
         site_bytes: 100,

@@ -91,11 +91,11 @@ impl TileOrder {
                 }
                 slots => sort_run(slots, simplices, &mut run),
             }
+            for (place, &t) in (begin as u32..).zip(&finite[begin..end]) {
+                places[t as usize] = place;
+            }
         }
         drop(starts);
-        for (place, &t) in finite.iter().enumerate() {
-            places[t as usize] = place as u32;
-        }
         let (numbers, sites, copies) = number_sites(simplices, up, |t| states.is_of_tile(t));
         Self { numbers, sites, copies, finite, places }
     }
@@ -307,8 +307,11 @@ pub(in super::super) fn write_solved<const D: usize, const V: usize, G: Geometry
     for (place, &t) in order.finite.iter().enumerate() {
         fetch(simplices, order.finite.get(place + 2 * FETCH_AHEAD));
         if let Some(&soon) = order.finite.get(place + FETCH_AHEAD) {
-            for neighbor in simplices[soon as usize].neighbors {
-                prefetch(&order.places, decode(neighbor).0 as usize);
+            for i in 0..V {
+                let Simplex { vertices, neighbors } = &simplices[soon as usize];
+                prefetch(&order.places, decode(neighbors[i]).0 as usize);
+                prefetch(&order.numbers, vertices[i] as usize);
+                solved.mesh.fetch(vertices[i]);
             }
         }
         let simplex = &simplices[t as usize];
