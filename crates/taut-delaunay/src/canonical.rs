@@ -14,21 +14,25 @@ use crate::simplex::{GHOST, Simplex, Slots};
 const TASK: usize = 1 << 14;
 
 /// The places of the vertices in canonical arrangement: ascending, the last two exchanged if the orientation demands.
+///
+/// Sorts without a branch: which vertex is the smallest is nothing a processor could foresee.
+#[inline(always)]
 pub(crate) fn arrangement<const V: usize>(vertices: &[u32; V]) -> [u8; V] {
-    let mut places: [u8; V] = std::array::from_fn(|i| i as u8);
+    let mut keys = [0u64; V];
+    for (i, (key, &v)) in keys.iter_mut().zip(vertices).enumerate() {
+        *key = u64::from(v) << 8 | i as u64;
+    }
     let mut odd = false;
     for i in 1..V {
-        let mut j = i;
-        while j > 0 && vertices[usize::from(places[j - 1])] > vertices[usize::from(places[j])] {
-            places.swap(j - 1, j);
-            odd = !odd;
-            j -= 1;
+        for j in (1..=i).rev() {
+            let (a, b) = (keys[j - 1], keys[j]);
+            odd ^= a > b;
+            (keys[j - 1], keys[j]) = (a.min(b), a.max(b));
         }
     }
-    if odd {
-        places.swap(V - 2, V - 1);
-    }
-    places
+    let (a, b) = (keys[V - 2], keys[V - 1]);
+    (keys[V - 2], keys[V - 1]) = if odd { (b, a) } else { (a, b) };
+    keys.map(|key| key as u8)
 }
 
 /// Compares simplices by their vertices in ascending order.

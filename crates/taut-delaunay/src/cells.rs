@@ -21,8 +21,8 @@ use rayon::prelude::*;
 use taut_points::Monitor;
 
 pub(crate) use cell::star_of;
-pub(crate) use geometry::{Geometry, InPlane, InSpace, conflicts};
-pub(crate) use index::Index;
+pub(crate) use geometry::{ConflictZone, Geometry, InPlane, InSpace, conflicts};
+pub(crate) use index::{Bounds, Index};
 
 use crate::kernel::{Counters, Settings};
 use crate::simplex::Slots;

@@ -21,6 +21,74 @@ pub enum Error {
         /// Points given.
         given: u64,
     },
+    /// Bytes that should hold the front of a node do not, or fronts do not fit together.
+    #[error("a front is damaged: {what}")]
+    DamagedFront {
+        /// How that shows.
+        what: &'static str,
+    },
+    /// Bytes that should hold a tile do not.
+    #[error("a tile is damaged: {what}")]
+    DamagedTile {
+        /// How that shows.
+        what: &'static str,
+    },
+    /// What is unfinished at a node does not fit into the memory that was allowed.
+    #[error(
+        "{sites} points must be triangulated at once, which takes {needed} bytes: allow more memory than {budget} bytes for that and resume"
+    )]
+    Memory {
+        /// Points of the node.
+        sites: u64,
+        /// Bytes that they take.
+        needed: u64,
+        /// Bytes that there are for them.
+        budget: u64,
+    },
+    /// The file system has less room than the work needs.
+    #[error(
+        "{folder}: {needed} bytes are needed, but {free} are free: make room or choose another folder"
+    )]
+    Space {
+        /// The folder of the output.
+        folder: String,
+        /// Bytes that the work needs.
+        needed: u64,
+        /// Bytes that are free.
+        free: u64,
+    },
+    /// The folder of the output has other files, or a triangulation that was begun.
+    #[error("{folder} is not empty: resume what was begun there, or name a new folder")]
+    FolderTaken {
+        /// The folder.
+        folder: String,
+    },
+    /// Another process works in the folder of the output.
+    #[error("{folder}: another process works there")]
+    FolderLocked {
+        /// The folder.
+        folder: String,
+    },
+    /// A file of a folder with tiles is not what was written.
+    #[error("{path} is damaged: remove the folder and begin again")]
+    DamagedFolder {
+        /// The file.
+        path: String,
+    },
+    /// The points are not those that the work was begun with.
+    #[error("{folder}: the work there was begun with other points")]
+    OtherInput {
+        /// The folder.
+        folder: String,
+    },
+    /// A file cannot be read or written.
+    #[error("{path}: {source}")]
+    File {
+        /// Which file.
+        path: String,
+        /// The error of the system.
+        source: std::io::Error,
+    },
     /// Invalid points or options, a read error, or cancellation by the caller.
     #[error(transparent)]
     Input(#[from] InputError),

@@ -5,6 +5,7 @@
 //! | the simplices with their certificate | [`delaunay()`] | exact for every finite input; the same bytes for any number of threads | O(n log n) |
 //! | a triangulation to walk around in | [`Plane::build`], [`Space::build`] | a function of the point set alone | O(n log n) |
 //! | the nearest site, the simplex at a point, Voronoi cells, natural neighbors | [`Triangulation::locator`] | the simplex exactly, areas to rounding | O(log n) a question |
+//! | more points than memory holds | [`outofcore::delaunay_to_folder`] | the same simplices, as tiles in a folder, within a limit on memory | about twice the time in memory |
 //! | the alpha shape | [`Plane::alpha_complex`], [`Space::alpha_complex`] | emptiness exactly, radii to rounding | O(simplices) |
 //! | rows in the order in which sites are numbered, with its certificate | [`spatial_order`] | a function of the point set alone | O(n log n) |
 //! | given edges in it | [`Plane::constrained`] | exact; Delaunay as far as the edges let it | O(n), and O(k²) for an edge across k others |
@@ -31,8 +32,7 @@
 //! Sites are numbered along a Hilbert curve, simplices by slot; [`Triangulation::row`] and
 //! [`Triangulation::sites_of_rows`] lead to and from the rows of the input.
 //!
-//! Not for: weights (regular triangulations); points that come and go (build again); more points than memory holds;
-//! other dimensions than two and three.
+//! Not for: weights (regular triangulations); points that come and go (build again); other dimensions than two and three.
 
 mod affine;
 mod canonical;
@@ -44,6 +44,7 @@ mod kernel;
 mod numbers;
 mod options;
 mod order;
+pub mod outofcore;
 mod plane;
 mod query;
 mod rounds;

@@ -166,11 +166,19 @@ fn lowest_exponent_above<T: Scalar>(points: &Points<'_, T>, floor: i32) -> Optio
 
 /// Returns how to scale, and whether coordinates are then integers, and filters safe.
 fn normalization<T: Scalar>(points: &Points<'_, T>, largest: f64) -> (Scale, bool, bool) {
+    normalization_by(largest, |floor| lowest_exponent_above(points, floor))
+}
+
+/// The same, from the exponent of the lowest bit of any coordinate if it is at least a floor.
+fn normalization_by(
+    largest: f64,
+    lowest_exponent_above: impl Fn(i32) -> Option<i32>,
+) -> (Scale, bool, bool) {
     if largest == 0.0 {
         return (Scale::by(0), true, true);
     }
     let top = highest_exponent(largest) + 1;
-    if let Some(unit) = lowest_exponent_above(points, top - 40) {
+    if let Some(unit) = lowest_exponent_above(top - 40) {
         return (Scale::by(-unit), true, true);
     }
     if (UNSCALED_MIN..=UNSCALED_MAX).contains(&largest) {
@@ -178,10 +186,46 @@ fn normalization<T: Scalar>(points: &Points<'_, T>, largest: f64) -> (Scale, boo
     }
     // Scaling down must not push the lowest bit below the smallest double.
     let exponent = -top;
-    if exponent > 0 || lowest_exponent_above(points, -1074 - exponent).is_some() {
+    if exponent > 0 || lowest_exponent_above(-1074 - exponent).is_some() {
         (Scale::by(exponent), false, true)
     } else {
         (Scale::by(0), false, false)
+    }
+}
+
+/// The magnitudes in a set that is seen point by point: what its normalization depends on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Magnitudes {
+    /// The largest magnitude of a coordinate.
+    pub(crate) largest: f64,
+    /// The exponent of the lowest bit of any coordinate.
+    pub(crate) lowest: i32,
+}
+
+impl Magnitudes {
+    /// Those of no points.
+    pub const EMPTY: Self = Self { largest: 0.0, lowest: i32::MAX };
+
+    /// Adds a finite coordinate.
+    #[inline(always)]
+    pub fn add(&mut self, x: f64) {
+        self.largest = if x.abs() > self.largest { x.abs() } else { self.largest };
+        if x != 0.0 {
+            self.lowest = self.lowest.min(lowest_exponent(x));
+        }
+    }
+
+    /// Adds those of other points.
+    pub fn merge(&mut self, other: Self) {
+        self.largest = self.largest.max(other.largest);
+        self.lowest = self.lowest.min(other.lowest);
+    }
+
+    /// The scale of the set, and what the kernels must know of it.
+    pub(crate) fn normalization(self, vectors: bool) -> (Scale, Settings) {
+        let above = |floor| (self.lowest >= floor).then_some(self.lowest);
+        let (scale, integral, filtered) = normalization_by(self.largest, above);
+        (scale, Settings { integral, filtered, vectors })
     }
 }
 

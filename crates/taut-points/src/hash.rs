@@ -22,6 +22,18 @@ pub struct PointsHash(pub u64);
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BlockHash(u64);
 
+impl BlockHash {
+    /// The hash as a number, for those who store it.
+    pub fn to_bits(self) -> u64 {
+        self.0
+    }
+
+    /// The hash that [`to_bits`](Self::to_bits) gave.
+    pub fn from_bits(bits: u64) -> Self {
+        BlockHash(bits)
+    }
+}
+
 impl PointsHash {
     /// Puts together the hashes of all blocks of n points of dimension d, in block order.
     pub fn of_blocks(n: u64, dim: usize, blocks: impl IntoIterator<Item = BlockHash>) -> Self {

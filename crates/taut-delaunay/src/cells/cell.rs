@@ -16,16 +16,15 @@ use std::ops::{Index as At, Range};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use taut_points::Monitor;
-use taut_predicates::Sign;
 
 use super::clean::Clean;
-use super::geometry::{Geometry, conflicts, corners};
+use super::geometry::{ConflictZone, Geometry, conflicts};
 use super::index::{Bounds, Index, LEAF_SIZE, Node};
 use crate::Error;
+use crate::InsertionOrder;
 use crate::kernel::{Counters, Kernel, Settings};
 use crate::rounds::insert_all;
 use crate::simplex::{GHOST, Simplex, decode};
-use crate::{InsertionOrder, cells::reach::Reach};
 
 /// Width of the first halo in mean spacings. Wider costs sites, narrower costs questions to the index: in space
 /// (`bench delaunay threads-space`) 1.5 and 2 take the same time and 1 a quarter more; in the plane it hardly matters.
@@ -358,44 +357,21 @@ impl<const D: usize, const V: usize, G: Geometry<D, V>> Certifying<'_, D, V, G> 
         let simplices = self.mesh.simplices();
         let vertices = simplices[t as usize].vertices;
         let site = |v: u32| self.whole.sites[self.sites[v as usize] as usize];
-        let infinity = vertices.iter().position(|&v| v == GHOST);
-        let reach: Reach<D> = match infinity {
-            None => G::reach(vertices.map(site)),
-            Some(apex) => G::reach_beyond(corners(vertices, site, [0.0; D]), apex),
-        };
-        // What lies on the plane of a hull facet is up to the simplex behind it. Without that, each facet of the hull of
-        // a grid would ask about all of its side.
-        let behind = infinity.map(|apex| {
-            let (behind, _) = decode(simplices[t as usize].neighbors[apex]);
-            (apex, G::reach(simplices[behind as usize].vertices.map(site)))
-        });
+        let behind =
+            |apex: usize| simplices[decode(simplices[t as usize].neighbors[apex]).0 as usize];
+        let zone = ConflictZone::of::<G>(vertices, |apex| behind(apex).vertices, site);
         let index = self.whole.index;
         let mut found: Option<(f64, u32)> = None;
         let mut questions = 0;
         let keep = |index: &Index<D>, node| {
-            let bounds = index.bounds(node);
-            if self.whole.is_own(&self.own, node) || reach.most(bounds.low, bounds.high) < 0.0 {
-                return false;
-            }
-            let Some((apex, behind)) = &behind else { return true };
-            let mut with_corner = corners(vertices, site, [0.0; D]);
-            let mut on_plane = false;
-            for corner in reach.foremost(bounds.low, bounds.high) {
-                with_corner[*apex] = corner;
-                match G::orientation(with_corner) {
-                    Sign::Positive => return true,
-                    Sign::Negative => {}
-                    Sign::Zero => on_plane = true,
-                }
-            }
-            on_plane && behind.most(bounds.low, bounds.high) >= 0.0
+            !self.whole.is_own(&self.own, node) && zone.may_meet::<G>(index.bounds(node))
         };
         let mut open = std::mem::take(&mut self.open);
         index.visit(&mut open, keep, |leaf| {
             for other in self.here.missing(leaf, index.run(leaf)) {
                 questions += 1;
                 let q = self.whole.sites[other as usize];
-                let depth = reach.depth(q);
+                let depth = zone.reach.depth(q);
                 if found.is_none_or(|(deepest, _)| depth > deepest)
                     && conflicts::<D, V, G>(simplices, t, site, q)
                 {

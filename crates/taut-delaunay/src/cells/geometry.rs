@@ -4,7 +4,9 @@ use std::ops::Index;
 
 use taut_predicates::{Sign, plane, space};
 
+use super::index::Bounds;
 use super::reach::Reach;
+use crate::affine::{Span, span_of_plane, span_of_space};
 use crate::kernel::Kernel;
 use crate::simplex::{GHOST, Simplex, decode};
 
@@ -22,6 +24,9 @@ pub(crate) trait Geometry<const D: usize, const V: usize>: Sized {
     fn conflict(corners: [[f64; D]; V], q: [f64; D]) -> bool;
 
     fn orientation(corners: [[f64; D]; V]) -> Sign;
+
+    /// The affine hull of distinct sites.
+    fn span(sites: &[[f64; D]]) -> Span<V>;
 }
 
 pub(crate) struct InPlane;
@@ -44,6 +49,10 @@ impl Geometry<2, 3> for InPlane {
 
     fn orientation([a, b, c]: [[f64; 2]; 3]) -> Sign {
         plane::orient(a, b, c)
+    }
+
+    fn span(sites: &[[f64; 2]]) -> Span<3> {
+        span_of_plane(sites)
     }
 }
 
@@ -69,6 +78,10 @@ impl Geometry<3, 4> for InSpace {
 
     fn orientation([a, b, c, d]: [[f64; 3]; 4]) -> Sign {
         space::orient(a, b, c, d)
+    }
+
+    fn span(sites: &[[f64; 3]]) -> Span<4> {
+        span_of_space(sites)
     }
 }
 
@@ -101,5 +114,51 @@ pub(crate) fn conflicts<const D: usize, const V: usize, G: Geometry<D, V>>(
             let (behind, _) = decode(simplex.neighbors[apex]);
             G::conflict(corners(simplices[behind as usize].vertices, site, q), q)
         }
+    }
+}
+
+/// Where a simplex of a mesh conflicts, ghosts included, as boxes are judged by it.
+pub(crate) struct ConflictZone<const D: usize, const V: usize> {
+    pub(crate) reach: Reach<D>,
+    corners: [[f64; D]; V],
+    /// Of a ghost, the place of infinity and where the finite simplex behind conflicts. What lies on the plane of a hull
+    /// facet is up to that simplex. Without it, each facet of the hull of a grid would conflict with all of its side.
+    behind: Option<(usize, Reach<D>)>,
+}
+
+impl<const D: usize, const V: usize> ConflictZone<D, V> {
+    /// The zone of the simplex with these vertices; `behind` gives the vertices of the simplex across a facet.
+    pub(crate) fn of<G: Geometry<D, V>>(
+        vertices: [u32; V],
+        behind: impl FnOnce(usize) -> [u32; V],
+        site: impl Fn(u32) -> [f64; D] + Copy,
+    ) -> Self {
+        let corners = corners(vertices, site, [0.0; D]);
+        match vertices.iter().position(|&v| v == GHOST) {
+            None => Self { reach: G::reach(corners), corners, behind: None },
+            Some(apex) => {
+                let behind = Some((apex, G::reach(behind(apex).map(site))));
+                Self { reach: G::reach_beyond(corners, apex), corners, behind }
+            }
+        }
+    }
+
+    /// Returns false if certainly no point of the box conflicts.
+    pub(crate) fn may_meet<G: Geometry<D, V>>(&self, bounds: &Bounds<D>) -> bool {
+        if self.reach.most(bounds.low, bounds.high) < 0.0 {
+            return false;
+        }
+        let Some((apex, behind)) = &self.behind else { return true };
+        let mut with_corner = self.corners;
+        let mut on_plane = false;
+        for corner in self.reach.foremost(bounds.low, bounds.high) {
+            with_corner[*apex] = corner;
+            match G::orientation(with_corner) {
+                Sign::Positive => return true,
+                Sign::Negative => {}
+                Sign::Zero => on_plane = true,
+            }
+        }
+        on_plane && behind.most(bounds.low, bounds.high) >= 0.0
     }
 }

@@ -25,6 +25,10 @@ pub(crate) struct Reach<const D: usize> {
 /// off by at most 1080·u·m⁴·f; α|q|² is 18 products with as many, off by 360·u·m³·f².
 const FORM_ROUNDING: f64 = 1.0 / (1u64 << 42) as f64;
 
+/// The error that underflow may add to the form, 2⁻⁹⁰⁰. A product that underflows is off by less than 2⁻¹⁰⁷⁴ and is
+/// multiplied by at most four coordinates, which `filtered` bounds by 2⁴⁰, and their differences.
+const UNDERFLOW_ERROR: f64 = f64::from_bits((1023 - 900) << 52);
+
 impl Reach<2> {
     /// The inside of the circle through a, b, c in counter-clockwise order.
     #[inline(always)]
@@ -73,7 +77,7 @@ impl<const D: usize> Reach<D> {
                 < clearance_squared * self.alpha * self.alpha
     }
 
-    /// An upper bound of the form over the box `low..=high`, rounding included.
+    /// An upper bound of the form over the box `low..=high`, rounding included; coordinates are `filtered`.
     #[inline(always)]
     pub(crate) fn most(&self, low: [f64; D], high: [f64; D]) -> f64 {
         let (mut most, mut far) = (0.0, 0.0f64);
@@ -92,14 +96,18 @@ impl<const D: usize> Reach<D> {
         } else {
             FORM_ROUNDING * (unit * far * far + unit * self.size * far)
         };
-        most + slack
+        most + slack + UNDERFLOW_ERROR
     }
 
     /// The corners of the box one of which is where a half-space's form is largest: one, or more where rounding leaves
     /// open which way the half-space faces along an axis.
     pub(crate) fn foremost(&self, low: [f64; D], high: [f64; D]) -> impl Iterator<Item = [f64; D]> {
         // A component of the normal is a difference in the plane, two products of two differences in space.
-        let doubt = if D == 2 { 0.0 } else { self.size * self.size * 16.0 * f64::EPSILON };
+        let doubt = if D == 2 {
+            0.0
+        } else {
+            self.size * self.size * 16.0 * f64::EPSILON + f64::MIN_POSITIVE
+        };
         let beta = self.beta;
         (0..1 << D)
             .filter(move |code| {

@@ -1,0 +1,114 @@
+//! The folder of a triangulation: names of its files, and files that appear whole.
+
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use crate::Error;
+
+/// The error of the system about a file.
+pub(super) fn failed(path: &Path) -> impl Fn(io::Error) -> Error + use<> {
+    let path = path.display().to_string();
+    move |source| Error::File { path: path.clone(), source }
+}
+
+/// Where the files of a triangulation are.
+#[derive(Clone, Debug)]
+pub(super) struct Folder {
+    root: PathBuf,
+}
+
+impl Folder {
+    pub(super) fn new(root: &Path) -> Self {
+        Self { root: root.to_owned() }
+    }
+
+    pub(super) fn root(&self) -> &Path {
+        &self.root
+    }
+
+    /// What the triangulation is.
+    pub(super) fn manifest(&self) -> PathBuf {
+        self.root.join(super::manifest::NAME)
+    }
+
+    /// The tile of a node, and its front while that is needed.
+    pub(super) fn tile(&self, node: u32) -> PathBuf {
+        self.root.join(super::tile_name(node))
+    }
+
+    /// The folder of what is removed at the end.
+    pub(super) fn work(&self) -> PathBuf {
+        self.root.join("work")
+    }
+
+    /// The points of a node.
+    pub(super) fn bucket(&self, node: u32) -> PathBuf {
+        self.work().join(format!("bucket-{node:08}"))
+    }
+
+    /// How far points have been distributed.
+    pub(super) fn commit(&self) -> PathBuf {
+        self.work().join("distribution")
+    }
+
+    /// The tree, once all points are distributed.
+    pub(super) fn tree(&self) -> PathBuf {
+        self.work().join("tree")
+    }
+}
+
+/// Writes a file beside its name, brings it to the disk and names it; an earlier file is replaced.
+pub(super) fn write_whole<R>(
+    path: &Path,
+    write: impl FnOnce(&mut File) -> Result<R, Error>,
+) -> Result<R, Error> {
+    let draft = path.with_extension("part");
+    let mut file = File::create(&draft).map_err(failed(&draft))?;
+    let result = write(&mut file)?;
+    file.sync_all().map_err(failed(&draft))?;
+    fs::rename(&draft, path).map_err(failed(path))?;
+    sync_folder(path)?;
+    Ok(result)
+}
+
+/// Writes these bytes as [`write_whole`].
+pub(super) fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), Error> {
+    write_whole(path, |file| file.write_all(bytes).map_err(failed(path)))
+}
+
+/// Has a new name survive the machine.
+fn sync_folder(path: &Path) -> Result<(), Error> {
+    #[cfg(unix)]
+    if let Some(folder) = path.parent() {
+        let open = File::open(folder).map_err(failed(folder))?;
+        match open.sync_all() {
+            // Some file systems do not sync folders.
+            Err(error) if error.kind() == io::ErrorKind::InvalidInput => {}
+            result => result.map_err(failed(folder))?,
+        }
+    }
+    #[cfg(not(unix))]
+    let _ = path;
+    Ok(())
+}
+
+/// Removes a file that may be gone already.
+pub(super) fn remove(path: &Path) -> Result<(), Error> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+        result => result.map_err(failed(path)),
+    }
+}
+
+/// Bytes that are left where a folder is; `None` where the system does not say.
+#[cfg(unix)]
+pub(super) fn free_bytes(folder: &Path) -> Option<u64> {
+    let found = rustix::fs::statvfs(folder).ok()?;
+    Some(found.f_bavail.saturating_mul(found.f_frsize))
+}
+
+#[cfg(not(unix))]
+pub(super) fn free_bytes(_: &Path) -> Option<u64> {
+    None
+}
