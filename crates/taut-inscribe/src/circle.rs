@@ -89,7 +89,9 @@ pub fn inscribed_circle(
     let rounding = 2.0 * f64::EPSILON * (point[0].abs() + point[1].abs());
     let most = found.radius * (1.0 + TOUCHING_SLACK) + rounding;
     let mut touching = vec![];
-    edges.within(point, most, usize::MAX, &mut touching);
+    edges.within(point, most + ROUNDING, usize::MAX, &mut touching);
+    // In a needle plain distances may be off by more than the radius.
+    touching.retain(|&edge| edges.rounded_down(point, edge) <= most);
     let certificate = CircleCertificate {
         touching: touching.iter().map(|&edge| polygon.rows[edge as usize]).collect(),
         tree: found.log.tree,

@@ -114,6 +114,20 @@ fn a_polygon_without_a_point_inside_is_refused() {
 }
 
 #[test]
+fn edges_far_from_a_thin_circle_are_not_called_touched() {
+    // Of coordinates of about 10³⁶ plain distances have no digit left beside the radius.
+    let width = 7.205759403792794e16;
+    let corner = [2.5379418373156492e-116, 4.445517498970155e-162];
+    let apex = [4.641336831775293e-215, 1.329227995784916e36];
+    let ring = [[0.0, width], corner, [width, 0.0], apex];
+    for ring in [ring, ring.map(|[x, y]| [y, x])] {
+        let found = solve(&ring).unwrap();
+        let verdict = verify(&found, &ring);
+        assert!(verdict.upper >= found.answer.radius && found.answer.radius > 0.0, "{verdict:?}");
+    }
+}
+
+#[test]
 fn the_largest_and_smallest_coordinates_are_solved() {
     let max = f64::MAX;
     let (found, verdict) = proved(&[[-max, -max], [max, -max], [max, max], [-max, max]]);

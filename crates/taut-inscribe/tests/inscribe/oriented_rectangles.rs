@@ -281,3 +281,41 @@ fn thin_polygons_have_rectangles_as_long_as_they_are() {
         }
     }
 }
+
+#[test]
+fn repeated_rows_leave_the_answer_as_it_is() {
+    let rings: [[&[[f64; 2]]; 2]; 3] = [
+        [
+            &[[0.0, 0.0], [1.0, 0.0], [3.0, 2.0]],
+            &[[7.0, 6.0], [7.0, 6.0], [4.0, 5.0], [1.0, 6.0]],
+        ],
+        [
+            &[[3.0, 6.0], [5.0, 4.0], [4.0, 7.0]],
+            &[[7.0, 3.0], [7.0, 3.0], [7.0, 3.0], [3.0, 3.0], [1.0, 2.0]],
+        ],
+        [
+            &[[3.0, 7.0], [5.0, 7.0], [5.0, 4.0], [3.0, 7.0], [3.0, 7.0]],
+            &[[6.0, 1.0], [1.0, 1.0], [0.0, 2.0], [6.0, 1.0]],
+        ],
+    ];
+    for given in rings {
+        let given = given.map(<[_]>::to_vec);
+        let without = given.clone().map(|mut ring| {
+            ring.dedup();
+            if ring.first() == ring.last() {
+                ring.pop();
+            }
+            ring
+        });
+        let options = OrientedRectangleOptions { max_cells: 300, ..Default::default() };
+        let answer = |rings: &[Ring]| {
+            let found =
+                inscribed_oriented_rectangle(&Points::new(&rows(rings), 3).unwrap(), &options);
+            let found = found.map_err(|error| error.to_string())?;
+            check(&found, rings).unwrap_or_else(|error| panic!("{error}: {rings:?}"));
+            Ok::<_, String>(found.answer)
+        };
+        let (found, expected) = (answer(&given), answer(&without));
+        assert!(expected.is_ok() && found == expected, "{found:?} instead of {expected:?}");
+    }
+}

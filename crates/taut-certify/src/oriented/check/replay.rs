@@ -70,7 +70,7 @@ pub(super) fn replay(
         return Err(wrong(0, "is a root that does not hold all rectangles about the pivot"));
     }
     let mut pending = vec![Pending { cell: Cell::root(), list: 0 }];
-    let mut lists: Vec<Vec<u32>> = vec![(0..units.len() as u32).collect()];
+    let mut lists: Vec<Vec<u32>> = vec![edges_with_length(units)];
     let mut leaves = certificate.leaves.iter().enumerate();
     let mut letters = certificate.tree.bytes().enumerate();
     while let Some(Pending { cell: given, list }) = pending.pop() {
@@ -145,6 +145,25 @@ pub(super) fn replay(
         }
         None => Ok(()),
     }
+}
+
+/// The edges whose union is the boundary: an edge of no length after another edge is the end of that one. A ring without any length
+/// keeps its edges.
+fn edges_with_length(units: &Units) -> Vec<u32> {
+    let has_length = |edge: u32| {
+        let [a, b] = units.edge(edge as usize);
+        a != b
+    };
+    let all = 0..units.len() as u32;
+    let mut is_end = vec![false; units.len()];
+    for edge in all.clone().filter(|&edge| has_length(edge)) {
+        let mut next = units.end(edge);
+        while !has_length(next) {
+            is_end[next as usize] = true;
+            next = units.end(next);
+        }
+    }
+    all.filter(|&edge| !is_end[edge as usize]).collect()
 }
 
 impl Boundary<'_> {
