@@ -32,7 +32,7 @@ def triangle_rows(
         The triangles, as numbers of vertices from 0. With None the vertices are points that no body contains, after the 12
         triangles of their bounding box.
     obstacles : array_like of shape (p, 3), optional
-        Points that no body contains: rows with three equal corners, after the triangles.
+        Points that no body contains: rows with three equal corners, after the triangles. Equal points come once.
 
     Returns
     -------
@@ -77,10 +77,11 @@ def _mesh_rows(vertices: ArrayLike, triangles: ArrayLike | None) -> Rows:
 
 
 def _point_rows(name: str, places: Rows) -> Rows:
-    """Points as triangles with three equal corners."""
+    """Points as triangles with three equal corners; equal points come once."""
     if places.shape[1] != 3:
         raise ValueError(f"{name} have shape {places.shape}: expected (n, 3)")
-    return as_rows(np.tile(places, 3))
+    first = np.sort(np.unique(places, axis=0, return_index=True)[1])
+    return as_rows(np.tile(places[first], 3))
 
 
 def inscribed_bodies(

@@ -17,8 +17,12 @@ pub use violation::BodiesViolation;
 /// The rows of the source are the triangles of the mesh, of dimension 9: the coordinates of the first corner, the second and
 /// the third. Corners with equal coordinates are one vertex, and a row of three such corners is a point that no body contains.
 /// With the caps, which close its holes, the mesh is closed: each edge
-/// belongs to an even number of triangles and caps. A point is inside when a ray from it crosses an odd number of triangles (even-odd rule), however the triangles
-/// are turned.
+/// belongs to an even number of triangles and caps. A point is inside when a ray from it crosses an odd number of triangles (even-odd
+/// rule), however the triangles are turned.
+///
+/// Rows of dimension 10 have the number of a surface as their last one: 0 for the mesh, 1, 2, … for solids, −1 for walls and points. Each
+/// solid is closed as the mesh is, and bodies are outside of it by the same rule. Walls and points have no inside; no body contains any part
+/// of them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(
     deny_unknown_fields,
@@ -89,7 +93,8 @@ pub struct BodyProof {
     pub combined: Vec<Vec<u64>>,
 }
 
-/// What was proved of inscribed bodies: each lies inside the mesh with its caps, by the even-odd rule.
+/// What was proved of inscribed bodies: each lies inside the mesh with its caps, by the even-odd rule, outside of all solids, and no
+/// triangle or point meets its interior.
 ///
 /// Nothing is claimed about how large such bodies can be.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -100,8 +105,14 @@ pub struct BodiesVerdict {
     pub disjoint: bool,
     /// How many caps close the mesh.
     pub caps: u64,
+    /// How many rows are triangles of the mesh.
+    pub triangles: u64,
     /// How many rows are points, which no body contains.
     pub points: u64,
+    /// How many closed obstacles there are, which bodies are outside of.
+    pub solids: u64,
+    /// How many rows are triangles of obstacles that are not closed, which no body meets.
+    pub walls: u64,
     /// How many points or segments given are in a body, the first in the first body and so on.
     pub at: u64,
     /// The sum of the volumes of the bodies is at least this.

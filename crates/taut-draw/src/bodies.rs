@@ -21,28 +21,31 @@ const MESH_TRIANGLES_MAX: usize = 6000;
 /// The picture of convex bodies inside the mesh whose triangles are the rows of `source`.
 ///
 /// # Errors
-/// [`Error::Mismatch`] when `source` has not rows of 9 numbers, [`Error::NonFinite`], [`Error::Option`], [`Error::Read`].
+/// [`Error::Mismatch`] when `source` has not rows of 9 or 10 numbers, [`Error::NonFinite`], [`Error::Option`], [`Error::Read`].
 pub fn bodies_figures(
     solution: &Solution<InscribedBodies>,
     source: &dyn PointSource,
     options: &DrawOptions,
 ) -> Result<Vec<Figure>, Error> {
     options.check()?;
-    agree("number of coordinates", 9, source.dim())?;
+    if source.dim() != 10 {
+        agree("number of coordinates", 9, source.dim())?;
+    }
     let answer = &solution.answer;
     let bodies = match answer.bodies.len() as u64 {
         1 => "1 body".to_owned(),
         more => format!("{} bodies", count(more)),
     };
-    let Kinds { triangles, points } = Kinds::of(source)?;
-    let (mesh, note) = mesh(source, &triangles, options)?;
+    let Kinds { triangles, obstacles, points } = Kinds::of(source)?;
+    let (mesh, note) = mesh(source, &triangles, "mesh", options)?;
+    let (surfaces, of_obstacles) = mesh_of_obstacles(source, &obstacles, options)?;
     let volume: f64 = answer.bodies.iter().map(|body| body.volume).sum();
     let closed_by = match &answer.caps[..] {
         [] => String::new(),
         caps => format!(" Holes of the mesh are closed by {}.", counted(caps.len() as u64, "cap")),
     };
     let caption = format!(
-        "{bodies}{}; their volumes add up to {}.{closed_by}{note}",
+        "{bodies}{}; their volumes add up to {}.{closed_by}{note}{of_obstacles}",
         if answer.disjoint { " that are disjoint" } else { "" },
         short(volume, 6)
     );
@@ -56,6 +59,9 @@ pub fn bodies_figures(
         layer("bodies", Tone::Answer, Shape3::Surface(facets(answer)?)),
         layer("mesh", Tone::Point, mesh),
     ];
+    if let Some(surfaces) = surfaces {
+        layers.push(layer("obstacles", Tone::Second, surfaces));
+    }
     if !points.is_empty() {
         let shown = some(&points, points.len().min(options.max_points));
         layers.push(layer(
@@ -69,6 +75,10 @@ pub fn bodies_figures(
     }
     let mut title =
         format!("Convex bodies in a mesh of {}", counted(triangles.len() as u64, "triangle"));
+    if !obstacles.is_empty() {
+        let what = counted(obstacles.len() as u64, "triangle");
+        let _ = write!(title, ", clear of obstacles of {what}");
+    }
     if !points.is_empty() {
         let _ = write!(title, " and among {}", counted(points.len() as u64, "point"));
     }
@@ -98,7 +108,8 @@ fn caps(answer: &InscribedBodies, source: &dyn PointSource) -> Result<Mesh3, Err
     rows.sort_unstable();
     rows.dedup();
     let values = gather(source, &rows)?;
-    let places = values.as_chunks::<3>().0;
+    let rows_of = values.chunks_exact(source.dim());
+    let places: Vec<[f64; 3]> = rows_of.flat_map(|row| row.as_chunks::<3>().0).copied().collect();
     let place = |&corner: &u64| {
         let row = rows.partition_point(|&row| row < corner / 3);
         places[3 * row + (corner % 3) as usize]
@@ -111,25 +122,31 @@ fn caps(answer: &InscribedBodies, source: &dyn PointSource) -> Result<Mesh3, Err
     Ok(Mesh3 { vertices, triangles })
 }
 
-/// The numbers of the rows that are triangles, and of those that are points: these have three equal corners.
+/// The numbers of the rows that are triangles of the mesh, of those that are triangles of obstacles, and of points: these have three equal
+/// corners.
 struct Kinds {
     triangles: Vec<u64>,
+    obstacles: Vec<u64>,
     points: Vec<u64>,
 }
 
 impl Kinds {
     fn of(source: &dyn PointSource) -> Result<Self, Error> {
-        let mut kinds = Kinds { triangles: vec![], points: vec![] };
+        let mut kinds = Kinds { triangles: vec![], obstacles: vec![], points: vec![] };
         let (blocks, mut scratch) = (Blocks::of(source), Scratch::new());
-        let mut row = [0.0; 9];
+        let mut row = [0.0; 10];
         for block in 0..blocks.count() {
             let range = blocks.range(block);
             let first = range.start;
             let rows = source.read(range, &mut scratch)?;
             for k in 0..rows.len() {
-                rows.copy_row(k, &mut row);
-                let [a, b, c] = *row.as_chunks::<3>().0 else { continue };
-                let kind = if a == b && b == c { &mut kinds.points } else { &mut kinds.triangles };
+                rows.copy_row(k, &mut row[..source.dim()]);
+                let [corners @ .., surface] = &row;
+                let kind = match *corners.as_chunks::<3>().0 {
+                    [a, b, c] if a == b && b == c => &mut kinds.points,
+                    _ if *surface == 0.0 => &mut kinds.triangles,
+                    _ => &mut kinds.obstacles,
+                };
                 kind.push(first + k as u64);
             }
         }
@@ -142,10 +159,24 @@ fn some(rows: &[u64], shown: usize) -> Vec<u64> {
     (0..shown).map(|k| rows[k * rows.len() / shown]).collect()
 }
 
-/// The mesh, or a sample of its corners, and what to say about the latter.
+/// The surfaces of obstacles, if there are any, and what to say about a sample of them.
+fn mesh_of_obstacles(
+    source: &dyn PointSource,
+    rows: &[u64],
+    options: &DrawOptions,
+) -> Result<(Option<Shape3>, String), Error> {
+    if rows.is_empty() {
+        return Ok((None, String::new()));
+    }
+    let (shape, note) = mesh(source, rows, "obstacles", options)?;
+    Ok((Some(shape), note))
+}
+
+/// A mesh, or a sample of its corners, and what to say about the latter.
 fn mesh(
     source: &dyn PointSource,
     rows: &[u64],
+    what: &str,
     options: &DrawOptions,
 ) -> Result<(Shape3, String), Error> {
     if rows.len() <= MESH_TRIANGLES_MAX {
@@ -155,18 +186,18 @@ fn mesh(
     }
     let shown = rows.len().min(options.max_points);
     let dots = dots(source, &some(rows, shown), "corner of a triangle")?;
-    let note = format!(" Of the mesh one corner of {} triangles is drawn.", count(shown as u64));
+    let note = format!(" Of the {what} one corner of {} triangles is drawn.", count(shown as u64));
     Ok((dots, note))
 }
 
 /// The corners of some rows.
 fn corners(source: &dyn PointSource, rows: &[u64]) -> Result<Vec<[f64; 3]>, Error> {
-    let values = gather(source, rows)?;
+    let (values, dim) = (gather(source, rows)?, source.dim());
     if let Some(at) = values.iter().position(|x| !x.is_finite()) {
-        let what = format!("coordinate {} of triangle {}", at % 9, rows[at / 9]);
+        let what = format!("coordinate {} of triangle {}", at % dim, rows[at / dim]);
         return Err(Error::NonFinite { what, value: values[at] });
     }
-    Ok(values.as_chunks::<3>().0.to_vec())
+    Ok(values.chunks_exact(dim).flat_map(|row| row.as_chunks::<3>().0).copied().collect())
 }
 
 /// The first corners of some rows as points.

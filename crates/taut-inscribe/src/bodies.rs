@@ -30,6 +30,7 @@ mod polytope;
 mod proof;
 mod rows;
 mod samples;
+mod scene;
 mod scores;
 mod segment;
 mod thesis;
@@ -60,7 +61,10 @@ use crate::random::Random;
 pub use self::options::{
     BodiesMethod, BodiesOptions, BodiesThesisOptions, BodyShape, Objective, ThesisSeeds,
 };
-pub use self::rows::{box_rows, point_rows, surface_rows, triangle_rows};
+pub use self::rows::{box_rows, point_rows, triangle_rows};
+pub use self::scene::Scene;
+
+pub(crate) use self::mesh::check_dim;
 
 /// Points by which coverage is reported; the search does not see them. The standard error is below 0.2 %.
 const REPORTED_POINTS: usize = 60_000;
@@ -75,9 +79,9 @@ const REPORTED_POINTS_GIVEN: usize = 3_000;
 /// and triangles. The rows are read once and kept in memory. Bodies depend on the mesh and the options alone.
 ///
 /// *Obstacles.* A row with three equal corners is a point that no body contains: [`point_rows`] makes them. Among points alone
-/// bodies need a mesh around these, as that of [`box_rows`]. A second closed mesh inside the first takes its inside away, by the
-/// even-odd rule: what is in two such meshes is inside again. A surface that is not closed keeps bodies out if each of its
-/// triangles comes twice.
+/// bodies need a mesh around these, as that of [`box_rows`]. Rows of 10 numbers have the number of a surface as their last one: 0 for
+/// the mesh, whose rows come first, 1, 2, … for solids, which are closed and hold no body, and −1 for what has no inside. [`Scene`]
+/// makes such rows of surfaces.
 ///
 /// The search for k-dops with k = 26 also improves the bodies of k = 18 and 14, and these the bodies of k = 6, so that more
 /// directions never cover fewer of the points that the search counts. One body alone is improved by its volume, and more directions
@@ -85,7 +89,8 @@ const REPORTED_POINTS_GIVEN: usize = 3_000;
 ///
 /// # Errors
 /// [`Error::Open`] with an edge where the mesh is not closed, unless [`BodiesOptions::close_holes`] is set; [`Error::NoInside`],
-/// [`Error::Ambiguous`], [`Error::At`], [`Error::Grid`], [`Error::FarPoint`], and [`Error::Input`] for bad rows or options, and for what reading says.
+/// [`Error::Ambiguous`], [`Error::At`], [`Error::Grid`], [`Error::FarPoint`], [`Error::FarObstacle`], [`Error::Surface`],
+/// [`Error::OpenSolid`], and [`Error::Input`] for bad rows or options, and for what reading says.
 pub fn inscribed_bodies(
     triangles: &dyn PointSource,
     options: &BodiesOptions<'_>,
@@ -94,7 +99,8 @@ pub fn inscribed_bodies(
     let mesh = GridMesh::read(triangles, options.close_holes, &options.monitor)?;
     let mut random = Random::new(options.seed);
     let kind = if let BodyShape::Dop(kind) = options.shape { kind } else { 6 };
-    let tree = Arc::new(Tree::new(&mesh.corners, &Arc::new(Directions::of(kind))));
+    let tree =
+        Arc::new(Tree::of_surfaces(&mesh.corners, &mesh.surfaces, &Arc::new(Directions::of(kind))));
     let turned = match options.shape {
         BodyShape::Directions(given) => Arc::new(tree.turned(&Arc::new(Directions::given(given)?))),
         _ => Arc::clone(&tree),
@@ -126,7 +132,8 @@ pub fn inscribed_bodies(
         ("searched_lines", lines.map_or(0, |lines| lines.lines.len() as u64)),
         ("searched_points", points.len() as u64),
         ("obstacle_points", mesh.points),
-        ("triangles", mesh.corners.len() as u64 - mesh.caps.len() as u64 - mesh.points),
+        ("obstacle_solids", mesh.solids),
+        ("triangles", mesh.triangles),
     ];
     let method = match (options.method, options.shape) {
         (BodiesMethod::Thesis(_), _) => "thesis",

@@ -28,7 +28,7 @@ use taut_certify::{CircleCertificate, InscribedCircle, Solution, Trace};
 use taut_points::{InputError, Monitor, PointSource, shown_number};
 
 use crate::Error;
-use crate::polygon::Polygon;
+use crate::polygon::{Polygon, is_inside};
 
 use self::distance::Edges;
 
@@ -85,13 +85,17 @@ pub fn inscribed_circle(
         return Err(Error::Area);
     }
     let center = found.center.unwrap_or_default();
+    // In units of the last place of the coordinates the center may be rounded out of a needle.
+    if !is_inside(polygon.edges.iter().copied(), center) {
+        return Err(Error::TooThin);
+    }
     let point = edges.scaled(center);
     let rounding = 2.0 * f64::EPSILON * (point[0].abs() + point[1].abs());
     let most = found.radius * (1.0 + TOUCHING_SLACK) + rounding;
     let mut touching = vec![];
     edges.within(point, most + ROUNDING, usize::MAX, &mut touching);
     // In a needle plain distances may be off by more than the radius.
-    touching.retain(|&edge| edges.rounded_down(point, edge) <= most);
+    touching.retain(|&edge| edges.accurate(point, edge) - edges.error(point, edge) <= most);
     let certificate = CircleCertificate {
         touching: touching.iter().map(|&edge| polygon.rows[edge as usize]).collect(),
         tree: found.log.tree,

@@ -24,7 +24,7 @@ use taut_points::{InputError, Monitor, PointSource};
 
 use crate::Error;
 use crate::ellipse::{self, EllipseOptions};
-use crate::polygon::Polygon;
+use crate::polygon::{Polygon, is_measurable};
 use crate::units::Units;
 
 /// Ratio of areas of a triangle and its largest ellipse, 3√3/π, rounded up.
@@ -90,12 +90,16 @@ pub fn inscribed_polygon(
     let body = found.ok_or(Error::TooThin)?;
     let reported = report::rounded(&body.region, &units, &polygon.edges).ok_or(Error::TooThin)?;
     let area = report::area(&reported.corners);
-    if !area.is_normal() {
+    if !is_measurable(area) {
         return Err(Error::Area);
     }
     let by_ellipse = ellipse.answer.area * (1.0 + ellipse.certificate.gap) * RATIO_MAX;
     let hull = report::hull(polygon.edges.iter().map(|edge| edge[0]).collect());
-    let upper = by_ellipse.min(report::area(&hull));
+    let upper = by_ellipse.min(report::area(&hull) + report::area_error(&hull));
+    let lower = area - report::area_error(&reported.corners);
+    if lower <= 0.0 {
+        return Err(Error::TooThin);
+    }
     let counters =
         [("cells", ellipse.certificate.tree.len() as u64), ("vertices", polygon.rows.len() as u64)];
     let trace = Trace {
@@ -109,8 +113,7 @@ pub fn inscribed_polygon(
     };
     let certificate = ConvexCertificate {
         inside: reported.inside,
-        // Rounding of sums of up to as many terms as there are vertices.
-        gap: ((upper / area) * (1.0 + GAP_SLACK) - 1.0).max(0.0),
+        gap: ((upper / lower) * (1.0 + GAP_SLACK) - 1.0).max(0.0),
         ellipse: ellipse.answer,
         ellipse_certificate: ellipse.certificate,
     };

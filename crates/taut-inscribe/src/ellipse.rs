@@ -30,7 +30,7 @@ use taut_points::{InputError, Monitor, PointSource, shown_number};
 
 use crate::Error;
 use crate::levels::Levels;
-use crate::polygon::Polygon;
+use crate::polygon::{Polygon, is_measurable};
 use crate::units::Units;
 
 use self::ascent::Ellipse;
@@ -115,7 +115,7 @@ pub(crate) fn solved(
     let best = report::rounded(&best, units).ok_or(Error::TooThin)?;
     let reached = (found.upper / best.size).powi(2) - 1.0;
     let reported = sampled.unwrap_or(best);
-    if !reported.answer.area.is_normal() {
+    if !is_measurable(reported.answer.area) {
         return Err(Error::Area);
     }
     let ratio = found.upper / reported.size;

@@ -77,8 +77,8 @@ pub enum Error {
     },
     /// The mesh has no inside in which a body was found.
     #[error(
-        "the mesh has no inside in which a body was found: it is flat, has no triangles, or is too thin for a grid of 2^-24 of \
-         its longest side"
+        "the mesh has no inside in which a body was found: it is flat, has no triangles, is too thin for a grid of 2^-24 of its \
+         longest side, or obstacles leave no room in it"
     )]
     NoInside,
     /// The holes of the mesh are so large that inside and outside cannot be told apart.
@@ -106,12 +106,42 @@ pub enum Error {
     },
     /// A point that bodies may not contain is too far from the mesh.
     #[error(
-        "row {row} is a point more than 2^29 units of the grid from the corner of the bounding box of the mesh, which is at least 32 \
+        "row {row}, the point {point:?}, is more than 2^29 units of the grid from the corner of the bounding box of the mesh, which is at least 32 \
          times its longest side: leave the point out, as no body comes near it"
     )]
     FarPoint {
         /// The row, from 0.
         row: u64,
+        /// The point.
+        point: [f64; 3],
+    },
+    /// An obstacle reaches so far beyond the mesh that the grid of both would be too coarse.
+    #[error(
+        "row {row} reaches so far that mesh and obstacles together are more than 32 times as long as the mesh: cut the obstacle off \
+         there, as no body comes near it, and see whether both have one unit"
+    )]
+    FarObstacle {
+        /// The row, from 0.
+        row: u64,
+    },
+    /// The tenth number of a row is no number of a surface.
+    #[error(
+        "the surface of row {row} is {value:?}: expected 0 for the mesh, whose rows come first, 1, 2, … for solids, or -1 for walls and \
+         points"
+    )]
+    Surface {
+        /// The row, from 0.
+        row: u64,
+        /// Its tenth number.
+        value: f64,
+    },
+    /// A solid is not closed.
+    #[error(
+        "solid {surface} is not closed: give its rows the number -1 of walls, or leave out what is no part of it"
+    )]
+    OpenSolid {
+        /// The number of the solid.
+        surface: i32,
     },
     /// A triangle names a vertex that does not exist.
     #[error("triangle {row} names vertex {vertex}, but there are {vertices} vertices")]

@@ -47,8 +47,8 @@ mod triangle;
 mod units;
 
 pub use bodies::{
-    BodiesMethod, BodiesOptions, BodiesThesisOptions, BodyShape, Objective, ThesisSeeds, box_rows,
-    inscribed_bodies, point_rows, surface_rows, triangle_rows,
+    BodiesMethod, BodiesOptions, BodiesThesisOptions, BodyShape, Objective, Scene, ThesisSeeds,
+    box_rows, inscribed_bodies, point_rows, triangle_rows,
 };
 pub use circle::{CircleOptions, inscribed_circle};
 pub use convex::{ConvexOptions, inscribed_polygon};

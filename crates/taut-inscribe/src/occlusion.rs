@@ -15,6 +15,7 @@ use taut_certify::InscribedBodies;
 use taut_points::{InputError, Monitor, PointSource, map_blocks};
 
 use crate::Error;
+use crate::bodies::check_dim;
 use crate::random::Random;
 
 /// Numbers of lines that can be asked for: fewer say nothing, more take hours.
@@ -122,23 +123,23 @@ fn summary(views: &[[u64; 2]]) -> Occlusion {
     Occlusion { lines, hidden, share, standard_error, views: views.len() as u64, least_view }
 }
 
-/// The triangles of all rows.
+/// The triangles of the mesh, without obstacles.
 fn rows(source: &dyn PointSource, monitor: &Monitor<'_>) -> Result<Vec<[[f64; 3]; 3]>, Error> {
-    if source.dim() != 9 {
-        let (dim, expected) = (source.dim(), "9, those of the three corners of a triangle");
-        return Err(InputError::Dimension { dim, expected }.into());
-    }
+    check_dim(source)?;
     let blocks = map_blocks(source, monitor, |first, rows| {
         if let Some((row, column, value)) = rows.first_non_finite() {
             let row = first + row as u64;
             return Err(Error::Input(InputError::NonFinite { row, column, value }));
         }
-        let mut row = [0.0; 9];
-        let triangle = |k: usize| {
-            rows.copy_row(k, &mut row);
-            [[row[0], row[1], row[2]], [row[3], row[4], row[5]], [row[6], row[7], row[8]]]
-        };
-        Ok((0..rows.len()).map(triangle).collect::<Vec<_>>())
+        let (mut row, mut triangles) = ([0.0; 10], vec![]);
+        for k in 0..rows.len() {
+            rows.copy_row(k, &mut row[..source.dim()]);
+            let [a, b, c, d, e, f, g, h, i, surface] = row;
+            if surface == 0.0 {
+                triangles.push([[a, b, c], [d, e, f], [g, h, i]]);
+            }
+        }
+        Ok(triangles)
     })?;
     Ok(blocks.concat())
 }

@@ -30,7 +30,7 @@ use taut_points::{InputError, Monitor, PointSource, shown_number};
 
 use crate::Error;
 use crate::levels::Levels;
-use crate::polygon::Polygon;
+use crate::polygon::{Polygon, is_measurable};
 use crate::units::Units;
 
 use self::rows::Boundary;
@@ -90,7 +90,7 @@ pub fn inscribed_oriented_rectangle(
     };
     let found = search::search(&target, options)?;
     let reported = found.best.ok_or(Error::TooThin)?;
-    if !reported.answer.area.is_normal() {
+    if !is_measurable(reported.answer.area) {
         return Err(Error::Area);
     }
     let ratio = found.upper / reported.in_units;

@@ -4,6 +4,7 @@
 //! row that of the row before or one more. The last row of a ring may repeat its first, and a row the one before it.
 
 use taut_points::{InputError, Monitor, PointSource, PointsHash, hash_block, map_blocks};
+use taut_predicates::plane::orient;
 
 use crate::Error;
 use crate::runs::Runs;
@@ -90,6 +91,23 @@ impl Loops {
             self.after.push((first + next) as u32);
         }
     }
+}
+
+/// Whether an odd number of edges cross the horizontal line through p to the left of it.
+pub(crate) fn is_inside(edges: impl Iterator<Item = Segment>, p: [f64; 2]) -> bool {
+    let is_left = |[a, b]: &Segment| {
+        if (a[1] <= p[1]) == (b[1] <= p[1]) {
+            return false;
+        }
+        let (low, high) = if a[1] <= p[1] { (*a, *b) } else { (*b, *a) };
+        !orient(low, high, p).is_positive()
+    };
+    edges.filter(is_left).count() % 2 == 1
+}
+
+/// Whether an area is so far from the ends of the range of numbers that a checker finds it again by other products.
+pub(crate) fn is_measurable(area: f64) -> bool {
+    (1024.0 * f64::MIN_POSITIVE..=f64::MAX / 16.0).contains(&area)
 }
 
 /// The rows of each ring; one ring without rows if there are none.

@@ -37,7 +37,7 @@ use taut_points::PointSource;
 pub use self::options::{TriangleMethod, TriangleOptions, TriangleThesisOptions};
 use crate::Error;
 use crate::levels::Levels;
-use crate::polygon::Polygon;
+use crate::polygon::{Polygon, is_measurable};
 use crate::units::Units;
 
 use self::frame::Frame;
@@ -77,7 +77,7 @@ pub fn inscribed_triangle(
             })?
         }
     };
-    if !reported.answer.area.is_normal() {
+    if !is_measurable(reported.answer.area) {
         return Err(Error::Area);
     }
     let gap_of =

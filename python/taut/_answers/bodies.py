@@ -187,8 +187,14 @@ class BodiesVerdict(Record):
         Whether they are disjoint, which then was proved.
     caps : int
         How many caps close the mesh.
+    triangles : int
+        How many rows are triangles of the mesh.
     points : int
         How many rows are points, which no body contains.
+    solids : int
+        How many closed obstacles there are, which bodies are outside of.
+    walls : int
+        How many rows are triangles of obstacles that are not closed, which no body meets.
     at : int
         How many points or segments given are in a body, the first in the first body and so on.
     volume_lower, volume_upper : float
@@ -200,7 +206,10 @@ class BodiesVerdict(Record):
     bodies: int
     disjoint: bool
     caps: int
+    triangles: int
     points: int
+    solids: int
+    walls: int
     at: int
     volume_lower: float
     volume_upper: float

@@ -1,14 +1,17 @@
 //! The checker of inscribed bodies, in whole numbers.
 //!
 //! *Grid.* Each coordinate lies between two whole numbers of units, its floor and its ceiling, which are found exactly: [`grid`].
+//! *Surfaces.* A tenth number of a row names its surface: 0 for the mesh, 1, 2, … for solids, −1 for walls and points.
 //! *Points.* A row with three equal corners is a point. It has no edges and no ray crosses it; that no body contains it is checked as for
 //! any triangle.
-//! *Closed.* Each edge of the mesh belongs to an even number of triangles and caps, by the coordinates as given. Caps have corners
+//! *Closed.* Each edge of the mesh belongs to an even number of triangles and caps, and each edge of a solid to an even number of its own
+//! triangles, by the coordinates as given. Caps have corners
 //! of the mesh, and are no more than triangulations of its holes need: [`closed`]. From here on caps are triangles of the mesh.
 //! *Empty.* No triangle meets the interior of a body, wherever its corners lie between floor and ceiling: [`empty`].
-//! *Inside.* One point of each body is inside the mesh whose corners are the floors, by the parity of exact crossings: [`parity`].
-//! Moved from the coordinates as given to their floors, triangles never meet the body, so the point is inside the mesh as given.
-//! A body is convex, no triangle meets it, and one point is inside: so all of it is inside, and it is bounded.
+//! *Inside.* One point of each body is inside the mesh whose corners are the floors, and in none of the solids, by the parity of exact
+//! crossings with each surface: [`parity`]. Moved from the coordinates as given to their floors, triangles never meet the body, so that
+//! this holds for the surfaces as given. A body is convex, no triangle meets it, and one point is inside: so all of it is inside, and
+//! bounded. A wall has no inside; no triangle of it meets a body.
 //! *At.* The points and the ends of segments given are in the first bodies, wherever they lie between floor and ceiling.
 //! *Volume.* The volume of each body comes from its exact vertices, with bounded rounding: [`volume`].
 //! *Cost.* O(n log n) for n triangles, and O(n) for most bodies.
@@ -29,6 +32,12 @@ use crate::{CheckError, Violation};
 
 /// The corners of a triangle, as given.
 type Triangle = [[f64; 3]; 3];
+
+/// The number of the mesh, whose caps belong to it.
+const MESH: i32 = 0;
+
+/// The number of walls and points.
+const WALL: i32 = -1;
 
 /// Entries of a normal are at most this, so that all sums and products fit into 128 bits.
 const NORMAL_MAX: i64 = 1 << 16;
@@ -51,19 +60,28 @@ pub(super) fn check(
     source: &dyn PointSource,
     monitor: &Monitor<'_>,
 ) -> Result<BodiesVerdict, CheckError> {
-    if source.dim() != 9 {
+    if !matches!(source.dim(), 9 | 10) {
         return Err(BodiesViolation::Triangles { dim: source.dim() }.into());
     }
     if answer.bodies.is_empty() {
         return Err(BodiesViolation::NoBody.into());
     }
     monitor.pass(1, source.len());
-    let mut triangles = read(source, certificate, monitor)?;
+    let (mut triangles, mut surfaces) = read(source, certificate, monitor)?;
     let rows = triangles.len();
     lengths(answer, certificate)?;
-    let points = triangles.iter().filter(|[a, b, c]| a == b && b == c).count() as u64;
-    triangles.extend(caps(&triangles, &answer.caps)?);
-    closed::is_closed(&triangles, rows)?;
+    let kind = |is_point: bool, of: fn(i32) -> bool| {
+        let is_kind = |&(triangle, &surface): &(&Triangle, &i32)| {
+            (triangle[0] == triangle[1] && triangle[1] == triangle[2]) == is_point && of(surface)
+        };
+        triangles.iter().zip(&surfaces).filter(is_kind).count() as u64
+    };
+    let (points, walls) = (kind(true, |_| true), kind(false, |surface| surface == WALL));
+    let of_mesh = kind(false, |surface| surface == MESH);
+    let closing = caps(&triangles, &answer.caps)?;
+    surfaces.extend(closing.iter().map(|_| MESH));
+    triangles.extend(closing);
+    let solids = closed::are_closed(&triangles, &surfaces, rows)?;
     let grid = Grid::of(answer.exponent, answer.origin)?;
     let boxes = Boxes::of(&triangles, rows, &grid)?;
     let unit = grid::power_of_two(answer.exponent);
@@ -71,7 +89,10 @@ pub(super) fn check(
         bodies: answer.bodies.len() as u64,
         disjoint: answer.disjoint,
         caps: answer.caps.len() as u64,
+        triangles: of_mesh,
         points,
+        solids,
+        walls,
         at: answer.at.len() as u64,
         volume_lower: 0.0,
         volume_upper: 0.0,
@@ -82,7 +103,7 @@ pub(super) fn check(
         facets(at, body)?;
         empty::is_empty(at, body, proof, &boxes)?;
         contains(at, body, proof.inside)?;
-        if !parity::is_inside(proof.inside, &boxes) {
+        if !parity::is_inside(proof.inside, &boxes, &surfaces) {
             return Err(BodiesViolation::Outside { body: at }.into());
         }
         for point in answer.at.get(at).into_iter().chain(answer.ends.get(at)) {
@@ -105,22 +126,40 @@ pub(super) fn check(
     Ok(verdict)
 }
 
-/// Reads all triangles, which must be finite and those of the hash.
+/// Reads all triangles, which must be finite and those of the hash, and the numbers of their surfaces.
 fn read(
     source: &dyn PointSource,
     certificate: &BodiesCertificate,
     monitor: &Monitor<'_>,
-) -> Result<Vec<Triangle>, CheckError> {
-    let claimed = certificate.points_hash;
+) -> Result<(Vec<Triangle>, Vec<i32>), CheckError> {
+    let (claimed, dim) = (certificate.points_hash, source.dim());
     let (blocks, _) = hashed_pass(source, claimed, WantedRows::none(), monitor, |first, rows| {
         all_finite(first, rows)?;
-        let mut triangles = vec![[[0.0; 3]; 3]; rows.len()];
-        for (k, triangle) in triangles.iter_mut().enumerate() {
-            rows.copy_row(k, triangle.as_flattened_mut());
+        let mut row = [0.0; 10];
+        let (mut triangles, mut surfaces) = (vec![], vec![]);
+        for k in 0..rows.len() {
+            rows.copy_row(k, &mut row[..dim]);
+            let [a, b, c, d, e, f, g, h, i, surface] = row;
+            triangles.push([[a, b, c], [d, e, f], [g, h, i]]);
+            surfaces.push(named_surface(first + k as u64, surface)?);
         }
-        Ok(triangles)
+        Ok((triangles, surfaces))
     })?;
-    Ok(blocks.concat())
+    let (mut triangles, mut surfaces) = (vec![], vec![]);
+    for (block, numbers) in blocks {
+        triangles.extend(block);
+        surfaces.extend(numbers);
+    }
+    Ok((triangles, surfaces))
+}
+
+/// The number of a surface: a whole number of at least −1.
+fn named_surface(row: u64, value: f64) -> Result<i32, BodiesViolation> {
+    let surface = value as i32;
+    match f64::from(surface) == value && surface >= WALL {
+        true => Ok(surface),
+        false => Err(BodiesViolation::Surface { row, value }),
+    }
 }
 
 /// Refuses lists whose lengths do not agree.

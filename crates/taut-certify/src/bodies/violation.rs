@@ -7,12 +7,22 @@ use crate::Fault;
 #[non_exhaustive]
 pub enum BodiesViolation {
     /// The rows are not triangles.
-    #[error("the rows have {dim} numbers: a triangle of space has 9")]
+    #[error(
+        "the rows have {dim} numbers: a triangle of space has 9, and 10 with the number of its surface"
+    )]
     Triangles {
         /// Numbers of a row.
         dim: usize,
     },
-    /// The mesh with its caps has a boundary: an edge belongs to an odd number of triangles.
+    /// The tenth number of a row is no number of a surface.
+    #[error("the surface of triangle {row} is {value:?}: expected a whole number of at least -1")]
+    Surface {
+        /// The triangle, from 0.
+        row: u64,
+        /// Its tenth number.
+        value: f64,
+    },
+    /// The mesh with its caps, or a solid, has a boundary: an edge belongs to an odd number of its triangles.
     #[error(
         "the mesh is not closed: the edge from {from:?} to {to:?} of triangle {row} belongs to an odd number of triangles"
     )]
@@ -122,6 +132,7 @@ impl BodiesViolation {
     pub(crate) fn fault(&self) -> Fault {
         match *self {
             BodiesViolation::Triangles { .. } | BodiesViolation::Open { .. } => Fault::Points,
+            BodiesViolation::Surface { row, .. } => Fault::Row(row),
             BodiesViolation::Reaches { row, .. } => Fault::Row(row),
             _ => Fault::Answer,
         }

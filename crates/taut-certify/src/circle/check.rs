@@ -11,7 +11,7 @@ mod replay;
 
 use taut_points::{Monitor, PointSource};
 
-use self::distance::{distance, rounded_down};
+use self::distance::{distance, error, rounded_down};
 use super::{CircleCertificate, CircleVerdict, CircleViolation, InscribedCircle};
 use crate::arithmetic::U;
 use crate::polygon::{self, Polygon};
@@ -22,6 +22,9 @@ const GAP_SLACK: (f64, f64) = (1e-9, 4e-15);
 
 /// The largest excess of the distance of a touching edge over the radius, relative to the radius.
 const TOUCHING_SLACK: f64 = 1e-9;
+
+/// How many times the bound of its error the distance of a touching edge may be above the radius.
+const TOUCHING_ERRORS: f64 = 8.0;
 
 pub(super) fn check(
     answer: &InscribedCircle,
@@ -109,8 +112,10 @@ fn touching(
         let Some(edge) = usize::try_from(row).ok().filter(|&row| row < polygon.len()) else {
             return wrong(position, "names a row that does not exist");
         };
-        let lower = rounded_down(distance(center, polygon.scaled_edge(edge)));
-        let is_touching = lower <= radius * (1.0 + TOUCHING_SLACK) + rounding;
+        let distance = distance(center, polygon.scaled_edge(edge));
+        // In a needle the bound of the distance's error may be more than the slack.
+        let slack = radius * TOUCHING_SLACK + rounding + TOUCHING_ERRORS * error(distance);
+        let is_touching = rounded_down(distance) <= radius + slack;
         if !is_touching {
             return wrong(position, "names an edge that the circle does not touch");
         }

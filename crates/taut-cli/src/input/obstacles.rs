@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use anyhow::anyhow;
-use taut::inscribe::{box_rows, point_rows, surface_rows};
+use taut::inscribe::{Scene, box_rows, point_rows};
 use taut::points::{Blocks, OwnedPoints, Scratch};
 
 use crate::input::reading::{Opened, Reading};
@@ -12,11 +12,14 @@ use crate::input::reading::{Opened, Reading};
 const POINT: usize = 3;
 const TRIANGLE: usize = 9;
 
+/// Numbers of a row that is a triangle with the number of its surface.
+const SURFACE: usize = 10;
+
 /// The option for what bodies stay clear of, the same for each subcommand that reads a mesh with bodies.
 #[derive(Clone, Debug, Default, clap::Args)]
 pub(crate) struct Obstacles {
-    /// Of bodies in a mesh: points with 3 coordinates, or a surface, that the bodies stay clear of; may be given several times. The
-    /// inside of a closed surface is outside of the mesh then
+    /// Points with 3 coordinates, or a surface, that bodies in a mesh do not meet; may be given several times. Closed parts of a surface
+    /// are solids, in which no body lies; its other parts are walls
     #[arg(long, value_name = "FILE")]
     obstacles: Vec<PathBuf>,
 }
@@ -41,28 +44,42 @@ impl Obstacles {
         if self.obstacles.is_empty() && !is_cloud {
             return Ok(mesh);
         }
-        let mut name = mesh.name().to_owned();
-        let mut rows = numbers(&mesh)?;
+        let (mut rows, mut points) = (numbers(&mesh)?, vec![]);
         match mesh.source().dim() {
             POINT => {
-                let points = rows.as_chunks::<POINT>().0;
-                rows = [box_rows(points), point_rows(points)].concat();
+                points = rows;
+                rows = box_rows(points.as_chunks::<POINT>().0);
             }
             TRIANGLE => {}
             _ => return Err(wrong_dimension(&mesh)),
         }
+        let (mut surfaces, mut names) = (vec![], vec![]);
         for path in &self.obstacles {
             let obstacle = reading.open_obstacle(path)?;
             let found = numbers(&obstacle)?;
-            rows.extend(match obstacle.source().dim() {
-                POINT => point_rows(found.as_chunks::<POINT>().0),
-                TRIANGLE => surface_rows(&found).map_err(|error| obstacle.explain(error))?,
+            names.push(obstacle.name().to_owned());
+            match obstacle.source().dim() {
+                POINT => points.extend(found),
+                TRIANGLE => surfaces.push((obstacle, found)),
                 _ => return Err(wrong_dimension(&obstacle)),
-            });
-            name = format!("{name} with {}", obstacle.name());
+            }
         }
-        let points =
-            OwnedPoints::new(rows, TRIANGLE).map_err(|error| anyhow!("{name}: {error}"))?;
+        let name = match &names[..] {
+            [] => mesh.name().to_owned(),
+            names => format!("{} with {}", mesh.name(), names.join(", ")),
+        };
+        let points = points.as_chunks::<POINT>().0;
+        let (rows, dim) = if surfaces.is_empty() {
+            ([rows, point_rows(points)].concat(), TRIANGLE)
+        } else {
+            let mut scene = Scene::around(&rows).map_err(|error| mesh.explain(error))?;
+            for (obstacle, found) in surfaces {
+                scene.add_surface(&found).map_err(|error| obstacle.explain(error))?;
+            }
+            scene.add_points(points);
+            (scene.into_rows(), SURFACE)
+        };
+        let points = OwnedPoints::new(rows, dim).map_err(|error| anyhow!("{name}: {error}"))?;
         Ok(mesh.with_source(Box::new(points), name))
     }
 }

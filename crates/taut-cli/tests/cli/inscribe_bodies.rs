@@ -86,13 +86,20 @@ fn bodies_are_added_until_the_coverage_is_reached() {
     folder.taut("inscribe bodies mesh.off --facets 5").ends(2).stderr_has(&["--facets", "is 5"]);
 }
 
-/// A cube, points in it, and an open square.
+/// A cube, a block through its floor beside a loose triangle, points in it, and an open square.
 fn scene() -> TestFolder {
     let folder = TestFolder::new();
-    let corner = |k: usize| format!("{} {} {}\n", 4 * (k & 1), 4 * (k >> 1 & 1), 4 * (k >> 2 & 1));
-    let corners: String = (0..8).map(corner).collect();
-    let faces = "4 0 2 3 1\n4 4 5 7 6\n4 0 1 5 4\n4 2 6 7 3\n4 0 4 6 2\n4 1 3 7 5\n";
-    folder.put("cube.off", format!("OFF\n8 6 0\n{corners}{faces}"));
+    let cuboid = |low: [i32; 3], high: [i32; 3], more: [&str; 3]| {
+        let end = |k: usize, c: usize| if k >> c & 1 == 0 { low[c] } else { high[c] };
+        let corner = |k: usize| format!("{} {} {}\n", end(k, 0), end(k, 1), end(k, 2));
+        let corners: String = (0..8).map(corner).collect();
+        let faces = "4 0 2 3 1\n4 4 5 7 6\n4 0 1 5 4\n4 2 6 7 3\n4 0 4 6 2\n4 1 3 7 5\n";
+        let [counts, vertices, triangles] = more;
+        format!("OFF\n{counts}\n{corners}{vertices}{faces}{triangles}")
+    };
+    folder.put("cube.off", cuboid([0; 3], [4; 3], ["8 6 0", "", ""]));
+    let loose = ["11 7 0", "3 3 1\n3 3 2\n3 2 1\n", "3 8 9 10\n"];
+    folder.put("block.off", cuboid([0, 0, -1], [2, 4, 3], loose));
     folder.put("points.csv", "x,y,z\n2,2,2\n1,1,3\n9,9,9\n");
     folder.put("wall.off", "OFF\n4 2 0\n1.5 0 0\n1.5 4 0\n1.5 4 4\n1.5 0 4\n3 0 1 2\n3 0 2 3\n");
     folder
@@ -108,10 +115,10 @@ fn bodies_stay_clear_of_points_and_walls() {
     folder
         .taut(&command)
         .ends(0)
-        .stdout_has(&["3 convex bodies in a mesh of 16 triangles and among 3 points\n"]);
+        .stdout_has(&["3 convex bodies in a mesh of 12 triangles and among 3 points\n"]);
     folder.taut(&format!("verify bodies.json cube.off {obstacles}")).ends(0).stdout_has(&[
-        "Verified: 3 convex bodies in a mesh of 16 triangles and among 3 points",
-        "none of 3 points is in a body; proved",
+        "Verified: 3 convex bodies in a mesh of 12 triangles and among 3 points",
+        "met by none of 2 triangles of open obstacles; none of 3 points is in a body; proved",
     ]);
     folder.taut(&format!("draw bodies.json cube.off {obstacles} -o again.html")).ends(0);
     assert!(folder.text("again.html").contains("obstacle point"));
@@ -123,6 +130,33 @@ fn bodies_stay_clear_of_points_and_walls() {
     let before = folder.text("points.csv");
     folder.taut("inscribe bodies cube.off --obstacles points.csv -o points.csv").ends(2);
     assert_eq!(folder.text("points.csv"), before);
+}
+
+#[test]
+fn bodies_are_outside_of_solid_obstacles() {
+    let folder = scene();
+    let run = folder.taut(
+        "inscribe bodies cube.off --obstacles block.off --count 4 --events 2000 -o bodies.json",
+    );
+    run.ends(0).stdout_has(&[
+        "in a mesh of 12 triangles\n",
+        "outside of 1 closed obstacle; met by none of 1 triangle of open obstacles",
+    ]);
+    folder
+        .taut("verify bodies.json cube.off --obstacles block.off")
+        .ends(0)
+        .stdout_has(&["outside of 1 closed obstacle; met by none of 1 triangle"]);
+    folder.taut("draw bodies.json cube.off --obstacles block.off -o bodies.html").ends(0);
+    assert!(folder.text("bodies.html").contains("clear of obstacles of 13 triangles"));
+    for at in ["1,2,2", "1,2,-0.5"] {
+        folder
+            .taut(&format!("inscribe bodies cube.off --obstacles block.off --at {at}"))
+            .ends(2)
+            .stderr_has(&["cube.off with block.off: point 0", "solid obstacle"]);
+    }
+    let run = folder.taut("inscribe dops cube.off --obstacles block.off -k 6 --events 500 --json");
+    let volume = run.ends(0).json()["answer"]["bodies"][0]["volume"].as_f64().unwrap();
+    assert!((15.9..32.0).contains(&volume), "{volume}");
 }
 
 #[test]
@@ -143,10 +177,10 @@ fn bodies_among_points_are_in_their_bounding_box() {
         .ends(2)
         .stderr_has(&["nan.csv: row 2 (line 2), column 1 (counted from 0): the value is nan"]);
     folder.put("far.csv", "1e9,2,3\n");
-    folder
-        .taut("inscribe bodies cube.off --obstacles far.csv")
-        .ends(2)
-        .stderr_has(&["cube.off with far.csv: row 12 is a point", "leave the point out"]);
+    folder.taut("inscribe bodies cube.off --obstacles far.csv").ends(2).stderr_has(&[
+        "cube.off with far.csv: row 12, the point [1000000000.0",
+        "leave the point out",
+    ]);
     folder.taut("ball points.csv -o ball.json").ends(0);
     folder
         .taut("verify ball.json points.csv --obstacles points.csv")
@@ -160,14 +194,13 @@ fn bodies_contain_segments() {
     let command = "inscribe bodies cube.off --obstacles wall.off --at 2,0.5,0.5,3.5,3.5,3.5 --at 1,1,1 --events 800 \
                    -o bodies.json";
     folder.taut(command).ends(0).stdout_has(&["2 convex bodies"]);
-    folder
-        .taut("verify bodies.json cube.off --obstacles wall.off")
-        .ends(0)
-        .stdout_has(&["2 given segments in as many bodies, in their order; proved"]);
+    folder.taut("verify bodies.json cube.off --obstacles wall.off").ends(0).stdout_has(&[
+        "1 given point and 1 given segment in as many bodies, in their order; proved",
+    ]);
     folder
         .taut("inscribe bodies cube.off --obstacles wall.off --at 1,1,1,2,2,2")
         .ends(2)
-        .stderr_has(&["point 0", "meets the surface"]);
+        .stderr_has(&["point 0", "meets a surface"]);
 }
 
 #[test]

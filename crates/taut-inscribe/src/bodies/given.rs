@@ -32,12 +32,18 @@ pub(super) fn starts(
         let clearance = tree.clearance(ends);
         if clearance < GIVEN_CLEARANCE_MIN {
             return wrong(match from == to {
-                true => "is on the surface, or nearer to it than 40 units of the grid",
-                false => "meets the surface, or is nearer to it than 40 units of the grid",
+                true => "is on a surface or an obstacle, or nearer to it than 40 units of the grid",
+                false => {
+                    "meets a surface or an obstacle, or is nearer to it than 40 units of the grid"
+                }
             });
         }
         if tree.is_inside(from) != Some(true) {
-            return wrong("is outside of the mesh");
+            let is_alone = mesh.solids == 0;
+            return wrong(match is_alone {
+                true => "is outside of the mesh",
+                false => "is outside of the mesh, or in a solid obstacle",
+            });
         }
         if !mesh.sees_mesh(point) {
             return wrong("is before a hole: caps fill at least a third of the view from there");

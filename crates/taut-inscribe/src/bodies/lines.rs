@@ -5,6 +5,7 @@
 //! them is no estimate: [`occlusion`](crate::occlusion()) draws lines of its own.
 
 use super::polytope::Sides;
+use super::scene::{WALL, free_parts};
 use super::tree::{Parts, Tree};
 use super::vectors::{cross, dot, minus, plus};
 use crate::occlusion::frame;
@@ -49,7 +50,7 @@ pub(super) struct Sample {
 impl Sample {
     /// Draws lines until so many cross the mesh, or hardly any does.
     pub(super) fn draw(tree: &Tree, wanted: usize, random: &mut Random) -> Self {
-        let [center, half] = tree.bounds(0);
+        let [center, half] = tree.mesh_bounds();
         let radius = dot(half, half).sqrt();
         let mut sample = Sample { lines: vec![], middles: vec![] };
         for _ in 0..DRAWS_PER_LINE_MAX * wanted {
@@ -78,16 +79,16 @@ fn random_line(center: [f64; 3], radius: f64, random: &mut Random) -> Line {
     Line { point: plus(plus(center, s, one), t, other), direction }
 }
 
-/// The middle of the longest part between a crossing and the next one, the first with the second and so on; `None` for a line
-/// without crossings, or with a number that rounding made odd.
-fn middle(crossings: &[f64]) -> Option<f64> {
-    let (parts, rest) = crossings.as_chunks::<2>();
+/// The middle of the longest part in the mesh and in no solid; `None` for a line without such a part, or with a number of crossings
+/// that rounding made odd.
+fn middle(crossings: &[(f64, i32)]) -> Option<f64> {
+    let (parts, is_closed) = free_parts(crossings);
     let longest = parts.iter().max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])))?;
-    rest.is_empty().then(|| f64::midpoint(longest[0], longest[1]))
+    is_closed.then(|| f64::midpoint(longest[0], longest[1]))
 }
 
-/// Where a line crosses triangles, ascending.
-fn crossings(tree: &Tree, line: &Line) -> Vec<f64> {
+/// Where a line crosses surfaces, ascending, and their numbers; without walls.
+fn crossings(tree: &Tree, line: &Line) -> Vec<(f64, i32)> {
     let mut found = vec![];
     let mut stack = vec![0];
     while let Some(at) = stack.pop() {
@@ -98,11 +99,16 @@ fn crossings(tree: &Tree, line: &Line) -> Vec<f64> {
         match tree.parts(at) {
             Parts::Nodes(nodes) => stack.extend(nodes),
             Parts::Triangles(range) => {
-                found.extend(range.filter_map(|t| crossing(line, &tree.corners[t])));
+                let surfaces = range.map(|t| (t, tree.surfaces[t]));
+                found.extend(
+                    surfaces.filter(|&(_, surface)| surface != WALL).filter_map(|(t, surface)| {
+                        Some((crossing(line, &tree.corners[t])?, surface))
+                    }),
+                );
             }
         }
     }
-    found.sort_by(f64::total_cmp);
+    found.sort_by(|one, other| one.0.total_cmp(&other.0));
     found
 }
 
@@ -174,7 +180,7 @@ mod tests {
     #[test]
     fn the_middle_is_that_of_the_longest_part_inside() {
         assert_eq!(middle(&[]), None);
-        assert_eq!(middle(&[1.0, 2.0, 5.0]), None);
-        assert_eq!(middle(&[0.0, 1.0, 5.0, 9.0, 20.0, 22.0]), Some(7.0));
+        assert_eq!(middle(&[1.0, 2.0, 5.0].map(|t| (t, 0))), None);
+        assert_eq!(middle(&[0.0, 1.0, 5.0, 9.0, 20.0, 22.0].map(|t| (t, 0))), Some(7.0));
     }
 }

@@ -1,10 +1,11 @@
 //! A triangle mesh that is closed, if need be by caps, with corners on a grid.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 use taut_points::{InputError, Monitor, PointSource, PointsHash, hash_block, map_blocks};
 
 use super::caps;
+use super::scene::{MESH, WALL};
 use crate::Error;
 
 /// The longest side has from 2²³ to 2²⁴ units of the grid.
@@ -22,6 +23,9 @@ const POINT_UNITS_MAX: f64 = (1u64 << 29) as f64;
 /// Most triangles, so that rows have 32-bit numbers.
 const TRIANGLES_MAX: u64 = u32::MAX as u64 / 4;
 
+/// Longest sides of the mesh that it may measure together with obstacles, at most: they share its grid, of which less is left for it.
+const OBSTACLE_SIDES_MAX: f64 = 32.0;
+
 /// The part of the view from an inner point that caps may fill. From near a flat cap it is a half; from the middle of half a ball it
 /// is 0.3, and a third is reached in bowls that are flatter.
 const CAPS_VIEW_MAX: f64 = 1.0 / 3.0;
@@ -36,12 +40,18 @@ pub(super) struct GridMesh {
     /// The corners of each row and then of each cap, rounded to the nearest point of the grid. Coordinates are from 0 to 2²⁴ + 1; rows
     /// that are points beyond the bounding box of the triangles are moved to at most 2 units from it.
     pub(super) corners: Vec<[[i32; 3]; 3]>,
+    /// The number of the surface of each row and cap, as those of a [`Scene`](super::scene::Scene).
+    pub(super) surfaces: Vec<i32>,
     /// The triangles that close the mesh: corner c of row r is number 3·r + c.
     pub(super) caps: Vec<[u64; 3]>,
     /// Whether all coordinates are on the grid.
     pub(super) is_exact: bool,
     /// How many rows are points.
     pub(super) points: u64,
+    /// How many rows are triangles of the mesh.
+    pub(super) triangles: u64,
+    /// How many solids there are.
+    pub(super) solids: u64,
     pub(super) points_hash: PointsHash,
 }
 
@@ -53,40 +63,39 @@ impl GridMesh {
         close_holes: bool,
         monitor: &Monitor<'_>,
     ) -> Result<Self, Error> {
-        if source.dim() != 9 {
-            let (dim, expected) = (source.dim(), "9, those of the three corners of a triangle");
-            return Err(InputError::Dimension { dim, expected }.into());
-        }
+        check_dim(source)?;
         let points = source.len();
         if points > TRIANGLES_MAX {
             return Err(InputError::TooManyPoints { points, most: TRIANGLES_MAX }.into());
         }
-        let (mut triangles, points_hash) = rows(source, monitor)?;
-        let caps = match is_closed(&triangles) {
+        let (mut triangles, mut surfaces, points_hash) = rows(source, monitor)?;
+        let mesh = &triangles[..mesh_rows(&surfaces)?];
+        let caps = match is_closed(mesh) {
             true => vec![],
-            false => Boundary::of(&triangles).close(close_holes, &triangles, monitor)?,
+            false => Boundary::of(mesh).close(close_holes, mesh, monitor)?,
         };
+        let solids = closed_solids(&triangles, &surfaces)?;
+        let count = mesh.iter().filter(|triangle| !is_point(triangle)).count() as u64;
         let all = triangles.as_flattened();
         let closing: Vec<Triangle> =
             caps.iter().map(|cap| cap.map(|corner| all[corner as usize])).collect();
+        surfaces.extend(closing.iter().map(|_| MESH));
         triangles.extend(closing);
-        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-        let mut points = 0;
-        for triangle in &triangles {
-            if is_point(triangle) {
-                points += 1;
-                continue;
-            }
-            for corner in triangle {
-                for c in 0..3 {
-                    (low[c], high[c]) = (low[c].min(corner[c]), high[c].max(corner[c]));
-                }
-            }
-        }
-        let side = (0..3).map(|c| high[c] - low[c]).fold(0.0, f64::max);
-        if side == 0.0 {
+        let of_mesh = |&(_, &surface): &(&Triangle, &i32)| surface == MESH;
+        let mesh = triangles.iter().zip(&surfaces).filter(of_mesh).map(|(triangle, _)| triangle);
+        let (_, mesh_side) = bounding_box(mesh);
+        if mesh_side == 0.0 {
             return Err(Error::NoInside);
         }
+        let ([low, high], side) = bounding_box(&triangles);
+        if side > OBSTACLE_SIDES_MAX * mesh_side {
+            let far =
+                |corner: &[f64; 3]| (0..3).any(|c| corner[c] == low[c] || corner[c] == high[c]);
+            let is_far = |at: &usize| surfaces[*at] != MESH && triangles[*at].iter().any(far);
+            let row = (0..triangles.len()).find(is_far).unwrap_or(0) as u64;
+            return Err(Error::FarObstacle { row });
+        }
+        let points = triangles.iter().filter(|triangle| is_point(triangle)).count() as u64;
         let exponent = exponent_of(side) - (SIDE_BITS - 1);
         if !EXPONENTS.contains(&exponent) {
             return Err(Error::Grid { side });
@@ -107,7 +116,7 @@ impl GridMesh {
             }
             let off = |c: usize| units[0][c] - origin[c] as f64;
             if is_point(triangle) && (0..3).any(|c| off(c).abs() > POINT_UNITS_MAX) {
-                return Err(Error::FarPoint { row: row as u64 });
+                return Err(Error::FarPoint { row: row as u64, point: triangle[0] });
             }
             corners.push(units.map(|corner| {
                 [0, 1, 2].map(|c| {
@@ -116,7 +125,18 @@ impl GridMesh {
                 })
             }));
         }
-        Ok(GridMesh { exponent, origin, corners, caps, is_exact, points, points_hash })
+        Ok(GridMesh {
+            exponent,
+            origin,
+            corners,
+            surfaces,
+            caps,
+            is_exact,
+            points,
+            triangles: count,
+            solids,
+            points_hash,
+        })
     }
 
     /// Whether the mesh without its caps makes a point an inner one: caps fill less than a third of the view from there.
@@ -135,6 +155,49 @@ impl GridMesh {
     }
 }
 
+/// Refuses rows that are neither triangles nor triangles with the number of a surface.
+pub(crate) fn check_dim(source: &dyn PointSource) -> Result<(), InputError> {
+    let expected = "9, those of the three corners of a triangle, or 10, the last of them the number of its surface";
+    match source.dim() {
+        9 | 10 => Ok(()),
+        dim => Err(InputError::Dimension { dim, expected }),
+    }
+}
+
+/// The number of rows of the mesh, which come before all others.
+fn mesh_rows(surfaces: &[i32]) -> Result<usize, Error> {
+    let rows = surfaces.iter().position(|&surface| surface != MESH).unwrap_or(surfaces.len());
+    match surfaces[rows..].iter().position(|&surface| surface == MESH) {
+        Some(at) => Err(Error::Surface { row: (rows + at) as u64, value: f64::from(MESH) }),
+        None => Ok(rows),
+    }
+}
+
+/// The number of solids, each of which must be closed.
+fn closed_solids(triangles: &[Triangle], surfaces: &[i32]) -> Result<u64, Error> {
+    let mut solids: BTreeMap<i32, Vec<Triangle>> = BTreeMap::new();
+    for (&triangle, &surface) in triangles.iter().zip(surfaces) {
+        if surface > MESH {
+            solids.entry(surface).or_default().push(triangle);
+        }
+    }
+    match solids.iter().find(|(_, triangles)| !is_closed(triangles)) {
+        Some((&surface, _)) => Err(Error::OpenSolid { surface }),
+        None => Ok(solids.len() as u64),
+    }
+}
+
+/// The lower and the upper corner of the box of triangles, without points, and its longest side; 0 without any.
+fn bounding_box<'a>(triangles: impl IntoIterator<Item = &'a Triangle>) -> ([[f64; 3]; 2], f64) {
+    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    for corner in triangles.into_iter().filter(|triangle| !is_point(triangle)).flatten() {
+        for c in 0..3 {
+            (low[c], high[c]) = (low[c].min(corner[c]), high[c].max(corner[c]));
+        }
+    }
+    ([low, high], (0..3).map(|c| high[c] - low[c]).fold(0.0, f64::max))
+}
+
 /// Whether a row is a point that bodies do not contain: a triangle with three equal corners.
 pub(super) fn is_point([a, b, c]: &Triangle) -> bool {
     a == b && b == c
@@ -145,27 +208,39 @@ fn exponent_of(x: f64) -> i32 {
     (x.to_bits() >> 52) as i32 - 1023
 }
 
-/// All rows, which must be finite, and their hash.
+/// All triangles, which must be finite, the numbers of their surfaces, and the hash of the rows.
 fn rows(
     source: &dyn PointSource,
     monitor: &Monitor<'_>,
-) -> Result<(Vec<Triangle>, PointsHash), Error> {
+) -> Result<(Vec<Triangle>, Vec<i32>, PointsHash), Error> {
     monitor.pass(1, source.len());
+    let dim = source.dim();
     let blocks = map_blocks(source, monitor, |first, rows| {
         if let Some((row, column, value)) = rows.first_non_finite() {
             let row = first + row as u64;
             return Err(Error::Input(InputError::NonFinite { row, column, value }));
         }
-        let mut row = [0.0; 9];
-        let triangles = (0..rows.len()).map(|k| {
-            rows.copy_row(k, &mut row);
-            [[row[0], row[1], row[2]], [row[3], row[4], row[5]], [row[6], row[7], row[8]]]
-        });
-        Ok((hash_block(&rows), triangles.collect::<Vec<_>>()))
+        let mut row = [0.0; 10];
+        let (mut triangles, mut surfaces) = (vec![], vec![]);
+        for k in 0..rows.len() {
+            rows.copy_row(k, &mut row[..dim]);
+            let [a, b, c, d, e, f, g, h, i, value] = row;
+            let surface = value as i32;
+            if f64::from(surface) != value || surface < WALL {
+                return Err(Error::Surface { row: first + k as u64, value });
+            }
+            triangles.push([[a, b, c], [d, e, f], [g, h, i]]);
+            surfaces.push(surface);
+        }
+        Ok((hash_block(&rows), triangles, surfaces))
     })?;
-    let hashes = blocks.iter().map(|block| block.0);
-    let hash = PointsHash::of_blocks(source.len(), source.dim(), hashes);
-    Ok((blocks.into_iter().flat_map(|block| block.1).collect(), hash))
+    let hash = PointsHash::of_blocks(source.len(), dim, blocks.iter().map(|block| block.0));
+    let (mut triangles, mut surfaces) = (vec![], vec![]);
+    for (_, block, numbers) in blocks {
+        triangles.extend(block);
+        surfaces.extend(numbers);
+    }
+    Ok((triangles, surfaces, hash))
 }
 
 /// Whether each edge belongs to an even number of triangles. Faster than to sort the edges, which an open mesh needs.

@@ -260,7 +260,7 @@ impl<'a, F: Family> Packing<'a, F> {
         for (at, start) in self.input.given.iter().enumerate() {
             self.set_obstacles(None);
             let Some(body) = self.family.small(start) else {
-                let problem = "is in no body with facets in these directions: take more directions, or free facets";
+                let problem = "has no body around it that was found with facets in these directions: take more directions, or free facets";
                 return Err(Error::At { at, problem });
             };
             self.push(body);

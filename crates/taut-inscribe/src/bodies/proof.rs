@@ -31,7 +31,10 @@ pub(super) struct Proved {
 
 /// The error of a body around a given point that cannot be proved.
 pub(super) fn unproved(at: usize) -> Error {
-    Error::At { at, problem: "has too little room around it: no body could be proved" }
+    Error::At {
+        at,
+        problem: "has no body around it that could be proved: there is too little room, or facets are too few",
+    }
 }
 
 /// Proves bodies one by one and leaves out those without proof, which rounding may cause for bodies of a few units.

@@ -1,8 +1,7 @@
 //! The rows of which a search for bodies reads its mesh, and what bodies may not contain.
 
-use taut_points::InputError;
+use std::collections::HashSet;
 
-use super::mesh::is_closed;
 use crate::Error;
 
 /// The rows of a mesh, as [`inscribed_bodies`](crate::inscribed_bodies) reads them: for each triangle the coordinates of its corners.
@@ -30,31 +29,17 @@ pub fn triangle_rows(vertices: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<Ve
     Ok(rows)
 }
 
-/// The rows of points that no body may contain, to come after those of a mesh: triangles with three equal corners.
+/// The rows of points that no body may contain, to come after those of a mesh: triangles with three equal corners. Equal points come once.
 ///
 /// ```
-/// let rows = taut_inscribe::point_rows(&[[1.0, 2.0, 3.0]]);
+/// let rows = taut_inscribe::point_rows(&[[1.0, 2.0, 3.0]; 2]);
 /// assert_eq!(rows, [1.0, 2.0, 3.0, 1.0, 2.0, 3.0, 1.0, 2.0, 3.0]);
 /// ```
 pub fn point_rows(points: &[[f64; 3]]) -> Vec<f64> {
-    points.iter().flat_map(|&point| [point; 3]).flatten().collect()
-}
-
-/// The rows of a surface that bodies stay clear of, to come after those of a mesh around it: each triangle once where the surface
-/// is closed, so that its inside is outside of the mesh, and else twice, so that it is a wall.
-///
-/// `triangles` are rows as those of [`triangle_rows`].
-///
-/// # Errors
-/// [`Error::Input`] where the numbers are not 9 for each triangle.
-pub fn surface_rows(triangles: &[f64]) -> Result<Vec<f64>, Error> {
-    let (corners, rest) = triangles.as_chunks::<3>();
-    let (triangles_of, others) = corners.as_chunks::<3>();
-    if !rest.is_empty() || !others.is_empty() {
-        let (dim, expected) = (triangles.len(), "a multiple of 9, the corners of triangles");
-        return Err(InputError::Dimension { dim, expected }.into());
-    }
-    Ok(if is_closed(triangles_of) { triangles.to_vec() } else { triangles.repeat(2) })
+    let mut seen = HashSet::with_capacity(points.len());
+    // −0 and 0 are one number.
+    let is_new = |point: &&[f64; 3]| seen.insert(point.map(|x| (x + 0.0).to_bits()));
+    points.iter().filter(is_new).flat_map(|&point| [point; 3]).flatten().collect()
 }
 
 /// The rows of the bounding box of points, as a mesh of 12 triangles, turned outward: a mesh in which bodies among the points are found.

@@ -101,7 +101,7 @@ struct Search<'a> {
 impl Search<'_> {
     /// The points of a grid over the bounding box that are inside by votes.
     fn grid(&self, cells: usize) -> Vec<Candidate> {
-        let [center, half] = self.space.tree.bounds(0);
+        let [center, half] = self.space.tree.mesh_bounds();
         let step = 2.0 * half.into_iter().fold(0.0, f64::max) / cells as f64;
         let along = |c: usize| {
             let count = (2.0 * half[c] / step).ceil() as usize;
@@ -124,7 +124,7 @@ impl Search<'_> {
             let other = self.thesis.merge.then(|| self.neighbor(largest)).flatten();
             return Some((largest.point, other));
         }
-        let [center, half] = self.space.tree.bounds(0);
+        let [center, half] = self.space.tree.mesh_bounds();
         let middle = center.map(|x| x.round() as i32);
         if self.thesis.seeds == ThesisSeeds::Center && self.is_free(middle, dops) {
             return Some((middle, None));
@@ -193,7 +193,7 @@ impl Search<'_> {
 
     /// Doubles the size of a dop as long as nothing is in it and it is not larger than the mesh.
     fn double(&mut self, seed: [i32; 3]) -> Option<Dop> {
-        let [_, half] = self.space.tree.bounds(0);
+        let [_, half] = self.space.tree.mesh_bounds();
         let most = half.into_iter().fold(0.0, f64::max);
         let (mut center, mut reach) = (seed, FIRST_REACH);
         if !self.is_empty(center, reach) {

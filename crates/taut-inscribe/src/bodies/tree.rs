@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::clip::{self, Scratch, TOUCH};
 use super::directions::{Directions, Offsets, opposite};
+use super::scene::{Insides, MESH, WALL};
 use super::segment;
 use super::vectors::{dot, minus, nearest};
 
@@ -38,6 +39,10 @@ pub(super) struct Tree {
     pub(super) corners: Arc<Vec<[[i32; 3]; 3]>>,
     /// The row of each triangle.
     pub(super) rows: Arc<Vec<u32>>,
+    /// The surface of each triangle, by its number in a [`Scene`](super::scene::Scene).
+    pub(super) surfaces: Arc<Vec<i32>>,
+    /// The box of the triangles of the mesh, without obstacles.
+    mesh_bounds: Bounds,
 }
 
 /// How far a facet can move.
@@ -55,8 +60,18 @@ pub(super) enum Parts {
 }
 
 impl Tree {
-    /// Builds the tree of the triangles, of which there is at least one.
+    /// Builds the tree of the triangles of a mesh, of which there is at least one.
+    #[cfg(test)]
     pub(super) fn new(triangles: &[[[i32; 3]; 3]], directions: &Arc<Directions>) -> Self {
+        Tree::of_surfaces(triangles, &vec![MESH; triangles.len()], directions)
+    }
+
+    /// Builds the tree of triangles, of which there is at least one, each with the number of its surface.
+    pub(super) fn of_surfaces(
+        triangles: &[[[i32; 3]; 3]],
+        surfaces: &[i32],
+        directions: &Arc<Directions>,
+    ) -> Self {
         let center = |(row, [a, b, c]): (usize, &[[i32; 3]; 3])| Centered {
             center: [a[0] + b[0] + c[0], a[1] + b[1] + c[1], a[2] + b[2] + c[2]],
             row: row as u32,
@@ -67,33 +82,25 @@ impl Tree {
         let rows: Vec<u32> = order.iter().map(|item| item.row).collect();
         let corners: Vec<_> = rows.iter().map(|&row| triangles[row as usize]).collect();
         let bounds = bounds_of(&nodes, &corners);
-        Self::with_heights(
-            Arc::clone(directions),
-            Arc::new(nodes),
-            Arc::new(bounds),
-            Arc::new(corners),
-            Arc::new(rows),
-        )
+        let mesh = triangles.iter().zip(surfaces).filter(|&(_, &surface)| surface == MESH);
+        let mesh_bounds = box_of(mesh.flat_map(|(triangle, _)| triangle).copied());
+        let shape = Tree {
+            directions: Arc::clone(directions),
+            nodes: Arc::new(nodes),
+            bounds: Arc::new(bounds),
+            node_heights: vec![],
+            heights: vec![],
+            corners: Arc::new(corners),
+            surfaces: Arc::new(rows.iter().map(|&row| surfaces[row as usize]).collect()),
+            rows: Arc::new(rows),
+            mesh_bounds,
+        };
+        shape.turned(directions)
     }
 
     /// Builds the tree of the same triangles for other directions.
     pub(super) fn turned(&self, directions: &Arc<Directions>) -> Self {
-        Self::with_heights(
-            Arc::clone(directions),
-            Arc::clone(&self.nodes),
-            Arc::clone(&self.bounds),
-            Arc::clone(&self.corners),
-            Arc::clone(&self.rows),
-        )
-    }
-
-    fn with_heights(
-        directions: Arc<Directions>,
-        nodes: Arc<Vec<Node>>,
-        bounds: Arc<Vec<Bounds>>,
-        corners: Arc<Vec<[[i32; 3]; 3]>>,
-        rows: Arc<Vec<u32>>,
-    ) -> Self {
+        let (nodes, corners) = (&self.nodes, &self.corners);
         let k = directions.len();
         let mut heights = Vec::with_capacity(k * corners.len());
         for &[a, b, c] in corners.iter() {
@@ -116,7 +123,17 @@ impl Tree {
                 };
             }
         }
-        Tree { directions, nodes, bounds, node_heights, heights, corners, rows }
+        Tree {
+            directions: Arc::clone(directions),
+            nodes: Arc::clone(nodes),
+            bounds: Arc::clone(&self.bounds),
+            node_heights,
+            heights,
+            corners: Arc::clone(corners),
+            rows: Arc::clone(&self.rows),
+            surfaces: Arc::clone(&self.surfaces),
+            mesh_bounds: self.mesh_bounds,
+        }
     }
 
     /// The parts of a node; the root is node 0.
@@ -130,14 +147,17 @@ impl Tree {
 
     /// The center and the half sides of the box of a node.
     pub(super) fn bounds(&self, at: u32) -> [[f64; 3]; 2] {
-        let [low, high] = self.bounds[at as usize].map(|corner| corner.map(f64::from));
-        let along = |part: fn(f64, f64) -> f64| [0, 1, 2].map(|c| part(low[c], high[c]));
-        [along(|low, high| (low + high) / 2.0), along(|low, high| (high - low) / 2.0)]
+        center_and_half(self.bounds[at as usize])
     }
 
-    /// The lower and the upper corner of the bounding box of all triangles.
-    pub(super) fn corners_of_bounds(&self) -> Bounds {
-        self.bounds[0]
+    /// The center and the half sides of the box of the mesh, without obstacles.
+    pub(super) fn mesh_bounds(&self) -> [[f64; 3]; 2] {
+        center_and_half(self.mesh_bounds)
+    }
+
+    /// The lower and the upper corner of the box of the mesh, without obstacles.
+    pub(super) fn corners_of_mesh_bounds(&self) -> Bounds {
+        self.mesh_bounds
     }
 
     /// The largest uᵢ·x of all triangles.
@@ -211,35 +231,41 @@ impl Tree {
         )
     }
 
-    /// Whether a ray upward from a point of the grid crosses an odd number of triangles; `None` for a point on a triangle.
+    /// Whether a point of the grid is in the mesh and in no solid, by the parity of crossings of a ray upward; `None` for a point on a
+    /// triangle.
     pub(super) fn is_inside(&self, p: [i32; 3]) -> Option<bool> {
-        let mut is_odd = false;
+        let mut insides = Insides::default();
         let is_off = self.column(p, |t| {
             let [a, b, c] = self.corners[t].map(|q| [0, 1, 2].map(|k| i128::from(q[k] - p[k])));
             let minus = |p: [i128; 3], q: [i128; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
             let n = cross(minus(b, a), minus(c, a));
             // The point of the plane above p is at the height n·a / n_z.
             let height = (n[0] * a[0] + n[1] * a[1] + n[2] * a[2]).signum() * n[2].signum();
-            is_odd ^= height > 0;
+            if height > 0 {
+                insides.cross(self.surfaces[t]);
+            }
             height != 0
         });
-        is_off.then_some(is_odd)
+        is_off.then(|| insides.is_free())
     }
 
-    /// The heights at which the vertical line through a point of the grid crosses triangles, ascending.
-    pub(super) fn crossings(&self, x: i32, y: i32) -> Vec<f64> {
+    /// The heights at which the vertical line through a point of the grid crosses surfaces, ascending, and their numbers; without walls.
+    pub(super) fn crossings(&self, x: i32, y: i32) -> Vec<(f64, i32)> {
         let mut heights = vec![];
         self.column([x, y, 0], |t| {
+            if self.surfaces[t] == WALL {
+                return true;
+            }
             let [a, b, c] = self.corners[t]
                 .map(|q| [f64::from(q[0] - x), f64::from(q[1] - y), f64::from(q[2])]);
             let minus = |p: [f64; 3], q: [f64; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
             let (u, v) = (minus(b, a), minus(c, a));
             let n =
                 [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
-            heights.push(a[2] + (n[0] * a[0] + n[1] * a[1]) / n[2]);
+            heights.push((a[2] + (n[0] * a[0] + n[1] * a[1]) / n[2], self.surfaces[t]));
             true
         });
-        heights.sort_by(f64::total_cmp);
+        heights.sort_by(|one, other| one.0.total_cmp(&other.0));
         heights
     }
 
@@ -368,19 +394,33 @@ fn split(nodes: &mut Vec<Node>, items: &mut [Centered], first: u32) {
     split(nodes, upper, first + middle as u32);
 }
 
-/// The bounding boxes of the triangles of nodes. Children come after their parents.
-fn bounds_of(nodes: &[Node], corners: &[[[i32; 3]; 3]]) -> Vec<Bounds> {
+/// The center and the half sides of a box.
+fn center_and_half(bounds: Bounds) -> [[f64; 3]; 2] {
+    let [low, high] = bounds.map(|corner| corner.map(f64::from));
+    let along = |part: fn(f64, f64) -> f64| [0, 1, 2].map(|c| part(low[c], high[c]));
+    [along(|low, high| (low + high) / 2.0), along(|low, high| (high - low) / 2.0)]
+}
+
+/// The box that holds two boxes.
+fn joined([low, high]: Bounds, [other_low, other_high]: Bounds) -> Bounds {
     let along =
         |p: [i32; 3], q: [i32; 3], pick: fn(i32, i32) -> i32| [0, 1, 2].map(|c| pick(p[c], q[c]));
-    let joined = |[low, high]: Bounds, [other_low, other_high]: Bounds| {
-        [along(low, other_low, i32::min), along(high, other_high, i32::max)]
-    };
+    [along(low, other_low, i32::min), along(high, other_high, i32::max)]
+}
+
+/// The box of points; of none that of the origin.
+fn box_of(points: impl Iterator<Item = [i32; 3]>) -> Bounds {
+    points.map(|p| [p, p]).reduce(joined).unwrap_or([[0; 3]; 2])
+}
+
+/// The bounding boxes of the triangles of nodes. Children come after their parents.
+fn bounds_of(nodes: &[Node], corners: &[[[i32; 3]; 3]]) -> Vec<Bounds> {
     let mut bounds = vec![[[0; 3]; 2]; nodes.len()];
     for (at, node) in nodes.iter().enumerate().rev() {
         bounds[at] = match node.other {
             0 => {
-                let own = corners[node.first as usize..node.end as usize].as_flattened().iter();
-                own.map(|&p| [p, p]).reduce(joined).unwrap_or([[0; 3]; 2])
+                let own = &corners[node.first as usize..node.end as usize];
+                box_of(own.as_flattened().iter().copied())
             }
             other => joined(bounds[at + 1], bounds[other as usize]),
         };

@@ -127,7 +127,7 @@ impl<'a> Edges<'a> {
     }
 
     /// Returns what products of differences may be off by in the checker as well, relative to the length of an edge.
-    fn error(&self, p: [f64; 2], edge: u32) -> f64 {
+    pub(super) fn error(&self, p: [f64; 2], edge: u32) -> f64 {
         let [a, b] = self.scaled[edge as usize];
         let size = |p: [f64; 2], q: [f64; 2]| (p[0] - q[0]).abs() + (p[1] - q[1]).abs();
         PRODUCT_ERROR * (size(p, a) + size(b, a))

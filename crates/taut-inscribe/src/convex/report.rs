@@ -2,7 +2,7 @@
 
 use taut_predicates::plane::orient;
 
-use crate::polygon::Segment;
+use crate::polygon::{Segment, is_inside};
 use crate::units::Units;
 
 use super::region::{Region, cross, minus};
@@ -29,7 +29,9 @@ pub(super) fn rounded(body: &Region, units: &Units, edges: &[Segment]) -> Option
         let shrunk = |p: [f64; 2]| [0, 1].map(|k| p[k] + share * (centroid[k] - p[k]));
         let given = body.corners.iter().map(|&p| units.given_point(shrunk(p)));
         let corners = hull(given.collect());
-        let holds = corners.len() >= 3 && sides(&corners).all(|[a, b]| turns_left(a, b, inside));
+        let holds = corners.len() >= 3
+            && is_inside(edges.iter().copied(), inside)
+            && sides(&corners).all(|[a, b]| turns_left(a, b, inside));
         if holds && !edges.iter().any(|&edge| enters(edge, &corners)) {
             return Some(Reported { corners, inside });
         }
@@ -43,6 +45,17 @@ pub(super) fn area(corners: &[[f64; 2]]) -> f64 {
     let first = corners[0];
     let pieces = corners.windows(2);
     pieces.map(|pair| 0.5 * cross(minus(pair[0], first), minus(pair[1], first))).sum()
+}
+
+/// A bound of the error of [`area`]: each product of differences is off by less than 4 roundings, and each sum by one of the terms so far.
+pub(super) fn area_error(corners: &[[f64; 2]]) -> f64 {
+    let first = corners[0];
+    let size = |pair: &[[f64; 2]]| {
+        let ([a, b], [c, d]) = (minus(pair[0], first), minus(pair[1], first));
+        0.5 * ((a * d).abs() + (b * c).abs())
+    };
+    let terms: f64 = corners.windows(2).map(size).sum();
+    (4.0 + corners.len() as f64) * f64::EPSILON * terms
 }
 
 /// The strictly convex hull of points, counterclockwise, by exact signs.

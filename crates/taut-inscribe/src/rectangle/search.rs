@@ -6,10 +6,9 @@
 use std::rc::Rc;
 
 use taut_points::Cancelled;
-use taut_predicates::plane::orient;
 
 use crate::frontier::{Frontier, Waiting};
-use crate::polygon::Segment;
+use crate::polygon::{Segment, is_inside};
 
 use super::RectangleOptions;
 use super::cell::{Axis, Cell, Rectangle};
@@ -241,16 +240,4 @@ impl Search<'_> {
 /// An upper bound of an area of three roundings.
 fn rounded_up(area: f64) -> f64 {
     if area > 0.0 { area * (1.0 + 4.0 * f64::EPSILON) } else { 0.0 }
-}
-
-/// Whether an odd number of edges cross the horizontal line through p to the left of it.
-fn is_inside(edges: impl Iterator<Item = Segment>, p: [f64; 2]) -> bool {
-    let is_left = |[a, b]: &Segment| {
-        if (a[1] <= p[1]) == (b[1] <= p[1]) {
-            return false;
-        }
-        let (low, high) = if a[1] <= p[1] { (*a, *b) } else { (*b, *a) };
-        !orient(low, high, p).is_positive()
-    };
-    edges.filter(is_left).count() % 2 == 1
 }

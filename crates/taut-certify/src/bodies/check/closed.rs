@@ -1,8 +1,8 @@
-//! Whether a mesh with its caps is closed.
+//! Whether a mesh with its caps is closed, and each solid.
 
 use std::collections::BTreeMap;
 
-use super::BodiesViolation;
+use super::{BodiesViolation, MESH, Triangle};
 
 /// A corner by the bits of its coordinates.
 type Place = [u64; 3];
@@ -12,6 +12,38 @@ type Edge = ([Place; 2], u64);
 
 /// Hashes in a bucket, about: as many as a sort by insertion and few comparisons takes.
 const BUCKET_HASHES: usize = 32;
+
+/// Checks that the mesh with its caps is closed, and each solid; returns how many solids there are. The first `rows` triangles are no
+/// caps.
+pub(super) fn are_closed(
+    triangles: &[Triangle],
+    surfaces: &[i32],
+    rows: usize,
+) -> Result<u64, BodiesViolation> {
+    if surfaces.iter().all(|&surface| surface == MESH) {
+        return is_closed(triangles, rows).map(|()| 0);
+    }
+    // Each surface by itself, and the row of each of its triangles.
+    let mut parts: BTreeMap<i32, (Vec<Triangle>, Vec<u64>)> = BTreeMap::new();
+    for (row, (&triangle, &surface)) in triangles.iter().zip(surfaces).enumerate() {
+        if surface >= MESH {
+            let (part, rows) = parts.entry(surface).or_default();
+            part.push(triangle);
+            rows.push(row as u64);
+        }
+    }
+    for (part, of_part) in parts.values() {
+        // Of the mesh the last ones are caps.
+        let not_caps = of_part.partition_point(|&row| row < rows as u64);
+        is_closed(part, not_caps).map_err(|violation| match violation {
+            BodiesViolation::Open { row, from, to } => {
+                BodiesViolation::Open { row: of_part[row as usize], from, to }
+            }
+            other => other,
+        })?;
+    }
+    Ok(parts.keys().filter(|&&surface| surface > MESH).count() as u64)
+}
 
 /// Checks that each edge belongs to an even number of triangles, and that there are no more caps than holes need. The first
 /// `rows` triangles are those of the mesh. Corners with equal coordinates are one vertex.

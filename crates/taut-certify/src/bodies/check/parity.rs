@@ -1,13 +1,15 @@
-//! Whether a point of the grid is inside a closed mesh with corners on the grid.
+//! Whether a point of the grid is inside a closed mesh with corners on the grid, and in none of the solids in it.
 //!
-//! *Idea.* The triangles that a ray in the direction of x crosses are counted. The ray starts at (x, y + ε, z + ε²) for an
+//! *Idea.* The triangles of each surface that a ray in the direction of x crosses are counted. The ray starts at (x, y + ε, z + ε²) for an
 //! infinitely small ε, so that it meets no edge; the signs are those of whole numbers.
 
 use super::grid::Boxes;
+use super::{MESH, WALL};
 
-/// Whether the ray crosses an odd number of triangles. False for a point on a triangle.
-pub(super) fn is_inside(point: [i64; 3], boxes: &Boxes) -> bool {
-    let mut is_odd = false;
+/// Whether the ray crosses an odd number of triangles of the mesh, and an even number of each solid. False for a point on a triangle.
+pub(super) fn is_inside(point: [i64; 3], boxes: &Boxes, surfaces: &[i32]) -> bool {
+    // The surfaces of which an odd number of triangles are crossed.
+    let mut odd: Vec<i32> = vec![];
     for (rows, low, high) in boxes.blocks() {
         // Blocks beside the moved ray, or behind its start, have no triangle that it crosses.
         let [low, high] = [low, high].map(|corner| corner.map(i64::from));
@@ -15,19 +17,31 @@ pub(super) fn is_inside(point: [i64; 3], boxes: &Boxes) -> bool {
         if is_beside(1) || is_beside(2) || high[0] < point[0] {
             continue;
         }
-        for triangle in &boxes.floors[rows] {
+        for row in rows {
+            let triangle = &boxes.floors[row];
             // Most triangles are all above or all below the ray.
             let sides = triangle.map(|corner| i64::from(corner[1]) > point[1]);
             if sides == [true; 3] || sides == [false; 3] {
                 continue;
             }
             match crosses(point, &triangle.map(|corner| corner.map(i64::from))) {
-                Some(crosses) => is_odd ^= crosses,
+                Some(true) if surfaces[row] != WALL => toggle(&mut odd, surfaces[row]),
+                Some(_) => {}
                 None => return false,
             }
         }
     }
-    is_odd
+    odd == [MESH]
+}
+
+/// Takes a number away that is there, and adds one that is not.
+fn toggle(numbers: &mut Vec<i32>, number: i32) {
+    match numbers.iter().position(|&other| other == number) {
+        Some(at) => {
+            numbers.swap_remove(at);
+        }
+        None => numbers.push(number),
+    }
 }
 
 /// Whether the ray crosses a triangle; `None` if it starts on it.
@@ -77,7 +91,7 @@ mod tests {
 
     fn inside(point: [i64; 3], floors: &[[[i32; 3]; 3]]) -> bool {
         let rows = floors.len();
-        is_inside(point, &Boxes::around(rows, floors.to_vec(), floors.to_vec()))
+        is_inside(point, &Boxes::around(rows, floors.to_vec(), floors.to_vec()), &vec![MESH; rows])
     }
 
     #[test]

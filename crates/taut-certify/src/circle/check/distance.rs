@@ -30,6 +30,11 @@ pub(super) fn rounded_down(distance: Distance) -> f64 {
     (distance.value - distance.error) * (1.0 - 8.0 * U)
 }
 
+/// A bound of the error of a distance.
+pub(super) fn error(distance: Distance) -> f64 {
+    distance.error
+}
+
 /// A number that is not below the distance.
 pub(super) fn rounded_up(distance: Distance) -> f64 {
     (distance.value + distance.error) * (1.0 + 8.0 * U)

@@ -68,8 +68,8 @@ fn points_without_room_are_refused_with_the_reason() {
         (vec![[0.5, 0.5, -1e-3]], 0, "is outside of the mesh"),
         (vec![[f64::NAN; 3]], 0, "is not finite"),
         (vec![[f64::INFINITY; 3]], 0, "is not finite"),
-        (vec![[1.0, 0.5, 0.5]], 0, "is on the surface"),
-        (vec![[1e-6, 0.5, 0.5]], 0, "is on the surface"),
+        (vec![[1.0, 0.5, 0.5]], 0, "is on a surface or an obstacle"),
+        (vec![[1e-6, 0.5, 0.5]], 0, "is on a surface or an obstacle"),
     ] {
         for options in [options(18), free(256)] {
             let error = solve(&mesh, &BodiesOptions { at: &at, ..options }).unwrap_err();
@@ -162,7 +162,7 @@ fn a_body_around_a_segment_follows_it() {
     }
     // Along the axes there is none.
     let error = solve(&mesh, &around(options(6))).unwrap_err();
-    assert!(error.to_string().contains("no body with facets in these directions"), "{error}");
+    assert!(error.to_string().contains("was found with facets in these directions"), "{error}");
 }
 
 #[test]
@@ -171,12 +171,9 @@ fn segments_that_leave_the_mesh_are_refused() {
     let (at, ends) = ([[1.9, 0.5, 0.5]], [[0.5, 1.9, 0.5]]);
     for options in [options(18), free(256)] {
         let error = solve(&l_shape(), &BodiesOptions { at: &at, ends: &ends, ..options.clone() });
-        assert!(
-            error
-                .unwrap_err()
-                .to_string()
-                .contains("point 0 of those that bodies are to contain (from 0) meets the surface")
-        );
+        assert!(error.unwrap_err().to_string().contains(
+            "point 0 of those that bodies are to contain (from 0) meets a surface or an obstacle"
+        ));
         let outside = [[f64::NAN, 0.0, 0.0]];
         let error =
             solve(&l_shape(), &BodiesOptions { at: &at, ends: &outside, ..options.clone() });

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use taut_certify::{Answer, Solution};
 use taut_inscribe::{
     BodiesOptions, BodyShape, CircleOptions, ConvexOptions, EllipseOptions, Error,
-    OrientedRectangleOptions, RectangleOptions, TriangleOptions, inscribed_bodies,
+    OrientedRectangleOptions, RectangleOptions, Scene, TriangleOptions, inscribed_bodies,
     inscribed_circle, inscribed_ellipse, inscribed_oriented_rectangle, inscribed_polygon,
     inscribed_rectangle, inscribed_triangle,
 };
@@ -124,7 +124,19 @@ pub(crate) fn mesh(bytes: &[u8]) -> bool {
         // Points among the triangles, one of them a corner.
         triangles.extend(corners.iter().rev().take(5).map(|&point| [point; 3]));
     }
-    let Ok(points) = Points::new(triangles.as_flattened().as_flattened(), 9) else { return false };
+    let rows = triangles.as_flattened().as_flattened();
+    let (values, dim) = if shape & 64 != 0 {
+        // The triangles of a half of the corners as a mesh, and those of the others as an obstacle.
+        let (mesh, obstacle) = rows.split_at(rows.len() / 18 * 9);
+        let Ok(mut scene) = Scene::around(mesh) else { return false };
+        let is_added = scene.add_surface(obstacle);
+        is_added.expect("rows of nine numbers");
+        scene.add_points(&corners[..corners.len().min(2)]);
+        (scene.into_rows(), 10)
+    } else {
+        (rows.to_vec(), 9)
+    };
+    let Ok(points) = Points::new(&values, dim) else { return false };
     let directions: Vec<[i64; 3]> = rest
         .as_chunks::<3>()
         .0

@@ -1,6 +1,6 @@
 //! Convex bodies in triangle meshes.
 
-use taut::inscribe::{BodiesOptions, BodyShape, inscribed_bodies, point_rows};
+use taut::inscribe::{BodiesOptions, BodyShape, Scene, inscribed_bodies, point_rows};
 
 use super::{Case, Input, Solved, cases, document};
 
@@ -64,14 +64,23 @@ fn meshes() -> Vec<Input> {
         ("a cube with a hole", open_cube),
         ("a cube with points in it and beside it", among_points),
     ];
-    found.into_iter().map(|(name, values)| Input::new(name, values, 9)).collect()
+    let mut among = Scene::around(&cuboid([0.0; 3], [4.0; 3])).expect("rows of triangles");
+    among.add_points(&[[3.5, 1.0, 2.0]]);
+    // A solid in the mesh, one that leaves it, and a wall.
+    let leaving = cuboid([3.0; 3], [6.0; 3]);
+    for surface in [&cuboid([1.0; 3], [2.0; 3])[..], &leaving[..], &octahedron()[..9]] {
+        among.add_surface(surface).expect("rows of triangles");
+    }
+    let scene = Input::new("a cube with obstacles", among.into_rows(), 10);
+    found.into_iter().map(|(name, values)| Input::new(name, values, 9)).chain([scene]).collect()
 }
 
 fn solve(input: &Input) -> Vec<Solved> {
     let base = BodiesOptions { events: 400, close_holes: true, ..BodiesOptions::default() };
     let dop = |directions| BodiesOptions { shape: BodyShape::Dop(directions), ..base.clone() };
     // A point in a third of the way from the first corner of the mesh to the mean of all corners.
-    let corners = input.values.as_chunks::<3>().0;
+    let rows = input.values.chunks_exact(input.columns);
+    let corners: Vec<[f64; 3]> = rows.flat_map(|row| row.as_chunks::<3>().0).copied().collect();
     let mean = |c: usize| corners.iter().map(|p| p[c] / corners.len() as f64).sum::<f64>();
     let at = [[0, 1, 2].map(|c| corners[0][c] + (mean(c) - corners[0][c]) / 3.0)];
     let ends = [[0, 1, 2].map(|c| at[0][c] + (mean(c) - at[0][c]) / 5.0)];

@@ -1,7 +1,7 @@
 //! Convex bodies in a mesh, in fractions.
 //!
-//! *Decided, all of it exactly.* The mesh with its caps is closed. No triangle and no cap has a point in the interior of a body:
-//! it is clipped by all half-spaces. One point of the body is inside by the even-odd rule. The points given are in the bodies. The volume is the sum of pyramids over clipped facets. Bodies are
+//! *Decided, all of it exactly.* The mesh with its caps is closed. No triangle, cap or obstacle has a point in the interior of a body:
+//! it is clipped by all half-spaces. One point of the body is inside the mesh and in no solid by the even-odd rule. The points given are in the bodies. The volume is the sum of pyramids over clipped facets. Bodies are
 //! disjoint if the mean of the corners of their intersection is in the border of one of them.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -20,9 +20,11 @@ type HalfSpace = (Point, BigRational);
 
 /// Knows the truth about the bodies in one mesh.
 pub struct BodiesOracle {
-    /// The triangles as given.
+    /// The triangles of the mesh as given.
     rows: Vec<[[f64; 3]; 3]>,
     triangles: Vec<[Point; 3]>,
+    /// The triangles of each solid, then those of walls and points.
+    obstacles: Vec<Vec<[Point; 3]>>,
     /// Twice the largest coordinate: no body inside reaches so far.
     reach: BigRational,
     /// What was said of answers before.
@@ -76,14 +78,26 @@ fn clipped(polygon: &[Point], (u, b): &HalfSpace) -> Vec<Point> {
 impl BodiesOracle {
     /// Prepares to judge bodies in the mesh of these rows.
     pub fn new(values: &[f64], columns: usize) -> Self {
-        let chunks = if columns == 9 { values.chunks_exact(9) } else { [].chunks_exact(9) };
+        let values = if matches!(columns, 9 | 10) { values } else { &[] };
         let corners = |row: &[f64]| [0, 3, 6].map(|k| [row[k], row[k + 1], row[k + 2]]);
-        let rows: Vec<[[f64; 3]; 3]> = chunks.map(corners).collect();
-        let triangles: Vec<[Point; 3]> =
-            rows.iter().map(|corners| corners.map(|p| p.map(exact))).collect();
+        let points = |corners: [[f64; 3]; 3]| corners.map(|p| p.map(exact));
+        let (mut rows, mut solids) = (vec![], BTreeMap::new());
+        let mut walls = vec![];
+        for row in values.chunks_exact(columns.max(1)) {
+            match row.get(9).copied().unwrap_or(0.0) {
+                0.0 => rows.push(corners(row)),
+                -1.0 => walls.push(points(corners(row))),
+                solid => {
+                    let of_solid = solids.entry(solid.to_bits()).or_insert_with(Vec::new);
+                    of_solid.push(points(corners(row)));
+                }
+            }
+        }
+        let triangles: Vec<[Point; 3]> = rows.iter().copied().map(points).collect();
         let coordinates = triangles.as_flattened().as_flattened().iter().map(|x| x.abs());
         let reach = coordinates.max().unwrap_or_else(BigRational::zero) * whole(2);
-        BodiesOracle { rows, triangles, reach, judged: BTreeMap::new() }
+        let obstacles = solids.into_values().chain([walls]).collect();
+        BodiesOracle { rows, triangles, obstacles, reach, judged: BTreeMap::new() }
     }
 
     /// Judges every claim of an answer that the checker let pass.
@@ -103,6 +117,7 @@ impl BodiesOracle {
             && verdict.bodies == answer.bodies.len() as u64
             && verdict.disjoint == answer.disjoint
             && verdict.caps == answer.caps.len() as u64
+            && verdict.solids == self.obstacles.len() as u64 - 1
             && verdict.at == answer.at.len() as u64;
         if !agrees {
             return Truth::False(format!("{verdict:?} does not fit the answer"));
@@ -193,7 +208,7 @@ impl BodiesOracle {
         if corners.as_flattened().iter().any(|x| x.abs() >= self.reach) {
             return Err("reaches far beyond the mesh");
         }
-        for triangle in triangles {
+        for triangle in triangles.iter().chain(self.obstacles.iter().flatten()) {
             let part = body.iter().fold(triangle.to_vec(), |part, side| clipped(&part, side));
             if !part.is_empty() && is_inside(body, &mean(&part)) {
                 return Err("is entered by a triangle");
@@ -201,6 +216,10 @@ impl BodiesOracle {
         }
         if !contains(triangles, &center) {
             return Err("is outside");
+        }
+        let solids = &self.obstacles[..self.obstacles.len() - 1];
+        if solids.iter().any(|solid| contains(solid, &center)) {
+            return Err("is in a solid");
         }
         let mut six = BigRational::zero();
         for polygon in facets {

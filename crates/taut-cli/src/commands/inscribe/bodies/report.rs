@@ -1,7 +1,7 @@
 //! What is said about convex bodies in a mesh.
 
 use taut::Solution;
-use taut::certify::InscribedBodies;
+use taut::certify::{BodiesVerdict, InscribedBodies};
 use taut::inscribe::Occlusion;
 use taut::points::PointSource;
 
@@ -13,8 +13,9 @@ impl Summary for InscribedBodies {
 
     fn title(report: &Report<'_, Self>) -> String {
         let found = report.found;
-        let points = found.trace.counters.get("obstacle_points").copied().unwrap_or(0);
-        in_mesh(found.answer.bodies.len() as u64, report.points.source().len(), points)
+        let counter = |name: &str| found.trace.counters.get(name).copied().unwrap_or(0);
+        let [triangles, points] = ["triangles", "obstacle_points"].map(counter);
+        in_mesh(found.answer.bodies.len() as u64, triangles, points)
     }
 
     fn fields(report: &Report<'_, Self>) -> Vec<Field> {
@@ -25,7 +26,10 @@ impl Summary for InscribedBodies {
         let points = counter("sample_points");
         let share = 100.0 * counter("covered") as f64 / points.max(1) as f64;
         let verified = match report.verdict {
-            Some(_) => Field::new("verified", "yes").remark(inside(answer.caps.len() as u64)),
+            Some(verdict) => Field::new("verified", "yes").remark(match obstacles(&verdict) {
+                Some(obstacles) => format!("{}; {obstacles}", inside(verdict.caps)),
+                None => inside(verdict.caps),
+            }),
             None => Field::new("verified", "not checked"),
         };
         let mut fields = vec![
@@ -56,7 +60,11 @@ impl Summary for InscribedBodies {
         3
     }
 
-    fn claims(found: &Solution<Self>, verdict: &Self::Verdict, source: &dyn PointSource) -> Claims {
+    fn claims(
+        found: &Solution<Self>,
+        verdict: &Self::Verdict,
+        _source: &dyn PointSource,
+    ) -> Claims {
         let (lower, upper) = (exact(verdict.volume_lower), exact(verdict.volume_upper));
         let mut fields = vec![
             Field::proved("inside", inside(verdict.caps))
@@ -67,18 +75,28 @@ impl Summary for InscribedBodies {
             Field::proved("largest", format!("a body of volume ≥ {}", exact(verdict.largest))),
         ];
         if verdict.at > 0 {
-            let what = if found.answer.ends.is_empty() { "given point" } else { "given segment" };
-            let given = counted(verdict.at, what);
+            let ends = &found.answer.ends;
+            let segments = found.answer.at.iter().zip(ends).filter(|(at, end)| at != end).count();
+            let given = match (segments as u64, verdict.at - segments as u64) {
+                (0, points) => counted(points, "given point"),
+                (segments, 0) => counted(segments, "given segment"),
+                (segments, points) => {
+                    format!(
+                        "{} and {}",
+                        counted(points, "given point"),
+                        counted(segments, "given segment")
+                    )
+                }
+            };
             fields.push(Field::proved("at", format!("{given} in as many bodies, in their order")));
         }
-        if verdict.points > 0 {
-            let points = counted(verdict.points, "point");
-            fields.push(Field::proved("obstacles", format!("none of {points} is in a body")));
+        if let Some(obstacles) = obstacles(verdict) {
+            fields.push(Field::proved("obstacles", obstacles));
         }
         if verdict.disjoint {
             fields.push(Field::proved("disjoint", "no two bodies overlap"));
         }
-        let what = in_mesh(verdict.bodies, source.len(), verdict.points);
+        let what = in_mesh(verdict.bodies, verdict.triangles, verdict.points);
         Claims { what, gap: None, fields }
     }
 }
@@ -107,13 +125,26 @@ pub(super) fn occlusion(found: &Occlusion) -> Field {
     ))
 }
 
-/// Bodies, and the rows among which they are, of which some are points.
-fn in_mesh(bodies: u64, rows: u64, points: u64) -> String {
+/// Says what bodies are clear of.
+fn obstacles(verdict: &BodiesVerdict) -> Option<String> {
+    let solids = (verdict.solids > 0)
+        .then(|| format!("outside of {}", counted(verdict.solids, "closed obstacle")));
+    let walls = (verdict.walls > 0).then(|| {
+        format!("met by none of {} of open obstacles", counted(verdict.walls, "triangle"))
+    });
+    let points = (verdict.points > 0)
+        .then(|| format!("none of {} is in a body", counted(verdict.points, "point")));
+    let all: Vec<String> = [solids, walls, points].into_iter().flatten().collect();
+    (!all.is_empty()).then(|| all.join("; "))
+}
+
+/// Bodies, and the triangles and points among which they are.
+fn in_mesh(bodies: u64, triangles: u64, points: u64) -> String {
     let bodies = match bodies {
         1 => "1 convex body".to_owned(),
         more => format!("{} convex bodies", count(more)),
     };
-    let triangles = counted(rows - points.min(rows), "triangle");
+    let triangles = counted(triangles, "triangle");
     match points {
         0 => format!("{bodies} in a mesh of {triangles}"),
         points => {
