@@ -134,8 +134,8 @@ pub use surface::{
 };
 pub use triangle::{InscribedTriangle, TriangleCertificate, TriangleVerdict, TriangleViolation};
 pub use triangulation::{
-    Fingerprint, FingerprintFormError, MeshViolation, NO_NEIGHBOR, SiteHash, Triangulation,
-    TriangulationCertificate, TriangulationCounts, TriangulationVerdict, check_simplices,
-    fingerprint,
+    Fingerprint, FingerprintFormError, MeshViolation, NO_NEIGHBOR, SiteHash, TilesError,
+    TilesOptions, TilesVerdict, TilesViolation, Triangulation, TriangulationCertificate,
+    TriangulationCounts, TriangulationVerdict, check_simplices, check_tiles, fingerprint,
 };
 pub use verdict::{CheckError, Fault, Verdict, Violation};
