@@ -74,6 +74,16 @@ fn header() -> impl TypedValueParser<Value = Header> {
 }
 
 impl Reading {
+    /// The memory that was asked for.
+    pub(crate) fn memory(&self) -> Option<u64> {
+        self.memory
+    }
+
+    /// The same for points that leave most of `memory` to the work on them: what takes more than an eighth is read from disk.
+    pub(crate) fn beside_work(&self, memory: u64) -> Self {
+        Self { memory: Some(memory / 8), ..self.clone() }
+    }
+
     fn options(&self) -> anyhow::Result<ReadOptions> {
         let raw = match (self.raw_dim, self.raw_type) {
             (Some(dim), Some(scalar)) => {
@@ -191,6 +201,16 @@ impl Opened {
 
     pub(crate) fn source(&self) -> &dyn PointSource {
         &*self.input.source
+    }
+
+    /// What the points leave of `memory`, but not less than 64 MiB of it.
+    pub(crate) fn memory_left(&self, memory: u64) -> u64 {
+        let source = self.source();
+        let held = match source.in_memory() {
+            Some(_) => source.len().saturating_mul(8 * source.dim() as u64),
+            None => 0,
+        };
+        memory.saturating_sub(held).max(memory.min(64 << 20))
     }
 
     /// The file as shown to people.

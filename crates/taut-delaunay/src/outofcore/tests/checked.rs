@@ -507,8 +507,9 @@ fn files_that_are_damaged_are_refused() {
     }
     let extra = damaged(&|folder| fs::write(folder.join("tile-00009999.ttd"), "").unwrap());
     assert!(extra.to_string().contains("tile-00009999.ttd"), "{extra}");
-    let gone = damaged(&|folder| fs::remove_file(folder.join("manifest.txt")).unwrap());
-    assert!(gone.to_string().contains("no folder of tiles"), "{gone}");
+    let empty = tempfile::tempdir().unwrap();
+    let refused = check_folder(empty.path(), &points);
+    assert!(matches!(refused, Err(TilesError::NoManifest { .. })), "{refused:?}");
     for at in 0..200 {
         let found = damaged(&|folder| {
             let path = folder.join("manifest.txt");

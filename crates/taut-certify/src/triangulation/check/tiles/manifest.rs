@@ -40,7 +40,7 @@ impl Manifest {
         let failed = |source| TilesError::File { path: path.clone(), source };
         let length = match fs::metadata(&path) {
             Err(error) if error.kind() == ErrorKind::NotFound && folder.is_dir() => {
-                return Err(wrong("is not there: this is no folder of tiles").into());
+                return Err(TilesError::NoManifest { folder: folder.to_owned() });
             }
             found => found.map_err(failed)?.len(),
         };

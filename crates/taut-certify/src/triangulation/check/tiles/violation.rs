@@ -11,7 +11,7 @@ use super::super::super::{Fingerprint, MeshViolation};
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TilesViolation {
-    /// The manifest is not there, is damaged or says that the work is not complete.
+    /// The manifest is damaged or says that the work is not complete.
     #[error("manifest.txt {problem}")]
     Manifest {
         /// The reason for the refusal.
@@ -205,6 +205,12 @@ pub enum TilesError {
         path: PathBuf,
         /// The error of the system.
         source: std::io::Error,
+    },
+    /// The folder has no manifest.
+    #[error("{}: a folder without manifest.txt, so no folder of tiles", folder.display())]
+    NoManifest {
+        /// The folder.
+        folder: PathBuf,
     },
     /// The limit on memory is too low.
     #[error(
