@@ -453,6 +453,14 @@ pub enum Error {
         /// The format.
         format: Format,
     },
+    /// Classes were chosen of a format without.
+    #[error("{path}: {format} files have no classes: leave out --classes, which is for {}", names(|f| f.has_classes()))]
+    NoClasses {
+        /// The file.
+        path: String,
+        /// The format.
+        format: Format,
+    },
     /// The file holds another number of values or rows than it says.
     #[error(
         "{path} is {}: its {format} header promises {expected} {}, but there {} {found}",

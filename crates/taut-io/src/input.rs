@@ -132,7 +132,6 @@ impl Medium {
     }
 
     /// For readers that jump about: a stream is first copied to a temporary file.
-    #[cfg(feature = "arrow")]
     pub(crate) fn seekable(self, job: &Job<'_>) -> Result<read::Seekable, Error> {
         Ok(match self {
             Medium::File(file, _) => read::Seekable::File(file),
@@ -238,6 +237,9 @@ fn open_medium(
         .ok_or_else(unknown)?;
     if options.feature.is_some() && !format.has_features() {
         return Err(Error::NoFeatures { path: display.to_owned(), format });
+    }
+    if options.classes.is_some() && !format.has_classes() {
+        return Err(Error::NoClasses { path: display.to_owned(), format });
     }
     let label = options.label.as_deref().map(Columns::of_label);
     let with_label = labels::selecting(options, label.as_ref(), format);

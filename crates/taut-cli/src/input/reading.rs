@@ -32,6 +32,9 @@ pub(crate) struct Reading {
     /// the id of a path [default: the only one]
     #[arg(long, value_name = "NAME|NUMBER")]
     select: Option<Feature>,
+    /// Of a LAS or LAZ file the classes of points to keep, such as 2 or 2,9; points are numbered after that [default: all]
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    classes: Option<Vec<u8>>,
     /// States whether the first row of a text file holds names
     #[arg(long, value_name = "WHEN", default_value = "auto", value_parser = header())]
     header: Header,
@@ -99,6 +102,7 @@ impl Reading {
             header: self.header,
             memory: self.memory,
             feature: self.select.clone(),
+            classes: self.classes.clone(),
             raw,
             temp_dir: None,
         })

@@ -146,3 +146,51 @@ fn damaged_folders_and_other_points_are_rejected() {
         .ends(1)
         .stdout_has(&["tile 0 has ", "the manifest says"]);
 }
+
+/// Killed at several moments, each time without notice; what comes of the resumed run has the same bytes.
+#[cfg(unix)]
+#[test]
+fn a_run_that_was_killed_is_resumed_to_the_same_bytes() {
+    use std::process::{Command, Stdio};
+    use std::time::Duration;
+
+    let folder = TestFolder::new();
+    folder.taut("generate uniform -n 250000 -d 2 --seed 3 -o points.npy").ends(0);
+    folder.taut("delaunay points.npy --memory 64M -o whole/ --no-verify").ends(0);
+    let mut kills = 0;
+    for wait in [30, 60, 120, 240, 480] {
+        let mut child = Command::new(assert_cmd::cargo::cargo_bin!("taut"))
+            .current_dir(folder.path(""))
+            .args("delaunay points.npy --memory 64M -o tiles/ --no-verify --resume".split(' '))
+            .stdout(Stdio::null())
+            .spawn()
+            .unwrap();
+        std::thread::sleep(Duration::from_millis(wait));
+        kills += usize::from(child.try_wait().unwrap().is_none());
+        // SIGKILL.
+        child.kill().unwrap();
+        child.wait().unwrap();
+    }
+    assert!(kills > 1, "{kills}");
+    folder.taut("delaunay points.npy --memory 64M -o tiles/ --resume").ends(0);
+    let names = |name: &str| {
+        let entries = fs::read_dir(folder.path(name)).unwrap();
+        let mut names: Vec<_> = entries.map(|entry| entry.unwrap().file_name()).collect();
+        names.sort();
+        names
+    };
+    assert_eq!(names("tiles"), names("whole"));
+    for name in names("whole") {
+        let bytes = |of: &str| fs::read(folder.path(of).join(&name)).unwrap();
+        assert!(bytes("tiles") == bytes("whole"), "{name:?}");
+    }
+}
+
+/// Classes of a laser scan, of which the folder must be verified with the same ones.
+#[test]
+fn classes_belong_to_laser_scans() {
+    let folder = folder();
+    let refused = folder.taut("delaunay points.npy --classes 2,9").ends(2);
+    assert!(refused.err.contains("leave out --classes"), "{}", refused.err);
+    folder.taut("delaunay points.npy --classes 300").ends(2);
+}

@@ -13,6 +13,7 @@ mod damaged;
 mod data;
 mod geojson;
 mod labels;
+mod las;
 mod mesh;
 mod parsers;
 mod polylines;
