@@ -194,3 +194,23 @@ fn classes_belong_to_laser_scans() {
     assert!(refused.err.contains("leave out --classes"), "{}", refused.err);
     folder.taut("delaunay points.npy --classes 300").ends(2);
 }
+
+/// The files of a folder are one set of points, and a bad value is named with its file.
+#[test]
+fn a_folder_of_files_is_read_as_one_set() {
+    let folder = folder();
+    fs::create_dir(folder.path("parts")).unwrap();
+    folder.taut("generate uniform -n 500 -d 2 --seed 1 -o parts/a.npy").ends(0);
+    folder.taut("generate uniform -n 400 -d 2 --seed 2 -o parts/b.csv").ends(0);
+    folder.taut("delaunay parts -o tiles/ --memory 64M").ends(0).stdout_has(&["900 points"]);
+    folder.taut("verify tiles parts --memory 64M").ends(0);
+    folder.taut("delaunay parts -o mesh.json").ends(0);
+    folder.taut("verify mesh.json parts").ends(0);
+    folder.put("parts/c.csv", "0,0\n1,inf\n");
+    let refused = folder.taut("delaunay parts -o other/").ends(2);
+    assert!(
+        refused.err.contains("parts/c.csv") && refused.err.contains("row 2"),
+        "{}",
+        refused.err
+    );
+}

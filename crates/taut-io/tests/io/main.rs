@@ -11,6 +11,7 @@ mod corpus;
 mod create;
 mod damaged;
 mod data;
+mod folders;
 mod geojson;
 mod labels;
 mod las;

@@ -62,6 +62,9 @@ pub(super) struct Expected {
     pub(super) memory: u64,
 }
 
+/// Simplices, and the neighbors of each.
+pub(super) type WithNeighbors<const V: usize> = (Vec<[u32; V]>, Vec<[u32; V]>);
+
 /// The file of a tile that is being read.
 pub(super) struct TileFile<const D: usize> {
     path: PathBuf,
@@ -236,7 +239,7 @@ impl<const D: usize> TileFile<D> {
         &mut self,
         count: usize,
         first: u64,
-    ) -> Result<(Vec<[u32; V]>, Vec<[u32; V]>), TilesError> {
+    ) -> Result<WithNeighbors<V>, TilesError> {
         let (mut simplices, mut neighbors) = (Vec::with_capacity(count), Vec::with_capacity(count));
         let (tile, sites, all) = (self.tile, self.counts.sites, self.counts.simplices);
         self.items(8 * V, count as u64, |bytes| {
