@@ -30,6 +30,7 @@ mod robust;
 mod rows;
 mod sphere_tree;
 mod surface;
+mod tiles;
 mod work;
 
 use pyo3::prelude::*;
@@ -79,6 +80,8 @@ mod _native {
     use crate::sphere_tree::sphere_tree;
     #[pymodule_export]
     use crate::surface::surface;
+    #[pymodule_export]
+    use crate::tiles::{check_tiles, delaunay_tiles};
 
     #[pymodule_export]
     #[allow(non_upper_case_globals)]

@@ -52,6 +52,7 @@ from ._rectangle import inscribed_rectangle
 from ._robust import robust_ellipsoid
 from ._solution import Solution
 from ._surface import surface
+from ._tiles import Tile, Tiles, delaunay_tiles
 from ._triangle import inscribed_triangle
 from ._verify import verify
 
@@ -120,6 +121,8 @@ __all__ = [
     "SurfaceComponent",
     "SurfaceVerdict",
     "Svdd",
+    "Tile",
+    "Tiles",
     "Trace",
     "TriangleCertificate",
     "TriangleVerdict",
@@ -135,6 +138,7 @@ __all__ = [
     "centers",
     "curve",
     "delaunay",
+    "delaunay_tiles",
     "ellipsoid",
     "ellipsoids",
     "farthest_first",

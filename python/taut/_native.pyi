@@ -17,7 +17,9 @@ __all__ = [
     "bounding_dop",
     "centers",
     "curve",
+    "check_tiles",
     "delaunay",
+    "delaunay_tiles",
     "ellipsoid",
     "ellipsoids",
     "farthest_first",
@@ -92,7 +94,9 @@ def curve(
     rows: Rows, method: str, open: bool, rho: float, omega: float, feature: float | None, places: bool,
     threads: int | None,
 ) -> Found: ...
+def check_tiles(rows: Rows, folder: str, memory: int, scratch: str | None) -> dict[str, Any]: ...
 def delaunay(rows: Rows, order: str, threads: int | None, seed: int) -> Found: ...
+def delaunay_tiles(rows: Rows, folder: str, memory: int, threads: int | None, resume: bool) -> None: ...
 def ellipsoid(
     rows: Rows, items: str, epsilon: float, method: str, max_passes: int, threads: int | None, seed: int,
 ) -> Found: ...

@@ -29,6 +29,9 @@
 //! | [`TransposedFile`] | [`TransposeCertificate`] | each element is where the transpose has it; by a hash if the input is gone |
 //! | [`DrawnSample`] | [`SampleCertificate`] | its numbers are those of the seed: different, in order, in range |
 //!
+//! A folder of tiles, as out-of-core triangulations are written, is judged with its points by [`check_tiles`]: the simplices of all
+//! tiles together are *the* Delaunay triangulation of the points, for more of either than memory holds.
+//!
 //! A [`Solution`] is an answer, its certificate and a trace of counters. [`Solution::check`] reads the points again
 //! and returns a [`Verdict`], or the first [`Violation`] it meets.
 //!
@@ -134,8 +137,8 @@ pub use surface::{
 };
 pub use triangle::{InscribedTriangle, TriangleCertificate, TriangleVerdict, TriangleViolation};
 pub use triangulation::{
-    Fingerprint, FingerprintFormError, MeshViolation, NO_NEIGHBOR, SiteHash, Triangulation,
-    TriangulationCertificate, TriangulationCounts, TriangulationVerdict, check_simplices,
-    fingerprint,
+    Fingerprint, FingerprintFormError, MeshViolation, NO_NEIGHBOR, SiteHash, TilesError,
+    TilesOptions, TilesVerdict, TilesViolation, Triangulation, TriangulationCertificate,
+    TriangulationCounts, TriangulationVerdict, check_simplices, check_tiles, fingerprint,
 };
 pub use verdict::{CheckError, Fault, Verdict, Violation};

@@ -10,9 +10,11 @@ use taut_points::{Monitor, PointSource, PointsHash};
 
 use crate::{Answer, CheckError};
 
-pub use check::check_simplices;
 pub(crate) use check::{
     Gabriel, Geometry, Input, Lifted, Signs, Tetrahedra, UNDERFLOW, cross, turn,
+};
+pub use check::{
+    TilesError, TilesOptions, TilesVerdict, TilesViolation, check_simplices, check_tiles,
 };
 pub use fingerprint::{Fingerprint, FingerprintFormError, SiteHash, fingerprint};
 pub use violation::MeshViolation;

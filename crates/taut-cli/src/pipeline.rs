@@ -65,6 +65,11 @@ pub(crate) trait Find {
         self.samples().map_or(vec![], Samples::files)
     }
 
+    /// Does all the work in another way, where the points ask for that.
+    fn divert(&self, _points: &Opened, _watch: &Watch) -> anyhow::Result<Option<Outcome>> {
+        Ok(None)
+    }
+
     /// Finds the shape.
     fn solve(
         &self,
@@ -155,6 +160,9 @@ pub(crate) fn run(command: &impl Find) -> anyhow::Result<Outcome> {
     let mut clock = Clock::start();
     let points = command.open()?;
     clock.lap("reading");
+    if let Some(outcome) = command.divert(&points, &watch)? {
+        return Ok(outcome);
+    }
 
     let (mut found, extra) = command.solve(&points, &watch)?;
     clock.lap("solving");

@@ -108,7 +108,7 @@ impl Watch {
 
 /// A bar that is drawn nowhere until it is given a target.
 fn hidden_bar() -> ProgressBar {
-    let template = "{prefix} [{bar:32}] {human_pos} of {human_len} points, {elapsed}";
+    let template = "{prefix} [{bar:32}] {human_pos} of {human_len} points, {elapsed}, {eta} left";
     ProgressBar::with_draw_target(Some(0), ProgressDrawTarget::hidden()).with_style(
         ProgressStyle::with_template(template)
             .expect("the template is well formed")

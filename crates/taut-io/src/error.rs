@@ -26,6 +26,20 @@ pub enum Error {
         /// The file.
         path: String,
     },
+    /// A file of a folder has points of another dimension than the first one.
+    #[error(
+        "{path} has points of {found} coordinates, {other} of {expected}: files of one folder must have as many"
+    )]
+    OtherDimension {
+        /// The file.
+        path: String,
+        /// Coordinates of its points.
+        found: usize,
+        /// The first file.
+        other: String,
+        /// Coordinates of the points there.
+        expected: usize,
+    },
     /// A folder stands where a file was expected.
     #[error("{path} is a folder: name a file in it")]
     Directory {
@@ -448,6 +462,14 @@ pub enum Error {
         names(|f| f.has_features())
     )]
     NoFeatures {
+        /// The file.
+        path: String,
+        /// The format.
+        format: Format,
+    },
+    /// Classes were chosen of a format without.
+    #[error("{path}: {format} files have no classes: leave out --classes, which is for {}", names(|f| f.has_classes()))]
+    NoClasses {
         /// The file.
         path: String,
         /// The format.

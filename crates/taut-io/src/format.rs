@@ -96,6 +96,8 @@ pub enum Format {
     Svg,
     /// Well-known text of geometries.
     Wkt,
+    /// Laser scans as the American Society for Photogrammetry and Remote Sensing has them, also compressed as LAZ.
+    Las,
 }
 
 impl Format {
@@ -166,6 +168,11 @@ impl Format {
     /// Returns true if a column of labels can be any text.
     pub(crate) fn has_text_labels(self) -> bool {
         matches!(self, Format::Csv | Format::Tsv | Format::Whitespace)
+    }
+
+    /// Returns true if its points have classes to choose from.
+    pub(crate) fn has_classes(self) -> bool {
+        self == Format::Las
     }
 
     /// Returns true if its points can be those of one feature among several.

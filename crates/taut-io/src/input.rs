@@ -9,6 +9,7 @@ use taut_points::PointSource;
 
 use crate::device::refuse_device;
 use crate::error::shown_path;
+use crate::joined;
 use crate::read::{self, Decoded};
 use crate::{Columns, Compression, Content, Error, Format, Place, ReadOptions, compress, labels};
 
@@ -25,7 +26,19 @@ pub struct Input {
     /// The file as shown to people; `standard input` for `-`.
     pub path: String,
     /// The column of the file for each coordinate, where some were selected.
-    numbers: Option<Vec<usize>>,
+    pub(crate) numbers: Option<Vec<usize>>,
+    /// The files of a folder, in order; empty for one file.
+    pub(crate) parts: Vec<Part>,
+}
+
+/// One of the files of a folder.
+pub(crate) struct Part {
+    /// Its first row among those of all files.
+    pub(crate) start: u64,
+    /// The file as shown to people.
+    pub(crate) path: String,
+    /// As of an [`Input`].
+    pub(crate) numbers: Option<Vec<usize>>,
 }
 
 impl std::fmt::Debug for Input {
@@ -46,15 +59,20 @@ impl Input {
     pub(crate) fn of_mesh(source: Box<dyn PointSource>, format: Format, path: String) -> Self {
         let names = ["ax", "ay", "az", "bx", "by", "bz", "cx", "cy", "cz"];
         let columns = names.map(str::to_owned).to_vec();
-        Input { source, columns, labels: Vec::new(), format, path, numbers: None }
+        Input { source, columns, labels: vec![], format, path, numbers: None, parts: vec![] }
     }
 
     /// Where coordinate `column` of point `row` (both from 0, as solvers count) stands in the file.
     pub fn describe_cell(&self, row: u64, column: usize) -> Place {
-        let number = self.numbers.as_ref().and_then(|numbers| numbers.get(column).copied());
+        let part = self.parts.partition_point(|part| part.start <= row).checked_sub(1);
+        let (path, start, numbers) = match part.and_then(|part| self.parts.get(part)) {
+            Some(part) => (&part.path, part.start, &part.numbers),
+            None => (&self.path, 0, &self.numbers),
+        };
+        let number = numbers.as_ref().and_then(|numbers| numbers.get(column).copied());
         Place {
-            path: self.path.clone(),
-            row: row.saturating_add(1),
+            path: path.clone(),
+            row: (row - start).saturating_add(1),
             line: None,
             column: number.unwrap_or(column),
             name: self.columns.get(column).cloned(),
@@ -132,7 +150,6 @@ impl Medium {
     }
 
     /// For readers that jump about: a stream is first copied to a temporary file.
-    #[cfg(feature = "arrow")]
     pub(crate) fn seekable(self, job: &Job<'_>) -> Result<read::Seekable, Error> {
         Ok(match self {
             Medium::File(file, _) => read::Seekable::File(file),
@@ -178,7 +195,8 @@ impl Medium {
     }
 }
 
-/// Opens the points of `path`; `-` is standard input.
+/// Opens the points of `path`; `-` is standard input, and a folder stands for all files in it, one behind the other in the
+/// order of their names.
 ///
 /// Compression is recognized by the extension or by the first bytes. A file that is read in place (npy, raw) must
 /// not change while its points are in use.
@@ -187,6 +205,9 @@ impl Medium {
 /// [`Error`], with file, row, column and value. Values of files that are read in place are not looked at: a solver
 /// reports what it finds there, and [`Input::describe_cell`] says where that is.
 pub fn open(path: &Path, options: &ReadOptions) -> Result<Input, Error> {
+    if path.as_os_str() != "-" && path.is_dir() {
+        return joined::open(path, options);
+    }
     let (medium, display) = Medium::open(path)?;
     let name = matches!(medium, Medium::File(..)).then_some(path);
     open_medium(medium, name, &display, options)
@@ -239,6 +260,9 @@ fn open_medium(
     if options.feature.is_some() && !format.has_features() {
         return Err(Error::NoFeatures { path: display.to_owned(), format });
     }
+    if options.classes.is_some() && !format.has_classes() {
+        return Err(Error::NoClasses { path: display.to_owned(), format });
+    }
     let label = options.label.as_deref().map(Columns::of_label);
     let with_label = labels::selecting(options, label.as_ref(), format);
     let job = Job { path: display, format, options: with_label.as_ref().unwrap_or(options) };
@@ -247,5 +271,6 @@ fn open_medium(
         decoded = labels::split(decoded, &label, display, with_label.is_some())?;
     }
     let Decoded { source, columns, numbers, labels } = decoded;
-    Ok(Input { source, columns, labels, format, path: display.to_owned(), numbers })
+    let (path, parts) = (display.to_owned(), vec![]);
+    Ok(Input { source, columns, labels, format, path, numbers, parts })
 }

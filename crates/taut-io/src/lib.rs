@@ -44,6 +44,7 @@ mod device;
 mod error;
 mod format;
 mod input;
+mod joined;
 mod labels;
 mod limits;
 mod mesh;

@@ -28,6 +28,8 @@ pub struct ReadOptions {
     pub memory: Option<u64>,
     /// The feature of a GeoJSON, WKT or SVG file whose positions are read; by default the only one.
     pub feature: Option<Feature>,
+    /// The classes of points to keep, of a LAS or LAZ file; by default all. Points are numbered after that.
+    pub classes: Option<Vec<u8>>,
     /// Shape and type of raw values, which no raw file tells itself. Needed for [`Format::Raw`] only.
     pub raw: Option<RawLayout>,
     /// Folder of temporary files. Default: that of the system.

@@ -7,12 +7,12 @@ mod chains;
 mod columnar;
 mod delimited;
 mod geojson;
+mod las;
 mod lines;
 mod meshes;
 mod npy;
 #[cfg(feature = "arrow")]
 mod parquet;
-#[cfg(feature = "arrow")]
 pub(crate) mod quiet;
 mod raw;
 mod rows;
@@ -23,21 +23,26 @@ mod tsplib;
 mod wkt;
 mod xyz;
 
-#[cfg(feature = "arrow")]
-pub(crate) use parquet::Seekable;
-
 pub(crate) use delimited::is_failed_value;
 
+use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
 use taut_points::{FileSource, MappedSource, PointSource, ScalarKind};
 
-#[cfg(feature = "arrow")]
+use bytes::Bytes;
+
 use crate::FilePlace;
 use crate::input::{Job, Medium};
 use crate::{Content, Error, Format};
 use crate::{limits, npy_header};
+
+/// The sources that can be read at any place, for formats with an index at the end.
+pub(crate) enum Seekable {
+    File(File),
+    Bytes(Bytes),
+}
 
 /// Points, and what the file says of them.
 pub(crate) struct Decoded {
@@ -52,7 +57,8 @@ pub(crate) struct Decoded {
 
 /// The format whose files begin with these bytes.
 pub(crate) fn format_of_magic(bytes: &[u8]) -> Option<Format> {
-    const MAGIC: [(&[u8], Format); 6] = [
+    const MAGIC: [(&[u8], Format); 7] = [
+        (b"LASF", Format::Las),
         (npy_header::MAGIC, Format::Npy),
         (b"PAR1", Format::Parquet),
         (b"ARROW1", Format::Arrow),
@@ -76,6 +82,7 @@ pub(crate) fn read(job: &Job<'_>, medium: Medium) -> Result<Decoded, Error> {
         Format::GeoJson => geojson::read(job, medium.stream()),
         Format::Wkt => wkt::read(job, medium.stream()),
         Format::Svg => svg::read(job, medium.stream()),
+        Format::Las => las::read(job, medium),
         Format::Npy => read_npy(job, medium),
         Format::Raw => read_raw(job, medium),
         #[cfg(feature = "arrow")]
@@ -134,15 +141,13 @@ fn in_place(
 }
 
 /// The first line of what a decoder says; some go on with a trace of calls.
-#[cfg(feature = "arrow")]
 pub(crate) fn first_line(said: &dyn std::fmt::Display) -> String {
     said.to_string().lines().next().unwrap_or_default().trim_end().to_owned()
 }
 
 /// Runs a reader whose crate may panic on damaged bytes, and makes an error of that.
 ///
-/// The parquet and arrow crates check most, but not all, of what a damaged file can hold before they index into it.
-#[cfg(feature = "arrow")]
+/// The crates for parquet, arrow and LAZ check most, but not all, of what a damaged file can hold before they index into it.
 fn guarded(job: &Job<'_>, read: impl FnOnce() -> Result<Decoded, Error>) -> Result<Decoded, Error> {
     quiet::catch(read).unwrap_or_else(|_| {
         Err(Error::Damaged {

@@ -61,6 +61,7 @@ mod polyhedron;
 mod prove;
 mod signs;
 mod sites;
+mod tiles;
 
 use taut_points::{Monitor, PointSource, Scratch};
 
@@ -75,6 +76,7 @@ pub(crate) use self::geometry::{Gabriel, Geometry, Lifted, Tetrahedra, cross};
 pub(crate) use self::input::{Input, turn};
 pub(crate) use self::signs::{Signs, UNDERFLOW};
 pub use plain::check_simplices;
+pub use tiles::{TilesError, TilesOptions, TilesVerdict, TilesViolation, check_tiles};
 
 pub(super) fn check(
     answer: &Triangulation,

@@ -2,6 +2,7 @@
 
 mod alpha;
 mod built;
+mod tiles;
 mod voronoi;
 
 use std::path::{Path, PathBuf};
@@ -14,6 +15,7 @@ use taut_io::{Content, Format, MeshOptions, MeshView, mesh_file};
 
 use self::alpha::Alpha;
 use self::built::Built;
+use crate::commands::verify::tiles::MEMORY_DEFAULT;
 use crate::effort::Effort;
 use crate::exit::Outcome;
 use crate::input::choice::choice;
@@ -29,8 +31,12 @@ use crate::watch::Watch;
 #[command(after_help = "\
 Ids are rows of the input, from 0. Of equal points the first stands for all; the others are listed as duplicates. \
 Points on a line or on a plane in space are no error: their chain or their triangles are the answer.
+Where -o is a folder (one that is there, or a name that ends with /), and where the triangulation would take more than \
+--memory, the work is done on the disk within that memory [default for folders: 512M], and the answer is a folder of tiles \
+(see docs/delaunay.md). The disk it takes is checked first. A run that was stopped goes on with --resume.
 Exit: 0 done · 1 the check failed · 2 bad input or usage, nothing written
-Example: taut delaunay points.csv -o mesh.ply --draw mesh.html && taut verify mesh.ply points.csv")]
+Example: taut delaunay points.csv -o mesh.ply --draw mesh.html && taut verify mesh.ply points.csv
+         taut delaunay large.npy --memory 1G -o tiles/ && taut verify tiles/ large.npy --memory 1G")]
 pub(crate) struct Args {
     #[command(flatten)]
     points: Points,
@@ -43,10 +49,13 @@ pub(crate) struct Args {
     /// Do without the independent check, which takes about a quarter of the time
     #[arg(long)]
     no_verify: bool,
+    /// Go on with a folder of tiles that an earlier run has begun
+    #[arg(long)]
+    resume: bool,
 
     /// Write the simplices: .json with the certificate, or a mesh as .ply, .obj, .off, .vtu or .parquet; - is JSON on
-    /// standard output
-    #[arg(short, long, value_name = "FILE", help_heading = "Writing")]
+    /// standard output; a folder gets tiles
+    #[arg(short, long, value_name = "FILE|FOLDER", help_heading = "Writing")]
     out: Option<PathBuf>,
     /// Print the JSON instead of the summary
     #[arg(long, help_heading = "Writing")]
@@ -90,7 +99,8 @@ impl Find for Args {
     fn output(&self) -> Output<'_> {
         Output {
             no_verify: self.no_verify,
-            out: self.out.as_deref(),
+            // A folder is not a file that is written in the end.
+            out: self.out.as_deref().filter(|out| !tiles::is_folder(out)),
             json: self.json,
             draw: self.draw.as_deref(),
         }
@@ -116,6 +126,21 @@ impl Find for Args {
     fn side_files(&self) -> Vec<&Path> {
         let files = [&self.hull, &self.voronoi].into_iter().flatten().chain(self.alpha.files());
         files.map(|path| &**path).collect()
+    }
+
+    fn open(&self) -> anyhow::Result<Opened> {
+        let is_folder = self.out.as_deref().is_some_and(tiles::is_folder);
+        match self.reading.memory().or(is_folder.then_some(MEMORY_DEFAULT)) {
+            Some(memory) => self.reading.beside_work(memory).open(&self.points.path),
+            None => self.reading.open(&self.points.path),
+        }
+    }
+
+    fn divert(&self, points: &Opened, watch: &Watch) -> anyhow::Result<Option<Outcome>> {
+        match self.tiles_folder(points)? {
+            Some(folder) => self.run_tiles(folder, points, watch).map(Some),
+            None => Ok(None),
+        }
     }
 
     fn solve(
@@ -188,7 +213,9 @@ impl Args {
 
     /// The format of the mesh that goes to `--out`; none where JSON does.
     fn mesh_format(&self) -> anyhow::Result<Option<Format>> {
-        let Some(out) = &self.out else { return Ok(None) };
+        let Some(out) = self.out.as_ref().filter(|out| !tiles::is_folder(out)) else {
+            return Ok(None);
+        };
         let json = out.extension().is_none_or(|extension| extension.eq_ignore_ascii_case("json"));
         match Format::of_path_for(out, Content::Triangulation) {
             Some(format) => Ok(Some(format)),

@@ -1,5 +1,7 @@
 //! `taut verify`: judges an answer from the points and its certificate alone.
 
+pub(crate) mod tiles;
+
 use std::path::{Path, PathBuf};
 
 use anyhow::{anyhow, bail};
@@ -32,10 +34,11 @@ Exit: 0 proved · 1 rejected, with the first violation, or a larger gap than --e
       2 bad input or usage
 A mesh of simplices (.ply, .obj, .off, .vtu, .parquet) is judged as a Delaunay triangulation, without certificate. A \
 sorted or transposed file is judged with the file it was made from, or alone by the hash of the certificate; a sample \
-is made from no file.
+is made from no file. A folder of tiles is judged with its points, within --memory [default: 512M], both of any size.
 Example: taut verify ball.json points.csv --epsilon 1e-6")]
 pub(crate) struct Args {
-    /// The answer, as `taut ball -o`, `taut memory sort --certificate` and their like write it; - is standard input
+    /// The answer, as `taut ball -o`, `taut memory sort --certificate` and their like write it; - is standard input. A folder of
+    /// tiles, as `taut delaunay -o FOLDER` writes it
     answer: PathBuf,
     /// The points, in any format of `taut formats`; - is standard input. Of inscribed bodies: the mesh. Of an answer about files: the file that was read,
     /// then the one that was written, or the latter alone
@@ -44,6 +47,9 @@ pub(crate) struct Args {
     /// Largest relative gap to accept, at least 0 [default: the one the certificate claims]
     #[arg(long, value_name = "REAL", value_parser = epsilon, allow_negative_numbers = true)]
     epsilon: Option<f64>,
+    /// Folder for the temporary files of the check of a folder of tiles [default: that of the system]
+    #[arg(long, value_name = "FOLDER")]
+    scratch: Option<PathBuf>,
     #[command(flatten)]
     obstacles: Obstacles,
     #[command(flatten)]
@@ -55,6 +61,13 @@ pub(crate) struct Args {
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
         let watch = self.effort.start()?;
+        if self.answer.is_dir() {
+            self.obstacles.refuse()?;
+            return self.run_tiles(&watch);
+        }
+        if self.scratch.is_some() {
+            bail!("--scratch belongs to the check of a folder of tiles: leave it out");
+        }
         if Format::of_path_for(&self.answer, Content::Triangulation).is_some() {
             self.obstacles.refuse()?;
             return self.run_mesh(&watch);
@@ -123,6 +136,25 @@ impl Args {
             Err(violation) => {
                 rejected(&files::explain(&violation, input, output, &shown(&self.answer)))
             }
+        };
+        if !self.effort.quiet {
+            writing::print(text.as_bytes())?;
+        }
+        Ok(outcome)
+    }
+
+    /// Judges a folder of tiles.
+    fn run_tiles(&self, watch: &Watch) -> anyhow::Result<Outcome> {
+        if self.epsilon.is_some() {
+            bail!("--epsilon belongs to answers with a gap, not to triangulations: leave it out");
+        }
+        let memory = self.reading.memory().unwrap_or(tiles::MEMORY_DEFAULT);
+        let points = self.reading.beside_work(memory).open(self.only_file()?)?;
+        let memory = points.memory_left(memory);
+        let judged = tiles::judge(&self.answer, &points, memory, self.scratch.as_deref(), watch)?;
+        let (outcome, text) = match judged {
+            Ok(verdict) => (Outcome::Done, tiles::claims(&verdict).text()),
+            Err(why) => rejected(&why),
         };
         if !self.effort.quiet {
             writing::print(text.as_bytes())?;

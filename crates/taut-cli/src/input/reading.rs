@@ -32,6 +32,9 @@ pub(crate) struct Reading {
     /// the id of a path [default: the only one]
     #[arg(long, value_name = "NAME|NUMBER")]
     select: Option<Feature>,
+    /// Of a LAS or LAZ file the classes of points to keep, such as 2 or 2,9; points are numbered after that [default: all]
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    classes: Option<Vec<u8>>,
     /// States whether the first row of a text file holds names
     #[arg(long, value_name = "WHEN", default_value = "auto", value_parser = header())]
     header: Header,
@@ -74,6 +77,16 @@ fn header() -> impl TypedValueParser<Value = Header> {
 }
 
 impl Reading {
+    /// The memory that was asked for.
+    pub(crate) fn memory(&self) -> Option<u64> {
+        self.memory
+    }
+
+    /// The same for points that leave most of `memory` to the work on them: what takes more than an eighth is read from disk.
+    pub(crate) fn beside_work(&self, memory: u64) -> Self {
+        Self { memory: Some(memory / 8), ..self.clone() }
+    }
+
     fn options(&self) -> anyhow::Result<ReadOptions> {
         let raw = match (self.raw_dim, self.raw_type) {
             (Some(dim), Some(scalar)) => {
@@ -89,6 +102,7 @@ impl Reading {
             header: self.header,
             memory: self.memory,
             feature: self.select.clone(),
+            classes: self.classes.clone(),
             raw,
             temp_dir: None,
         })
@@ -191,6 +205,16 @@ impl Opened {
 
     pub(crate) fn source(&self) -> &dyn PointSource {
         &*self.input.source
+    }
+
+    /// What the points leave of `memory`, but not less than 64 MiB of it.
+    pub(crate) fn memory_left(&self, memory: u64) -> u64 {
+        let source = self.source();
+        let held = match source.in_memory() {
+            Some(_) => source.len().saturating_mul(8 * source.dim() as u64),
+            None => 0,
+        };
+        memory.saturating_sub(held).max(memory.min(64 << 20))
     }
 
     /// The file as shown to people.

@@ -197,7 +197,10 @@ fn what_is_no_answer_is_named() {
     folder.put("bare.csv", "0,0\n1,1\n");
     folder.taut("verify bare.csv ball.json").ends(2).stderr_has(&["the answer comes first"]);
     std::fs::create_dir(folder.path("folder")).unwrap();
-    folder.taut("verify folder points.csv").ends(2).stderr_has(&["folder is a folder"]);
+    folder
+        .taut("verify folder points.csv")
+        .ends(2)
+        .stderr_has(&["folder: a folder without manifest.txt"]);
     folder.put("list.json", "[]");
     folder.put("word.json", "\"ball\"");
     folder.put("half.json", &folder.text("ball.json")[..40]);

@@ -197,11 +197,7 @@ fn open_folder(folder: &Folder, resume: bool, plan: &DiskPlan) -> Result<Option<
     if earlier.is_some() && resume {
         return Ok(earlier);
     }
-    let is_empty = match fs::read_dir(root) {
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => true,
-        read => read.map_err(failed(root))?.next().is_none(),
-    };
-    if !is_empty {
+    if !folder.is_new(resume)? {
         return Err(Error::FolderTaken { folder: shown() });
     }
     let needed = plan.disk_bytes();

@@ -3,6 +3,8 @@
 
 mod buckets;
 mod canonical;
+mod checked;
 mod contract;
+mod folders;
 mod properties;
 mod sets;

@@ -35,7 +35,7 @@ const fn entry(
 }
 
 /// Every format, in the order of [`Format`].
-pub(super) const TABLE: [Entry; 22] = [
+pub(super) const TABLE: [Entry; 23] = [
     entry(
         Format::Csv,
         "csv",
@@ -211,6 +211,16 @@ pub(super) const TABLE: [Entry; 22] = [
         "wkt",
         &["wkt"],
         &[(Points, Read, "well-known text: positions, or the rings of one polygon")],
+    ),
+    entry(
+        Format::Las,
+        "las",
+        &["las", "laz"],
+        &[(
+            Points,
+            Read,
+            "LAS and LAZ of laser scans: x, y, z by the scale and offset of the file",
+        )],
     ),
 ];
 

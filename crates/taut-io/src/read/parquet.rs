@@ -1,9 +1,6 @@
 //! Apache Parquet, batch by batch.
 
-use std::fs::File;
-
 use arrow_array::RecordBatch;
-use bytes::Bytes;
 use parquet::arrow::ProjectionMask;
 use parquet::file::metadata::ParquetMetaData;
 use parquet::file::reader::ChunkReader;
@@ -11,7 +8,7 @@ use parquet::schema::types::SchemaDescriptor;
 use taut_points::Blocks;
 
 use super::columnar::Plan;
-use super::{Decoded, first_line, guarded, thrift};
+use super::{Decoded, Seekable, first_line, guarded, thrift};
 use crate::input::{Job, Medium};
 use crate::{Error, FilePlace, Format};
 
@@ -20,12 +17,6 @@ pub(super) fn read(job: &Job<'_>, medium: Medium) -> Result<Decoded, Error> {
         Seekable::File(file) => read_chunks(job, file),
         Seekable::Bytes(bytes) => read_chunks(job, bytes),
     })
-}
-
-/// The sources that can be read at any place; parquet keeps its index at the end.
-pub(crate) enum Seekable {
-    File(File),
-    Bytes(Bytes),
 }
 
 fn read_chunks<R: ChunkReader + 'static>(job: &Job<'_>, chunks: R) -> Result<Decoded, Error> {

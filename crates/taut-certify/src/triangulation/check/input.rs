@@ -19,15 +19,16 @@ pub(crate) struct Input<'a, const D: usize> {
     signs: Signs,
 }
 
-struct Block {
-    hash: BlockHash,
+/// What is to be known of a block of rows.
+pub(super) struct Block {
+    pub(super) hash: BlockHash,
     /// No bit of a coordinate lies below 2^least, none above 2^most.
-    least: i32,
-    most: i32,
+    pub(super) least: i32,
+    pub(super) most: i32,
 }
 
 impl Block {
-    fn of(first: u64, rows: &Rows<'_>) -> Result<Self, Violation> {
+    pub(super) fn of(first: u64, rows: &Rows<'_>) -> Result<Self, Violation> {
         let (least, largest) = match rows {
             Rows::F32(points) => extent(points.values()),
             Rows::F64(points) => extent(points.values()),
@@ -100,6 +101,11 @@ impl<'a, const D: usize> Input<'a, D> {
         let most = blocks.iter().map(|b| b.most).max().unwrap_or(i32::MIN);
         let (scale, signs) = scaling(least, most);
         Ok(Input { rows, hash, scale, signs })
+    }
+
+    /// Rows of which the hash, the power of two and the signs are known.
+    pub(super) fn of_rows(rows: Rows<'a>, hash: PointsHash, scale: f64, signs: Signs) -> Self {
+        Input { rows, hash, scale, signs }
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -184,7 +190,7 @@ pub(crate) fn turn<const D: usize>(
 }
 
 /// The factor for coordinates whose bits lie between 2^least and 2^most.
-fn scaling(least: i32, most: i32) -> (f64, Signs) {
+pub(super) fn scaling(least: i32, most: i32) -> (f64, Signs) {
     if least > most {
         // All coordinates are 0.
         return (1.0, Signs { is_filtered: true, quantum: 1.0 });

@@ -107,19 +107,29 @@ where
     let (mut minima, mut before) = (0, lexicographic(&points[0], &points[1]));
     for (corner, ids) in points.array_windows::<3>().zip(ids.windows(3)) {
         let after = lexicographic(&corner[1], &corner[2]);
-        let is_dent = match signs.orientation::<Triangles, D, 3>(corner) {
-            Ordering::Greater => false,
-            // Straight on, not back.
-            Ordering::Equal => before != after,
-            Ordering::Less => true,
-        };
-        if is_dent {
+        if turns_back(signs, corner) {
             return Err(MeshViolation::HullDent { ridge: vec![ids[1]], row: ids[2] });
         }
         minima += usize::from(before == Ordering::Greater && after == Ordering::Less);
         before = after;
     }
     Ok(minima)
+}
+
+/// Tests whether the way over three points turns right at the second, or back.
+#[inline(always)]
+pub(super) fn turns_back<const D: usize>(signs: &Signs, corner: &[[f64; D]; 3]) -> bool
+where
+    Triangles: Geometry<D, 3>,
+{
+    match signs.orientation::<Triangles, D, 3>(corner) {
+        Ordering::Greater => false,
+        // Straight on, not back.
+        Ordering::Equal => {
+            lexicographic(&corner[0], &corner[1]) != lexicographic(&corner[1], &corner[2])
+        }
+        Ordering::Less => true,
+    }
 }
 
 #[cfg(test)]

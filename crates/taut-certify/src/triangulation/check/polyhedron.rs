@@ -132,9 +132,12 @@ impl Surface<'_> {
         let is_far = |place: usize| usize::from((beyond[place] != a) & (beyond[place] != b));
         let row = beyond[is_far(1) + 2 * is_far(2)];
         let d = self.sites.point(row);
-        if !self.is_surely_beneath(plane, &d)
-            && self.is_dent(&self.sites.gather(triangle), edge, &d)
-        {
+        let corners = || {
+            let corners = self.sites.gather(triangle);
+            let [a, b, c] = [1, 2, 0].map(|k| corners[(edge + k) % 3]);
+            [a, b, c, d]
+        };
+        if !self.is_surely_beneath(plane, &d) && is_dent(self.signs, &corners()) {
             return Err(MeshViolation::HullDent { ridge: vec![a, b], row });
         }
         Ok(())
@@ -144,25 +147,6 @@ impl Surface<'_> {
     #[inline(always)]
     fn is_surely_beneath(&self, plane: &Plane, point: &[f64; 3]) -> bool {
         self.signs.is_filtered && plane.is_beneath(point)
-    }
-
-    /// Tests whether d, beyond the edge opposite corner `edge`, rises above the triangle or is folded onto it.
-    fn is_dent(&self, corners: &[[f64; 3]; 3], edge: usize, d: &[f64; 3]) -> bool {
-        let [a, b, c] = [1, 2, 0].map(|k| corners[(edge + k) % 3]);
-        match self.signs.orientation::<Tetrahedra, 3, 4>(&[a, b, c, *d]) {
-            Ordering::Greater => true,
-            Ordering::Equal => !self.unfolds(&[a, b, c, *d]),
-            Ordering::Less => false,
-        }
-    }
-
-    /// Tests whether c and d, in one plane with the edge ab, lie on either side of it.
-    fn unfolds(&self, [a, b, c, d]: &[[f64; 3]; 4]) -> bool {
-        // One projection in which abc is not flat shows the plane as it is.
-        [[0, 1], [0, 2], [1, 2]].into_iter().any(|axes| {
-            let beside = turn(self.signs, a, b, c, axes);
-            beside.is_ne() && turn(self.signs, b, a, d, axes) == beside
-        })
     }
 
     fn winds_once(&self, v: u32) -> Result<(), MeshViolation> {
@@ -183,12 +167,7 @@ impl Surface<'_> {
             }
         }
         let apex = &self.sites.point(v);
-        let is_smaller = |a: &[f64; 3], b: &[f64; 3]| {
-            // By y/x, then z/x, of the directions from v, where x is not 0 but leans infinitesimally towards y, and
-            // infinitely less towards z: positive for all of them, as v is the smallest.
-            let turns = [[0, 1], [2, 1], [0, 2]].map(|axes| turn(self.signs, apex, a, b, axes));
-            turns.into_iter().find(|turn| turn.is_ne()) == Some(Ordering::Greater)
-        };
+        let is_smaller = |a: &[f64; 3], b: &[f64; 3]| is_before(self.signs, apex, a, b);
         let count = cycle.len();
         let minima = (0..count)
             .filter(|&i| {
@@ -202,6 +181,32 @@ impl Surface<'_> {
         }
         Err(MeshViolation::HullWinding { row: v })
     }
+}
+
+/// Tests whether d, beyond the edge ab of the triangle abc, rises above the triangle or is folded onto it.
+pub(super) fn is_dent(signs: &Signs, corners: &[[f64; 3]; 4]) -> bool {
+    match signs.orientation::<Tetrahedra, 3, 4>(corners) {
+        Ordering::Greater => true,
+        Ordering::Equal => !unfolds(signs, corners),
+        Ordering::Less => false,
+    }
+}
+
+/// Tests whether c and d, in one plane with the edge ab, lie on either side of it.
+fn unfolds(signs: &Signs, [a, b, c, d]: &[[f64; 3]; 4]) -> bool {
+    // One projection in which abc is not flat shows the plane as it is.
+    [[0, 1], [0, 2], [1, 2]].into_iter().any(|axes| {
+        let beside = turn(signs, a, b, c, axes);
+        beside.is_ne() && turn(signs, b, a, d, axes) == beside
+    })
+}
+
+/// Tests whether the direction from the lexicographically smallest point to a comes before the one to b: a total order.
+pub(super) fn is_before(signs: &Signs, smallest: &[f64; 3], a: &[f64; 3], b: &[f64; 3]) -> bool {
+    // By y/x, then z/x, of the directions, where x is not 0 but leans infinitesimally towards y, and infinitely less
+    // towards z: positive for all of them, as the point is the smallest.
+    let turns = [[0, 1], [2, 1], [0, 2]].map(|axes| turn(signs, smallest, a, b, axes));
+    turns.into_iter().find(|turn| turn.is_ne()) == Some(Ordering::Greater)
 }
 
 #[cfg(test)]

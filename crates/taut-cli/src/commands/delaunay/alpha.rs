@@ -33,6 +33,11 @@ fn length(text: &str) -> Result<f64, String> {
 }
 
 impl Alpha {
+    /// Tests whether an alpha complex is asked for.
+    pub(super) fn is_asked(&self) -> bool {
+        self.radius.is_some()
+    }
+
     pub(super) fn files(&self) -> impl Iterator<Item = &PathBuf> {
         self.alpha_out.iter().chain(&self.alpha_boundary)
     }

@@ -1,5 +1,6 @@
 //! The folder of a triangulation: names of its files, and files that appear whole.
 
+use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -30,6 +31,23 @@ impl Folder {
     /// What the triangulation is.
     pub(super) fn manifest(&self) -> PathBuf {
         self.root.join(super::manifest::NAME)
+    }
+
+    /// Tests whether nothing is there; where work is to be resumed, nothing but what comes before the manifest.
+    pub(super) fn is_new(&self, resume: bool) -> Result<bool, Error> {
+        let names = |folder: &Path| -> Result<Vec<OsString>, Error> {
+            let entries = match fs::read_dir(folder) {
+                Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(vec![]),
+                entries => entries.map_err(failed(folder))?,
+            };
+            entries.map(|entry| Ok(entry.map_err(failed(folder))?.file_name())).collect()
+        };
+        let found = names(&self.root)?;
+        if !resume || found.is_empty() {
+            return Ok(found.is_empty());
+        }
+        let is_ours = found.iter().all(|name| name == "work" || name == "manifest.part");
+        Ok(is_ours && names(&self.work())?.iter().all(|name| name == "lock"))
     }
 
     /// The tile of a node, and its front while that is needed.

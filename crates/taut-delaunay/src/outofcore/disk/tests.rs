@@ -203,3 +203,23 @@ fn damaged_files_are_refused() {
         assert!(matches!(refused, Err(Error::DamagedFolder { .. })), "{name}: {refused:?}");
     }
 }
+
+/// A process that is killed before the manifest is there leaves a folder that a resumed run takes, and no other.
+#[test]
+fn a_run_that_ended_before_its_manifest_is_resumed() {
+    let source = GeneratedSource::new(Distribution::Uniform, 5000, 2, 5, ScalarKind::F64);
+    let source = source.unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("work")).unwrap();
+    fs::write(folder.path().join("work").join("lock"), "").unwrap();
+    fs::write(folder.path().join("manifest.part"), "format").unwrap();
+    let refused = delaunay_to_folder(&source, folder.path(), &options());
+    assert!(matches!(refused, Err(Error::FolderTaken { .. })), "{refused:?}");
+    let again = FolderOptions { resume: true, ..options() };
+    fs::write(folder.path().join("work").join("other"), "").unwrap();
+    let refused = delaunay_to_folder(&source, folder.path(), &again);
+    assert!(matches!(refused, Err(Error::FolderTaken { .. })), "{refused:?}");
+    fs::remove_file(folder.path().join("work").join("other")).unwrap();
+    let found = delaunay_to_folder(&source, folder.path(), &again).unwrap();
+    check_tiles::<2>(folder.path(), &found);
+}

@@ -410,8 +410,10 @@ pub(in super::super) fn write_lower<const D: usize>(
     (tile, row_bytes): (u32, u32),
     out: &mut impl Write,
 ) -> io::Result<TileCounts> {
-    let hull = lower.neighbors.iter().filter(|&&n| n == NO_NEIGHBOR).count() as u64;
     let vertices = lower.vertices_per_simplex;
+    // A single point has no facets.
+    let is_open = |&&n: &&u32| n == NO_NEIGHBOR && vertices > 1;
+    let hull = lower.neighbors.iter().filter(is_open).count() as u64;
     let hash = |v: u32| SiteHash::of(&sites.coordinates[v as usize]);
     let mut fingerprint = Fingerprint::default();
     for simplex in lower.simplices.chunks_exact(vertices.max(1)) {

@@ -1,0 +1,113 @@
+//! LAS and LAZ files, written by the crate that reads them.
+
+use std::io::Cursor;
+
+use las::point::{Classification, Format as PointFormat};
+use las::{Builder, Color, Point, Transform, Vector, Writer};
+use taut_io::{Error, Format, ReadOptions, open_bytes};
+
+use super::{message, values};
+
+/// Whole numbers that the file has for the coordinates of point `i`.
+fn raw(i: i32) -> [i32; 3] {
+    let i = i64::from(i);
+    [i * 7919 % 1_000_003, i * 104_729 % 999_983 - 500_000, i % 1000].map(|x| x as i32)
+}
+
+const SCALES: [f64; 3] = [0.001, 0.01, 1e-5];
+const OFFSETS: [f64; 3] = [500_000.123, -4_000_000.5, 0.0];
+
+fn coordinates(i: i32) -> [f64; 3] {
+    let raw = raw(i);
+    std::array::from_fn(|k| SCALES[k] * f64::from(raw[k]) + OFFSETS[k])
+}
+
+/// A file of points of this point format, of the classes 2, 9 and 6 in turn.
+fn file(points: i32, format: u8, is_compressed: bool) -> Vec<u8> {
+    let mut builder = Builder::from((1, 4));
+    builder.point_format = PointFormat::new(format).unwrap();
+    builder.point_format.is_compressed = is_compressed;
+    let [x, y, z] = [0, 1, 2].map(|k| Transform { scale: SCALES[k], offset: OFFSETS[k] });
+    builder.transforms = Vector { x, y, z };
+    let mut writer = Writer::new(Cursor::new(vec![]), builder.into_header().unwrap()).unwrap();
+    for i in 0..points {
+        let [x, y, z] = coordinates(i);
+        let classification = Classification::new([2, 9, 6][i as usize % 3]).unwrap();
+        let mut point = Point { x, y, z, classification, ..Point::default() };
+        let format = *writer.header().point_format();
+        point.gps_time = format.has_gps_time.then_some(7.0);
+        point.color = format.has_color.then(|| Color::new(1, 2, 3));
+        writer.write_point(point).unwrap();
+    }
+    writer.close().unwrap();
+    writer.into_inner().unwrap().into_inner()
+}
+
+fn expected(points: i32, keep: impl Fn(i32) -> bool) -> Vec<f64> {
+    (0..points).filter(|&i| keep(i)).flat_map(coordinates).collect()
+}
+
+#[test]
+fn coordinates_are_those_of_scale_and_offset_bit_by_bit() {
+    for format in [0, 1, 2, 3, 6, 7] {
+        for is_compressed in [false, true] {
+            let bytes = file(40_000, format, is_compressed);
+            let name = if is_compressed { "scan.laz" } else { "scan.las" };
+            let input = open_bytes(bytes, name, &ReadOptions::default()).unwrap();
+            assert_eq!((input.format, input.source.dim()), (Format::Las, 3));
+            assert_eq!(input.columns, ["x", "y", "z"]);
+            assert!(values(&input) == expected(40_000, |_| true), "{format} {is_compressed}");
+        }
+    }
+}
+
+#[test]
+fn columns_and_classes_are_chosen() {
+    let bytes = file(1000, 1, true);
+    let options = ReadOptions { columns: Some("y,x".parse().unwrap()), ..Default::default() };
+    let input = open_bytes(bytes.clone(), "scan.laz", &options).unwrap();
+    assert_eq!(input.columns, ["y", "x"]);
+    assert_eq!(values(&input)[..2], [coordinates(0)[1], coordinates(0)[0]]);
+    let of = |classes: &[u8]| ReadOptions { classes: Some(classes.to_vec()), ..Default::default() };
+    for (classes, keep) in [(&[2][..], [true, false, false]), (&[6, 9], [false, true, true])] {
+        let input = open_bytes(bytes.clone(), "scan.laz", &of(classes)).unwrap();
+        assert!(values(&input) == expected(1000, |i| keep[i as usize % 3]), "{classes:?}");
+    }
+    assert!(matches!(open_bytes(bytes, "scan.laz", &of(&[77])), Err(Error::NoRows { .. })));
+    let refused = open_bytes(b"1,2\n".to_vec(), "points.csv", &of(&[2]));
+    assert!(message(refused).contains("leave out --classes"));
+}
+
+/// Points that outgrow the memory go to a temporary file; standard input has no name.
+#[test]
+fn files_are_told_by_their_first_bytes_and_may_outgrow_memory() {
+    let options =
+        ReadOptions { format: Some(Format::Las), memory: Some(1 << 16), ..Default::default() };
+    let input = open_bytes(file(30_000, 3, true), "scan", &options).unwrap();
+    assert!(input.source.in_memory().is_none());
+    assert!(values(&input) == expected(30_000, |_| true));
+    let input = open_bytes(file(10, 0, false), "scan", &ReadOptions::default()).unwrap();
+    assert_eq!(input.format, Format::Las);
+}
+
+#[test]
+fn damaged_files_are_refused_with_the_place() {
+    for is_compressed in [false, true] {
+        let bytes = file(40_000, 1, is_compressed);
+        let name = if is_compressed { "scan.laz" } else { "scan.las" };
+        for part in [2, 3, 7] {
+            let cut = bytes[..bytes.len() / part].to_vec();
+            let said = message(open_bytes(cut, name, &ReadOptions::default()));
+            assert!(said.starts_with(name), "{said}");
+        }
+        for length in [0, 4, 100, 227, 374, 376] {
+            message(open_bytes(bytes[..length].to_vec(), name, &ReadOptions::default()));
+        }
+        // Any byte of the header, and some of the points: an error or other points, but no panic.
+        for at in (0..700).chain((700..bytes.len()).step_by(997)) {
+            let mut other = bytes.clone();
+            other[at] ^= 0xff;
+            let _ = open_bytes(other, name, &ReadOptions::default());
+        }
+    }
+}
