@@ -244,11 +244,11 @@ fn thin_rectangles_have_proved_answers_or_a_reason() {
                 let at = |x: f64, y: f64| [cosine * x - sine * y, sine * x + cosine * y];
                 let ring = vec![at(0.0, 0.0), at(1.0, 0.0), at(1.0, width), at(0.0, width)];
                 match solve_with(
-                    &[ring.clone()],
+                    std::slice::from_ref(&ring),
                     &ConvexOptions { rounds: 4, ..Default::default() },
                 ) {
                     Ok(found) => {
-                        let verdict = check(&found, &[ring.clone()]);
+                        let verdict = check(&found, std::slice::from_ref(&ring));
                         assert!(verdict.is_ok(), "{width:e}, {angle}: {verdict:?}, {ring:?}");
                         answers += 1;
                     }
