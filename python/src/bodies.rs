@@ -1,8 +1,9 @@
 //! `taut.inscribed_bodies` and `taut.inscribed_dops`, behind their Python signatures.
 
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use taut::inscribe::{
-    BodiesMethod, BodiesOptions, BodiesThesisOptions, BodyShape, Objective, ThesisSeeds,
+    BodiesMethod, BodiesOptions, BodiesThesisOptions, BodyShape, Objective, Scene, ThesisSeeds,
 };
 
 use crate::choice::{check_method_options, choice};
@@ -89,4 +90,20 @@ pub(crate) fn inscribed_bodies(
 #[pyfunction]
 pub(crate) fn box_rows(points: Vec<[f64; 3]>) -> Vec<f64> {
     taut::inscribe::box_rows(&points)
+}
+
+/// The rows of a mesh, of surfaces in it and of points, each of 10 numbers.
+#[pyfunction]
+pub(crate) fn scene_rows(
+    mesh: Vec<f64>,
+    surfaces: Vec<Vec<f64>>,
+    points: Vec<[f64; 3]>,
+) -> PyResult<Vec<f64>> {
+    let wrong = |error: taut::inscribe::Error| PyValueError::new_err(error.to_string());
+    let mut scene = Scene::around(&mesh).map_err(wrong)?;
+    for surface in &surfaces {
+        scene.add_surface(surface).map_err(wrong)?;
+    }
+    scene.add_points(&points);
+    Ok(scene.into_rows())
 }

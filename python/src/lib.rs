@@ -41,7 +41,7 @@ mod _native {
     #[pymodule_export]
     use crate::ball::{ball, kernel_ball};
     #[pymodule_export]
-    use crate::bodies::{box_rows, inscribed_bodies};
+    use crate::bodies::{box_rows, inscribed_bodies, scene_rows};
     #[pymodule_export]
     use crate::body_mesh::body_mesh;
     #[pymodule_export]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Literal
 
 import numpy as np
@@ -21,6 +22,7 @@ def triangle_rows(
     triangles: ArrayLike | None,
     *,
     obstacles: ArrayLike | None = None,
+    surfaces: Sequence[tuple[ArrayLike, ArrayLike]] = (),
 ) -> Rows:
     """The triangles of a mesh as rows of nine numbers: the coordinates of their corners.
 
@@ -33,11 +35,14 @@ def triangle_rows(
         triangles of their bounding box.
     obstacles : array_like of shape (p, 3), optional
         Points that no body contains: rows with three equal corners, after the triangles. Equal points come once.
+    surfaces : sequence of (vertices, triangles), optional
+        Surfaces that no body meets. Their closed parts are solids, in which no body lies; their other parts are walls.
 
     Returns
     -------
     ndarray of shape (m, 9), with obstacles (m + p, 9)
-        Float32 where all that is given is, else float64.
+        Float32 where all that is given is, else float64. With surfaces rows have a tenth number: 0 for the mesh, 1, 2, … for
+        solids, -1 for walls and points.
 
     Raises
     ------
@@ -51,9 +56,16 @@ def triangle_rows(
     array([[0., 0., 0., 0., 1., 0., 1., 0., 0.]])
     """
     rows = _mesh_rows(vertices, triangles)
-    if obstacles is None:
+    if obstacles is not None:
+        rows = as_rows(np.concatenate([rows, _point_rows("obstacles", as_rows(obstacles))]))
+    if len(surfaces) == 0:
         return rows
-    return as_rows(np.concatenate([rows, _point_rows("obstacles", as_rows(obstacles))]))
+    if any(ids is None for _, ids in surfaces):
+        raise ValueError("a surface has no triangles: give its points as obstacles")
+    mesh = 12 if triangles is None else len(np.asarray(triangles))
+    others = [_mesh_rows(places, ids).ravel().tolist() for places, ids in surfaces]
+    numbers = _native.scene_rows(rows[:mesh].ravel().tolist(), others, rows[mesh:, :3].tolist())
+    return as_rows(np.array(numbers).reshape(-1, 10))
 
 
 def _mesh_rows(vertices: ArrayLike, triangles: ArrayLike | None) -> Rows:
@@ -89,6 +101,7 @@ def inscribed_bodies(
     triangles: ArrayLike | None,
     *,
     obstacles: ArrayLike | None = None,
+    surfaces: Sequence[tuple[ArrayLike, ArrayLike]] = (),
     facets: int = 256,
     objective: Objective = "volume",
     count: int | None = None,
@@ -112,6 +125,8 @@ def inscribed_bodies(
         `close_holes` is set. With None the bodies are among the vertices, in their bounding box.
     obstacles : array_like of shape (q, 3), optional
         Points that no body contains.
+    surfaces : sequence of (vertices, triangles), optional
+        Surfaces that no body meets, as those of `triangle_rows`: closed parts are solids, in which no body lies.
     facets : int from 8 to 256, default 256
         Most facets of a body; more facets cover more.
     objective : {"volume", "occlusion"}, default "volume"
@@ -137,7 +152,7 @@ def inscribed_bodies(
     -------
     Solution
         ``answer`` is an `InscribedBodies`; then ``certificate`` and ``trace``. Its `check` takes the rows that
-        `triangle_rows` makes, with the same obstacles. ``trace.counters`` has ``covered`` of ``sample_points`` points inside that the search did
+        `triangle_rows` makes, with the same obstacles and surfaces. ``trace.counters`` has ``covered`` of ``sample_points`` points inside that the search did
         not see.
 
     Raises
@@ -159,7 +174,7 @@ def inscribed_bodies(
     >>> found.check(taut.triangle_rows(vertices, triangles)).at
     1
     """
-    rows = triangle_rows(vertices, triangles, obstacles=obstacles)
+    rows = triangle_rows(vertices, triangles, obstacles=obstacles, surfaces=surfaces)
     return Solution(
         _native.inscribed_bodies(
             rows, True, facets, [], objective, _count(count, coverage), disjoint, *_segments(at), coverage, close_holes,
@@ -174,6 +189,7 @@ def inscribed_dops(
     triangles: ArrayLike | None,
     *,
     obstacles: ArrayLike | None = None,
+    surfaces: Sequence[tuple[ArrayLike, ArrayLike]] = (),
     directions: int | ArrayLike = 18,
     objective: Objective = "volume",
     count: int | None = None,
@@ -204,6 +220,8 @@ def inscribed_dops(
         `close_holes` is set. With None the bodies are among the vertices, in their bounding box.
     obstacles : array_like of shape (q, 3), optional
         Points that no body contains.
+    surfaces : sequence of (vertices, triangles), optional
+        Surfaces that no body meets, as those of `triangle_rows`: closed parts are solids, in which no body lies.
     directions : {6, 14, 18, 26} or array_like of int, shape (k, 3), default 18
         Directions of the facets: how many of those along the axes and diagonals, or from 3 to 13 of your own, no two of them
         parallel, not all in one plane, with absolute values that add up to at most 63. Each of these makes two facets, along it
@@ -246,7 +264,7 @@ def inscribed_dops(
     -------
     Solution
         ``answer`` is an `InscribedBodies`; then ``certificate`` and ``trace``. Its `check` takes the rows that
-        `triangle_rows` makes, with the same obstacles. ``trace.counters`` has ``covered`` of ``sample_points`` points inside that the search did
+        `triangle_rows` makes, with the same obstacles and surfaces. ``trace.counters`` has ``covered`` of ``sample_points`` points inside that the search did
         not see.
 
     Raises
@@ -268,7 +286,7 @@ def inscribed_dops(
     >>> found.check(taut.triangle_rows(vertices, triangles)).bodies
     1
     """
-    rows = triangle_rows(vertices, triangles, obstacles=obstacles)
+    rows = triangle_rows(vertices, triangles, obstacles=obstacles, surfaces=surfaces)
     kind, given = _directions(directions)
     return Solution(
         _native.inscribed_bodies(

@@ -149,6 +149,32 @@ def test_bodies_stay_clear_of_points():
         taut.triangle_rows(OCTAHEDRON, FACES, obstacles=[[1.0, 2.0]])
 
 
+def test_no_body_is_in_a_solid():
+    box = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
+    quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+    faces = np.array([triangle for a, b, c, d in quads for triangle in ([a, b, c], [a, c, d])])
+    # A block that leaves the box, and a wall.
+    surfaces = [(box * 0.5 + [0.75, 0.25, 0.25], faces), ([[0.2, 0, 0], [0.2, 1, 0], [0.2, 0, 1]], [[0, 1, 2]])]
+    points = np.array([[0.5, 0.9, 0.9], [0.5, 0.9, 0.9]])
+    given = {"obstacles": points, "surfaces": surfaces}
+    rows = taut.triangle_rows(box, faces, **given)
+    assert rows.shape == (26, 10) and rows[:, 9].tolist() == [0.0] * 12 + [1.0] * 12 + [-1.0] * 2
+    inside = 0.75 + 0.5 * np.random.default_rng(2).random((500, 3)) - [0, 0.5, 0.5]
+    for found in [
+        taut.inscribed_bodies(box, faces, **given, events=2000, count=3),
+        taut.inscribed_dops(box, faces, **given, events=2000, count=3),
+    ]:
+        verdict = found.check(rows)
+        assert (verdict.triangles, verdict.solids, verdict.walls, verdict.points) == (12, 1, 1, 1)
+        for body in range(3):
+            normals, offsets = found.answer.half_spaces(body)
+            assert not np.any(np.all(inside @ normals.T < offsets, axis=1))
+    with pytest.raises(ValueError, match="solid obstacle"):
+        taut.inscribed_bodies(box, faces, **given, at=[[1.1, 0.5, 0.5]])
+    among = taut.triangle_rows(points + [[0, 0, 0], [1, 1, 1]], None, surfaces=surfaces[1:])
+    assert among[:, 9].tolist() == [0.0] * 12 + [-1.0] * 3
+
+
 def test_bodies_contain_segments():
     segments = np.array([[[0.5, 0.1, 0], [-0.5, 0, 0.1]], [[0, 0, 0.2], [0, 0, 0.2]]])
     found = taut.inscribed_bodies(OCTAHEDRON, FACES, at=segments, events=2000)
