@@ -38,6 +38,7 @@ __all__ = [
     "norms",
     "robust_ellipsoid",
     "sample",
+    "scene_rows",
     "sort_file",
     "spatial_order",
     "sphere_tree",
