@@ -33,7 +33,7 @@ fn a_folder_gets_tiles_with_the_hash_of_the_triangulation_in_memory() {
     let verified = folder.taut("verify tiles points.npy").ends(0).stdout_has(&[
         "Verified: the Delaunay triangulation of 3000 points in the plane\n",
         "\n  sites      3000; proved: distinct points\n",
-        "; proved: neighbors, links and sites of each as the format has them\n",
+        "; proved: neighbors, sites and counts of each agree with what all tiles together are\n",
     ]);
     assert_eq!(field(&verified.out, "hash"), field(&expected.out, "hash"));
     let quiet = folder.taut("verify tiles points.npy -q --memory 64M --scratch .").ends(0);

@@ -26,6 +26,7 @@ use taut_points::{Blocks, InputError, Monitor, PointSource, PointsHash, Scratch,
 
 pub use plan::DiskPlan;
 
+use super::bytes::WordSum;
 use super::driver::{Course, Totals, Walk, run};
 use super::node::{Dim, Dimension};
 use super::solve::Whole;
@@ -145,6 +146,7 @@ where
     taut_points::check_threads(threads).map_err(refused)?;
     let mut plan = DiskPlan::new(source.len(), D, options.memory, threads)?;
     let folder = Folder::new(path);
+    let is_made_here = !path.exists();
     let earlier = open_folder(&folder, options.resume, &plan)?;
     let begun = match &earlier {
         Some(manifest) => manifest.begun,
@@ -154,39 +156,80 @@ where
     if begun.points != source.len() || begun.dimension != D as u64 {
         return Err(other_input());
     }
-    let known = [plan.row_bytes == begun.row_bytes, begun.levels < 31].iter().all(|&known| known);
-    if !known {
+    if plan.row_bytes != begun.row_bytes || begun.levels >= 31 {
         return Err(Error::DamagedFolder { path: folder.manifest().display().to_string() });
     }
     // A tree that was begun is finished, whatever the memory is now.
     plan.levels = begun.levels;
     plan.leaf_points = begun.leaf_points;
     plan.merge_above = begun.merge_above;
-    if let Some(complete) = earlier.and_then(|manifest| manifest.complete) {
-        return finish(&folder, source, complete);
-    }
     fs::create_dir_all(folder.work()).map_err(failed(&folder.work()))?;
     let lock_path = folder.work().join("lock");
     let lock = File::create(&lock_path).map_err(failed(&lock_path))?;
     if lock.try_lock().is_err() {
         return Err(Error::FolderLocked { folder: path.display().to_string() });
     }
-    Manifest { begun, complete: None }.write(&folder.manifest())?;
+    // Read with the lock: another process may have come to the end in the meantime.
+    let complete = match Manifest::read(&folder.manifest())?.and_then(|found| found.complete) {
+        Some(complete) if is_of(source, complete.points_hash, options)? => complete,
+        Some(_) => return Err(other_input()),
+        None => {
+            let solved = solve_begun::<D>(source, begun, &plan, &folder, threads, options);
+            let is_fault = |error: &Error| match error {
+                Error::Input(error) => error.is_fault_of_caller(),
+                _ => false,
+            };
+            // Other points could not go on from here, and these never will.
+            if earlier.is_none() && solved.as_ref().is_err_and(is_fault) {
+                drop(lock);
+                folder.discard(is_made_here)?;
+                return solved.map(|complete| finished(source, complete));
+            }
+            solved?
+        }
+    };
+    complete.tiles.iter().try_for_each(|&(tile, _)| nodes::strip(&folder, tile))?;
+    folder.clear_work()?;
+    drop(lock);
+    folder.remove_work()?;
+    Ok(finished(source, complete))
+}
 
+/// Tests whether the points of a source have this hash.
+fn is_of(
+    source: &dyn PointSource,
+    hash: PointsHash,
+    options: &FolderOptions<'_>,
+) -> Result<bool, Error> {
+    Ok(taut_points::hash_points(source, &options.monitor)? == hash)
+}
+
+/// Begins, or goes on, up to the complete manifest.
+fn solve_begun<const D: usize>(
+    source: &dyn PointSource,
+    begun: Begun,
+    plan: &DiskPlan,
+    folder: &Folder,
+    threads: usize,
+    options: &FolderOptions<'_>,
+) -> Result<Complete, Error>
+where
+    Dim<D>: Dimension<D>,
+{
+    Manifest { begun, complete: None }.write(&folder.manifest())?;
     let cut = match CutPoints::<D>::read(&folder.tree())? {
         Some(cut) => {
-            if taut_points::hash_points(source, &options.monitor)? != cut.points_hash {
-                return Err(other_input());
+            if !is_of(source, cut.points_hash, options)? {
+                return Err(Error::OtherInput { folder: folder.root().display().to_string() });
             }
             cut
         }
-        None => cut_points(source, &plan, &folder, threads, &options.monitor)?,
+        None => cut_points(source, plan, folder, threads, &options.monitor)?,
     };
     remove(&folder.commit())?;
-    let complete = triangulate(&cut, &plan, &folder, threads, options)?;
+    let complete = triangulate(&cut, plan, folder, threads, options)?;
     Manifest { begun, complete: Some(complete.clone()) }.write(&folder.manifest())?;
-    drop(lock);
-    finish(&folder, source, complete)
+    Ok(complete)
 }
 
 /// Opens a new folder, or one with a triangulation to resume, and looks for room.
@@ -217,14 +260,21 @@ fn cut_points<const D: usize>(
     threads: usize,
     monitor: &Monitor<'_>,
 ) -> Result<CutPoints<D>, Error> {
-    let router = Router::<D>::new(sample::sample(source)?, plan.router_levels());
+    let sample = sample::sample(source)?;
+    let mut sum = WordSum::default();
+    sample.as_flattened().iter().for_each(|x: &f64| sum.add(&x.to_bits().to_le_bytes()));
+    let sample_hash = sum.finish();
+    let router = Router::<D>::new(sample, plan.router_levels());
     let buckets = 1usize << plan.levels;
     let commit = match Commit::read(&folder.commit(), buckets, router.cells())? {
+        Some(commit) if commit.sample != sample_hash => {
+            return Err(Error::OtherInput { folder: folder.root().display().to_string() });
+        }
         Some(commit) => {
             check_blocks(source, &commit, folder, monitor)?;
             commit
         }
-        None => Commit::new(buckets, router.cells()),
+        None => Commit::new(sample_hash, buckets, router.cells()),
     };
     let commit = distribute::distribute(source, &router, plan, folder, commit, threads, monitor)?;
     let mut tree = Tree::new(&commit.cells);
@@ -290,25 +340,7 @@ where
     Ok(Complete { points_hash: cut.points_hash, totals, tiles })
 }
 
-/// Cuts off the fronts and removes the working files of a complete triangulation.
-fn finish(
-    folder: &Folder,
-    source: &dyn PointSource,
-    complete: Complete,
-) -> Result<TiledTriangulation, Error> {
-    for &(tile, _) in &complete.tiles {
-        nodes::strip(folder, tile)?;
-    }
-    match fs::remove_dir_all(folder.work()) {
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {}
-        result => result.map_err(failed(&folder.work()))?,
-    }
+fn finished(source: &dyn PointSource, complete: Complete) -> TiledTriangulation {
     let Complete { points_hash, totals, tiles } = complete;
-    Ok(TiledTriangulation {
-        dimension: source.dim(),
-        points: source.len(),
-        points_hash,
-        totals,
-        tiles,
-    })
+    TiledTriangulation { dimension: source.dim(), points: source.len(), points_hash, totals, tiles }
 }

@@ -54,7 +54,7 @@ pub(crate) fn claims(verdict: &TilesVerdict) -> Claims {
     );
     claims.fields.push(
         Field::proved("tiles", counted(verdict.tiles, "file"))
-            .remark("neighbors, links and sites of each as the format has them"),
+            .remark("neighbors, sites and counts of each agree with what all tiles together are"),
     );
     claims
 }

@@ -1,7 +1,10 @@
 //! How far the first pass came: what a resumed run needs to go on.
 //!
-//! *Bytes*, little-endian: magic `TAUTDIST`, version u32, D u32; largest magnitude f64, lowest exponent i32; blocks u64 and the hash of each; buckets u64 and the length of each; cells u64 and for each its smallest and
+//! *Bytes*, little-endian: magic `TAUTDIST`, version u32, D u32; the hash of the sample u64; largest magnitude f64, lowest
+//! exponent i32; blocks u64 and the hash of each; buckets u64 and the length of each; cells u64 and for each its smallest and
 //! largest coordinates and its points; the sum of the words.
+//! *Trap.* The sample is drawn anew by a resumed run. If rows that were not distributed yet are others now, so is the sample,
+//! and with it the cells: the first part of the points would lie in cells of another cut.
 
 use std::path::Path;
 
@@ -19,6 +22,8 @@ const VERSION: u32 = 1;
 /// The state of the distribution after whole blocks.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Commit<const D: usize> {
+    /// The hash of the sample that the cells were cut by.
+    pub(super) sample: u64,
     /// The hash of each block that was read, in order.
     pub(super) hashes: Vec<(u64, BlockHash)>,
     /// Bytes of each bucket.
@@ -30,8 +35,9 @@ pub(super) struct Commit<const D: usize> {
 
 impl<const D: usize> Commit<D> {
     /// Before the first block.
-    pub(super) fn new(buckets: usize, cells: usize) -> Self {
+    pub(super) fn new(sample: u64, buckets: usize, cells: usize) -> Self {
         Self {
+            sample,
             hashes: vec![],
             lengths: vec![0; buckets],
             cells: vec![CellBox::EMPTY; cells],
@@ -48,6 +54,7 @@ impl<const D: usize> Commit<D> {
         let mut bytes = MAGIC.to_vec();
         bytes.extend(VERSION.to_le_bytes());
         bytes.extend((D as u32).to_le_bytes());
+        bytes.extend(self.sample.to_le_bytes());
         bytes.extend(self.magnitudes.largest.to_le_bytes());
         bytes.extend(self.magnitudes.lowest.to_le_bytes());
         bytes.extend((self.hashes.len() as u64).to_le_bytes());
@@ -88,6 +95,7 @@ impl<const D: usize> Commit<D> {
         if reader.take(8)? != MAGIC || reader.u32()? != VERSION || reader.u32()? != D as u32 {
             return None;
         }
+        let sample = reader.u64()?;
         let magnitudes = Magnitudes { largest: reader.f64()?, lowest: reader.u32()? as i32 };
         let blocks = reader.u64()?;
         let hash =
@@ -97,7 +105,7 @@ impl<const D: usize> Commit<D> {
         let lengths = (0..buckets).map(|_| reader.u64()).collect::<Option<_>>()?;
         let cells = reader.u64()?;
         let cells = (0..cells).map(|_| read_cell(&mut reader)).collect::<Option<_>>()?;
-        Some(Self { hashes, lengths, cells, magnitudes })
+        Some(Self { sample, hashes, lengths, cells, magnitudes })
     }
 }
 
@@ -124,7 +132,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("distribution");
         assert_eq!(Commit::<2>::read(&path, 4, 8).unwrap(), None);
-        let mut commit = Commit::<2>::new(4, 8);
+        let mut commit = Commit::<2>::new(3, 4, 8);
         commit.hashes = vec![(0, BlockHash::from_bits(5)), (1, BlockHash::from_bits(7))];
         commit.lengths[2] = 40;
         commit.cells[3].add([1.0, -2.0]);

@@ -55,7 +55,7 @@ impl Folder {
         self.root.join(super::tile_name(node))
     }
 
-    /// The folder of what is removed at the end.
+    /// The folder of what is removed at the end: `lock`, `distribution`, `tree`, buckets, and drafts of these.
     pub(super) fn work(&self) -> PathBuf {
         self.root.join("work")
     }
@@ -74,6 +74,49 @@ impl Folder {
     pub(super) fn tree(&self) -> PathBuf {
         self.work().join("tree")
     }
+
+    /// Removes the working files but the lock; files that are not ours stay.
+    pub(super) fn clear_work(&self) -> Result<(), Error> {
+        let is_ours = |name: &str| {
+            let name = name.strip_suffix(".part").unwrap_or(name);
+            name == "distribution" || name == "tree" || name.starts_with("bucket-")
+        };
+        for entry in fs::read_dir(self.work()).map_err(failed(&self.work()))? {
+            let entry = entry.map_err(failed(&self.work()))?;
+            if entry.file_name().to_str().is_some_and(is_ours) {
+                remove(&entry.path())?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Removes the lock and the working folder, unless that has files that are not ours.
+    pub(super) fn remove_work(&self) -> Result<(), Error> {
+        remove(&self.work().join("lock"))?;
+        match fs::remove_dir(self.work()) {
+            Err(error) if is_kept(error.kind()) => Ok(()),
+            result => result.map_err(failed(&self.work())),
+        }
+    }
+
+    /// Removes what a run began that can never end, and the folder itself if it was made for it.
+    pub(super) fn discard(&self, with_root: bool) -> Result<(), Error> {
+        self.clear_work()?;
+        self.remove_work()?;
+        remove(&self.manifest())?;
+        if !with_root {
+            return Ok(());
+        }
+        match fs::remove_dir(&self.root) {
+            Err(error) if is_kept(error.kind()) => Ok(()),
+            result => result.map_err(failed(&self.root)),
+        }
+    }
+}
+
+/// Tests whether a folder stays or is gone already without that being an error.
+fn is_kept(kind: io::ErrorKind) -> bool {
+    matches!(kind, io::ErrorKind::DirectoryNotEmpty | io::ErrorKind::NotFound)
 }
 
 /// Writes a file beside its name, brings it to the disk and names it; an earlier file is replaced.

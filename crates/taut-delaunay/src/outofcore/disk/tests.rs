@@ -146,6 +146,39 @@ fn other_points_and_taken_folders_are_refused() {
     let found = delaunay_to_folder(&ours, folder.path(), &again).unwrap();
     // A complete folder is given back as it is.
     assert_eq!(delaunay_to_folder(&ours, folder.path(), &again).unwrap(), found);
+    // But not as the answer to other points, of which there are as many.
+    let refused = delaunay_to_folder(&other, folder.path(), &again);
+    assert!(matches!(refused, Err(Error::OtherInput { .. })), "{refused:?}");
+}
+
+#[test]
+fn a_complete_folder_loses_no_file_that_is_not_ours() {
+    let source = GeneratedSource::new(Distribution::Uniform, 500, 2, 1, ScalarKind::F64).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    delaunay_to_folder(&source, folder.path(), &options()).unwrap();
+    let mine = folder.path().join("work/mine.txt");
+    fs::create_dir(folder.path().join("work")).unwrap();
+    fs::write(&mine, "of somebody").unwrap();
+    fs::write(folder.path().join("work/bucket-00000000"), "left behind").unwrap();
+    let again = FolderOptions { resume: true, ..options() };
+    delaunay_to_folder(&source, folder.path(), &again).unwrap();
+    assert_eq!(files(&folder.path().join("work")).into_keys().collect::<Vec<_>>(), ["mine.txt"]);
+}
+
+/// Rows that were not distributed yet may have changed: then the sample, and with it the cells, are others.
+#[test]
+fn a_distribution_by_another_sample_is_refused() {
+    let source = GeneratedSource::new(Distribution::Uniform, 5000, 2, 1, ScalarKind::F64).unwrap();
+    let place = tempfile::tempdir().unwrap();
+    let folder = Folder::new(place.path());
+    fs::create_dir(folder.work()).unwrap();
+    let plan = DiskPlan::new(5000, 2, 64 << 20, 1).unwrap();
+    let cells = 1usize << plan.router_levels();
+    Commit::<2>::new(1, 1 << plan.levels, cells).write(&folder.commit()).unwrap();
+    let refused = cut_points::<2>(&source, &plan, &folder, 1, &Monitor::silent());
+    assert!(matches!(refused, Err(Error::OtherInput { .. })));
+    remove(&folder.commit()).unwrap();
+    assert!(cut_points::<2>(&source, &plan, &folder, 1, &Monitor::silent()).is_ok());
 }
 
 #[test]
@@ -156,6 +189,14 @@ fn what_is_not_finite_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let refused = delaunay_to_folder(&points, folder.path(), &options()).unwrap_err();
     assert!(refused.to_string().contains("coordinate 1 of point 15000"), "{refused}");
+    // Nothing is left, so that the same folder takes the mended points.
+    assert_eq!(files(folder.path()).len(), 0);
+    let made = folder.path().join("made");
+    assert!(delaunay_to_folder(&points, &made, &options()).is_err());
+    assert!(!made.exists());
+    values[30_001] = 0.25;
+    let points = Points::new(&values, 2).unwrap();
+    assert!(delaunay_to_folder(&points, &made, &options()).is_ok());
 }
 
 /// Nothing on a circle is final before the root, so all sites come together there.

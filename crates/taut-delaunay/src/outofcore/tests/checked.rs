@@ -1,10 +1,14 @@
 //! The independent checker of folders: it accepts what the tree writes, of every set, and refuses every forgery.
 
 use std::fs;
+use std::ops::Range;
 use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use taut_certify::{TilesError, TilesOptions, TilesVerdict, TilesViolation, check_tiles};
-use taut_points::{Distribution, GeneratedSource, Points, ScalarKind};
+use taut_points::{
+    Distribution, GeneratedSource, PointSource, Points, ReadError, Rows, ScalarKind, Scratch,
+};
 
 use super::super::front::Link;
 use super::super::{
@@ -597,5 +601,77 @@ fn forged_chains_are_refused() {
         forgery.rebuild();
         let found = violation(&forgery);
         assert!(!found.to_string().is_empty());
+    }
+}
+
+/// A single point has no facets: one in "another tile" that an outside link closes would be counted on the hull.
+#[test]
+fn a_single_point_with_a_facet_on_the_hull_is_refused() {
+    let right = honest(&[[1.0, 2.0]], Cut { levels: 0, ..CUT });
+    assert_eq!(check(&right).unwrap().counts.hull, 0);
+    let mut forgery = right;
+    let place = forgery.tiles.iter().position(|tile| !tile.neighbors.is_empty()).unwrap();
+    let tile = &mut forgery.tiles[place];
+    tile.neighbors[0] = OTHER_TILE;
+    let link = Link { tile: tile.counts.tile, code: 0 };
+    tile.links.push(super::super::TileLink { code: Link::OUTSIDE, link });
+    forgery.count();
+    let found = violation(&forgery);
+    assert!(matches!(found, TilesViolation::Neighbor { .. }), "{found}");
+}
+
+/// Points whose coordinate z is 0 in one of the reads.
+struct FlatOnce {
+    points: Vec<[f64; 3]>,
+    flat: Vec<[f64; 3]>,
+    flat_read: usize,
+    reads: AtomicUsize,
+}
+
+impl PointSource for FlatOnce {
+    fn len(&self) -> u64 {
+        self.points.len() as u64
+    }
+
+    fn dim(&self) -> usize {
+        3
+    }
+
+    fn scalar(&self) -> ScalarKind {
+        ScalarKind::F64
+    }
+
+    fn read<'a>(&'a self, range: Range<u64>, _: &'a mut Scratch) -> Result<Rows<'a>, ReadError> {
+        let is_flat = self.reads.fetch_add(1, Ordering::Relaxed) == self.flat_read;
+        let all = if is_flat { &self.flat } else { &self.points };
+        let part = &all[range.start as usize..range.end as usize];
+        Ok(Rows::F64(Points::new(part.as_flattened(), 3)?))
+    }
+}
+
+/// The dimension is decided from what was hashed: points that change for a moment are no proof of a flat folder.
+#[test]
+fn points_that_change_between_two_reads_are_refused() {
+    let mut points: Vec<[f64; 3]> =
+        uniform::<2>(300, 71).iter().map(|&[x, y]| [x, y, 0.0]).collect();
+    let flat = points.clone();
+    // So little that all circles stay empty.
+    points[299][2] = 1e-12;
+    let mut forgery = honest(&flat, CUT);
+    forgery.points = points.clone();
+    for tile in &mut forgery.tiles {
+        for (p, &row) in tile.coordinates.iter_mut().zip(&tile.rows) {
+            *p = points[row as usize];
+        }
+    }
+    forgery.count();
+    let folder = tempfile::tempdir().unwrap();
+    forgery.write(folder.path());
+    for flat_read in 0..4 {
+        let (points, flat, reads) = (points.clone(), flat.clone(), AtomicUsize::new(0));
+        let source = FlatOnce { points, flat, flat_read, reads };
+        let options = TilesOptions { memory: 16 << 20, ..TilesOptions::default() };
+        let found = check_tiles(folder.path(), &source, &options);
+        assert!(matches!(found, Err(TilesError::Rejected(_))), "{flat_read}: {found:?}");
     }
 }

@@ -465,6 +465,12 @@ where
                 let points = facet.map(|i| self.job.ready(&points[i]));
                 return self.hull.add(facet.map(|i| rows[i]), points);
             }
+            // Counted it would be a facet of the hull.
+            _ if F == 0 => {
+                let (tile, simplex) = (sites.tile, u64::from(number));
+                let problem = "a single point has no neighbor";
+                return Err(TilesViolation::Neighbor { tile, simplex, facet, problem }.into());
+            }
             OTHER_TILE => match sites.links.get(tile.links) {
                 Some(&[code, other, there]) if code == number << 2 | facet as u32 => {
                     tile.links += 1;

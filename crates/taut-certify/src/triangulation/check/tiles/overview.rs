@@ -3,7 +3,9 @@
 
 use std::cmp::Ordering;
 
-use taut_points::{BlockHash, Blocks, Monitor, PointSource, PointsHash, Rows, Scratch, map_blocks};
+use taut_points::{
+    BlockHash, Blocks, Monitor, PointSource, PointsHash, Rows, Scratch, hash_block, map_blocks,
+};
 
 use super::super::geometry::Tetrahedra;
 use super::super::input::{Block, scaling, turn};
@@ -85,9 +87,14 @@ impl<const D: usize> Overview<D> {
     ) -> Result<Hull<D>, TilesError> {
         let blocks = Blocks::of(source);
         let (mut scratch, mut hull) = (Scratch::new(), Hull { corners: vec![], axes: None });
-        for block in 0..blocks.count() {
+        for (block, &expected) in (0..blocks.count()).zip(&self.blocks) {
             monitor.check()?;
             let rows = source.read(blocks.range(block), &mut scratch)?;
+            // The input may have changed since the first pass.
+            if hash_block(&rows) != expected {
+                let found = format!("another in block {block}");
+                return Err(TilesViolation::Hash { claimed: self.hash.to_string(), found }.into());
+            }
             for row in 0..rows.len() {
                 self.add(&mut hull, self.scaled(&point(&rows, row)));
                 if hull.corners.len() == D + 1 {

@@ -58,7 +58,6 @@ pub(super) struct Coverage<const D: usize> {
     /// Rows of a bucket: whole blocks of the input.
     bucket_rows: u64,
     sites: Buckets,
-    /// The tile of each flush of sites is not kept: it is found again where something is wrong.
     by_row: Sorter<2>,
     by_first: Sorter<2>,
     duplicates: u64,
@@ -260,15 +259,14 @@ fn compare<const D: usize>(
 
 /// Rows that are said to equal an earlier one, with the coordinates of that.
 struct Equal<const D: usize> {
-    // Coordinates beyond the dimension are 0.
+    /// Row, earlier row, and coordinates, of which those beyond the dimension are 0.
     entries: Sorter<5>,
     is_empty: bool,
-    dimension: [(); D],
 }
 
 impl<const D: usize> Equal<D> {
     fn new(folder: &Path, memory: u64) -> Self {
-        Equal { entries: Sorter::new(folder, memory), is_empty: true, dimension: [(); D] }
+        Equal { entries: Sorter::new(folder, memory), is_empty: true }
     }
 
     fn add(&mut self, row: u64, first: u64, coordinates: [f64; D]) -> Result<(), TilesError> {
@@ -315,7 +313,6 @@ impl<const D: usize> Equal<D> {
                 next = entries.next_if(|entry| entry[0] < range.end)?;
             }
         }
-        debug_assert_eq!(self.dimension.len(), D);
         Ok(())
     }
 }

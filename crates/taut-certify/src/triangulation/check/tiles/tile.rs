@@ -3,7 +3,7 @@
 //! *Order.* The counts are at the end of the file and the links just before, so these are read first; then all bytes in
 //! order, for their sum. Sites stay in memory until the last simplex; simplices pass.
 
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{self, ErrorKind, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -21,8 +21,8 @@ const COUNTS_BYTES: u64 = 104;
 pub(super) const OTHER_TILE: u32 = u32::MAX - 1;
 /// The side of a link that is no simplex: the facet of the other tile lies on the hull.
 const OUTSIDE: u32 = u32::MAX;
-/// Simplices of a tile: their numbers and a facet must fit into a code.
-const SIMPLICES_MAX: u64 = 1 << 30;
+/// Simplices of a tile: a number and a facet make a code, which must not be [`OUTSIDE`].
+const SIMPLICES_MAX: u64 = (1 << 30) - 1;
 /// Bytes that are read at once.
 const READ_BYTES: usize = 1 << 18;
 
@@ -98,13 +98,15 @@ impl<const D: usize> TileFile<D> {
         let path = folder.join(file_name(tile));
         let wrong = |problem: String| TilesError::from(TilesViolation::Tile { tile, problem });
         let failed = |source| TilesError::File { path: path.clone(), source };
-        let mut file = match File::open(&path) {
+        let length = match fs::metadata(&path) {
             Err(error) if error.kind() == ErrorKind::NotFound => {
                 return Err(wrong("is not there".into()));
             }
-            opened => opened.map_err(failed)?,
+            // To open a pipe would wait for its writer.
+            Ok(found) if !found.is_file() => return Err(wrong("is not a file".into())),
+            found => found.map_err(failed)?.len(),
         };
-        let length = file.metadata().map_err(failed)?.len();
+        let mut file = File::open(&path).map_err(failed)?;
         if length != bytes {
             return Err(wrong(format!("has {length} bytes, the manifest says {bytes}")));
         }
