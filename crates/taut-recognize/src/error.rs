@@ -37,7 +37,11 @@ pub enum Error {
         needs: &'static str,
     },
     /// There are too few classes for the method.
-    #[error("there is {classes} class: {needs}")]
+    #[error(
+        "there {} {classes} {}: {needs}",
+        if *classes == 1 { "is" } else { "are" },
+        if *classes == 1 { "class" } else { "classes" }
+    )]
     ClassCount {
         /// Classes there are.
         classes: usize,

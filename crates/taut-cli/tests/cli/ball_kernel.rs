@@ -66,6 +66,8 @@ fn other_kernels_and_the_method_of_the_thesis() {
         .ends(0)
         .stdout_has(&["thesis"]);
     folder.taut("verify t.json points.csv").ends(0);
+    // Fewer steps than were asked for are no success.
+    folder.taut("ball points.csv --kernel gaussian --thesis-steps 100 --max-passes 9").ends(3);
     folder.put("gram.csv", "1,0.5,0\n0.5,1,0.25\n0,0.25,1\n");
     folder.taut("ball gram.csv --kernel precomputed -o g.json --draw g.svg").ends(0);
     folder.taut("verify g.json gram.csv").ends(0).stdout_has(&["evidence"]);
@@ -88,6 +90,7 @@ fn options_that_do_not_belong_together_are_refused() {
     for command in [
         "ball points.csv --gamma 2",
         "ball points.csv --kernel gaussian --nu 0.1 --thesis-steps 9",
+        "ball points.csv --kernel gaussian --epsilon 0.1 --thesis-steps 9",
         "ball points.csv --kernel gaussian --balls",
         "ball points.csv --kernel cosine",
     ] {

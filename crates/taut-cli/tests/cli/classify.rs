@@ -226,6 +226,18 @@ fn what_is_refused_is_named_and_nothing_is_written() {
             "option `--folds` is 1: expected from 2 to 1000",
         ),
         (
+            "train train.csv --label kind --model new.json --folds 91",
+            "option `--folds` is 91: expected at most one for each of the 90 points",
+        ),
+        (
+            "train train.csv --label kind --model new.json --method box --folds 4",
+            "option `--folds` is 4: expected left out where nothing is chosen",
+        ),
+        (
+            "train train.csv --label kind --model new.json --method ball --nu 0.1 --thesis-steps 9",
+            "option `--thesis-steps` is 9: expected left out for soft balls",
+        ),
+        (
             "train train.csv --label kind --model new.json --reject 1",
             "option `--reject` is 1: expected",
         ),

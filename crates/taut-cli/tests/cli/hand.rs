@@ -144,6 +144,11 @@ fn an_evaluation_that_cannot_be_is_refused() {
     folder.taut("hand evaluate --synthetic 70").ends(2);
     refused("--synthetic 2x2 --method eigenhands", &["eigenhands", "all-plda"]);
     refused("--synthetic 2x2 --training 1 --splits 1", &["`--folds` is 5"]);
+    // Neither says anything of scans that are made.
+    for option in ["--dpi 90", "--labels labels.csv"] {
+        let run = folder.taut(&format!("hand evaluate --synthetic 2x2 {option}")).ends(2);
+        assert!(run.err.contains("cannot be used with"), "{run:?}");
+    }
     refused("missing.csv", &["missing.csv"]);
     folder.put("other.csv", "x,y\n1,2\n");
     refused("other.csv", &["other.csv", "hand evaluate --table"]);
@@ -164,6 +169,7 @@ fn scans_of_others_in_a_folder_of_synthetic_ones_stay() {
     folder.taut(command).ends(0);
     folder.taut(command).ends(0);
     folder.put("scans/person-0000-scan-07.png", "mine");
+    folder.taut("hand synthesize new --people 0").ends(2).stderr_has(&["`--people` is 0"]);
     folder.taut(command).ends(2).stderr_has(&["scans holds `person-0000-scan-07.png`"]);
     assert_eq!(folder.text("scans/person-0000-scan-07.png"), "mine");
 }

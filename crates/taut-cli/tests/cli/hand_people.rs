@@ -76,6 +76,7 @@ fn keys_stores_and_manifests_that_do_not_fit_are_refused() {
     };
     folder.taut("hand key -o other").ends(0);
     folder.taut("hand key -o other").ends(2).stderr_has(&["other exists"]);
+    folder.taut("hand key -o -").ends(2).stderr_has(&["a key is written to a file"]);
     refused("--store people --key other", "the key does not fit");
     refused("--store people", "there is no key");
     refused("--store people --key people", "the key from people");

@@ -174,6 +174,10 @@ impl Preset {
             let expected = "left out, as this method has no hard balls";
             return refuse("steps", steps.to_string(), expected);
         }
+        if let Some(steps) = steps.filter(|_| nu.is_some()) {
+            let expected = "left out for soft balls, for which ν asks";
+            return refuse("steps", steps.to_string(), expected);
+        }
         Ok(())
     }
 }
@@ -207,5 +211,8 @@ mod tests {
         let refused =
             Preset::Box.candidates(&PresetOptions { nu: Some(0.5), ..Default::default() });
         assert!(refused.unwrap_err().to_string().contains("no soft balls"));
+        let both = PresetOptions { nu: Some(0.5), steps: Some(9), ..Default::default() };
+        let refused = Preset::Ball.candidates(&both).unwrap_err().to_string();
+        assert!(refused.contains("`steps` is 9: expected left out for soft balls"), "{refused}");
     }
 }

@@ -1,7 +1,7 @@
 //! `taut ball --kernel`: the smallest ball in the feature space of a kernel.
 
 use anyhow::bail;
-use taut::certify::{Kernel, KernelBall};
+use taut::certify::{Kernel, KernelBall, Stop};
 use taut::enclose::{KernelBallMethod, KernelBallOptions, kernel_ball};
 use taut::{BallMethod, Monitor, Solution};
 
@@ -44,8 +44,8 @@ pub(super) struct KernelArgs {
     /// Find the soft ball, which leaves at most this share of the points outside, above 0 and at most 1
     #[arg(long, value_name = "REAL", requires = "kernel", allow_negative_numbers = true)]
     nu: Option<f64>,
-    /// Take so many steps of Algorithm 11 of the thesis in place of the default method, at least 2
-    #[arg(long, value_name = "N", requires = "kernel", conflicts_with = "nu")]
+    /// Take so many steps of Algorithm 11 of the thesis in place of the default method, at least 2, whatever the gap
+    #[arg(long, value_name = "N", requires = "kernel", conflicts_with_all = ["nu", "epsilon"])]
     thesis_steps: Option<u64>,
 }
 
@@ -133,7 +133,12 @@ impl Find for WithKernel<'_> {
 
     fn outcome(&self, found: &Solution<KernelBall>) -> Outcome {
         match self.args.kernel.thesis_steps {
-            // So many steps were asked for, and no gap.
+            // So many steps were asked for, and no gap; a step takes a pass.
+            Some(steps)
+                if found.trace.iterations < steps && found.trace.stop == Stop::PassBudget =>
+            {
+                Outcome::StoppedEarly
+            }
             Some(_) => Outcome::Done,
             None => {
                 reports::outcome(found.trace.stop, found.certificate.gap, self.options().epsilon)

@@ -54,9 +54,9 @@ pub(super) struct Args {
     /// Take N steps of Algorithm 11 of the thesis instead of the optimal ball; at least 2
     #[arg(long, value_name = "N")]
     thesis_steps: Option<u64>,
-    /// Inner folds, at least 2
-    #[arg(long, value_name = "N", default_value_t = TrainOptions::default().folds)]
-    folds: usize,
+    /// Inner folds, at least 2, for choices, rejection and probabilities [default: 5]
+    #[arg(long, value_name = "N")]
+    folds: Option<usize>,
     /// Reject points that score below a threshold, which this share of points of the right class misses; in [0, 1)
     #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
     reject: Option<f64>,
@@ -109,6 +109,11 @@ impl Args {
         if self.label.is_none() && self.method != Preset::Svdd {
             bail!("training needs --label COLUMN: only --method svdd learns without labels");
         }
+        let needs_folds = candidates.len() > 1 || self.reject.is_some() || self.probabilities;
+        if let Some(folds) = self.folds.filter(|_| !needs_folds) {
+            let expected = "left out where nothing is chosen, rejected or calibrated";
+            return Err(wrong_option("folds", &folds.to_string(), expected));
+        }
         let files: Vec<_> =
             [&self.model].into_iter().chain(&self.draw).map(PathBuf::as_path).collect();
         writing::check_writable(&files, &[&self.points.path])?;
@@ -127,13 +132,17 @@ impl Args {
             Some(_) => classes_of(opened.labels()),
             None => (vec!["inside".to_owned()], vec![0; points.len()]),
         };
+        if let Some(folds) = self.folds.filter(|&folds| folds > points.len()) {
+            let expected = format!("at most one for each of the {} points", points.len());
+            return Err(wrong_option("folds", &folds.to_string(), &expected));
+        }
         let data =
             Labeled::new(points, &labels, &classes).map_err(|error| explain(&opened, error))?;
         let found = watch.during("training", |monitor| {
             let options = TrainOptions {
                 candidates,
                 committee: self.method.committee(),
-                folds: self.folds,
+                folds: self.folds(),
                 reject: self.reject,
                 calibrate: self.probabilities,
                 seed: self.seed,
@@ -172,6 +181,10 @@ impl Args {
         Ok(Outcome::Done)
     }
 
+    fn folds(&self) -> usize {
+        self.folds.unwrap_or(TrainOptions::default().folds)
+    }
+
     fn summary(&self, model: &Model, points: &taut::Points<'_, f64>, labels: &[u32]) -> String {
         let mut text = format!(
             "Classifier for {} of {}, learned from {}\n",
@@ -199,7 +212,7 @@ impl Args {
             text += &format!(
                 "  chosen    among {} by {} inner folds; the best had {share:.2} % right there\n",
                 counted(model.trials().len() as u64, "candidate"),
-                self.folds
+                self.folds()
             );
         }
         if let Some(threshold) = model.threshold() {

@@ -40,7 +40,12 @@ pub(super) struct Args {
     #[arg(long, value_name = "FILE")]
     labels: Option<PathBuf>,
     /// Make and measure synthetic scans instead of reading some, such as 70x10
-    #[arg(long, value_name = "PEOPLExSCANS", conflicts_with = "paths", value_parser = people_and_scans)]
+    #[arg(
+        long,
+        value_name = "PEOPLExSCANS",
+        conflicts_with_all = ["paths", "labels", "dpi"],
+        value_parser = people_and_scans
+    )]
     synthetic: Option<(u64, u64)>,
     /// Dots per inch, 20 to 2400 [default: those of the files]
     #[arg(long, value_name = "REAL", allow_negative_numbers = true)]

@@ -5,13 +5,13 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use rayon::prelude::*;
-use taut::points::InputError;
 use taut::recognize::hand::synthetic::{Generator, Rates, Scan};
 use taut::recognize::hand::{FEATURE_NAMES, Side};
 use taut_io::create_folder;
 
 use crate::effort::Effort;
 use crate::exit::Outcome;
+use crate::input::reading::wrong_option;
 use crate::output::writing::Outputs;
 
 /// Scans of one call, at most.
@@ -102,9 +102,7 @@ impl Args {
     }
 
     fn generator(&self) -> anyhow::Result<Generator> {
-        let wrong = |name, value: String, expected| {
-            Err(InputError::Option { name, value, expected }.into())
-        };
+        let wrong = |name, value: String, expected| Err(wrong_option(name, &value, expected));
         if self.people.saturating_mul(self.scans) > SCANS_MAX {
             let expected = "people times scans of at most 1000000";
             return wrong("people", self.people.to_string(), expected);

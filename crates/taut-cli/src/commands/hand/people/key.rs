@@ -2,9 +2,11 @@
 
 use std::path::PathBuf;
 
+use anyhow::bail;
 use taut::recognize::store::Key;
 
 use crate::exit::Outcome;
+use crate::output::writing;
 
 /// Make a secret key for a store of people.
 #[derive(Debug, clap::Args)]
@@ -21,6 +23,9 @@ pub(crate) struct Args {
 
 impl Args {
     pub(super) fn run(&self) -> anyhow::Result<Outcome> {
+        if writing::is_stream(&self.out) {
+            bail!("a key is written to a file that you alone may read: name it after --out");
+        }
         Key::generate()?.write_new(&self.out)?;
         Ok(Outcome::Done)
     }
