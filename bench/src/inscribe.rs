@@ -1,7 +1,9 @@
 //! Shapes inside polygons and meshes: beside shapely and polylabel in the plane, drake, V-HACD and CoACD in space.
 
 mod bodies;
-mod planar;
+mod circles;
+mod occluders;
+mod searches;
 pub(crate) mod shapes;
 mod threads;
 
@@ -16,14 +18,18 @@ use shapes::{COUNTRIES_10M, COUNTRIES_110M, Mesh, Model, countries, model};
 pub(crate) const AREA: Area<Run> = Area {
     name: "inscribe",
     sections: &[
-        runs("ellipse", planar::ellipses)
+        runs("ellipse", searches::ellipses)
             .about("The largest ellipse in outlines of countries, searched and proved."),
-        runs("circle", planar::circles)
+        runs("triangle", searches::triangles)
+            .about("The largest triangle in outlines of countries, searched and proved."),
+        runs("circle", circles::circles)
             .about("The largest circle in outlines of countries, beside shapely and polylabel."),
         runs("threads", threads::threads)
             .about("Searches of 10⁵ cells for triangles and ellipses by one thread and by two."),
         runs("packing", bodies::packing)
             .about("18-dops, overlapping and disjoint: coverage, time, certificates, occlusion."),
+        runs("occlusion", occluders::occlusions)
+            .about("Ten bodies of each model: lines hidden by k-dops and free bodies, searched by volume and by lines."),
         runs("peers", bodies::peers).about(
             "A body with free facets beside drake's Iris from its seed; packings beside V-HACD and CoACD, with what lies outside.",
         ),

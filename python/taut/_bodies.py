@@ -108,6 +108,8 @@ def inscribed_bodies(
     disjoint: bool = False,
     at: ArrayLike | None = None,
     coverage: float | None = None,
+    hidden: float | None = None,
+    merge_within: float | None = None,
     close_holes: bool = False,
     events: int = 200_000,
     seed: int = 0,
@@ -132,7 +134,7 @@ def inscribed_bodies(
     objective : {"volume", "occlusion"}, default "volume"
         What the search counts: the part of the inside that bodies cover, or the lines through the mesh that they hide.
     count : int from 1 to 1000, optional
-        Most bodies to find; fewer are found where no more fit. By default 1, or 1000 with `coverage`; as many as there are
+        Most bodies to find; fewer are found where no more fit. By default 1, or 1000 with `coverage` or `hidden`; as many as there are
         points in `at`, if these are more.
     disjoint : bool, default False
         Whether no two bodies may overlap.
@@ -141,6 +143,12 @@ def inscribed_bodies(
     coverage : float, optional
         The part of the inside to cover, above 0 and at most 1: no more bodies are added once they cover it, by the points
         that the search counts.
+    hidden : float, optional
+        The part of the lines through the mesh to hide, above 0 and at most 1, with the objective "occlusion": no more bodies are
+        added once they hide it, by the lines that the search counts.
+    merge_within : float, optional
+        The part of what bodies cover or hide that may be lost to have fewer of them, from 0 to below 1: needless bodies go, and
+        pairs of bodies give way to one.
     close_holes : bool, default False
         Whether the holes of a mesh that is not closed are closed by triangles, the ``caps`` of the answer.
     events : int >= 1, default 200_000
@@ -177,8 +185,8 @@ def inscribed_bodies(
     rows = triangle_rows(vertices, triangles, obstacles=obstacles, surfaces=surfaces)
     return Solution(
         _native.inscribed_bodies(
-            rows, True, facets, [], objective, _count(count, coverage), disjoint, *_segments(at), coverage, close_holes,
-            events, seed, "recreate", "grid", 32, 5, False, False,
+            rows, True, facets, [], objective, _count(count, coverage, hidden), disjoint, *_segments(at), coverage,
+            hidden, merge_within, close_holes, events, seed, "recreate", "grid", 32, 5, False, False,
         ),
         rows,
     )
@@ -196,6 +204,8 @@ def inscribed_dops(
     disjoint: bool = False,
     at: ArrayLike | None = None,
     coverage: float | None = None,
+    hidden: float | None = None,
+    merge_within: float | None = None,
     close_holes: bool = False,
     events: int = 200_000,
     seed: int = 0,
@@ -229,7 +239,7 @@ def inscribed_dops(
     objective : {"volume", "occlusion"}, default "volume"
         What the search counts: the part of the inside that bodies cover, or the lines through the mesh that they hide.
     count : int from 1 to 1000, optional
-        Most bodies to find; fewer are found where no more fit. By default 1, or 1000 with `coverage`; as many as there are
+        Most bodies to find; fewer are found where no more fit. By default 1, or 1000 with `coverage` or `hidden`; as many as there are
         points in `at`, if these are more.
     disjoint : bool, default False
         Whether no two bodies may overlap.
@@ -238,6 +248,12 @@ def inscribed_dops(
     coverage : float, optional
         The part of the inside to cover, above 0 and at most 1: no more bodies are added once they cover it, by the points
         that the search counts.
+    hidden : float, optional
+        The part of the lines through the mesh to hide, above 0 and at most 1, with the objective "occlusion": no more bodies are
+        added once they hide it, by the lines that the search counts.
+    merge_within : float, optional
+        The part of what bodies cover or hide that may be lost to have fewer of them, from 0 to below 1: needless bodies go, and
+        pairs of bodies give way to one.
     close_holes : bool, default False
         Whether the holes of a mesh that is not closed are closed by triangles, the ``caps`` of the answer.
     events : int >= 1, default 200_000
@@ -290,16 +306,16 @@ def inscribed_dops(
     kind, given = _directions(directions)
     return Solution(
         _native.inscribed_bodies(
-            rows, False, kind, given, objective, _count(count, coverage), disjoint, *_segments(at), coverage, close_holes,
-            events, seed, method, seeds, cells, votes, translate, merge,
+            rows, False, kind, given, objective, _count(count, coverage, hidden), disjoint, *_segments(at), coverage,
+            hidden, merge_within, close_holes, events, seed, method, seeds, cells, votes, translate, merge,
         ),
         rows,
     )
 
 
-def _count(count: int | None, coverage: float | None) -> int:
-    """The most bodies, by default as many as a coverage needs."""
-    return count if count is not None else 1 if coverage is None else 1000
+def _count(count: int | None, coverage: float | None, hidden: float | None) -> int:
+    """The most bodies, by default as many as a part to cover or to hide needs."""
+    return count if count is not None else 1 if coverage is None and hidden is None else 1000
 
 
 def _directions(directions: int | ArrayLike) -> tuple[int, list[list[int]]]:

@@ -46,6 +46,20 @@ def test_occlusion_can_be_the_objective():
     assert 0 < counters["searched_hidden"] < counters["searched_lines"]
     with pytest.raises(ValueError, match="objective"):
         taut.inscribed_bodies(OCTAHEDRON, FACES, objective="surface")
+    found = taut.inscribed_dops(OCTAHEDRON, FACES, directions=6, objective="occlusion", hidden=0.5, events=1000)
+    counters = found.trace.counters
+    assert counters["searched_hidden"] >= 0.5 * counters["searched_lines"]
+    with pytest.raises(ValueError, match="hidden"):
+        taut.inscribed_bodies(OCTAHEDRON, FACES, hidden=0.5)
+
+
+def test_bodies_are_merged():
+    many = taut.inscribed_dops(OCTAHEDRON, FACES, directions=6, count=20, events=3000)
+    few = taut.inscribed_dops(OCTAHEDRON, FACES, directions=6, count=20, events=3000, merge_within=0.3)
+    assert len(few.answer.bodies) < len(many.answer.bodies)
+    assert few.trace.counters["searched_covered"] >= 0.7 * many.trace.counters["searched_covered"]
+    with pytest.raises(ValueError, match="merge_within"):
+        taut.inscribed_bodies(OCTAHEDRON, FACES, merge_within=-0.1)
 
 
 def test_the_procedure_of_the_thesis_gives_disjoint_bodies():

@@ -6,7 +6,7 @@
 //! facet i, which is the least uᵢ·x over all triangles clipped by the other facets ([`clip`]). A tree that stores the least uⱼ·x
 //! of its triangles for each direction finds it ([`tree`]). Bodies grow by events from points deep inside, are ruined in a few
 //! facets and grown again ([`grow`]). Facets in any directions are planes around a center, through the nearest points of
-//! triangles in the metric of a smaller body ([`free`]). Each new body is to cover points that no other body covers ([`pack`]).
+//! triangles in the metric of a smaller body ([`free`]). Each new body is to cover points that no other body covers ([`pack`]). If fewer bodies are wanted, pairs are merged ([`merge`]).
 //! *Guarantee.* Each body lies inside the mesh as given: weights of facets separate each triangle from it, in whole numbers
 //! ([`proof`]). Nothing is claimed about how large such bodies can be.
 //! *Trap.* A facet that slides as far as it can before the others makes needles: facets take turns with limited steps first. A
@@ -23,6 +23,7 @@ mod free;
 mod given;
 mod grow;
 mod lines;
+mod merge;
 mod mesh;
 mod options;
 mod pack;
@@ -198,6 +199,9 @@ fn search(input: &Input<'_>, tree: &Arc<Tree>) -> Result<(Proved, Searched), Err
             let family = Free::new(tree, random, facets, options.monitor);
             let mut packing = Packing::new(input, family);
             packing.fill(options.events)?;
+            if let Some(loss) = options.merge_within {
+                packing.merge(loss, options.events / merge::EVENTS_PART)?;
+            }
             let searched = Searched {
                 bodies: packing.bodies.len() as u64,
                 events: packing.family.events(),

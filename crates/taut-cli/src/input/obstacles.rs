@@ -40,8 +40,8 @@ impl Obstacles {
 
     /// The rows of a mesh, then those of the obstacles. Points in place of the mesh come in their bounding box.
     pub(super) fn around(&self, mesh: Opened, reading: &Reading) -> anyhow::Result<Opened> {
-        let is_cloud = mesh.source().dim() == POINT;
-        if self.obstacles.is_empty() && !is_cloud {
+        let dim = mesh.source().dim();
+        if self.obstacles.is_empty() && matches!(dim, TRIANGLE | SURFACE) {
             return Ok(mesh);
         }
         let (mut rows, mut points) = (numbers(&mesh)?, vec![]);

@@ -86,6 +86,39 @@ fn bodies_are_added_until_the_coverage_is_reached() {
     folder.taut("inscribe bodies mesh.off --facets 5").ends(2).stderr_has(&["--facets", "is 5"]);
 }
 
+#[test]
+fn bodies_are_merged_and_hide_a_part() {
+    let folder = folder();
+    let found = |command: &str| -> serde_json::Value {
+        folder.taut(&format!("inscribe {command} --events 3000 -o bodies.json")).ends(0);
+        folder.taut("verify bodies.json mesh.off").ends(0);
+        serde_json::from_str(&folder.text("bodies.json")).unwrap()
+    };
+    let bodies = |found: &serde_json::Value| found["answer"]["bodies"].as_array().unwrap().len();
+    let all = found("dops mesh.off -k 6 --count 20");
+    let few = found("dops mesh.off -k 6 --count 20 --merge-within 0.3");
+    let covered = |found: &serde_json::Value| {
+        found["trace"]["counters"]["searched_covered"].as_f64().unwrap()
+    };
+    assert!(bodies(&few) < bodies(&all) && covered(&few) >= 0.7 * covered(&all));
+    let hiding = found("bodies mesh.off --objective occlusion --hidden 0.5");
+    let counters = &hiding["trace"]["counters"];
+    let [hidden, lines] =
+        ["searched_hidden", "searched_lines"].map(|name| counters[name].as_f64().unwrap());
+    assert!(hidden >= 0.5 * lines, "{hidden} of {lines}");
+    for (usage, words) in [
+        ("bodies mesh.off --hidden 0.5", &["--hidden", "objective occlusion"][..]),
+        ("bodies mesh.off --merge-within 1", &["--merge-within", "below 1"]),
+        ("dops mesh.off --method thesis --events 9", &["--events is of --method recreate"]),
+        ("dops mesh.off --method thesis --merge-within 0", &["--merge-within is of --method"]),
+    ] {
+        folder.taut(&format!("inscribe {usage}")).ends(2).stderr_has(words);
+    }
+    folder.put("plane.csv", "x,y\n0,0\n1,0\n1,1\n");
+    let words = ["rows have 2 numbers: expected 9, the corners of a triangle, or 3 for a point"];
+    folder.taut("inscribe bodies plane.csv").ends(2).stderr_has(&words);
+}
+
 /// A cube, a block through its floor beside a loose triangle, points in it, and an open square.
 fn scene() -> TestFolder {
     let folder = TestFolder::new();

@@ -146,6 +146,12 @@ pub struct BodiesOptions<'a> {
     /// The part of the inside that is to be covered, above 0 and at most 1: no more bodies are added once they cover it, by the
     /// points that the search counts. Default none.
     pub coverage: Option<f64>,
+    /// The part of the lines through the mesh that is to be hidden, above 0 and at most 1: no more bodies are added once they hide
+    /// it, by the lines that the search counts. With [`Objective::Occlusion`] only. Default none.
+    pub hidden: Option<f64>,
+    /// The part of what bodies cover, or hide, that may be lost to have fewer of them, from 0 to below 1: needless bodies go, and
+    /// pairs of bodies give way to one. Merging takes half as many events as the search in addition. Default none: no merging.
+    pub merge_within: Option<f64>,
     /// Whether the holes of a mesh that is not closed are closed by triangles, which the answer names. Default false.
     pub close_holes: bool,
     /// How many facet events one search may take, at least 1: a facet of a k-dop that moves or tries to, or a plane of a body with
@@ -168,6 +174,8 @@ impl Default for BodiesOptions<'_> {
             at: &[],
             ends: &[],
             coverage: None,
+            hidden: None,
+            merge_within: None,
             close_holes: false,
             events: 200_000,
             seed: 0,
@@ -213,6 +221,17 @@ impl BodiesOptions<'_> {
         {
             return wrong("coverage", format!("{part:?}"), "above 0 and at most 1");
         }
+        if let Some(part) = self.hidden
+            && !(part > 0.0 && part <= 1.0 && self.objective == Objective::Occlusion)
+        {
+            let expected = "above 0 and at most 1, with objective occlusion";
+            return wrong("hidden", format!("{part:?}"), expected);
+        }
+        if let Some(part) = self.merge_within
+            && !(0.0..1.0).contains(&part)
+        {
+            return wrong("merge_within", format!("{part:?}"), "from 0 to below 1");
+        }
         if self.events == 0 {
             return wrong("events", "0".to_owned(), "at least 1");
         }
@@ -225,6 +244,9 @@ impl BodiesOptions<'_> {
         }
         if !self.at.is_empty() {
             return wrong("at", format!("{} points", self.at.len()), "none with method thesis");
+        }
+        if let Some(part) = self.merge_within {
+            return wrong("merge_within", format!("{part:?}"), "none with method thesis");
         }
         thesis.check()
     }

@@ -34,7 +34,7 @@ const IMPROVED_STARTS: usize = 2;
 /// Units of the grid from a start to the nearest triangle, at least: less leaves no room for a body.
 const CLEARANCE_MIN: f64 = 8.0;
 
-/// The number of bodies among which the events are divided where a coverage decides how many there are.
+/// The number of bodies among which the events are divided where a part to cover or to hide decides how many there are.
 const BODIES_EXPECTED: usize = 16;
 
 /// A way in which bodies grow.
@@ -159,13 +159,13 @@ pub(super) struct Packing<'a, F: Family> {
     pub(super) input: &'a Input<'a>,
     pub(super) family: F,
     pub(super) bodies: Vec<F::Body>,
-    reaches: Vec<Reached>,
+    pub(super) reaches: Vec<Reached>,
 }
 
 /// The points that a body covers, and the lines that it hides.
-struct Reached {
-    points: Vec<u32>,
-    lines: Vec<u32>,
+pub(super) struct Reached {
+    pub(super) points: Vec<u32>,
+    pub(super) lines: Vec<u32>,
 }
 
 /// The part of the items that no list has.
@@ -182,12 +182,12 @@ impl<'a, F: Family> Packing<'a, F> {
 
     /// How many points are covered.
     pub(super) fn covered(&self) -> u64 {
-        (self.input.points.len() - self.open_points(None).len()) as u64
+        (self.input.points.len() - self.open_points(&[]).len()) as u64
     }
 
     /// How many lines are hidden.
     pub(super) fn hidden(&self) -> u64 {
-        (self.input.lines().len() - self.open_lines(None).len()) as u64
+        (self.input.lines().len() - self.open_lines(&[]).len()) as u64
     }
 
     /// How many points are covered, or lines hidden, as the objective has it; for one body its volume.
@@ -204,24 +204,24 @@ impl<'a, F: Family> Packing<'a, F> {
         self.input.count() == 1 && self.input.lines.is_none()
     }
 
-    /// All bodies but one.
-    fn others(&self, without: Option<usize>) -> impl Iterator<Item = &Reached> {
+    /// All bodies but some.
+    fn others(&self, without: &[usize]) -> impl Iterator<Item = &Reached> {
         let all = self.reaches.iter().enumerate();
-        all.filter(move |&(body, _)| Some(body) != without).map(|(_, reached)| reached)
+        all.filter(|(body, _)| !without.contains(body)).map(|(_, reached)| reached)
     }
 
-    /// The points that no body but one of them covers.
-    fn open_points(&self, without: Option<usize>) -> Vec<usize> {
+    /// The points that no body but some of them covers.
+    pub(super) fn open_points(&self, without: &[usize]) -> Vec<usize> {
         left(self.input.points.len(), self.others(without).map(|reached| &reached.points))
     }
 
-    /// The lines that no body but one of them hides.
-    fn open_lines(&self, without: Option<usize>) -> Vec<usize> {
+    /// The lines that no body but some of them hides.
+    pub(super) fn open_lines(&self, without: &[usize]) -> Vec<usize> {
         left(self.input.lines().len(), self.others(without).map(|reached| &reached.lines))
     }
 
     /// The points in a body, and the lines that meet it.
-    fn reached(&self, body: &F::Body) -> Reached {
+    pub(super) fn reached(&self, body: &F::Body) -> Reached {
         let (points, lines) = (self.input.points.iter(), self.input.lines().iter());
         let points = points.zip(0u32..).filter(|&(&p, _)| self.family.contains(body, p));
         let sides = self.family.sides(body);
@@ -230,7 +230,7 @@ impl<'a, F: Family> Packing<'a, F> {
     }
 
     /// Sets what bodies are to cover and hide: what is left.
-    fn aim(&mut self, points: &[usize], lines: &[usize]) {
+    pub(super) fn aim(&mut self, points: &[usize], lines: &[usize]) {
         let input = self.input;
         let points = points.iter().map(|&k| input.points[k]).collect();
         let of = |sample: &Sample| lines.iter().map(|&k| sample.lines[k]).collect();
@@ -243,22 +243,28 @@ impl<'a, F: Family> Packing<'a, F> {
         self.bodies.push(body);
     }
 
-    /// Whether the bodies cover the part that was asked for.
-    fn is_covered(&self) -> bool {
-        let wanted = self.input.options.coverage;
-        wanted.is_some_and(|part| self.covered() as f64 >= part * self.input.points.len() as f64)
+    /// Whether the bodies cover, or hide, the part that was asked for.
+    fn is_enough(&self) -> bool {
+        let options = self.input.options;
+        let reaches = |part: Option<f64>, found: u64, all: usize| {
+            part.is_some_and(|part| found as f64 >= part * all as f64)
+        };
+        reaches(options.coverage, self.covered(), self.input.points.len())
+            || reaches(options.hidden, self.hidden(), self.input.lines().len())
     }
 
     /// Greedy packing, then improvement, with a number of events.
     pub(super) fn fill(&mut self, events: u64) -> Result<(), Error> {
         let count = self.input.count();
         let greedy = (events as f64 * GREEDY_PART) as u64;
-        let expected = if self.input.options.coverage.is_some() { BODIES_EXPECTED } else { count };
+        let options = self.input.options;
+        let is_open = options.coverage.is_some() || options.hidden.is_some();
+        let expected = if is_open { BODIES_EXPECTED } else { count };
         let until = |spent: u64, body: usize| {
             spent + greedy.saturating_sub(spent) / (count - body).min(expected) as u64
         };
         for (at, start) in self.input.given.iter().enumerate() {
-            self.set_obstacles(None);
+            self.set_obstacles(&[]);
             let Some(body) = self.family.small(start) else {
                 let problem = "has no body around it that was found with facets in these directions: take more directions, or free facets";
                 return Err(Error::At { at, problem });
@@ -276,7 +282,7 @@ impl<'a, F: Family> Packing<'a, F> {
             }
         }
         for body in self.bodies.len()..count {
-            if self.is_covered() {
+            if self.is_enough() {
                 break;
             }
             let until = until(self.family.events(), body);
@@ -288,20 +294,29 @@ impl<'a, F: Family> Packing<'a, F> {
 
     /// The next body, which covers points or hides lines that no other does; `None` where there is no room.
     fn next(&mut self, until: u64) -> Result<Option<F::Body>, Error> {
-        let (points, lines) = (self.open_points(None), self.open_lines(None));
-        self.set_obstacles(None);
+        let (points, lines) = (self.open_points(&[]), self.open_lines(&[]));
+        self.set_obstacles(&[]);
         self.aim(&points, &lines);
         let open = if self.input.lines.is_some() { lines } else { points };
+        let best = self.best_from(&open, until)?;
+        Ok(best.filter(|(score, _)| *score > 0).map(|(_, body)| body))
+    }
+
+    /// The best body that grows from one of the open points, or from the middle of one of the lines, with its score.
+    pub(super) fn best_from(
+        &mut self,
+        open: &[usize],
+        until: u64,
+    ) -> Result<Option<(u64, F::Body)>, Error> {
         let mut grown: Vec<(u64, F::Body)> = vec![];
-        for start in self.starts(&open) {
+        for start in self.starts(open) {
             let Some(mut body) = self.family.small(&start) else { continue };
             self.family.grow(&mut body)?;
             grown.push((self.family.score(&body), body));
         }
         grown.sort_by_key(|(score, _)| Reverse(*score));
         grown.truncate(if self.improves_volume() { STARTS } else { IMPROVED_STARTS });
-        let best = self.best(grown.into_iter().map(|(_, body)| body).collect(), until)?;
-        Ok(best.filter(|(score, _)| *score > 0).map(|(_, body)| body))
+        self.best(grown.into_iter().map(|(_, body)| body).collect(), until)
     }
 
     /// Improves bodies that have grown and returns the best of them with its score. For one body all of them are improved for a
@@ -417,16 +432,16 @@ impl<'a, F: Family> Packing<'a, F> {
             true => {
                 ((0..self.input.points.len()).collect(), (0..self.input.lines().len()).collect())
             }
-            false => (self.open_points(Some(body)), self.open_lines(Some(body))),
+            false => (self.open_points(&[body]), self.open_lines(&[body])),
         };
         self.aim(&points, &lines);
-        self.set_obstacles(Some(body));
+        self.set_obstacles(&[body]);
     }
 
-    /// Makes all bodies but one obstacles, if bodies are to be disjoint.
-    fn set_obstacles(&mut self, without: Option<usize>) {
+    /// Makes all bodies but some obstacles, if bodies are to be disjoint.
+    pub(super) fn set_obstacles(&mut self, without: &[usize]) {
         if self.input.options.disjoint {
-            let others = self.bodies.iter().enumerate().filter(|&(b, _)| Some(b) != without);
+            let others = self.bodies.iter().enumerate().filter(|(b, _)| !without.contains(b));
             let others: Vec<&F::Body> = others.map(|(_, body)| body).collect();
             self.family.set_obstacles(&others);
         }

@@ -1,13 +1,14 @@
 //! Bodies with k fixed directions, after those with fewer.
 //!
 //! *Guarantee.* More directions never cover fewer of the points, and one body never has less volume: the bodies of a smaller set of
-//! directions are improved in the larger set, and the better result counts.
+//! directions are improved in the larger set, and the better result counts. Merging gives up what was allowed to be lost.
 
 use std::sync::Arc;
 
 use super::BodyShape;
 use super::directions::{self, DIRECTIONS_MAX, Directions, Offsets};
 use super::grow::{Dop, Space};
+use super::merge;
 use super::pack::{Input, Packing};
 use super::tree::Tree;
 use crate::Error;
@@ -37,7 +38,7 @@ pub(super) fn pack(input: &Input<'_>, tree: &Arc<Tree>) -> Result<Packed<Dop>, E
     let k = tree.directions.len();
     let mut found: Vec<(usize, Packed<Dop>)> = vec![];
     if let BodyShape::Directions(_) = input.options.shape {
-        return search(input, tree, &found);
+        return merged(input, tree, search(input, tree, &found)?);
     }
     for kind in directions::KINDS.into_iter().filter(|&kind| kind < k && is_part(kind, k)) {
         let smaller = Arc::new(tree.turned(&Arc::new(Directions::of(kind))));
@@ -48,7 +49,26 @@ pub(super) fn pack(input: &Input<'_>, tree: &Arc<Tree>) -> Result<Packed<Dop>, E
             Err(error) => return Err(error),
         }
     }
-    search(input, tree, &found)
+    merged(input, tree, search(input, tree, &found)?)
+}
+
+/// Merges bodies, if this is asked for.
+fn merged(input: &Input<'_>, tree: &Arc<Tree>, found: Packed<Dop>) -> Result<Packed<Dop>, Error> {
+    let options = input.options;
+    let Some(loss) = options.merge_within else { return Ok(found) };
+    let random = Random::new(options.seed ^ tree.directions.len() as u64);
+    let mut packing = Packing::new(input, Space::new(tree, random, options.monitor));
+    for dop in found.bodies {
+        packing.push(dop);
+    }
+    packing.merge(loss, options.events / merge::EVENTS_PART)?;
+    Ok(Packed {
+        covered: packing.covered(),
+        hidden: packing.hidden(),
+        value: packing.value(),
+        events: found.events + packing.family.events,
+        bodies: packing.bodies,
+    })
 }
 
 /// Whether one set of directions is part of another.

@@ -7,7 +7,8 @@
 //! cells are needed for the larger one.
 //! *Trap.* Depth first with a circle that is too small, cells that hold better centers are split until their middles are as
 //! good as the best of them: as many cells as 1/ε.
-//! *Budget.* A search that needs too many cells is run again for a larger gap.
+//! *Budget.* A search that needs too many cells is run again for a larger gap: at once for the one that the first search reached, if
+//! that says nothing about the radius, as in a polygon that is as thin as the last digits of its coordinates.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -29,6 +30,12 @@ const LOGS_MAX: u64 = 3;
 
 /// Factor of the gap to prove when the budget was used up.
 const GAP_GROWTH: f64 = 16.0;
+
+/// A gap above this says nothing about the radius; that of the first search is then as good as one to which a longer search comes.
+const GAP_OF_USE_MAX: f64 = 1e3;
+
+/// The least scaled radius for which distances have digits, 2⁻⁹³.
+const RADIUS_LEAST: f64 = f64::from_bits((1023 - 93) << 52);
 
 /// Half diagonal of a cell, in radii, above which weights are not worth their cost: many edges are about as near as the nearest.
 const LARGE_CELL: f64 = 1.4;
@@ -71,24 +78,32 @@ pub(super) fn search(
 ) -> Result<SearchResult, Cancelled> {
     let monitor = &options.monitor;
     let mut search = Search { edges, monitor, center: None, radius: 0.0, cells: 0, list: vec![] };
-    let nodes = search.best_first(options.epsilon)?;
+    let first = search.best_first(options.epsilon)?;
     let (mut gap, mut stop, mut searches) = (options.epsilon, Stop::Converged, 1);
-    if let Some(nodes) = nodes {
-        let (log, upper) = Log::of(&nodes, search.wanted(gap));
-        if log.tree.len() as u64 <= options.max_cells {
-            return Ok(search.result(log, upper, stop, searches, options.epsilon));
+    let mut gap_reached = 0.0;
+    match first {
+        First::Complete(nodes) => {
+            let (log, upper) = Log::of(&nodes, search.wanted(gap));
+            if log.tree.len() as u64 <= options.max_cells {
+                return Ok(search.result(log, upper, stop, searches, options.epsilon));
+            }
         }
+        First::Stopped(upper) => gap_reached = upper / search.radius - 1.0,
     }
     loop {
         searches += 1;
         let before = search.radius;
         let Some((log, upper)) = search.depth_first(gap, options.max_cells)? else {
-            if search.center.is_none() {
+            if search.center.is_none() || search.radius < RADIUS_LEAST {
+                search.center = None;
                 let upper = f64::INFINITY;
                 let (log, stop, epsilon) = (Log::default(), Stop::NodeBudget, options.epsilon);
                 return Ok(search.result(log, upper, stop, searches, epsilon));
             }
             (gap, stop) = (gap * GAP_GROWTH, Stop::NodeBudget);
+            if gap_reached > GAP_OF_USE_MAX {
+                gap = gap.max(gap_reached);
+            }
             continue;
         };
         let has_grown = search.radius > before * (1.0 + gap);
@@ -97,6 +112,14 @@ pub(super) fn search(
         }
         return Ok(search.result(log, upper, stop, searches, options.epsilon));
     }
+}
+
+/// What the first search comes to.
+enum First {
+    /// A tree within the gap.
+    Complete(Vec<Node>),
+    /// Too many cells, and the largest bound of those that are open.
+    Stopped(f64),
 }
 
 /// The best circle so far, and what it takes to look for a better one.
@@ -151,8 +174,8 @@ impl PartialEq for Waiting {
 impl Eq for Waiting {}
 
 impl Search<'_> {
-    /// Opens the cell of the largest bound until that is within the gap; returns the tree, or `None` if that takes too many cells.
-    fn best_first(&mut self, gap: f64) -> Result<Option<Vec<Node>>, Cancelled> {
+    /// Opens the cell of the largest bound until that is within the gap.
+    fn best_first(&mut self, gap: f64) -> Result<First, Cancelled> {
         let (mut nodes, mut heap) = (vec![], BinaryHeap::new());
         self.add(Cell::root(self.edges), 0, gap, &mut nodes, &mut heap)?;
         while let Some(next) = heap.pop() {
@@ -160,7 +183,7 @@ impl Search<'_> {
                 break;
             }
             if self.cells >= FIRST_CELLS_MAX {
-                return Ok(None);
+                return Ok(First::Stopped(next.bound));
             }
             let [below, above] = next.cell.halves(next.axis);
             let children = [
@@ -169,7 +192,7 @@ impl Search<'_> {
             ];
             nodes[next.node].split = Some((next.axis, children));
         }
-        Ok(Some(nodes))
+        Ok(First::Complete(nodes))
     }
 
     /// Makes a node of a cell, and lets the cell wait if it is open.

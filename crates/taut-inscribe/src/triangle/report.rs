@@ -4,7 +4,7 @@ use taut_certify::{InscribedTriangle, Stop};
 use taut_predicates::plane::orient;
 
 use super::frame::Frame;
-use super::gauge::{Gauge, Triangle, centroid, scaled};
+use super::gauge::{Gauge, Triangle, scaled};
 use super::groups::Groups;
 use crate::levels::is_left;
 use crate::polygon::Segment;
@@ -84,7 +84,8 @@ pub(super) fn rounded(best: &Triangle, target: &Target<'_>) -> Option<Reported> 
 /// Whether a triangle turns left, none of the edges near it enters it, and its centroid is inside, by exact signs.
 fn is_in_polygon(corners: &Triangle, near: &[Segment], all: &[Segment]) -> bool {
     let [p, q, r] = *corners;
-    let center = centroid(&corners.map(|p| p.map(|x| 0.25 * x))).map(|x| 4.0 * x);
+    // Rounded as by the checker, which has to find the same point inside.
+    let center = [0, 1].map(|k| p[k] / 3.0 + q[k] / 3.0 + r[k] / 3.0);
     let sides = [[p, q], [q, r], [r, p]];
     let holds = |w: [f64; 2]| sides.iter().all(|&[p, q]| orient(p, q, w).is_positive());
     let is_clear = |&[a, b]: &Segment| {

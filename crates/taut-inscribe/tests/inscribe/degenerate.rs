@@ -113,6 +113,24 @@ fn a_polygon_without_a_point_inside_is_refused() {
     assert!(matches!(solve(&ring).unwrap_err(), Error::TooThin), "{}", refusal(&ring));
 }
 
+/// Strips as thin as the last digits of coordinates, or thinner than a checker can see, end with a reason or a gap, and soon.
+#[test]
+fn strips_thinner_than_the_digits_of_coordinates_end() {
+    let strip = [[0.0, 0.0], [1.0, 0.0], [1.0, 1e-300], [0.0, 1e-300]];
+    assert!(matches!(solve(&strip).unwrap_err(), Error::TooThin));
+    let (next, width) = (1.0 + f64::EPSILON, 2e-16);
+    let slanted = [[0.0, 0.0], [1.0, 1.0], [1.0, next], [0.0, width]];
+    let options = CircleOptions { max_cells: 210_000, ..Default::default() };
+    let found = solve_with(&slanted, &options).unwrap();
+    let verdict = verify(&found, &slanted);
+    assert_eq!(found.trace.stop, Stop::NodeBudget);
+    assert!(
+        verdict.upper >= found.answer.radius && found.answer.radius > 0.1 * width,
+        "{verdict:?}"
+    );
+    assert!(found.trace.iterations < 1_000_000, "{} cells", found.trace.iterations);
+}
+
 #[test]
 fn edges_far_from_a_thin_circle_are_not_called_touched() {
     // Of coordinates of about 10³⁶ plain distances have no digit left beside the radius.

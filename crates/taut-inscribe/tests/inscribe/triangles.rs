@@ -276,6 +276,34 @@ fn needles_far_away_and_budgets_end_with_the_gap_that_is_left() {
     assert!(matches!(solve(&[huge], 1e-2), Err(Error::Area)));
 }
 
+/// In a strip of few units of the last place the centroid is rounded; the checker and the search have to round it alike.
+#[test]
+fn strips_of_a_few_last_digits_are_proved_or_refused() {
+    let mut answered = 0;
+    for units in 1..=12 {
+        for shift in 0..4 {
+            let high = 1.0 + f64::from(units) * f64::EPSILON;
+            let start = 2e-16 * f64::from(units) + f64::from(shift) * 3e-17;
+            for ring in [
+                vec![[0.0, 0.0], [1.0, 1.0], [1.0, high], [0.0, start]],
+                vec![[0.0, 0.0], [1.0, 0.5], [1.0, 0.5 * high], [0.0, start]],
+                vec![[0.25, 0.25], [1.0, 1.0], [high, 1.0]],
+            ] {
+                let rings = [ring];
+                match solve_with(&rings, 1e-3, 200) {
+                    Ok(found) => {
+                        verified(&found, &rings);
+                        answered += 1;
+                    }
+                    Err(error) => assert!(matches!(error, Error::TooThin), "{error}: {rings:?}"),
+                }
+            }
+        }
+    }
+    println!("{answered} of 144 answered");
+    assert!(answered > 20);
+}
+
 #[test]
 fn repeated_and_collinear_vertices_change_nothing() {
     let plain = square(0.0, 0.0, 1.0);

@@ -23,7 +23,7 @@ use crate::pipeline::{Find, Input, Output};
 use crate::reports::Field;
 use crate::watch::Watch;
 
-/// The most bodies where a coverage decides how many there are.
+/// The most bodies where a part to cover or to hide decides how many there are.
 const COUNT_MAX: usize = 1000;
 
 /// Find large convex bodies inside a triangle mesh, with facets in any directions.
@@ -60,7 +60,7 @@ pub(super) struct Search {
     /// What the search counts: the part of the inside that bodies cover, or the lines through the mesh that they hide
     #[arg(long, value_name = "NAME", default_value = Objective::default().name(), value_parser = choice::<Objective>())]
     objective: Objective,
-    /// Most bodies to find, from 1 to 1000; by default 1, or 1000 with --coverage, or as many as there are points with --at
+    /// Most bodies to find, from 1 to 1000; by default 1, or 1000 with --coverage or --hidden, or as many as there are points with --at
     #[arg(short = 'n', long, value_name = "N")]
     count: Option<usize>,
     /// Find bodies that do not overlap
@@ -73,12 +73,19 @@ pub(super) struct Search {
     /// Stop once this part of the inside is covered, above 0 and at most 1, by the points that the search counts
     #[arg(long, value_name = "PART", allow_hyphen_values = true)]
     coverage: Option<f64>,
+    /// Of --objective occlusion, stop once this part of the lines through the mesh is hidden, above 0 and at most 1, by the lines
+    /// that the search counts
+    #[arg(long, value_name = "PART", allow_hyphen_values = true)]
+    hidden: Option<f64>,
+    /// Merge bodies, so that there are fewer, as long as at most this part of what they cover or hide is lost, from 0 to below 1
+    #[arg(long, value_name = "PART", allow_hyphen_values = true)]
+    merge_within: Option<f64>,
     /// Close the holes of a mesh that is not closed by triangles, which the answer names
     #[arg(long)]
     close_holes: bool,
-    /// How many facets one search may place, move, or try to move, at least 1; more of these events cover more
-    #[arg(long, value_name = "N", default_value_t = BodiesOptions::default().events)]
-    events: u64,
+    /// How many facets one search may place, move, or try to move, at least 1; more of these events cover more [default: 200000]
+    #[arg(long, value_name = "N")]
+    events: Option<u64>,
     /// Where the random choices begin
     #[arg(long, value_name = "S", default_value_t = BodiesOptions::default().seed)]
     seed: u64,
@@ -142,9 +149,14 @@ impl Search {
         self.exports.check(&self.path)
     }
 
-    /// Tests whether bodies have to contain given points.
-    pub(super) fn has_points(&self) -> bool {
-        !self.at.is_empty()
+    /// The options that searches with a budget of events have alone, and whether they are given.
+    pub(super) fn of_events(&self) -> [(&'static str, bool); 4] {
+        [
+            ("at", !self.at.is_empty()),
+            ("events", self.events.is_some()),
+            ("hidden", self.hidden.is_some()),
+            ("merge-within", self.merge_within.is_some()),
+        ]
     }
 
     pub(super) fn write(
@@ -196,7 +208,8 @@ impl Search {
         shape: BodyShape<'a>,
         seeds: &'a Seeds,
     ) -> BodiesOptions<'a> {
-        let many = if self.coverage.is_some() { COUNT_MAX } else { BodiesOptions::default().count };
+        let is_open = self.coverage.is_some() || self.hidden.is_some();
+        let many = if is_open { COUNT_MAX } else { BodiesOptions::default().count };
         BodiesOptions {
             shape,
             objective: self.objective,
@@ -205,8 +218,10 @@ impl Search {
             at: &seeds.at,
             ends: &seeds.ends,
             coverage: self.coverage,
+            hidden: self.hidden,
+            merge_within: self.merge_within,
             close_holes: self.close_holes,
-            events: self.events,
+            events: self.events.unwrap_or(BodiesOptions::default().events),
             seed: self.seed,
             ..BodiesOptions::default()
         }
@@ -286,6 +301,9 @@ mod tests {
         assert_eq!((found.count, found.coverage), (1000, Some(0.5)));
         assert_eq!(found.at, [[1.0, -2.0, 0.5], [-1e3, 0.0, 0.0]]);
         assert!(found.ends.is_empty());
+        let found = options("bodies mesh.off --objective occlusion --hidden 0.5 --merge-within 0");
+        let found = found.search.options(shape, &none);
+        assert_eq!((found.count, found.hidden, found.merge_within), (1000, Some(0.5), Some(0.0)));
         let seeds = options("bodies mesh.off --at 1,2,3 --at=-1,2,3,4,5,-6").search.seeds();
         assert_eq!(seeds.at, [[1.0, 2.0, 3.0], [-1.0, 2.0, 3.0]]);
         assert_eq!(seeds.ends, [[1.0, 2.0, 3.0], [4.0, 5.0, -6.0]]);

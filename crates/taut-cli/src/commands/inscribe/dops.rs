@@ -86,10 +86,12 @@ impl Find for Dops {
             ("votes", self.votes.is_some()),
             ("translate", self.translate),
             ("merge", self.merge),
-            ("at", self.search.has_points()),
         ];
+        let of_events = self.search.of_events();
+        let given = [&given[..], &of_events[..]].concat();
         check_method_options(self.method.name(), &given, |option, method: &BodiesMethod| {
-            matches!(method, BodiesMethod::Thesis(_)) != (option == "at")
+            let is_of_events = of_events.iter().any(|&(name, _)| name == option);
+            matches!(method, BodiesMethod::Thesis(_)) != is_of_events
         })?;
         self.search.check_options()
     }

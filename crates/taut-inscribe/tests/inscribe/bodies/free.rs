@@ -1,8 +1,8 @@
 //! Bodies whose facets have any direction.
 
-use taut_inscribe::{BodiesOptions, BodyShape};
+use taut_inscribe::{BodiesOptions, BodyShape, Objective};
 
-use super::shapes::{Mesh, cuboid, free, hull, l_shape, octahedron, proved, wavy};
+use super::shapes::{Mesh, cuboid, free, hull, l_shape, octahedron, options, proved, wavy};
 
 /// A mesh turned by a rotation of whole numbers over 9, and shifted.
 fn turned(mesh: &Mesh) -> Mesh {
@@ -113,4 +113,75 @@ fn no_more_bodies_are_added_once_the_coverage_is_reached() {
         before = count;
     }
     assert!(before > 1);
+}
+
+#[test]
+fn no_more_bodies_are_added_once_enough_lines_are_hidden() {
+    let mesh = wavy(20, None);
+    let objective = Objective::Occlusion;
+    for base in [free(256), options(18)] {
+        let mut before = 0;
+        for part in [0.2, 0.6, 0.85] {
+            let options =
+                BodiesOptions { count: 40, objective, hidden: Some(part), ..base.clone() };
+            let (found, _) = proved(&mesh, &options);
+            let counters = &found.trace.counters;
+            let share = counters["searched_hidden"] as f64 / counters["searched_lines"] as f64;
+            let count = found.answer.bodies.len();
+            println!("{count} bodies hide {share:.3}, {part} asked for");
+            assert!(share >= part && (1..40).contains(&count) && count >= before);
+            before = count;
+        }
+        assert!(before > 1);
+    }
+}
+
+/// The part of what the search counts that stays, and the number of bodies.
+fn merged(mesh: &Mesh, options: &BodiesOptions<'_>) -> (u64, usize) {
+    let (found, verdict) = proved(mesh, options);
+    let name = match options.objective {
+        Objective::Volume => "searched_covered",
+        Objective::Occlusion => "searched_hidden",
+    };
+    assert_eq!(verdict.disjoint, options.disjoint);
+    (found.trace.counters[name], found.answer.bodies.len())
+}
+
+#[test]
+fn merging_leaves_fewer_bodies_that_keep_what_was_asked_for() {
+    let mesh = wavy(20, None);
+    for base in [free(256), options(18)] {
+        for (objective, disjoint) in
+            [(Objective::Volume, false), (Objective::Volume, true), (Objective::Occlusion, false)]
+        {
+            let base =
+                BodiesOptions { count: 24, events: 12_000, objective, disjoint, ..base.clone() };
+            let (all, many) = merged(&mesh, &base);
+            let mut before = many;
+            for loss in [0.0, 0.05, 0.3] {
+                let options = BodiesOptions { merge_within: Some(loss), ..base.clone() };
+                let (kept, bodies) = merged(&mesh, &options);
+                println!(
+                    "{:?} {objective:?}: {many} bodies, {bodies} with a loss of {loss}, {kept} of {all}",
+                    base.shape
+                );
+                assert!(kept as f64 >= (1.0 - loss) * all as f64, "{kept} of {all}");
+                assert!((1..=before).contains(&bodies), "{bodies} of {before}");
+                before = bodies;
+            }
+            assert!(before < many / 2, "{before} of {many}");
+        }
+    }
+}
+
+/// Two boxes side by side are one box; bodies around given points stay as they are.
+#[test]
+fn merging_keeps_bodies_around_points() {
+    let mesh = cuboid([0.0; 3], [2.0, 1.0, 1.0]);
+    let at = [[0.5; 3], [1.5, 0.5, 0.5]];
+    let base = BodiesOptions { at: &at, count: 4, merge_within: Some(0.9), ..options(6) };
+    let (found, verdict) = proved(&mesh, &base);
+    assert_eq!((verdict.at, found.answer.bodies.len()), (2, 2));
+    let none = BodiesOptions { at: &[], ..base };
+    assert_eq!(proved(&mesh, &none).1.bodies, 1);
 }

@@ -8,6 +8,7 @@ use taut_inscribe::{
 };
 
 use super::shapes::{Mesh, points, solve};
+use crate::common::Random;
 
 /// The triangles of an OFF file.
 fn model(name: &str) -> Option<Mesh> {
@@ -43,6 +44,23 @@ const PACKED: [(&str, usize, f64); 5] = [
     ("bunny_res2", 45, 0.93),
     ("horse", 10, 0.82),
     ("chinese_dragon_10k", 17, 0.80),
+];
+
+/// All models: closed, inverted, with holes, of several parts, without consistent orientation.
+const ALL: [&str; 13] = [
+    "beethoven",
+    "beetle",
+    "bunny_res2",
+    "chinese_dragon_10k",
+    "cow",
+    "f16",
+    "fandisk",
+    "galleon",
+    "homer",
+    "horse",
+    "porsche",
+    "rocker_arm",
+    "turbine",
 ];
 
 /// The part of the points that the search did not see that bodies cover, and what else there is to say.
@@ -127,23 +145,8 @@ fn few_free_facets_are_worth_more_than_fixed_ones() {
 
 #[test]
 fn bodies_of_all_models_are_proved_inside() {
-    // Closed, inverted, with holes, of several parts, without consistent orientation.
     let mut packed_models = 0;
-    for name in [
-        "beethoven",
-        "beetle",
-        "bunny_res2",
-        "chinese_dragon_10k",
-        "cow",
-        "f16",
-        "fandisk",
-        "galleon",
-        "homer",
-        "horse",
-        "porsche",
-        "rocker_arm",
-        "turbine",
-    ] {
+    for name in ALL {
         let Some(mesh) = model(name) else { return };
         for shape in [BodyShape::Dop(18), BodyShape::Free(256)] {
             let options = BodiesOptions {
@@ -184,6 +187,67 @@ fn no_body_of_an_open_model_is_outside_by_its_winding_number() {
             assert!(turns.abs() > 0.5, "{name}, body {at}: {turns}");
         }
     }
+}
+
+/// A rotation by a random unit quaternion.
+fn rotation(random: &mut Random) -> [[f64; 3]; 3] {
+    let [w, x, y, z] = loop {
+        let q = [(); 4].map(|()| 2.0 * random.unit() - 1.0);
+        let length = q.iter().map(|x| x * x).sum::<f64>().sqrt();
+        if (0.1..=1.0).contains(&length) {
+            break q.map(|x| x / length);
+        }
+    };
+    [
+        [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)],
+        [2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)],
+        [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)],
+    ]
+}
+
+/// Each model as it is turned at random: all bodies are proved, and the points that prove them inside have an odd number of windings
+/// where the mesh is closed, and more than a half of one where it is open, by a sum of solid angles that shares nothing with the
+/// checker.
+#[test]
+fn no_body_of_a_turned_model_is_outside() {
+    let rotations = if std::env::var_os("TAUT_LONG_TESTS").is_some() { 20 } else { 1 };
+    let mut random = Random(28);
+    let (mut judged, mut ambiguous) = (0, 0);
+    for name in ALL {
+        let Some(mesh) = model(name) else { return };
+        for turn in 0..rotations {
+            let rows = rotation(&mut random);
+            let place = |p: [f64; 3]| rows.map(|u| u[0] * p[0] + u[1] * p[1] + u[2] * p[2]);
+            let turned: Mesh = mesh.iter().map(|t| t.map(place)).collect();
+            let is_closed =
+                solve(&turned, &BodiesOptions { events: 1, ..Default::default() }).is_ok();
+            for shape in [BodyShape::Dop(18), BodyShape::Free(256)] {
+                let base =
+                    BodiesOptions { shape, close_holes: true, count: 6, ..Default::default() };
+                let found = match solve(&turned, &BodiesOptions { events: 3000, ..base }) {
+                    Err(Error::Ambiguous) => {
+                        ambiguous += 1;
+                        continue;
+                    }
+                    found => found.unwrap_or_else(|error| panic!("{name}: {error}")),
+                };
+                let verdict = found.check(&points(&turned));
+                verdict.unwrap_or_else(|error| panic!("{name}, rotation {turn}: {error}"));
+                for (at, proof) in found.certificate.proofs.iter().enumerate() {
+                    let unit = 2f64.powi(found.answer.exponent);
+                    let p =
+                        [0, 1, 2].map(|c| (found.answer.origin[c] + proof.inside[c]) as f64 * unit);
+                    let turns = winding_number(&turned, p);
+                    let is_in =
+                        if is_closed { turns.round() as i64 % 2 != 0 } else { turns.abs() > 0.5 };
+                    assert!(is_in, "{name}, rotation {turn}, {shape:?}, body {at}: {turns}");
+                    judged += 1;
+                }
+            }
+        }
+    }
+    println!("{judged} bodies, {ambiguous} of {} shapes ambiguous", 26 * rotations);
+    assert!(judged >= 24 * 4 * rotations);
 }
 
 /// How often a mesh goes around a point: the sum of its solid angles over 4π.

@@ -86,5 +86,6 @@ fn options_out_of_range_are_refused_by_name() {
     let base = thesis(18, usual);
     refused(&BodiesOptions { shape: BodyShape::Free(20), ..base.clone() }, "method");
     refused(&BodiesOptions { objective: Objective::Occlusion, ..base.clone() }, "objective");
-    refused(&BodiesOptions { at: &[[0.0; 3]], ..base }, "at");
+    refused(&BodiesOptions { at: &[[0.0; 3]], ..base.clone() }, "at");
+    refused(&BodiesOptions { merge_within: Some(0.1), ..base }, "merge_within");
 }

@@ -1,39 +1,6 @@
-//! Circles and ellipses in outlines of countries.
+//! Circles in outlines of countries.
 
 use super::*;
-
-/// Ellipses within a gap of 1e-3, at both scales.
-pub(super) fn ellipses(context: &Context, out: &mut Outcome) -> Result<()> {
-    for (file, bounds) in [(COUNTRIES_110M, [0.5, 0.1]), (COUNTRIES_10M, [3.0, 1.3])] {
-        let Some(rings) = countries(file)? else { return out.left_out() };
-        let mut table = Table::new("country | vertices | area:6 | seconds:s | check:s | cells");
-        let (mut slowest, mut checks, mut searches) = (0.0f64, 0.0, 0.0);
-        for (name, ring) in rings {
-            let points = Points::new(&ring, 2)?;
-            let options = EllipseOptions { epsilon: 1e-3, ..EllipseOptions::default() };
-            let start = Instant::now();
-            // Rings that touch themselves are refused, and are not among what has to be solved.
-            let Ok(found) = context.pool()?.install(|| inscribed_ellipse(&points, &options)) else {
-                continue;
-            };
-            let seconds = start.elapsed().as_secs_f64();
-            let start = Instant::now();
-            let verdict = found.check(&points).with_context(|| name.clone())?;
-            let check = start.elapsed().as_secs_f64();
-            ensure!(verdict.gap <= 1.001e-3, "{name}: gap {}", verdict.gap);
-            (slowest, checks, searches) =
-                (slowest.max(seconds), checks + check, searches + seconds);
-            let cells = found.certificate.tree.len();
-            table.push(json!([name, ring.len() / 2, found.answer.area, seconds, check, cells]));
-        }
-        out.table(file, table);
-        out.at_most(format!("{file}: slowest"), slowest, bounds, Unit::Seconds);
-        let part = checks / searches;
-        out.at_most(format!("{file}: checks / searches"), part, 0.2, Unit::Times);
-        out.close(file);
-    }
-    Ok(())
-}
 
 /// Circles beside programs that find them to 1e-6 of the longest side, which is 1.
 pub(super) fn circles(context: &Context, out: &mut Outcome) -> Result<()> {
