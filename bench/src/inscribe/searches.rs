@@ -108,13 +108,12 @@ pub(super) fn triangles(context: &Context, out: &mut Outcome) -> Result<()> {
         is_reached,
         known,
     };
-    let no_limit = || Bounds::from(f64::INFINITY);
     let cases = [
         case(few, ALL, 1e-3, 2.0.into(), true, TRIANGLES),
         case(few, ALL, 1e-6, aim_only(1.0), false, &[]),
         case(many, [0, 3500], 1e-2, 10.0.into(), true, &[]),
         case(many, [0, 3500], 1e-3, aim_only(3.0), false, &[]),
-        case(many, [3500, usize::MAX], 1e-2, no_limit(), false, &[]),
+        case(many, [3500, usize::MAX], 1e-2, aim_only(f64::INFINITY), false, &[]),
     ];
     search_all(context, out, cases, &|points, epsilon, _| {
         let options = TriangleOptions { epsilon, ..TriangleOptions::default() };
@@ -149,7 +148,12 @@ fn search_case(
     search: Search<'_>,
 ) -> Result<()> {
     let Case { file, vertices: [above, most], epsilon, .. } = case;
-    let what = format!("{file}, gap {epsilon:.0e}, {above} to {most} vertices");
+    let vertices = match [above, most] {
+        ALL => String::new(),
+        [0, most] => format!(", at most {most} vertices"),
+        [above, _] => format!(", more than {above} vertices"),
+    };
+    let what = format!("{file}, gap {epsilon:.0e}{vertices}");
     let mut table = Table::new(
         "country | vertices | area:6 | gap:e | seconds:s | check:s | check / search:2 | cells",
     );
@@ -195,7 +199,7 @@ fn search_case(
     }
     out.table(&what, table);
     out.at_most(format!("{what}: slowest"), slowest, case.slowest, Unit::Seconds);
-    out.at_most(format!("{what}: check / search, at most"), part, 0.2, Unit::Times);
+    out.at_most(format!("{what}: check over search"), part, 0.2, Unit::Times);
     if least_known < f64::INFINITY {
         out.at_least(format!("{what}: area over the best known"), least_known, 1.0, Unit::Times);
     }
