@@ -3,8 +3,8 @@
 //! *What is rerun.* Core-sets and times of balls (figures 5 to 15) and of ellipsoids (figure 18), curves through noisy
 //! points (figures 2, 21 and 22), surfaces (table 1), classifiers (tables 2 and 3), the ellipse in a projected model (figure 62), and k-dops in meshes (tables 4 to 6, figures 76 and
 //! 77). taut's default methods are drawn beside those of the thesis.
-//! *What differs.* The machine (the thesis had a 2.66 GHz Xeon, and for figures 14 and 15 a 1 GHz Pentium III), the
-//! conic solver, and the random points. Sizes can be compared; times only within one figure.
+//! *What differs.* The machine (the thesis had a 2.66 GHz Xeon for chapter 2, and for figures 14 and 15 a 1 GHz Pentium III; other
+//! chapters name others), the conic solver, and the random points. Sizes can be compared; times only within one figure.
 
 mod ball;
 mod curve;
@@ -103,7 +103,7 @@ const RERUNS: &[Rerun] = &[
     (&["14"], "Balls: beside exact codes.", ball::beside_exact_codes),
     (&["15"], "Balls: beside Bădoiu and Clarkson.", ball::beside_badoiu_clarkson),
     (&["18"], "Ellipsoids: sizes of core-sets, by dimension and by ε.", ellipsoid::figures),
-    (&["21"], "Curves: the crude method on a jagged curve.", |plan| curve::write(plan, "21")),
+    (&["21"], "Curves: the crude method and its jagged result.", |plan| curve::write(plan, "21")),
     (&["22"], "Curves: the crude method at sharp turns.", |plan| curve::write(plan, "22")),
     (&["62"], "The largest ellipse in a projection of the bunny.", ellipse::write),
     (&["76", "77"], "Dops: the share covered, by their number.", dops::figures),

@@ -108,8 +108,8 @@ pub(crate) const AREA: Area<Run> = Area {
             .aim(&[SECONDS.at_most(1.0)]),
         runs("large", points::run_largest)
             .about(
-                "The largest instance of the thesis, normal 10⁵ × 1500 in single precision, \
-                 exact, beside plain reads.",
+                "The size of the largest instance of the thesis (chapter 2), here normal: 10⁵ × 1500 \
+                 in single precision, exact, beside plain reads.",
             )
             .must(&[GAP_GOAL, PASSES.at_most(5.0), READS.at_most(10.0)])
             .aim(&[READS.at_most(5.0)]),

@@ -14,7 +14,7 @@ pub(super) fn run(
     show(context, out, &Input::points(distribution, n, d)?)
 }
 
-/// Runs the largest instance of the thesis, in single precision, which peers do not take.
+/// Runs points of the size of the largest instance of the thesis, in single precision, which peers do not take.
 pub(super) fn run_largest(context: &Context, out: &mut Outcome) -> Result<()> {
     show(context, out, &Input::single(Distribution::Normal, context.count(100_000), 1500)?)
 }

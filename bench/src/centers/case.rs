@@ -132,7 +132,8 @@ pub(crate) const AREA: Area<Run> = Area {
         runs("cities-15", |run, out| free::run(run, out, CITIES_15))
             .about("The same for k = 15, at 1 %."),
         runs("space", |run, out| free::run(run, out, SPACE_TASKS)).about(
-            "Normal, 10⁴ × 3, free centers at 1 %: the thesis needed almost a week for four.",
+            "Normal, 10⁴ × 3, free centers at 1 %; of the thesis some sets in space ran for almost a week, \
+                 beside many other processes (2.5).",
         ),
         runs("discrete", discrete::run)
             .about(

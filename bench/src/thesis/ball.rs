@@ -109,8 +109,8 @@ const EPSILON: f64 = 1e-3;
 
 pub(super) fn pure_and_fast(plan: &Plan) -> Result<()> {
     let notes = [
-        "The thesis: the fast variant is the faster, with core-sets of about the same size.",
-        "The thesis: both variants give core-sets of essentially the same size.",
+        "The thesis (2.4): the fast variant is much faster, with core-sets of essentially the same size.",
+        "The thesis (2.4): both variants give core-sets of essentially the same size.",
     ];
     let mut pair = Pair::new([5, 6], "10⁴ normal points, ε = 0.001", "dimension", notes);
     let dims = plan.upto(DIMS, 1, 5);
@@ -126,8 +126,8 @@ pub(super) fn pure_and_fast(plan: &Plan) -> Result<()> {
 
 pub(super) fn two_numbers_of_points(plan: &Plan) -> Result<()> {
     let notes = [
-        "The thesis: 10⁵ points in dimension 1500 in under 17 minutes.",
-        "The thesis: sizes between 30 and 170, growing slowly with the dimension.",
+        "The thesis (chapter 2): 10⁵ points in dimension 1500 in less than 17 minutes.",
+        "The thesis (2.4): sizes between 30 and 170, growing somewhat with the dimension.",
     ];
     let of = "normal points, ε = 0.001, fast variant";
     let mut pair = Pair::new([7, 8], of, "dimension", notes);
@@ -146,9 +146,9 @@ pub(super) fn two_numbers_of_points(plan: &Plan) -> Result<()> {
 
 pub(super) fn four_distributions(plan: &Plan) -> Result<()> {
     let notes = [
-        "The thesis: vertices of the cube take by far the longest, and not monotonically in the \
+        "The thesis (2.4): vertices of the cube take the longest, and not monotonically in the \
             dimension.",
-        "The thesis: sizes between 30 and 170.",
+        "The thesis (2.4): sizes between 30 and 170.",
     ];
     let of = "10⁴ points, ε = 0.001, fast variant";
     let mut pair = Pair::new([9, 10], of, "dimension", notes);
@@ -167,8 +167,8 @@ pub(super) fn four_distributions(plan: &Plan) -> Result<()> {
 
 pub(super) fn by_epsilon(plan: &Plan) -> Result<()> {
     let notes = [
-        "The thesis: the time grows about linearly in log 1/ε on USPS.",
-        "The thesis: on USPS the size grows about as log 1/ε, and is always 30 for the fast \
+        "The thesis (2.4) says of the size alone how it grows: see figure 12.",
+        "The thesis (2.4): on USPS the size grows about as log 1/ε, and is always 30 for the fast \
             variant.",
     ];
     let of = "USPS and 10⁴ normal points, d = 256";
@@ -273,8 +273,9 @@ fn ask(plan: &Plan, x: f64, program: &str, input: &Input) -> Result<Result<Measu
 
 pub(super) fn beside_badoiu_clarkson(plan: &Plan) -> Result<()> {
     let title = "running time beside the method of Bădoiu and Clarkson, 1000 normal points";
-    let mut figure = Figure::of_times(15, title, "dimension")
-        .note("The thesis: at ε = 0.03 that method is already very slow compared to Algorithm 1.");
+    let mut figure = Figure::of_times(15, title, "dimension").note(
+        "The thesis (2.4): at ε = 0.03 that method is already very slow compared to Algorithm 1.",
+    );
     let dims = plan.upto(&[10u32, 25, 50, 100, 150, 200, 300, 500], 2, 6);
     let input = |d: u32| Input::points(Distribution::Normal, 1000, d as usize);
     let simple = |epsilon: f64| {

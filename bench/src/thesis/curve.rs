@@ -1,8 +1,8 @@
 //! Figures 2, 21 and 22: curves through noisy points.
 //!
 //! *What is redrawn.* The thesis shows three pictures and gives neither their points nor their number. Figure 2 is an example,
-//! figure 21 is called jagged, figure 22 is of a curve with sharp turns. Each is drawn here of points of our own; 21 and 22 by the
-//! crude method that the thesis used for them, and beside it by the default.
+//! of figure 21 the reconstruction is called jagged (4.1.2), figure 22 is of points with sharp turns. Each is drawn here of points
+//! of our own; 21 and 22 by the crude method that the thesis used for them, and beside it by the default.
 
 use super::*;
 use taut_certify::Curve;
@@ -53,7 +53,7 @@ fn pictures() -> Result<Vec<Picture>> {
         (CurveMethod::ThesisCrude(CurveThesisOptions::DEFAULT), CurveMethod::Auto);
     Ok(vec![
         picture("02", "curve reconstruction with noise", &noisy("multi4", 4000, 0.1)?, default),
-        picture("21a", "the crude method: a jagged curve", &flower, crude),
+        picture("21a", "the crude method: a jagged result", &flower, crude),
         picture("21b", "the same points, default method", &flower, default),
         picture("22a", "the crude method at sharp turns", &sharp, crude),
         picture("22b", "the same points, default method", &sharp, default),

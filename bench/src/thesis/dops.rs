@@ -1,8 +1,8 @@
 //! Tables 4, 5 and 6, and figures 76 and 77: k-dops in meshes, by the procedure of the thesis and by the default method.
 //!
 //! *What is rerun.* Of the eight models five are here; Beethoven, the dragon and the bunny are other versions. The thesis does not
-//! say which models figures 76 and 77 show: here they are Beethoven and the bunny. Its times are those of a 1 GHz Pentium III,
-//! and its shares are of the grid that gave the seeds; here they are of points that the search does not see.
+//! say which models figures 76 and 77 show: here they are Beethoven and the bunny. Its times are mostly those of a 1 GHz Pentium III
+//! (8.5.6), and its shares are of the grid that gave the seeds; here they are of points that the search does not see.
 
 use taut_inscribe::{
     BodiesMethod, BodiesOptions, BodiesThesisOptions, BodyShape, inscribed_bodies,

@@ -1,8 +1,8 @@
 //! Figure 18 of the thesis: sizes of core-sets for the smallest ellipsoid, by dimension and by ε.
 //!
-//! *What is rerun.* The thesis shows preliminary results of a MATLAB program and no numbers: core-sets of Algorithm 5. They
-//! are drawn beside what the same steps with steps away leave, and the support of the exact ellipsoid, which has between
-//! d + 1 and d(d + 3)/2 points. Each size is that of an answer whose gap was proved.
+//! *What is rerun.* The thesis (3.6) shows preliminary results of a MATLAB program, no numbers, and does not name the method. Here
+//! core-sets of Algorithm 5 are drawn beside what the same steps with steps away leave, and the support of the exact ellipsoid,
+//! which has between d + 1 and d(d + 3)/2 points. Each size is that of an answer whose gap was proved.
 
 use super::*;
 use taut_enclose::ellipsoid;

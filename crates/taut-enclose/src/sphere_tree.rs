@@ -7,7 +7,7 @@
 //! *Guarantee.* Every point is in the ball of every node on the way to it, as exactly as [`ball()`] puts it there; no child is
 //! larger than its parent, but for the gap that is granted to balls. The same tree for any number of threads.
 //! *Trap.* The depth is not logarithmic: points at 1, ½, ¼, … are taken off one by one. It is a loop over levels, not a recursion.
-//! *Reference.* The use of 2-centers that the thesis names (section 2.5); the split goes back to Omohundro, Five Balltree
+//! *Reference.* The use of 2-centers that the thesis names (section 2.4); the split goes back to Omohundro, Five Balltree
 //! Construction Algorithms, ICSI TR-89-063, 1989.
 
 mod split;

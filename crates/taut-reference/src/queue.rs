@@ -32,6 +32,8 @@ mod room;
 mod spill;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod transfers;
 
 /// A queue of entries in memory, smallest key first.
 ///

@@ -15,7 +15,7 @@ const LOOKED_AT_ROWS_MAX: usize = 512;
 
 /// The width of a Gaussian kernel exp(−γ|x − y|²), named by its convention.
 ///
-/// The thesis prints exp(−|x − y|²/θ) with θ = 125; the figures of its tables come out with the convention of PRTools, which divides by
+/// The thesis prints exp(−|x − y|²/θ) with θ = 125; figures near those of its table 3 come out with the convention of PRTools, which divides by
 /// θ². So the convention is part of the value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", tag = "convention", deny_unknown_fields)]

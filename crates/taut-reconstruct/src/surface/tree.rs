@@ -3,8 +3,8 @@
 //! *Problem.* Facets contradict each other about where the surface is; weak ones, on slivers and at sharp edges, are often wrong.
 //! *Idea.* Facets are processed in the order of their weight. One that joins two parts of space which were not joined yet is obeyed: same
 //! side, or opposite sides. All others are ignored, as what they say is decided already. The facets obeyed are a maximum spanning tree of
-//! the dual graph, and the parity of opposites on the way from outside is the label. It is the thesis' spanning tree, turned from
-//! growing a surface to dividing space.
+//! the dual graph, and the parity of opposites on the way from outside is the label. The thesis (4.2, 4.3) grows a surface along a
+//! minimum spanning tree of triangles; this tree divides space.
 //! *Way.* Borůvka's: in each round every part joins the one across its facet of the largest weight. No facet is sorted, and all are read in the order
 //! in which their cells lie in memory; each round leaves half of the parts at most, of most samples a third, and of facets those between
 //! them. In the first round a part is a cell, and its facets are at hand; then parts are numbered again in each round, so that what is kept

@@ -8,8 +8,8 @@
 //! more than three quarters by bad luck is merge sorted, so O(n log n) time is never exceeded by much.
 //! *Trap.* A run has its elements for bucket j before those for bucket j + 1, so the left quarters come first: the order
 //! of the four calls is not free. The number of runs is no power of two in general: the longer side is halved.
-//! *Trap.* There are √n buckets and √n − 1 boundaries, not 1 + √n and √n as printed; and equal elements need parts of
-//! their own, see [`super::sample`].
+//! *Trap.* There are √n buckets and √n − 1 boundaries; printed are boundaries r₀ … r_√n and buckets B₀ … B_(1+√n). Equal
+//! elements need parts of their own, see [`super::sample`].
 //! *Trap.* A memory of few blocks has a block of each run and of each bucket it deals with, and what is beside them counts:
 //! bounds of buckets and their cursors lie in one array; runs are counted in strips, as counting asks for bounds and no
 //! buckets; and each pass begins where the one before ended.

@@ -5,7 +5,7 @@
 //! *Idea.* A [tree with buffers](super::buffer_tree) on its edges, a merger run backwards: a top √k-distributor, middle
 //! buffers, and √k bottom √k-distributors. Two ways to run it ([`DistributorForm`]).
 //! *Guarantee.* At most 4k² + O(k) words; stable: a bucket holds its elements in the order of the input; O(k³ log k) time.
-//! *Trap.* In the end buffers are partly full: they must be emptied from the top down, which the book only hints at. The
+//! *Trap.* In the end buffers are partly full: they must be emptied from the top down, which the thesis says in one sentence. The
 //! recursive form does so after each call, so that a buffer that was at most half full never overflows.
 //! *Trap.* A bottom distributor takes all its buffer has, so that buffers need not be circular.
 //! *Trap.* How long buckets become is not known before: they are chains of pieces of n/k elements.

@@ -34,7 +34,7 @@ mod median;
 mod mergesort;
 mod multiply;
 mod quicksort;
-mod random;
+pub(crate) mod random;
 mod reverse;
 mod sample;
 mod strassen;

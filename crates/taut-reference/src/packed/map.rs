@@ -66,10 +66,12 @@ impl<K: Key, V: Copy + Default> PackedMap<K, V> {
 
     /// An empty map with memory for a number of leaves, one of which is in use.
     pub(super) fn with_leaves(room: usize) -> Self {
+        let mut counts = Vec::with_capacity(room);
+        counts.push(0);
         Self {
             keys: Pages::zeroed(room * LEAF_SLOTS),
             values: vec![V::default(); room * LEAF_SLOTS],
-            counts: vec![0],
+            counts,
             separators: Separators::new(room),
             len: 0,
             moves: 0,
@@ -102,7 +104,11 @@ impl<K: Key, V: Copy + Default> PackedMap<K, V> {
     pub fn place<P: Probe>(&self, probe: &mut P) {
         probe.place(self.keys.words());
         probe.place(&self.values);
-        probe.place(&self.counts);
+        if P::IS_RECORDING {
+            // With the leaves that are still to be opened, for which there is room.
+            let bytes = self.counts.capacity() * size_of::<u32>();
+            probe.place_at(self.counts.as_ptr() as usize, bytes);
+        }
         self.separators.place_in(probe);
     }
 
@@ -266,6 +272,7 @@ impl<K: Key, V: Copy + Default> PackedMap<K, V> {
             .copy_from_slice(&self.keys.words()[..leaves * LEAF_SLOTS]);
         self.keys = keys;
         self.values.resize(room * LEAF_SLOTS, V::default());
+        self.counts.reserve_exact(room - leaves);
         let mut separators = Separators::new(room);
         for leaf in 1..leaves {
             if let Some(word) = self.separators.get(leaf) {
@@ -425,7 +432,7 @@ impl<'a, K: Key, V: Copy + Default> Writer<'a, K, V> {
     pub(super) fn new(map: &'a mut PackedMap<K, V>, leaves: usize, len: usize) -> Self {
         let mut counts = vec![0; leaves];
         spread::even(&mut counts, len);
-        map.counts = vec![0; leaves];
+        map.counts.resize(leaves, 0);
         Self { map, counts, leaf: 0 }
     }
 

@@ -349,6 +349,12 @@ impl<V: Copy, S: Spill<V>> Core<V, S> {
         self.buckets.iter().map(|bucket| bucket.keys.capacity().max(bucket.values.capacity())).sum()
     }
 
+    /// What is beyond memory.
+    #[cfg(test)]
+    pub(super) fn spill(&self) -> &S {
+        &self.spill
+    }
+
     /// Buckets, and the comparisons and moves so far.
     #[cfg(test)]
     pub(super) fn buckets_and_work(&self) -> (usize, u64) {

@@ -1,11 +1,13 @@
 //! One cache: sets of blocks, the oldest of which makes room, and what happened to them.
 //!
 //! Idea: a table from block to slot, and a circular list of slots per set, newest first; a cache in which any block may
-//! be anywhere is one set. O(1) per access for any number of ways.
+//! be anywhere is one set. O(1) per access for any number of ways. Where chance decides, a slot of the set is drawn when it is
+//! full, and the list says nothing.
 
 use super::shape::{CacheShape, Replacement};
 use super::table::Table;
 use crate::Access;
+use crate::algorithms::random::Random;
 
 /// The accesses and misses of a cache since it was empty. An access of bytes in several blocks counts once for each.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -47,6 +49,8 @@ pub(super) struct Cache {
     /// log₂ of the bytes of a block.
     pub(super) shift: u32,
     replacement: Replacement,
+    /// Draws slots where chance decides.
+    random: Random,
     sets: u64,
     ways: u32,
     /// Slot of a block, plus one.
@@ -69,6 +73,10 @@ impl Cache {
         Self {
             shift: shape.block.trailing_zeros(),
             replacement: shape.replacement,
+            random: Random::new(match shape.replacement {
+                Replacement::Random(seed) => seed,
+                Replacement::Lru | Replacement::Fifo => 0,
+            }),
             sets: sets as u64,
             ways: ways as u32,
             slot_of: Table::default(),
@@ -129,8 +137,13 @@ impl Cache {
     fn vacate(&mut self, set: usize) -> (usize, Option<u64>) {
         let (head, used) = self.heads[set];
         if used == self.ways {
-            // The oldest stands before the newest in the circle: turning it by one makes it the newest.
-            let slot = self.slots[head as usize].newer as usize;
+            let slot = match self.replacement {
+                Replacement::Random(_) => {
+                    set * self.ways as usize + self.random.below(self.ways as usize)
+                }
+                // The oldest stands before the newest in the circle: turning it by one makes it the newest.
+                Replacement::Lru | Replacement::Fifo => self.slots[head as usize].newer as usize,
+            };
             let Slot { block, dirty, .. } = self.slots[slot];
             self.heads[set].0 = slot as u32;
             self.slot_of.set(block, 0);

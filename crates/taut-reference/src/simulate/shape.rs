@@ -9,6 +9,8 @@ pub enum Replacement {
     Lru,
     /// The one that came first.
     Fifo,
+    /// Any of them with the same probability, drawn from a generator with that seed: equal seeds give equal counts.
+    Random(u64),
 }
 
 /// Size, blocks and replacement of one cache, in bytes.
@@ -40,6 +42,11 @@ impl CacheShape {
     /// The same with the oldest arrival going.
     pub const fn fifo(memory: usize, block: usize) -> Self {
         Self { memory, block, ways: None, replacement: Replacement::Fifo }
+    }
+
+    /// The same with one at random going, by the generator of that seed.
+    pub const fn random(memory: usize, block: usize, seed: u64) -> Self {
+        Self { replacement: Replacement::Random(seed), ..Self::lru(memory, block) }
     }
 
     /// The same cut into sets of `ways` blocks.

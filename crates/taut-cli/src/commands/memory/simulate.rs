@@ -118,7 +118,9 @@ impl Args {
             false => self.n.clone(),
         };
         if self.policy == Policy::Optimal && self.ways.is_some() {
-            bail!("--ways belongs to lru and fifo: the best replacement is that of one set");
+            bail!(
+                "--ways belongs to lru, fifo and random: the best replacement is that of one set"
+            );
         }
         let fits = |sizes: &[u64]| -> Vec<usize> {
             sizes.iter().map(|&size| usize::try_from(size).unwrap_or(usize::MAX)).collect()

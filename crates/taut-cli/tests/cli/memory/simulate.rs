@@ -52,8 +52,10 @@ fn policies_differ_and_the_best_is_the_best() {
         let text = folder.taut(&line).ends(0).out;
         rows(&text)[0][5].parse().unwrap()
     };
-    let (lru, fifo, best) = (misses("lru"), misses("fifo"), misses("optimal"));
-    assert!(best < lru && best < fifo && lru != fifo, "{lru} {fifo} {best}");
+    let [lru, fifo, random, best] = ["lru", "fifo", "random", "optimal"].map(misses);
+    let all = [lru, fifo, random, best];
+    assert!(all[..3].iter().all(|&other| best < other) && lru != fifo, "{all:?}");
+    assert!(random != lru && random == misses("random"), "{all:?}");
     assert!(misses("lru --ways 1") > lru);
 }
 
@@ -64,7 +66,7 @@ fn every_algorithm_runs() {
     let mut ran = 0;
     for line in help.lines().filter_map(|line| line.trim().strip_prefix("- ")) {
         let Some((name, _)) = line.split_once(':') else { continue };
-        if !["lru", "fifo", "optimal", "auto", "always", "never"].contains(&name)
+        if !["lru", "fifo", "random", "optimal", "auto", "always", "never"].contains(&name)
             && !name.contains(' ')
         {
             let small =

@@ -3,7 +3,7 @@
 //! *Problem.* A bandage of the color of skin on a thumb, and a patch that fills the web of two fingers, change widths
 //! and valleys by as much as people differ.
 //! *Idea.* Skin curves away from the glass, so that it darkens over the last millimeters before an edge (thesis, 7.4:
-//! "the edge is faint"). Brightness is measured in units of this hand's own shading: 0 as near its edges, 1 as within.
+//! "Edge areas of hands were quite faint"). Brightness is measured in units of this hand's own shading: 0 as near its edges, 1 as within.
 //! A cover is as bright at its edge as within.
 //! *Limits.* The generator paints covers flat. One that curves as skin does has no such mark, and a scan without
 //! shading has no evidence here: both leave the other signs.

@@ -1,7 +1,7 @@
 //! The hull that the filter of the thesis leaves: candidates of a surface, before any is chosen.
 //!
-//! The thesis' program could stop there: "sometimes the shrunk equatorial sphere test with a good α value is a good approximation to the mesh
-//! desired", for uniform dense samples. It is no surface as a rule: on the sides of flat cells there are two sheets.
+//! The thesis' program could stop there (4.5): "sometimes the shrunk equatorial sphere test with a good α value is a good approximation to the mesh
+//! desired", above all for uniform dense samples. It is no surface as a rule: on the sides of flat cells there are two sheets.
 
 use rayon::prelude::*;
 use taut_delaunay::Space;

@@ -8,6 +8,7 @@
 
 mod distributor;
 mod matrices;
+mod packed;
 mod replacement;
 mod search;
 mod sorts;

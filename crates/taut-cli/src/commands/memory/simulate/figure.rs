@@ -15,6 +15,8 @@ use super::run::{Counted, Policy, Wanted, chart, counted, plot};
 const PENTIUM: CacheShape = CacheShape::lru(256 << 10, 32).with_ways(8);
 /// Second-level cache of the Linux machine: 256 KiB, 16 ways, lines of 64 bytes (Athlon).
 const ATHLON: CacheShape = CacheShape::lru(256 << 10, 64).with_ways(16);
+/// Second-level cache of the server: 96 KiB, 6 ways, lines of 64 bytes (Itanium).
+const ITANIUM_SECOND: CacheShape = CacheShape::lru(96 << 10, 64).with_ways(6);
 /// Third-level cache of the server: 2 MiB, 4 ways, lines of 64 bytes (Itanium).
 const ITANIUM: CacheShape = CacheShape::lru(2 << 20, 64).with_ways(4);
 /// Tables of addresses: 64 pages of 4 KiB in 4 ways (Pentium III), 96 pages of 16 KiB in any place (Itanium).
@@ -70,10 +72,11 @@ fn described(number: u32) -> Option<Figure> {
         38 => transposition("Transposition, n × n, Linux machine", ATHLON, None, 1),
         40 => transposition("Transposition, n × 100", ATHLON, Some(100), 1),
         41 => transposition("Transposition, n × 1000", ATHLON, Some(1000), 1),
-        42 => transposition("Blocked transposition, n × n", ATHLON, None, 16),
+        42 => transposition("Blocked transposition, n × n, notebook", PENTIUM, None, 16),
         43 => Figure {
-            title: "Blocked matrix product, n × n",
-            caches: vec![ATHLON],
+            title: "Blocked matrix product, n × n, Itanium",
+            // Matrices of 256 rows all fit the third level.
+            caches: vec![ITANIUM_SECOND],
             sizes: &PRODUCTS,
             programs: vec![("three loops", MultiplyLoops, 1), ("cache-oblivious", Multiply, 16)],
             unit: "misses a product of two numbers",

@@ -15,6 +15,8 @@ pub(super) enum Policy {
     Lru,
     /// the one that came first
     Fifo,
+    /// any of them with the same probability, drawn from a fixed seed
+    Random,
     /// the one whose next access is farthest away, which no other choice beats; 16 bytes for each access
     Optimal,
 }
@@ -24,6 +26,7 @@ impl fmt::Display for Policy {
         f.write_str(match self {
             Policy::Lru => "lru",
             Policy::Fifo => "fifo",
+            Policy::Random => "random",
             Policy::Optimal => "optimal",
         })
     }
@@ -60,6 +63,7 @@ pub(super) fn counted(wanted: &Wanted) -> anyhow::Result<Vec<Counted>> {
     wanted.sizes.iter().try_for_each(|&n| algorithm.check(n))?;
     let replacement = match policy {
         Policy::Fifo => Replacement::Fifo,
+        Policy::Random => Replacement::Random(0),
         Policy::Lru | Policy::Optimal => Replacement::Lru,
     };
     let shapes: Vec<CacheShape> = wanted
@@ -85,7 +89,7 @@ pub(super) fn counted(wanted: &Wanted) -> anyhow::Result<Vec<Counted>> {
                 let best = |shape: &CacheShape| trace.optimal(shape.memory, shape.block);
                 shapes.iter().map(best).collect::<Result<Vec<_>, _>>()?
             }
-            Policy::Lru | Policy::Fifo => {
+            Policy::Lru | Policy::Fifo | Policy::Random => {
                 algorithm.run(n, base, &mut simulator)?;
                 (0..shapes.len()).map(|cache| simulator.counts(cache)).collect()
             }
