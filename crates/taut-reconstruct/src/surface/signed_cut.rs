@@ -28,12 +28,12 @@ use super::dual_edges::{CERTAIN_STEPS, DualEdges};
 use super::spheres::{Point, circumsphere};
 
 /// A search is given up after this many cells.
-const REGION_CELLS_MAX: usize = 3000;
+const REGION_CELLS_MAX: usize = 2000;
 /// All searches together come by this many times as many cells as there are. Samples that are dense enough take a few times as many, thin
 /// walls up to a hundred; noise would take more without an end.
 const VISITS_PER_CELL: u64 = 100;
-/// A facet is left alone if cycles carry all but this much of its weight: a thirty-second of what a certain facet says.
-const LEFT_MIN: u32 = (CERTAIN_STEPS / 32) as u32;
+/// A facet is left alone if cycles carry all but this much of its weight: an eighth of what a certain facet says.
+const LEFT_MIN: u32 = (CERTAIN_STEPS / 8) as u32;
 /// Which cell of a facet may turn is chosen in this many ways.
 const WAYS: u32 = 5;
 
