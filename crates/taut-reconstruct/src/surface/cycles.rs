@@ -1,11 +1,13 @@
-//! The dual graph with what flows through it, and the cycles that prove objections to be vain.
+//! The dual graph with what flows through it, and the cycles that show objections to be vain.
 //!
 //! *Idea.* A cycle of cells around which an odd number of facets say "opposite" disagrees with every labeling at one facet at least. Where a
 //! facet that disagrees with the labels lies on a cycle of facets that agree, no labeling does better on that cycle. Cycles that share facets
-//! share their weights out, so a facet is *settled* once cycles through it carry all of its weight: no labels that agree better overall
-//! gain by it. Most facets that disagree do so among slivers, and short cycles settle them.
-//! *Guarantee.* Exact: weights are whole numbers. What flows from one cell of the facet to the other along a cycle is a flow in either direction,
-//! so it can be turned with the facet when minimum cuts are sought (`signed_cut`).
+//! share their weights out; a facet is *settled* once cycles through it carry all of its weight. Most facets that disagree do so among
+//! slivers, and short cycles settle them.
+//! *Trap.* What flows along two cycles in opposite directions cancels, so a facet can carry more than its weight in sum. That settled labels
+//! are the best of all is therefore likely and not proved; who turns cells over weighs them exactly.
+//! *Guarantee.* Weights are whole numbers, and searches are in a fixed order. What flows from one cell of the facet to the other along a
+//! cycle can be turned with the facet when minimum cuts are sought (`signed_cut`).
 //! *Reference.* Barahona and Mahjoub, *On the cut polytope*, Math. Programming 36, 1986, for the inequalities of odd cycles.
 
 use super::cells::Cells;
