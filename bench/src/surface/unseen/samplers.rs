@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::fields::{Field, dot, length, minus};
-use super::shapes::REACH;
+use super::shapes::RADIUS_MAX;
 use super::*;
 
 /// How points lie on a surface.
@@ -47,7 +47,7 @@ pub(super) fn crossings(
     }
     ensure!(points.len() >= count, "the surface is too small to be met");
     // Lines through a ball of radius r meet a surface of area a within it a/(2πr²)·… times: 2a/(4πr²) for each.
-    let area = points.len() as f64 / lines as f64 * TAU * REACH * REACH;
+    let area = points.len() as f64 / lines as f64 * TAU * RADIUS_MAX * RADIUS_MAX;
     points.truncate(count);
     Ok((points, area))
 }
@@ -69,9 +69,9 @@ fn along(
     let side = side.map(|x| x / size);
     let up = cross(direction, side);
     let (sin, cos) = around.sin_cos();
-    let middle = [0, 1, 2].map(|k| REACH * far * (cos * side[k] + sin * up[k]));
+    let middle = [0, 1, 2].map(|k| RADIUS_MAX * far * (cos * side[k] + sin * up[k]));
     let at = |t: f64| [0, 1, 2].map(|k| middle[k] + t * direction[k]);
-    let end = REACH * (1.0 - far * far).max(0.0).sqrt();
+    let end = RADIUS_MAX * (1.0 - far * far).max(0.0).sqrt();
     let (mut t, mut value) = (-end, field.value(at(-end)));
     while t < end {
         let next = t + value.abs().max(step);

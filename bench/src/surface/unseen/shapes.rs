@@ -57,7 +57,7 @@ pub(super) struct Shape {
 }
 
 /// All shapes are within this distance of the origin.
-pub(super) const REACH: f64 = 1.8;
+pub(super) const RADIUS_MAX: f64 = 1.8;
 
 /// Numbers in [0, 1), one after the other.
 pub(super) struct Dice(std::vec::IntoIter<[f64; 1]>);
@@ -85,7 +85,7 @@ fn bores(body: Field, places: &[[f64; 2]], radius: f64) -> Field {
 }
 
 /// The least distance of parts of a closed or open line which are not near each other along it.
-fn strands(line: &[Point], apart: usize, is_closed: bool) -> f64 {
+fn least_gap(line: &[Point], apart: usize, is_closed: bool) -> f64 {
     let mut least = f64::INFINITY;
     for i in 0..line.len() {
         for j in i + apart..line.len() {
@@ -179,7 +179,7 @@ pub(super) fn shape(class: Class, thickness: f64, seed: u64) -> Result<Shape> {
                 [radius * around.cos(), radius * around.sin(), 0.42 * across.sin()]
             };
             let line: Vec<Point> = (0..=steps).map(place).collect();
-            let apart = strands(&line[..steps], 14, true);
+            let apart = least_gap(&line[..steps], 14, true);
             let radius = if apart > 2.0 * t { 0.5 * (apart - t) } else { 0.25 * apart };
             let radius = radius.min(0.22);
             let thickness = (apart - 2.0 * radius).min(2.0 * radius);
@@ -238,7 +238,7 @@ pub(super) fn shape(class: Class, thickness: f64, seed: u64) -> Result<Shape> {
                     one.about(0, turn).at(place)
                 };
                 let field = Field::Blend(0.05, (0..bodies).map(body).collect());
-                let at = |level: f64| counted(&field, level, REACH, 72);
+                let at = |level: f64| counted(&field, level, RADIUS_MAX, 72);
                 let (components, genus) = at(0.0);
                 let t = t.min(0.2);
                 if [-0.5 * t, 0.5 * t].iter().all(|&level| at(level) == (components, genus)) {
@@ -331,7 +331,7 @@ mod tests {
         for (class, name) in Class::ALL.into_iter().filter(|&(class, _)| is_known(class)) {
             for seed in 0..2 {
                 let shape = shape(class, 0.25, seed).unwrap();
-                let found = counted(&shape.field, 0.0, REACH, 32);
+                let found = counted(&shape.field, 0.0, RADIUS_MAX, 32);
                 assert_eq!(found, (shape.components, shape.genus), "{name} {seed}");
             }
         }

@@ -16,7 +16,7 @@ const REPAIRS_SHARE: f64 = 1e-3;
 /// So many facets in a thousand sites can be overruled without a doubt.
 const OVERRULED_SHARE: f64 = 1e-3;
 /// This many of either say nothing, however few sites there are.
-const SMALL: f64 = 2.0;
+const COUNT_MIN: f64 = 2.0;
 
 /// The reasons, each with the sites that it is about.
 pub(super) type Doubts = Vec<(TopologyReason, Vec<u32>)>;
@@ -28,7 +28,7 @@ pub(super) fn doubts(
     cells: &Cells,
     sites: usize,
 ) -> Doubts {
-    let most = |share: f64| (share * sites as f64).max(SMALL);
+    let most = |share: f64| (share * sites as f64).max(COUNT_MIN);
     let mut doubts = Vec::new();
     if !repaired.rebuilt.is_empty() {
         doubts.push((TopologyReason::Rebuilt, repaired.rebuilt.clone()));
