@@ -133,7 +133,7 @@ pub use robust::{
 pub use solution::{Answer, PassBounds, Solution, Stop, Trace};
 pub use surface::{
     Apex, Surface, SurfaceCertificate, SurfaceComponent, SurfaceDoubt, SurfaceMethod, SurfaceMode,
-    SurfaceTopology, SurfaceVerdict, SurfaceViolation, Unused,
+    SurfaceTopology, SurfaceVerdict, SurfaceViolation, TopologyDoubt, TopologyReason, Unused,
 };
 pub use triangle::{InscribedTriangle, TriangleCertificate, TriangleVerdict, TriangleViolation};
 pub use triangulation::{

@@ -2,6 +2,7 @@
 
 mod apex;
 mod check;
+mod confidence;
 mod doubt;
 mod topology;
 mod violation;
@@ -13,6 +14,7 @@ use crate::json::{hash_from_hex, hash_to_hex};
 use crate::{Answer, CheckError};
 
 pub use apex::Apex;
+pub use confidence::{TopologyDoubt, TopologyReason};
 pub use doubt::SurfaceDoubt;
 pub use topology::{SurfaceComponent, SurfaceTopology};
 pub use violation::SurfaceViolation;
@@ -96,7 +98,7 @@ pub enum SurfaceMode {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(
     deny_unknown_fields,
-    expecting = "the certificate of a surface: an object with method, mode, apexes, embedded, outward, displacement and points_hash"
+    expecting = "the certificate of a surface: an object with method, mode, apexes, embedded, outward, displacement, doubts where there are any, and points_hash"
 )]
 pub struct SurfaceCertificate {
     /// The way in which it was found, for the record.
@@ -113,12 +115,15 @@ pub struct SurfaceCertificate {
     pub outward: bool,
     /// The largest distance of a vertex from its row, 0 where points were not moved.
     pub displacement: f64,
+    /// Reasons of the method to doubt that the topology is that of what was sampled: evidence, neither proved nor refuted.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub doubts: Vec<TopologyDoubt>,
     /// The hash of the rows this was made for.
     #[serde(serialize_with = "hash_to_hex", deserialize_with = "hash_from_hex")]
     pub points_hash: PointsHash,
 }
 
-/// The proved facts about a surface.
+/// The proved facts about a surface, and whether its method doubts its topology.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct SurfaceVerdict {
     /// Rows there are.
@@ -149,7 +154,11 @@ pub struct SurfaceVerdict {
     pub is_outward: bool,
     /// The largest distance of a vertex from its row, rounded up.
     pub displacement: f64,
-    /// True if it is an oriented embedded manifold of Delaunay triangles that faces outwards.
+    /// True if it is an oriented embedded manifold of Delaunay triangles that faces outwards: proved.
+    pub is_sound: bool,
+    /// True if the method names no doubt about its topology: evidence.
+    pub is_confident: bool,
+    /// True if it is sound and the method is confident.
     pub certified: bool,
     /// Where it is not, the first reason.
     pub doubt: Option<SurfaceDoubt>,

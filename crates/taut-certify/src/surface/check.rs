@@ -15,6 +15,8 @@
 //! *Delaunay.* A triangle with an empty ball is a face of a Delaunay cell, or lies in one whose sphere has more than four points:
 //! strictly inside is what counts, so that any way to divide such a cell is accepted. Where points were moved all this is said of
 //! their new places. Outliers are no points here.
+//! *Doubts.* No checker knows what was sampled. So doubts of the method about its topology are taken as they are: a surface is *sound* if
+//! all of the above is so, and *certified* if it is sound and its method has no doubt.
 //! *Claims.* What is claimed must be so, no more and no less. That a surface is no manifold, say, is no violation if its topology
 //! says so: it is then the reason not to call it certified.
 //! *Cost.* O(n log n), beside the points whose boxes reach into balls and the pairs of triangles whose boxes meet. Balls among
@@ -97,7 +99,12 @@ pub(super) fn check(
     }
     let is_delaunay = certificate.apexes.len() == surface.triangles.len();
     let empty = surface.triangles.is_empty().then_some(SurfaceDoubt::Empty);
-    let doubt = empty.or(inward).or((!is_delaunay).then_some(SurfaceDoubt::NoBalls));
+    let unsound = empty.or(inward).or((!is_delaunay).then_some(SurfaceDoubt::NoBalls));
+    let in_topology = certificate.doubts.first().and_then(|doubt| {
+        let row = *doubt.rows.first()?;
+        Some(SurfaceDoubt::Topology { reason: doubt.reason, row })
+    });
+    let doubt = unsound.or(in_topology);
     let found = &shape.topology;
     Ok(SurfaceVerdict {
         rows: source.len(),
@@ -114,6 +121,8 @@ pub(super) fn check(
         is_delaunay,
         is_outward: inward.is_none(),
         displacement,
+        is_sound: unsound.is_none(),
+        is_confident: in_topology.is_none(),
         certified: doubt.is_none(),
         doubt,
     })

@@ -2,6 +2,8 @@
 
 use serde::{Serialize, Serializer};
 
+use super::TopologyReason;
+
 /// The first reason not to call a surface certified, and where. Triangles and components are counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -62,6 +64,14 @@ pub enum SurfaceDoubt {
     /// It is not claimed that triangles are Delaunay triangles.
     #[error("no balls are named: that its triangles are Delaunay triangles is not claimed")]
     NoBalls,
+    /// The surface is sound, and its method doubts that its topology is that of what was sampled.
+    #[error("the topology is in doubt near row {row}: {reason}")]
+    Topology {
+        /// The first reason.
+        reason: TopologyReason,
+        /// The first row that it names.
+        row: u32,
+    },
 }
 
 /// As its sentence.

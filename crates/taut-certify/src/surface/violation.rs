@@ -80,6 +80,16 @@ pub enum SurfaceViolation {
         /// The problem.
         problem: &'static str,
     },
+    /// A doubt about the topology names no row, or one that is no row.
+    #[error("doubt {doubt} names {row}: expected at least one row, all below {rows}")]
+    DoubtRows {
+        /// The doubt, counted from 0.
+        doubt: usize,
+        /// What it names.
+        row: String,
+        /// Rows there are.
+        rows: u64,
+    },
     /// A number of the topology is wrong.
     #[error("the topology says that {what} is {claimed}, but it is {found}")]
     Topology {

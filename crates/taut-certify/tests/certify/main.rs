@@ -28,6 +28,7 @@ mod mesh;
 mod shape_indefinite;
 mod surface;
 mod surface_crossings;
+mod surface_doubts;
 mod surface_mutations;
 mod surface_properties;
 mod surface_shapes;

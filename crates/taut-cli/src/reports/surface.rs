@@ -65,7 +65,7 @@ impl Summary for Surface {
         fields.extend(unused(&report.found.answer.unused));
         match &report.verdict {
             Some(proved) => {
-                fields.push(certified(proved));
+                fields.extend(certified(proved));
                 let what = match proved.is_delaunay && proved.is_embedded {
                     true => {
                         "topology, empty balls, and that it meets itself nowhere, by exact signs"
@@ -128,7 +128,7 @@ impl Summary for Surface {
                 fields.push(Field::proved(name, share(rows as u64, verdict.rows)).remark(meaning));
             }
         }
-        fields.push(certified(verdict));
+        fields.extend(certified(verdict));
         let (used, all, left_out) = (verdict.vertices, verdict.rows, verdict.outliers);
         let rows = without_outliers(used, all, left_out, "in space");
         Claims { what: format!("{} through {rows}", surface_of(found)), gap: None, fields }
@@ -184,16 +184,27 @@ fn unused(rows: &Unused) -> Vec<Field> {
     lists.map(|(name, rows)| rows_of(name, &wide(rows))).collect()
 }
 
-/// Tests whether the surface is all that one could ask for; of which points, where some are left out.
-fn certified(verdict: &SurfaceVerdict) -> Field {
-    match &verdict.doubt {
-        None => {
-            let value = yes_without_outliers(verdict.rows, verdict.outliers);
-            Field::proved("certified", value)
-                .remark("an oriented manifold of Delaunay triangles that meets itself nowhere")
+/// What is proved of the surface as such, what its method says of its topology, and both together.
+fn certified(verdict: &SurfaceVerdict) -> [Field; 3] {
+    const SOUND: &str = "an oriented manifold of Delaunay triangles that meets itself nowhere";
+    let doubt = verdict.doubt.map(|doubt| format!("{doubt}; all counted from 0"));
+    let sound = match &doubt {
+        Some(doubt) if !verdict.is_sound => Field::proved("sound", "no").remark(doubt),
+        _ => Field::proved("sound", yes_without_outliers(verdict.rows, verdict.outliers))
+            .remark(SOUND),
+    };
+    let topology = match &doubt {
+        Some(doubt) if verdict.is_sound => Field::evidence("topology", "in doubt").remark(doubt),
+        _ if verdict.is_confident => Field::evidence("topology", "no doubt").remark(
+            "nothing that the method looks at speaks against it; what was sampled is not known",
+        ),
+        _ => Field::evidence("topology", "in doubt"),
+    };
+    let certified = match verdict.certified {
+        true => {
+            Field::evidence("certified", "yes").remark("sound, and no doubt about its topology")
         }
-        Some(doubt) => {
-            Field::proved("certified", "no").remark(format!("{doubt}; all counted from 0"))
-        }
-    }
+        false => Field::evidence("certified", "no"),
+    };
+    [sound, topology, certified]
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use taut_certify::{
     Solution, Stop, Surface, SurfaceCertificate, SurfaceComponent, SurfaceMethod,
-    SurfaceMode as Promise, SurfaceTopology, Trace, Unused,
+    SurfaceMode as Promise, SurfaceTopology, TopologyDoubt, Trace, Unused,
 };
 use taut_delaunay::Space;
 use taut_mesh::{Topology, TriangleMesh, self_intersections, topology};
@@ -13,6 +13,7 @@ use taut_points::{InputError, PointsHash};
 use super::cells::Cells;
 use super::changes::Changes;
 use super::circles;
+use super::doubts::Doubts;
 use super::facing;
 use super::outward;
 use super::scaled::Scale;
@@ -31,6 +32,8 @@ pub(super) struct Facets {
     pub(super) is_outward: bool,
     /// Where that is known, for sites that no triangle has whether they are inside.
     pub(super) inside: Vec<bool>,
+    /// What speaks against the topology.
+    pub(super) doubts: Doubts,
     /// Events worth counting.
     pub(super) counters: BTreeMap<String, u64>,
 }
@@ -132,6 +135,11 @@ pub(super) fn finish(
         }
     }
     let answer = Surface { vertices: changes.moved, triangles, topology: numbers(&found), unused };
+    let doubts = facets.doubts.into_iter().map(|(reason, at)| {
+        let mut rows: Vec<u32> = at.into_iter().map(|site| sites.row(site)).collect();
+        rows.sort_unstable();
+        TopologyDoubt { reason, rows }
+    });
     let certificate = SurfaceCertificate {
         method,
         mode,
@@ -140,6 +148,7 @@ pub(super) fn finish(
         // Of what is no surface nothing is claimed.
         outward: is_surface && embedded,
         displacement: changes.displacement,
+        doubts: doubts.collect(),
         points_hash,
     };
     let trace = Trace {

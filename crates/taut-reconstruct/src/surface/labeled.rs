@@ -7,6 +7,7 @@ use super::answer::Facets;
 use super::border::{Face, Links, faces, faces_after, is_cycle, is_fan};
 use super::cells::Cells;
 use super::diagonals::swap;
+use super::doubts::doubts;
 use super::dual_edges::DualEdges;
 use super::merged_labelings::Patch;
 use super::one_sided::OVERRULED;
@@ -14,9 +15,13 @@ use super::orient::orient;
 use super::prune::{without_all_small_fans, without_membranes};
 use super::relabel_parts::{Relabeled, flip};
 use super::relabel_regions::sink;
-use super::repair::repair;
+use super::repair::{Repaired, repair};
+use super::signed_cut::{Doubted, Improved, improve};
 use super::spheres::Point;
 use super::tree::{Labels, labels};
+
+/// Sinking and repair take turns this often at most.
+const ROUNDS_MAX: usize = 8;
 
 /// Labels cells as inside and outside. For closed surfaces all ghosts are outside; else they are cells as others.
 pub(super) fn surface_of_labels(
@@ -33,6 +38,9 @@ pub(super) fn surface_of_labels(
     monitor.check()?;
     let Relabeled { relabeled, doubtful } = flip(&dual_edges, &tree, cells, &mut inside);
     drop(tree);
+    let doubted = Doubted { cells, points, dual_edges: &dual_edges, ghosts_stay: !is_open };
+    let Improved { doubtful, regions, rounds, unsettled } =
+        improve(doubted, &mut inside, &doubtful, monitor)?;
     let overruled = dual_edges.overruled(&doubtful, cells, &inside);
     drop(doubtful);
     // Only sheets can have one side.
@@ -40,17 +48,34 @@ pub(super) fn surface_of_labels(
     monitor.check()?;
     let weight = |cell: u32, i: usize| dual_edges.of_cell(cell)[i].signed();
     let mut found = faces(cells, &inside, points.len());
-    if sink(&found, cells, &mut inside, points.len(), &weight) > 0 {
-        found = faces(cells, &inside, points.len());
+    let (mut repaired, mut bubbles) = (Repaired::default(), 0);
+    let mut before = inside.clone();
+    // Bubbles that sink leave points to repair, and what is repaired can leave bubbles.
+    for round in 0..ROUNDS_MAX {
+        let sunk = sink(&found, cells, &mut inside, points.len(), &weight);
+        if sunk > 0 {
+            found = faces(cells, &inside, points.len());
+        }
+        if round > 0 && sunk == 0 {
+            break;
+        }
+        let defects = match is_open {
+            // What membranes do to vertices ends with them.
+            true => Links::of(&without_membranes(&found, points), points.len()).failing(is_fan),
+            false => Links::of(&found, points.len()).failing(is_cycle),
+        };
+        before.clone_from(&inside);
+        let now = repair(cells, &mut inside, defects, &weight, is_open, monitor)?;
+        bubbles += sunk;
+        if now.sites.is_empty() {
+            break;
+        }
+        repaired.sites.extend(now.sites);
+        repaired.rebuilt.extend(now.rebuilt);
+        found = faces_after(&found, &before, cells, &inside);
     }
-    let before = inside.clone();
-    let defects = match is_open {
-        // What membranes do to vertices ends with them.
-        true => Links::of(&without_membranes(&found, points), points.len()).failing(is_fan),
-        false => Links::of(&found, points.len()).failing(is_cycle),
-    };
-    let repairs = repair(cells, &mut inside, defects, &weight, is_open, monitor)?;
-    let is_empty = !is_open && repairs == 0 && found.is_empty();
+    before.clone_from(&inside);
+    let is_empty = !is_open && repaired.sites.is_empty() && found.is_empty();
     if is_empty {
         // Too few points to tell inside from outside, or points within a body: the hull is the one surface around all.
         cells.finite().for_each(|cell| inside[cell as usize] = true);
@@ -63,7 +88,7 @@ pub(super) fn surface_of_labels(
         patch.mended(&sheets(&found), &dual_edges, cells, points)
     });
     let swaps = if mended.is_some() || is_empty { 0 } else { swap(cells, points, &mut inside) };
-    if repairs > 0 || is_empty || swaps > 0 {
+    if is_empty || swaps > 0 {
         found = faces_after(&found, &before, cells, &inside);
     }
     monitor.check()?;
@@ -72,13 +97,24 @@ pub(super) fn surface_of_labels(
         orient(&mut found, points);
     }
     // Many of these are where there is noise, or a sheet with one side, as no labels of its two sides exist.
+    let doubts = doubts(&repaired, &overruled, cells, points.len());
     let overruled = overruled.len() as u64;
-    let counters =
-        [("flips", relabeled), (OVERRULED, overruled), ("repairs", repairs), ("swaps", swaps)];
+    let counters = [
+        ("flips", relabeled),
+        ("cuts", regions),
+        ("cut_rounds", rounds),
+        ("unsettled", unsettled),
+        (OVERRULED, overruled),
+        ("repairs", repaired.sites.len() as u64),
+        ("bubbles", bubbles),
+        ("rebuilt", repaired.rebuilt.len() as u64),
+        ("swaps", swaps),
+    ];
     Ok(Facets {
         facets: Some(found.iter().map(|face| face.facet).collect()),
         triangles: found.iter().map(|face| face.sites).collect(),
         is_outward: !is_open,
+        doubts,
         inside: if is_open {
             Vec::new()
         } else {

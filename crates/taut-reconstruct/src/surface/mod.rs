@@ -3,8 +3,9 @@
 //! *Problem.* Points were sampled from the boundary of bodies, or from sheets. Find the surface that has them for its vertices.
 //! *Idea.* Do not grow the surface: label the cells of the Delaunay triangulation. How the spheres of two neighboring cells meet says
 //! whether they are of one medium or on two sides of the surface, and how surely (`dual_edges`); the strongest spanning tree of what is
-//! said labels all cells (`tree`); small parts that the facets around them object to are turned over (`relabel_parts`); the surface is where
-//! the labels change (`border`), and where that is no surface, single cells are (`repair`).
+//! said labels all cells (`tree`); parts that the facets around them object to are turned over, small ones along the tree (`relabel_parts`)
+//! and any by minimum cuts (`signed_cut`); the surface is where the labels change (`border`), and where that is no surface, single cells are
+//! turned over (`repair`). What remains in doubt is named (`doubts`).
 //! *Guarantee.* A function of the point set: neither the order of the input, nor the number of threads, nor the unit matters. Triangles
 //! are Delaunay facets, so they meet in common edges and vertices alone; without defects named, it is a surface.
 //! *Trap.* Nothing is promised about samples that are too sparse for the sheets they are from: those may be joined or cut.
@@ -15,8 +16,10 @@ mod border;
 mod cells;
 mod changes;
 mod circles;
+mod cycles;
 mod denoise;
 mod diagonals;
+mod doubts;
 mod dual_edges;
 mod facing;
 mod filter;
@@ -37,6 +40,7 @@ mod relabel_regions;
 mod repair;
 mod scaled;
 mod sides;
+mod signed_cut;
 mod spheres;
 mod stars;
 pub mod thesis;

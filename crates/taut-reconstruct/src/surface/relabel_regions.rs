@@ -13,7 +13,7 @@ use super::border::{Face, parts};
 use super::cells::Cells;
 
 /// The largest region has this many cells, and at most twice as many facets.
-const REGION_CELLS_MAX: usize = 24;
+pub(super) const REGION_CELLS_MAX: usize = 24;
 
 /// Relabels small regions, and returns their number.
 pub(super) fn sink(

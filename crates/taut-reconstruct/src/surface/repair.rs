@@ -3,10 +3,12 @@
 //! *Idea.* Around a vertex of a surface the cells inside hang together by facets, and so do those outside. Where they do not, a cell, two
 //! neighbors, or a whole part of the star changes sides: the change that leaves the fewest parts too many at all vertices it
 //! touches, and of those the one that the strengths of the facets object to least.
+//! *Trap.* A change can cut a few cells off from the rest of their label, and leave them as a body of their own: such changes are passed over.
 //! *Guarantee.* Each change lowers the number of parts too many, so it ends. A cell changes only to a side that it has a facet with,
 //! so no small region arises. Vertices are taken in the order of their numbers, cells in the order of their sites, and sums are exact: the
 //! answer is a function of the points.
 
+use std::cmp::Reverse;
 use std::collections::{BTreeSet, HashMap};
 use std::rc::Rc;
 
@@ -14,6 +16,7 @@ use taut_delaunay::GHOST;
 use taut_points::{Cancelled, Monitor};
 
 use super::cells::Cells;
+use super::relabel_regions::REGION_CELLS_MAX;
 use super::stars::{Star, Stars};
 
 /// The signed weight of a facet: s in steps, more than 0 for the same side.
@@ -24,7 +27,7 @@ pub(super) type Weight<'a> = &'a dyn Fn(u32, usize) -> i64;
 /// take the square of its size.
 const STAR_CELLS_MAX: usize = 512;
 
-/// Turns cells over until no change makes it better, ghosts only if they may be, and says how many times.
+/// Turns cells over until no change makes it better, ghosts only if they may be.
 pub(super) fn repair(
     cells: &Cells,
     inside: &mut [bool],
@@ -32,11 +35,11 @@ pub(super) fn repair(
     weight: Weight<'_>,
     ghosts_may: bool,
     monitor: &Monitor<'_>,
-) -> Result<u64, Cancelled> {
+) -> Result<Repaired, Cancelled> {
+    let mut repaired = Repaired::default();
     if defects.is_empty() {
-        return Ok(0);
+        return Ok(repaired);
     }
-    let mut changes = 0;
     let mut bench = Bench { cells, stars: Stars::of(cells, &defects), weight, ghosts_may };
     let mut waiting = BTreeSet::from_iter(defects);
     let mut stuck = BTreeSet::new();
@@ -54,8 +57,11 @@ pub(super) fn repair(
             stuck.insert(site);
             continue;
         };
+        if bench.changes_euler(inside, &change) {
+            repaired.rebuilt.push(site);
+        }
         change.iter().for_each(|&cell| inside[cell as usize] = !inside[cell as usize]);
-        changes += 1;
+        repaired.sites.push(site);
         for (site, cell) in bench.sites_of(&change) {
             // What was stuck may have become possible.
             if stuck.remove(&site) || bench.around(inside, site, Some(cell)).defect > 0 {
@@ -63,7 +69,16 @@ pub(super) fn repair(
             }
         }
     }
-    Ok(changes)
+    Ok(repaired)
+}
+
+/// What repair did.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Repaired {
+    /// For each change the site at which it was made.
+    pub(super) sites: Vec<u32>,
+    /// Those of them at which a change made or closed a handle, a hole or a part.
+    pub(super) rebuilt: Vec<u32>,
 }
 
 struct Bench<'a> {
@@ -83,14 +98,20 @@ struct StarDefect {
 impl StarDefect {
     /// By how much the defect would be less, were some cells turned over.
     fn gain(&self, change: &[u32]) -> i64 {
-        let mut labels = self.labels.clone();
-        for cell in change {
-            if let Ok(place) = self.star.cells.binary_search(cell) {
-                labels[place] = !labels[place];
-            }
-        }
+        let labels = flipped(&self.star, &self.labels, change);
         i64::from(self.defect) - i64::from(self.star.defect(&labels))
     }
+}
+
+/// The labels of a star once some cells are turned over.
+fn flipped(star: &Star, labels: &[bool], change: &[u32]) -> Vec<bool> {
+    let mut labels = labels.to_vec();
+    for cell in change {
+        if let Ok(place) = star.cells.binary_search(cell) {
+            labels[place] = !labels[place];
+        }
+    }
+    labels
 }
 
 impl Bench<'_> {
@@ -115,7 +136,7 @@ impl Bench<'_> {
     fn best_change(&mut self, inside: &[bool], site: u32) -> Option<Vec<u32>> {
         let own = self.around(inside, site, None);
         let mut known: HashMap<u32, StarDefect> = HashMap::new();
-        let mut best: Option<(i64, i64, Vec<u32>)> = None;
+        let mut better: Vec<(i64, i64, Vec<u32>)> = Vec::new();
         for change in self.changes(inside, &own) {
             let mut gain = 0;
             for (site, cell) in self.sites_of(&change) {
@@ -123,17 +144,67 @@ impl Bench<'_> {
                     known.entry(site).or_insert_with(|| self.around(inside, site, Some(cell)));
                 gain += around.gain(&change);
             }
-            if gain <= 0 || best.as_ref().is_some_and(|(most, ..)| gain < *most) {
-                continue;
-            }
-            let objection = self.objection(inside, &change);
-            let is_better =
-                |&(most, least, _): &(i64, i64, Vec<u32>)| gain > most || objection < least;
-            if best.as_ref().is_none_or(is_better) {
-                best = Some((gain, objection, change));
+            if gain > 0 {
+                better.push((gain, self.objection(inside, &change), change));
             }
         }
+        // Stable: of those alike the first one.
+        better.sort_by_key(|&(gain, objection, _)| (Reverse(gain), objection));
+        let best = better.into_iter().find(|(_, _, change)| !self.leaves_a_bubble(inside, change));
         best.map(|(_, _, change)| change)
+    }
+
+    /// Returns true if the change cuts a few cells off from all others of their label.
+    fn leaves_a_bubble(&self, inside: &[bool], change: &[u32]) -> bool {
+        let cut_off = |start: u32| {
+            let mut region = vec![start];
+            let mut next = 0;
+            while let Some(&cell) = region.get(next) {
+                if self.cells.is_ghost(cell) || region.len() > REGION_CELLS_MAX {
+                    return false;
+                }
+                next += 1;
+                for i in 0..4 {
+                    let (other, _) = self.cells.across(cell, i);
+                    if inside[other as usize] == inside[start as usize]
+                        && !change.contains(&other)
+                        && !region.contains(&other)
+                    {
+                        region.push(other);
+                    }
+                }
+            }
+            true
+        };
+        change.iter().any(|&cell| {
+            (0..4).any(|i| {
+                let (other, _) = self.cells.across(cell, i);
+                inside[other as usize] == inside[cell as usize]
+                    && !change.contains(&other)
+                    && cut_off(other)
+            })
+        })
+    }
+
+    /// Returns true if a change would alter the Euler number χ' = Σ c − F/2 of the border with all its sheets apart: a vertex at which
+    /// p parts of the star meet is c = p − 1 vertices, and F triangles that close up have 3F/2 edges.
+    fn changes_euler(&mut self, inside: &[bool], change: &[u32]) -> bool {
+        let mut twice = 0i64;
+        for (site, cell) in self.sites_of(change) {
+            let StarDefect { star, labels, .. } = self.around(inside, site, Some(cell));
+            let after = flipped(&star, &labels, change);
+            twice += 2 * (star.sheets(&after) - star.sheets(&labels));
+        }
+        for &cell in change {
+            for i in 0..4 {
+                let (other, _) = self.cells.across(cell, i);
+                if !change.contains(&other) {
+                    let is_border = inside[other as usize] != inside[cell as usize];
+                    twice += if is_border { 1 } else { -1 };
+                }
+            }
+        }
+        twice != 0
     }
 
     /// The changes worth a look: cells of the star, pairs of neighbors one of which is in it, and its parts of one label.

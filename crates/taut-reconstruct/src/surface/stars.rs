@@ -112,6 +112,14 @@ impl Star {
 }
 
 impl Star {
+    /// Returns how many vertices of surfaces the site is, with these labels of the cells.
+    pub(super) fn sheets(&self, labels: &[bool]) -> i64 {
+        match self.groups(labels).1 {
+            Groups { inside: 0, .. } | Groups { outside: 0, .. } => 0,
+            Groups { inside, outside } => i64::from(inside + outside) - 1,
+        }
+    }
+
     /// Returns how many parts too many there are at the site, with these labels of the cells. Small stars, as most are, fit into the bits
     /// of a number.
     pub(super) fn defect(&self, labels: &[bool]) -> u32 {

@@ -289,3 +289,38 @@ fn rings(count: usize, around: usize) -> Vec<Point> {
     }
     points
 }
+
+/// Random points of a plate 0.8 mean spacings thick: the labels of the tree alone had two plates with a point unused, and one with a handle.
+#[test]
+fn plates_thinner_than_the_spacing() {
+    let (count, thickness) = (1_500, 0.8);
+    let (wide, deep) = (2.0, 1.4);
+    let mut high = 0.1;
+    for _ in 0..20 {
+        let area: f64 = 2.0 * (wide * deep + high * (wide + deep));
+        high = thickness * (area / count as f64).sqrt();
+    }
+    let size = [wide, deep, high];
+    for seed in 0..12 {
+        let lots: Vec<f64> =
+            taut_points::generate(taut_points::Distribution::Uniform, count, 4, seed)
+                .expect("valid");
+        let sides = [[1, 2, 0], [0, 2, 1], [0, 1, 2]];
+        let areas = sides.map(|[i, j, _]| size[i] * size[j]);
+        let place = |&[lot, far, u, v]: &[f64; 4]| {
+            let mut left = lot * areas.iter().sum::<f64>();
+            let side = areas.iter().position(|area| {
+                left -= area;
+                left < 0.0
+            });
+            let [i, j, k] = sides[side.unwrap_or(2)];
+            let mut point = [0.0; 3];
+            point[i] = size[i] * u;
+            point[j] = size[j] * v;
+            point[k] = if far < 0.5 { 0.0 } else { size[k] };
+            point
+        };
+        let points: Vec<Point> = lots.as_chunks::<4>().0.iter().map(place).collect();
+        assert_exact(&closed(&points), 1, 0);
+    }
+}

@@ -41,6 +41,15 @@ pub(super) fn check(
         }
     }
     twice(&surface.triangles)?;
+    for (doubt, named) in certificate.doubts.iter().enumerate() {
+        let wrong = named.rows.iter().find(|&&row| u64::from(row) >= n);
+        let row = match (wrong, named.rows.is_empty()) {
+            (Some(row), _) => format!("row {row}"),
+            (None, true) => "no row".to_owned(),
+            (None, false) => continue,
+        };
+        return Err(SurfaceViolation::DoubtRows { doubt, row, rows: n }.into());
+    }
     Ok(())
 }
 

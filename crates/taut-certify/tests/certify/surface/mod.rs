@@ -29,6 +29,7 @@ impl Case {
             embedded: true,
             outward: true,
             displacement: 0.0,
+            doubts: vec![],
             points_hash: hash_points(&Points::new(&[0.0; 0], 3).unwrap(), &Monitor::silent())
                 .unwrap(),
         };

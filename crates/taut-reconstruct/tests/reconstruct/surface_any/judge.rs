@@ -49,11 +49,13 @@ pub(crate) fn found(points: &[Point], options: &SurfaceOptions<'_>) -> JudgedSur
     let is_two_sided = topology.components.iter().all(|part| part.orientable);
     assert!(topology.is_oriented() || !is_two_sided);
     assert_eq!(
-        verdict.certified,
+        verdict.is_sound,
         topology.is_manifold() && is_two_sided && verdict.is_embedded && verdict.is_delaunay,
         "{:?}",
         verdict.doubt
     );
+    assert_eq!(verdict.is_confident, solution.certificate.doubts.is_empty());
+    assert_eq!(verdict.certified, verdict.is_sound && verdict.is_confident);
     if topology.is_closed() && topology.is_oriented() && !triangles.is_empty() {
         // About one of the points, in units of their extent.
         let base = places[0];

@@ -44,6 +44,8 @@ pub(super) fn judge(
         && is_oriented
         && is_embedded
         && closed().all(|number| faces_outwards(number, triangles, &shape, scene).is_ok());
+    let is_delaunay = certificate.apexes.len() == triangles.len();
+    let is_sound = is_outward && is_delaunay && !triangles.is_empty();
     for (what, claimed, truth) in [
         ("embedded", certificate.embedded, is_embedded),
         ("embedded", verdict.is_embedded, is_embedded),
@@ -52,7 +54,9 @@ pub(super) fn judge(
         ("closed", verdict.is_closed, topology.boundary_edges == 0),
         ("manifold", verdict.is_manifold, is_surface),
         ("oriented", verdict.is_oriented, is_oriented),
-        ("delaunay", verdict.is_delaunay, certificate.apexes.len() == triangles.len()),
+        ("delaunay", verdict.is_delaunay, is_delaunay),
+        ("sound", verdict.is_sound, is_sound),
+        ("confident", verdict.is_confident, certificate.doubts.is_empty()),
         ("certified", verdict.certified, verdict.doubt.is_none()),
     ] {
         ensure(claimed == truth, || format!("{what} is told to be {claimed}"))?;
@@ -68,10 +72,16 @@ pub(super) fn judge(
     }
     ensure(verdict.genus == topology.genus, || format!("the genus is told {:?}", verdict.genus))?;
     match verdict.doubt {
+        Some(SurfaceDoubt::Topology { reason, row }) => {
+            let first = certificate.doubts.first();
+            let is_first = first
+                .is_some_and(|doubt| doubt.reason == reason && doubt.rows.first() == Some(&row));
+            ensure(is_sound && is_first, || format!("{reason} is not the first doubt"))
+        }
         Some(doubt) => ensure(is_so(doubt, triangles, &shape, scene, verdict), || {
             format!("this is not so: {doubt:?}")
         }),
-        None => ensure(is_outward && verdict.is_delaunay && !triangles.is_empty(), || {
+        None => ensure(is_sound && certificate.doubts.is_empty(), || {
             "certified, though it is not".into()
         }),
     }
