@@ -95,7 +95,10 @@ fn folders_of_many_tiles_give_the_bits_of_memory() {
                 for (interpolation, columns) in
                     [(Interpolation::Linear, 23.0), (Interpolation::Natural, 4.0)]
                 {
-                    // Within a circle of sites each center has all of them as neighbors.
+                    // Within a circle of sites each center has all of them as neighbors: once is enough.
+                    if interpolation == Interpolation::Natural && levels == 1 {
+                        continue;
+                    }
                     let Some(frame) = frame_of(&memory, columns) else { continue };
                     let expected = values(&memory, heights, &frame, interpolation);
                     let found = values(&tiled, heights, &frame, interpolation);
