@@ -81,7 +81,7 @@ fn refuse(error: TilesError) -> PyErr {
         TilesError::Rejected(TilesViolation::NonFinite { .. }) => PyValueError::new_err(said),
         TilesError::Rejected(_) => Violation::new_err(said),
         TilesError::File { .. } => PyOSError::new_err(said),
-        TilesError::Memory { .. } | Error::LinkMemory { .. } => PyMemoryError::new_err(said),
+        TilesError::Memory { .. } => PyMemoryError::new_err(said),
         TilesError::NoManifest { .. } => PyValueError::new_err(said),
         _ => PyRuntimeError::new_err(said),
     }
