@@ -30,6 +30,7 @@ mod robust;
 mod rows;
 mod sphere_tree;
 mod surface;
+mod terrain;
 mod tiles;
 mod work;
 
@@ -80,6 +81,8 @@ mod _native {
     use crate::sphere_tree::sphere_tree;
     #[pymodule_export]
     use crate::surface::surface;
+    #[pymodule_export]
+    use crate::terrain::{contours, raster};
     #[pymodule_export]
     use crate::tiles::{check_tiles, delaunay_tiles};
 

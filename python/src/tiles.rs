@@ -64,12 +64,12 @@ pub(crate) fn check_tiles<'py>(
 }
 
 /// A wrong input is a `ValueError`, what the system refuses an `OSError`, a lack of memory a `MemoryError`.
-fn raise(error: Error) -> PyErr {
+pub(crate) fn raise(error: Error) -> PyErr {
     let said = error.to_string();
     match error {
         Error::File { .. } | Error::Space { .. } => PyOSError::new_err(said),
         Error::FolderLocked { .. } | Error::DamagedFolder { .. } => PyOSError::new_err(said),
-        Error::Memory { .. } => PyMemoryError::new_err(said),
+        Error::Memory { .. } | Error::LinkMemory { .. } => PyMemoryError::new_err(said),
         Error::Input(taut::points::InputError::Cancelled(_)) => PyRuntimeError::new_err(said),
         _ => PyValueError::new_err(said),
     }

@@ -52,6 +52,7 @@ from ._rectangle import inscribed_rectangle
 from ._robust import robust_ellipsoid
 from ._solution import Solution
 from ._surface import surface
+from ._terrain import Contour, Raster, contours, raster
 from ._tiles import Tile, Tiles, delaunay_tiles
 from ._triangle import inscribed_triangle
 from ._verify import verify
@@ -71,6 +72,7 @@ __all__ = [
     "CentersVerdict",
     "CircleCertificate",
     "CircleVerdict",
+    "Contour",
     "ConvexBody",
     "ConvexCertificate",
     "ConvexPolygon",
@@ -109,6 +111,7 @@ __all__ = [
     "OrientedRectangleCertificate",
     "OrientedRectangleVerdict",
     "PassBounds",
+    "Raster",
     "RectangleCertificate",
     "RectangleVerdict",
     "RobustCertificate",
@@ -136,6 +139,7 @@ __all__ = [
     "ball_of_balls",
     "bounding_dop",
     "centers",
+    "contours",
     "curve",
     "delaunay",
     "delaunay_tiles",
@@ -153,6 +157,7 @@ __all__ = [
     "inscribed_rectangle",
     "inscribed_triangle",
     "kernel_ball",
+    "raster",
     "robust_ellipsoid",
     "sample",
     "sort_file",

@@ -16,6 +16,7 @@ __all__ = [
     "body_mesh",
     "bounding_dop",
     "centers",
+    "contours",
     "curve",
     "check_tiles",
     "delaunay",
@@ -36,6 +37,7 @@ __all__ = [
     "kernel_ball",
     "names",
     "norms",
+    "raster",
     "robust_ellipsoid",
     "sample",
     "scene_rows",
@@ -97,6 +99,17 @@ def curve(
 ) -> Found: ...
 def check_tiles(rows: Rows, folder: str, memory: int, scratch: str | None) -> dict[str, Any]: ...
 def delaunay(rows: Rows, order: str, threads: int | None, seed: int) -> Found: ...
+def contours(
+    rows: Rows,
+    heights: Rows,
+    levels: list[float] | None,
+    interval: float | None,
+    folder: str | None,
+    memory: int,
+) -> tuple[list[float], list[int], NDArray[np.float64]]: ...
+def raster(
+    rows: Rows, heights: Rows, cell: float, interpolation: str, folder: str | None, memory: int
+) -> tuple[int, float, float, NDArray[np.float64]]: ...
 def delaunay_tiles(rows: Rows, folder: str, memory: int, threads: int | None, resume: bool) -> None: ...
 def ellipsoid(
     rows: Rows, items: str, epsilon: float, method: str, max_passes: int, threads: int | None, seed: int,

@@ -2,6 +2,7 @@
 
 pub(crate) mod answer_file;
 pub(crate) mod choice;
+pub(crate) mod heights;
 pub(crate) mod obstacles;
 pub(crate) mod reading;
 pub(crate) mod samples;

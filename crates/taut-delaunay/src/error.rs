@@ -75,6 +75,24 @@ pub enum Error {
         /// The file.
         path: String,
     },
+    /// A folder holds no triangulation that is complete.
+    #[error("{folder}: no complete triangulation is there: resume what was begun, or begin again")]
+    UnfinishedFolder {
+        /// The folder.
+        folder: String,
+    },
+    /// The links between tiles do not fit into the memory that was allowed.
+    #[error(
+        "the {links} facets between tiles take {needed} bytes: allow more memory than {budget} bytes for that"
+    )]
+    LinkMemory {
+        /// Facets between tiles.
+        links: u64,
+        /// Bytes that they take.
+        needed: u64,
+        /// Bytes that there are for them.
+        budget: u64,
+    },
     /// The points are not those that the work was begun with.
     #[error("{folder}: the work there was begun with other points")]
     OtherInput {

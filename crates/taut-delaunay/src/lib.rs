@@ -6,6 +6,7 @@
 //! | a triangulation to walk around in | [`Plane::build`], [`Space::build`] | a function of the point set alone | O(n log n) |
 //! | the nearest site, the simplex at a point, Voronoi cells, natural neighbors | [`Triangulation::locator`] | the simplex exactly, areas to rounding | O(log n) a question |
 //! | more points than memory holds | [`outofcore::delaunay_to_folder`] | the same simplices, as tiles in a folder, within a limit on memory | about twice the time in memory |
+//! | contour lines and rasters of heights | [`terrain::contours`], [`terrain::raster`] | the same bits in memory and by tiles | O(simplices + output) |
 //! | the alpha shape | [`Plane::alpha_complex`], [`Space::alpha_complex`] | emptiness exactly, radii to rounding | O(simplices) |
 //! | rows in the order in which sites are numbered, with its certificate | [`spatial_order`] | a function of the point set alone | O(n log n) |
 //! | given edges in it | [`Plane::constrained`] | exact; Delaunay as far as the edges let it | O(n), and O(k²) for an edge across k others |
@@ -52,6 +53,7 @@ mod simplex;
 mod sites;
 mod solution;
 mod space;
+pub mod terrain;
 mod triangulation;
 mod vector;
 
@@ -59,6 +61,7 @@ pub use error::Error;
 pub use kernel::Counters;
 pub use options::{DelaunayOptions, InsertionOrder};
 pub use order::{OrderOptions, spatial_order};
+pub use outofcore::{FolderOptions, delaunay_to_folder};
 pub use plane::constrained::{Constrained, ConstraintError, Piece, Segment, Split};
 pub use query::{AlphaComplex, Location, Locator, Polygon, Polyhedron};
 pub use simplex::{GHOST, Simplex, Slots, decode};

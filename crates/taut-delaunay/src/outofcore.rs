@@ -22,17 +22,19 @@
 //! | `node` | the functions for drivers |
 //! | `driver` | from the leaves to the root, on several threads |
 //! | `disk` | points from a source to a folder of tiles |
+//! | `mosaic` | tiles side by side, for what is computed from a triangulation |
 
-mod bytes;
+pub(crate) mod bytes;
 mod disk;
 mod driver;
 mod facets;
 mod front;
+mod mosaic;
 mod node;
 mod points;
 mod solve;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 mod tile;
 mod tree;
 
@@ -42,6 +44,8 @@ pub use disk::{
 };
 pub use driver::{NodeRecord, Totals};
 pub use front::{Front, Link};
+pub use mosaic::{AlphaPart, Mosaic};
+pub(crate) use mosaic::{Corners, Place, View};
 pub use node::{Dim, Dimension, NodeJob, finish, merge, summarize};
 pub use points::NodePoints;
 pub use solve::Whole;

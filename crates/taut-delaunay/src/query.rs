@@ -12,5 +12,9 @@ mod natural;
 mod voronoi;
 
 pub use alpha::AlphaComplex;
+pub(crate) use alpha::{Radii, ascending, turned};
+pub(crate) use convex::Body;
 pub use convex::{Polygon, Polyhedron};
 pub use locator::{Location, Locator};
+pub(crate) use natural::sibson_weights;
+pub(crate) use voronoi::clipped;

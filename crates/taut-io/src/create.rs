@@ -19,7 +19,7 @@ use crate::Error;
 use crate::error::shown_path;
 
 pub use draft::remove_unfinished;
-pub use folder::{AtomicFolder, check_folder, create_folder};
+pub use folder::{AtomicFolder, ScratchFolder, check_folder, create_folder};
 
 /// A file in the making; see [`create`]. Dropped without [`commit`](Self::commit), it leaves no trace.
 #[derive(Debug)]

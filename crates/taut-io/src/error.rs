@@ -1,7 +1,9 @@
 //! The errors of files, worded so that a person can mend it: file, row, column, value, remedy.
 
 mod display;
+mod filter;
 mod place;
+mod raster;
 mod system;
 
 use std::io;
@@ -11,7 +13,9 @@ use taut_points::ReadError;
 use crate::{Compression, Content, Format};
 
 pub(crate) use display::shown_path;
+pub use filter::FilterError;
 pub use place::{FilePlace, Place};
+pub use raster::RasterError;
 
 use display::{Abbreviated, Printable, columns, format_of, names, names_or_extensions};
 use place::Row;
@@ -40,6 +44,12 @@ pub enum Error {
         /// Coordinates of the points there.
         expected: usize,
     },
+    /// Points cannot be kept within a box, or one in each cell of a grid.
+    #[error(transparent)]
+    Filter(#[from] FilterError),
+    /// A raster cannot be written.
+    #[error(transparent)]
+    Raster(#[from] RasterError),
     /// A folder stands where a file was expected.
     #[error("{path} is a folder: name a file in it")]
     Directory {

@@ -175,6 +175,11 @@ impl Format {
         self == Format::Las
     }
 
+    /// Returns true if its reader leaves out points by itself.
+    pub(crate) fn filters_as_it_reads(self) -> bool {
+        self == Format::Las
+    }
+
     /// Returns true if its points can be those of one feature among several.
     pub(crate) fn has_features(self) -> bool {
         matches!(self, Format::GeoJson | Format::Svg | Format::Wkt)

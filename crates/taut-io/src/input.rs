@@ -9,9 +9,12 @@ use taut_points::PointSource;
 
 use crate::device::refuse_device;
 use crate::error::shown_path;
+use crate::filter::Filter;
 use crate::joined;
 use crate::read::{self, Decoded};
-use crate::{Columns, Compression, Content, Error, Format, Place, ReadOptions, compress, labels};
+use crate::{
+    Columns, Compression, Content, Error, FilterError, Format, Place, ReadOptions, compress, labels,
+};
 
 /// Points of a file, and what is known of it.
 pub struct Input {
@@ -205,12 +208,21 @@ impl Medium {
 /// [`Error`], with file, row, column and value. Values of files that are read in place are not looked at: a solver
 /// reports what it finds there, and [`Input::describe_cell`] says where that is.
 pub fn open(path: &Path, options: &ReadOptions) -> Result<Input, Error> {
+    open_filtered(path, options, &mut Filter::of(options))
+}
+
+/// The same with a filter that several files share.
+pub(crate) fn open_filtered(
+    path: &Path,
+    options: &ReadOptions,
+    filter: &mut Filter,
+) -> Result<Input, Error> {
     if path.as_os_str() != "-" && path.is_dir() {
-        return joined::open(path, options);
+        return joined::open(path, options, filter);
     }
     let (medium, display) = Medium::open(path)?;
     let name = matches!(medium, Medium::File(..)).then_some(path);
-    open_medium(medium, name, &display, options)
+    open_medium(medium, name, &display, options, filter)
 }
 
 /// Refuses a device as standard input, which no path would name.
@@ -235,7 +247,16 @@ pub fn open_bytes(bytes: Vec<u8>, name: &str, options: &ReadOptions) -> Result<I
         Some(Path::new(name)),
         &shown_path(name.as_ref()),
         options,
+        &mut Filter::of(options),
     )
+}
+
+/// What it means that a filter left no point.
+fn nothing_kept(error: Error) -> Error {
+    match error {
+        Error::NoRows { path } => FilterError::NothingKept { path }.into(),
+        other => other,
+    }
 }
 
 fn open_medium(
@@ -243,6 +264,7 @@ fn open_medium(
     name: Option<&Path>,
     display: &str,
     options: &ReadOptions,
+    filter: &mut Filter,
 ) -> Result<Input, Error> {
     let (named_format, named_compression) = name.map_or((None, None), Format::of_path);
     let known = options.format.or(named_format.filter(|format| format.holds(Content::Points)));
@@ -266,9 +288,12 @@ fn open_medium(
     let label = options.label.as_deref().map(Columns::of_label);
     let with_label = labels::selecting(options, label.as_ref(), format);
     let job = Job { path: display, format, options: with_label.as_ref().unwrap_or(options) };
-    let mut decoded = read::read(&job, medium)?;
+    let mut decoded = read::read(&job, medium, filter)?;
     if let Some(label) = label.filter(|_| !format.has_text_labels()) {
         decoded = labels::split(decoded, &label, display, with_label.is_some())?;
+    }
+    if !filter.keeps_all() && !format.filters_as_it_reads() {
+        decoded = filter.apply(&job, decoded).map_err(nothing_kept)?;
     }
     let Decoded { source, columns, numbers, labels } = decoded;
     let (path, parts) = (display.to_owned(), vec![]);

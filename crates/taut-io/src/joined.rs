@@ -9,8 +9,9 @@ use std::path::{Path, PathBuf};
 use taut_points::{PointSource, Points, ReadError, Rows, ScalarKind, Scratch};
 
 use crate::error::shown_path;
+use crate::filter::Filter;
 use crate::input::{Input, Part};
-use crate::{Error, ReadOptions, input};
+use crate::{Error, FilterError, ReadOptions, input};
 
 /// Points of several sources, one behind the other.
 struct Joined {
@@ -116,7 +117,11 @@ fn files(folder: &Path) -> Result<Vec<PathBuf>, Error> {
 }
 
 /// Opens the points of all files of a folder as one set.
-pub(crate) fn open(folder: &Path, options: &ReadOptions) -> Result<Input, Error> {
+pub(crate) fn open(
+    folder: &Path,
+    options: &ReadOptions,
+    filter: &mut Filter,
+) -> Result<Input, Error> {
     let path = shown_path(folder);
     let files = files(folder)?;
     if files.is_empty() {
@@ -130,8 +135,11 @@ pub(crate) fn open(folder: &Path, options: &ReadOptions) -> Result<Input, Error>
         if file.is_dir() {
             return Err(Error::Directory { path: shown_path(&file) });
         }
-        let Input { source, columns, labels, format, path: name, numbers, .. } =
-            input::open(&file, &options)?;
+        let opened = input::open_filtered(&file, &options, filter);
+        if let Err(Error::Filter(FilterError::NothingKept { .. })) = opened {
+            continue;
+        }
+        let Input { source, columns, labels, format, path: name, numbers, .. } = opened?;
         let start = starts.last().copied().unwrap_or(0);
         parts.push(Part { start, path: name.clone(), numbers: numbers.clone() });
         starts.push(start + source.len());
@@ -158,7 +166,7 @@ pub(crate) fn open(folder: &Path, options: &ReadOptions) -> Result<Input, Error>
             }
         }
     }
-    let Some(mut whole) = whole else { return Err(Error::Directory { path }) };
+    let Some(mut whole) = whole else { return Err(FilterError::NothingKept { path }.into()) };
     let (dim, first) = (whole.source.dim(), whole.source);
     sources.insert(0, first);
     let is_single = sources.iter().all(|source| source.scalar() == ScalarKind::F32);

@@ -9,6 +9,8 @@
 //! | a folder of files | [`create_folder`] | the earlier folder stays as it was until [`AtomicFolder::commit`] |
 //! | points as a file | [`write_points`] | block by block, so the points may be larger than memory |
 //! | curves of the plane as a file | [`write_polylines`] | loops within loops are holes where a format knows them |
+//! | lines with a height each as GeoJSON, place by place | [`LineFile`] | lines may be larger than memory |
+//! | a raster as `.npy` or ESRI ASCII, cells in any order | [`RasterFile`] | the raster may be larger than memory |
 //! | a mesh as a file: simplices on points, or a surface | [`write_mesh`] | every bit, where the format has room |
 //! | a mesh of a file, whoever wrote it | [`open_mesh`] | every vertex and simplex, or an error that names file and line or element |
 //! | the triangles of a mesh as points of dimension 9 | [`open_triangles`] | the same |
@@ -42,6 +44,7 @@ mod create;
 mod cursor;
 mod device;
 mod error;
+mod filter;
 mod format;
 mod input;
 mod joined;
@@ -52,6 +55,7 @@ mod npy_header;
 mod number;
 mod options;
 mod polylines;
+mod raster;
 mod read;
 mod sink;
 mod space;
@@ -61,19 +65,21 @@ mod write;
 pub use array::NpyArray;
 pub use columns::Columns;
 pub use create::{
-    AtomicFile, AtomicFolder, check_folder, check_writable, create, create_folder,
+    AtomicFile, AtomicFolder, ScratchFolder, check_folder, check_writable, create, create_folder,
     remove_unfinished,
 };
 pub use device::refuse_device;
-pub use error::{Error, FilePlace, Place};
+pub use error::{Error, FilePlace, FilterError, Place, RasterError};
 pub use format::{Compression, Content, Format};
 pub use input::{Input, open, open_bytes};
 pub use limits::LONGEST_LINE;
 pub use mesh::{
-    Encoding, Mesh, MeshOptions, MeshView, mesh_file, open_mesh, open_mesh_bytes, open_triangles,
-    write_mesh,
+    Encoding, Mesh, MeshOptions, MeshView, SimplexSource, SpooledSimplices, mesh_file, open_mesh,
+    open_mesh_bytes, open_triangles, write_mesh,
 };
-pub use options::{Feature, Header, RawLayout, ReadOptions};
-pub use polylines::{polylines_file, write_polylines};
+pub use options::{Bounds, Feature, Header, RawLayout, ReadOptions, Thinning};
+pub use polylines::{LineFile, polylines_file, write_polylines};
+pub use raster::{RasterFile, RasterHeader, check_raster};
+pub use space::free_bytes;
 pub use taut_mesh::Polyline;
 pub use write::write_points;

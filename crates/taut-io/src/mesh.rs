@@ -21,6 +21,7 @@ mod parquet;
 mod ply;
 mod pov;
 mod reading;
+mod spooled;
 mod stl;
 mod triangles;
 mod vrml;
@@ -31,9 +32,12 @@ mod xyz;
 use taut_mesh::TriangleMesh;
 use taut_points::PointSource;
 
+use crate::Error;
+
 pub(crate) use builder::{MeshBuilder, printable};
 pub(crate) use reading::read_stream;
 pub use reading::{open_mesh, open_mesh_bytes};
+pub use spooled::SpooledSimplices;
 pub use triangles::open_triangles;
 pub use writing::{Encoding, MeshOptions, mesh_file, write_mesh};
 
@@ -89,7 +93,7 @@ impl Mesh {
 pub struct MeshView<'a> {
     vertices: Vertices<'a>,
     width: usize,
-    simplices: &'a [u32],
+    simplices: Simplices<'a>,
     normals: Option<&'a [[f64; 3]]>,
     colors: Option<&'a [[u8; 3]]>,
 }
@@ -102,10 +106,42 @@ enum Vertices<'a> {
     Places(&'a [[f64; 3]]),
 }
 
+#[derive(Clone, Copy)]
+enum Simplices<'a> {
+    /// Rows of ids in memory.
+    Ids(&'a [u32]),
+    /// More than memory may hold.
+    Stream(&'a dyn SimplexSource),
+}
+
+/// Simplices that are read piece by piece, in the same order as often as asked.
+pub trait SimplexSource: Sync {
+    /// The number of simplices.
+    fn count(&self) -> u64;
+
+    /// Hands all simplices to `put`, as rows of ids, some whole simplices at a time.
+    ///
+    /// # Errors
+    /// Those of `put`, and what the medium says.
+    fn read(&self, put: &mut dyn FnMut(&[u32]) -> Result<(), Error>) -> Result<(), Error>;
+}
+
 impl<'a> MeshView<'a> {
+    /// A triangulation as [`on_points`](Self::on_points), of which memory need not hold the simplices.
+    pub fn streamed(
+        points: &'a dyn PointSource,
+        simplices: &'a dyn SimplexSource,
+        width: usize,
+    ) -> Self {
+        let vertices = Vertices::Points(points);
+        let simplices = Simplices::Stream(simplices);
+        MeshView { vertices, width, simplices, normals: None, colors: None }
+    }
+
     /// A triangulation: rows of `width` ids, 1 to 4, of rows of `points`. All points are written as vertices, in order.
     pub fn on_points(points: &'a dyn PointSource, simplices: &'a [u32], width: usize) -> Self {
         let vertices = Vertices::Points(points);
+        let simplices = Simplices::Ids(simplices);
         MeshView { vertices, width, simplices, normals: None, colors: None }
     }
 
@@ -116,8 +152,19 @@ impl<'a> MeshView<'a> {
         }
     }
 
-    fn simplex_count(&self) -> usize {
-        self.simplices.len() / self.width
+    fn simplex_count(&self) -> u64 {
+        match self.simplices {
+            Simplices::Ids(ids) => (ids.len() / self.width) as u64,
+            Simplices::Stream(source) => source.count(),
+        }
+    }
+
+    /// The ids, where memory holds them.
+    fn ids(&self) -> &'a [u32] {
+        match self.simplices {
+            Simplices::Ids(ids) => ids,
+            Simplices::Stream(_) => &[],
+        }
     }
 
     /// The vertices of a surface.
@@ -129,7 +176,7 @@ impl<'a> MeshView<'a> {
     }
 
     fn triangles(&self) -> &'a [[u32; 3]] {
-        self.simplices.as_chunks().0
+        self.ids().as_chunks().0
     }
 }
 
@@ -139,7 +186,7 @@ impl<'a> From<TriangleMesh<'a>> for MeshView<'a> {
         MeshView {
             vertices: Vertices::Places(mesh.vertices()),
             width: 3,
-            simplices: mesh.triangles().as_flattened(),
+            simplices: Simplices::Ids(mesh.triangles().as_flattened()),
             normals: None,
             colors: None,
         }

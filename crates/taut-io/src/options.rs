@@ -30,10 +30,64 @@ pub struct ReadOptions {
     pub feature: Option<Feature>,
     /// The classes of points to keep, of a LAS or LAZ file; by default all. Points are numbered after that.
     pub classes: Option<Vec<u8>>,
+    /// A box: points outside are left out. Points are numbered after that.
+    pub bounds: Option<Bounds>,
+    /// One point is kept in each cell of a grid, the first. Points are numbered after that. The table of cells takes part in
+    /// [`memory`](Self::memory): about a byte a cell where points are dense, and 64 where each is alone.
+    pub thinning: Option<Thinning>,
     /// Shape and type of raw values, which no raw file tells itself. Needed for [`Format::Raw`] only.
     pub raw: Option<RawLayout>,
     /// Folder of temporary files. Default: that of the system.
     pub temp_dir: Option<PathBuf>,
+}
+
+/// A box along the axes, whose border belongs to it: the first coordinates of points are compared.
+///
+/// ```
+/// use taut_io::Bounds;
+/// let bounds: Bounds = "0,-5,10,5".parse()?;
+/// assert_eq!((bounds.low, bounds.high), (vec![0.0, -5.0], vec![10.0, 5.0]));
+/// assert!("0,-5,10".parse::<Bounds>().is_err());
+/// # Ok::<(), String>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bounds {
+    /// The least coordinates.
+    pub low: Vec<f64>,
+    /// The largest, as many.
+    pub high: Vec<f64>,
+}
+
+impl std::str::FromStr for Bounds {
+    type Err = String;
+
+    /// Reads the least coordinates, then the largest, with commas between.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let wrong = || {
+            "expected the least coordinates, then the largest, such as XMIN,YMIN,XMAX,YMAX"
+                .to_owned()
+        };
+        let numbers = text.split(',').map(|part| part.trim().parse::<f64>().map_err(|_| wrong()));
+        let numbers = numbers.collect::<Result<Vec<f64>, String>>()?;
+        if numbers.is_empty() || !numbers.len().is_multiple_of(2) {
+            return Err(wrong());
+        }
+        let (low, high) = numbers.split_at(numbers.len() / 2);
+        // NaN is in no order.
+        match low.iter().zip(high).all(|(low, high)| low <= high) {
+            true => Ok(Bounds { low: low.to_vec(), high: high.to_vec() }),
+            false => Err("a least coordinate is more than the largest".to_owned()),
+        }
+    }
+}
+
+/// A grid of cells, of whose points the first is kept.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Thinning {
+    /// The side of a cell, more than 0; cells begin at its multiples.
+    pub cell: f64,
+    /// A coordinate that is no axis of the grid, such as a height: its name or its number from 0. Default none.
+    pub except: Option<String>,
 }
 
 /// One feature of a file that has several.

@@ -4,6 +4,7 @@
 
 mod csv;
 mod geojson;
+mod lines;
 mod svg;
 
 use std::path::Path;
@@ -16,6 +17,8 @@ use crate::format::format_to_write;
 use crate::words::put_number;
 use crate::write::OutputFile;
 use crate::{Content, Error, Format};
+
+pub use lines::LineFile;
 
 /// Bytes gathered before they are written.
 const PIECE: usize = 1 << 18;

@@ -34,6 +34,7 @@ use taut_points::{FileSource, MappedSource, PointSource, ScalarKind};
 use bytes::Bytes;
 
 use crate::FilePlace;
+use crate::filter::Filter;
 use crate::input::{Job, Medium};
 use crate::{Content, Error, Format};
 use crate::{limits, npy_header};
@@ -73,7 +74,7 @@ pub(crate) fn format_of_magic(bytes: &[u8]) -> Option<Format> {
     bytes.starts_with(&[0xff; 4]).then_some(Format::Arrow)
 }
 
-pub(crate) fn read(job: &Job<'_>, medium: Medium) -> Result<Decoded, Error> {
+pub(crate) fn read(job: &Job<'_>, medium: Medium, filter: &mut Filter) -> Result<Decoded, Error> {
     match job.format {
         Format::Csv | Format::Tsv | Format::Whitespace => delimited::read(job, medium.stream()),
         Format::Tsplib => tsplib::read(job, medium.stream()),
@@ -82,7 +83,7 @@ pub(crate) fn read(job: &Job<'_>, medium: Medium) -> Result<Decoded, Error> {
         Format::GeoJson => geojson::read(job, medium.stream()),
         Format::Wkt => wkt::read(job, medium.stream()),
         Format::Svg => svg::read(job, medium.stream()),
-        Format::Las => las::read(job, medium),
+        Format::Las => las::read(job, medium, filter),
         Format::Npy => read_npy(job, medium),
         Format::Raw => read_raw(job, medium),
         #[cfg(feature = "arrow")]

@@ -43,6 +43,11 @@ pub(crate) fn check_space(path: &Path, shown: &str, bytes: u64) -> Result<(), Er
     }
 }
 
+/// Bytes that are left where `path` is or will be written; `None` where the system does not say, and for devices and pipes.
+pub fn free_bytes(path: &Path) -> Option<u64> {
+    folder_of_output(path).and_then(|folder| free(&folder))
+}
+
 /// Bytes that are left where a folder is; `None` where the system does not say.
 #[cfg(unix)]
 fn free(folder: &Path) -> Option<u64> {

@@ -42,5 +42,7 @@ pub use hash::{BlockHash, HashFormError, PointsHash, hash_block, hash_points};
 pub use monitor::{Cancelled, Monitor};
 pub use points::{Points, Rows, Scalar, ScalarKind};
 pub use room::{failure_is_handled, try_reserve_exact};
-pub use source::{FileSource, MappedSource, OwnedPoints, PointSource, Scratch, gather};
+pub use source::{
+    FileSource, MappedSource, OwnedPoints, PickedColumns, PointSource, Scratch, gather,
+};
 pub use threads::{THREADS_MAX, ThreadsError, check_threads, on_threads, thread_pool};

@@ -6,12 +6,14 @@
 mod file;
 mod mapped;
 mod owned;
+mod picked;
 
 use std::ops::Range;
 
 pub use file::FileSource;
 pub use mapped::MappedSource;
 pub use owned::OwnedPoints;
+pub use picked::PickedColumns;
 
 use crate::room::try_reserve_exact;
 use crate::{Points, ReadError, Rows, Scalar, ScalarKind};

@@ -22,7 +22,8 @@
 //! | convex bodies inside a triangle mesh | [`inscribe::inscribed_bodies()`] | each lies inside, proved; coverage estimated | [`inscribe`] |
 //! | the Delaunay triangulation of points in the plane or in space | [`delaunay()`] | exact, a function of the point set alone, proved | [mod@delaunay] |
 //! | the same, to walk around in; Voronoi cells, alpha complexes, nearest points | [`delaunay::Plane`], [`delaunay::Space`] | the same | [mod@delaunay] |
-//! | the triangulation of more points than memory holds | [`delaunay::outofcore::delaunay_to_folder`] | the same simplices, as tiles in a folder, proved by [`certify::check_tiles`] | [`delaunay::outofcore`] |
+//! | contour lines and rasters of heights | [`delaunay::terrain`] | exact neighbors, the same bits in memory and by tiles | [mod@delaunay] |
+//! | the triangulation of more points than memory holds | [`delaunay::delaunay_to_folder`] | the same simplices, as tiles in a folder, proved by [`certify::check_tiles`] | [`delaunay::outofcore`] |
 //! | constrained edges | [`delaunay::Plane::constrained`] | exact, Delaunay as far as they let it be | [mod@delaunay] |
 //! | rows in an order where neighbors are near each other | [`spatial_order()`] | a function of the point set alone, proved | [mod@delaunay] |
 //! | files sorted or transposed that memory does not hold, samples, orders, nearest points | [mod@oblivious] | each with its own | [mod@oblivious], [`files`] |
@@ -192,6 +193,8 @@ mod pages {
     struct Robust;
     #[doc = include_str!("../../../docs/surface.md")]
     struct Surface;
+    #[doc = include_str!("../../../docs/terrain.md")]
+    struct Terrain;
     #[doc = include_str!("../../../docs/triangle.md")]
     struct Triangle;
     #[doc = include_str!("../../../docs/memory/matrix.md")]

@@ -2,19 +2,25 @@
 
 mod alpha;
 mod built;
+mod exports;
+mod terrain;
 mod tiles;
 mod voronoi;
 
+use std::cell::RefCell;
 use std::path::{Path, PathBuf};
 
 use anyhow::bail;
 use taut::certify::Triangulation;
 use taut::delaunay::InsertionOrder;
+use taut::delaunay::outofcore::Mosaic;
 use taut::{DelaunayOptions, Monitor, Solution};
 use taut_io::{Content, Format, MeshOptions, MeshView, mesh_file};
 
 use self::alpha::Alpha;
 use self::built::Built;
+use self::exports::Exports;
+use self::terrain::TerrainOptions;
 use crate::commands::verify::tiles::MEMORY_DEFAULT;
 use crate::effort::Effort;
 use crate::exit::Outcome;
@@ -32,11 +38,13 @@ use crate::watch::Watch;
 Ids are rows of the input, from 0. Of equal points the first stands for all; the others are listed as duplicates. \
 Points on a line or on a plane in space are no error: their chain or their triangles are the answer.
 Where -o is a folder (one that is there, or a name that ends with /), and where the triangulation would take more than \
---memory, the work is done on the disk within that memory [default for folders: 512M], and the answer is a folder of tiles \
-(see docs/delaunay.md). The disk it takes is checked first. A run that was stopped goes on with --resume.
+--memory, the work is done on the disk within that memory [default for folders: 512M]. A folder gets tiles \
+(see docs/delaunay.md); all other files are written from tiles that are removed after. The disk it takes is checked first. \
+A run to a folder that was stopped goes on with --resume.
 Exit: 0 done · 1 the check failed · 2 bad input or usage, nothing written
 Example: taut delaunay points.csv -o mesh.ply --draw mesh.html && taut verify mesh.ply points.csv
-         taut delaunay large.npy --memory 1G -o tiles/ && taut verify tiles/ large.npy --memory 1G")]
+         taut delaunay large.npy --memory 1G -o tiles/ && taut verify tiles/ large.npy --memory 1G
+         taut delaunay scan.laz --classes 2 --height z --contours lines.geojson --interval 5 --grid dtm.asc --cell 1")]
 pub(crate) struct Args {
     #[command(flatten)]
     points: Points,
@@ -72,6 +80,8 @@ pub(crate) struct Args {
     voronoi: Option<PathBuf>,
     #[command(flatten)]
     alpha: Alpha,
+    #[command(flatten)]
+    terrain: TerrainOptions,
     /// Draw the triangulation; .svg and .png show one picture, .html all
     #[arg(long, value_name = "FILE", help_heading = "Writing")]
     draw: Option<PathBuf>,
@@ -86,6 +96,8 @@ pub(crate) struct Args {
 pub(crate) struct Extra {
     built: Built,
     complex: Option<alpha::Complex>,
+    /// Lines and rasters, complete, until they are written.
+    exports: RefCell<Exports>,
 }
 
 impl Find for Args {
@@ -114,31 +126,34 @@ impl Find for Args {
                 return Err(taut_io::Error::UnknownOutput { path, content }.into());
             }
         }
-        if let Some(path) = self.voronoi.as_ref().filter(|path| !writing::is_stream(path)) {
-            let extension = path.extension().map(|extension| extension.to_ascii_lowercase());
-            if extension.is_none_or(|extension| extension != "json" && extension != "geojson") {
-                bail!("{}: Voronoi cells are .geojson or .json; name one of these", path.display());
-            }
+        if let Some(path) = &self.voronoi {
+            refuse_other_geojson(path, "Voronoi cells")?;
         }
-        Ok(())
+        self.terrain.check()
     }
 
     fn side_files(&self) -> Vec<&Path> {
         let files = [&self.hull, &self.voronoi].into_iter().flatten().chain(self.alpha.files());
+        let files = files.chain(self.terrain.files());
         files.map(|path| &**path).collect()
     }
 
     fn open(&self) -> anyhow::Result<Opened> {
         let is_folder = self.out.as_deref().is_some_and(tiles::is_folder);
-        match self.reading.memory().or(is_folder.then_some(MEMORY_DEFAULT)) {
-            Some(memory) => self.reading.beside_work(memory).open(&self.points.path),
-            None => self.reading.open(&self.points.path),
+        let reading = self.reading.with_height(self.terrain.height());
+        let opened = match reading.memory().or(is_folder.then_some(MEMORY_DEFAULT)) {
+            Some(memory) => reading.beside_work(memory).open(&self.points.path),
+            None => reading.open(&self.points.path),
+        }?;
+        match self.terrain.height() {
+            Some(height) => opened.with_height(height),
+            None => Ok(opened),
         }
     }
 
     fn divert(&self, points: &Opened, watch: &Watch) -> anyhow::Result<Option<Outcome>> {
-        match self.tiles_folder(points)? {
-            Some(folder) => self.run_tiles(folder, points, watch).map(Some),
+        match self.tiles_place(points)? {
+            Some(place) => self.run_tiles(&place, points, watch).map(Some),
             None => Ok(None),
         }
     }
@@ -158,12 +173,21 @@ impl Find for Args {
             .during("ordering", |monitor| built.solution(source, monitor))
             .map_err(|error| points.explain(error))?;
         let complex = self.alpha.complex(&built);
-        Ok((found, Extra { built, complex }))
+        let exports = match &built {
+            Built::Plane(plane)
+                if points.heights().is_some() && self.terrain.files().count() > 0 =>
+            {
+                self.terrain.export(&Mosaic::of(plane), points, None, None, watch)?
+            }
+            _ => Exports::default(),
+        };
+        Ok((found, Extra { built, complex, exports: exports.into() }))
     }
 
     fn side_fields(&self, extra: &Extra) -> Vec<Field> {
         let complex = extra.complex.as_ref().map(alpha::Complex::field);
-        complex.into_iter().chain([extra.built.signs()]).collect()
+        let exports = std::mem::take(&mut extra.exports.borrow_mut().fields);
+        complex.into_iter().chain(exports).chain([extra.built.signs()]).collect()
     }
 
     fn write(
@@ -179,7 +203,7 @@ impl Find for Args {
         }
         let answer = &found.answer;
         let file = |simplices: &[u32], width: usize, path: &Path| {
-            let mesh = MeshView::on_points(points.source(), simplices, width);
+            let mesh = MeshView::on_points(points.vertices(), simplices, width);
             mesh_file(&mesh, path, &MeshOptions::default(), monitor)
         };
         match (&self.out, self.mesh_format()?) {
@@ -197,12 +221,25 @@ impl Find for Args {
             outputs.hold(file(&answer.hull, width, hull)?);
         }
         if let Some(complex) = &extra.complex {
-            complex.write(outputs, &self.alpha, points.source(), monitor)?;
+            complex.write(outputs, &self.alpha, points.vertices(), monitor)?;
         }
+        std::mem::take(&mut extra.exports.borrow_mut().files)
+            .into_iter()
+            .for_each(|file| outputs.hold(file));
         match &self.voronoi {
             Some(path) => outputs.add(path, &voronoi::cells(&extra.built, points.source())?),
             None => Ok(()),
         }
+    }
+}
+
+/// Refuses a name that is not that of GeoJSON.
+fn refuse_other_geojson(path: &Path, what: &str) -> anyhow::Result<()> {
+    let extension = path.extension().map(|extension| extension.to_ascii_lowercase());
+    let is_known = extension.is_some_and(|name| name == "json" || name == "geojson");
+    match writing::is_stream(path) || is_known {
+        true => Ok(()),
+        false => bail!("{}: {what} are .geojson or .json; name one of these", path.display()),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use anyhow::anyhow;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
@@ -11,8 +12,11 @@ use taut::enclose::Error as SolveError;
 use taut::inscribe::Error as InscribeError;
 use taut::points::{InputError, ReadError, ScalarKind, shown_number};
 use taut::{AnySolution, PointSource};
-use taut_io::{Columns, Content, Feature, Format, Header, Input, RawLayout, ReadOptions};
+use taut_io::{
+    Bounds, Columns, Content, Feature, Format, Header, Input, RawLayout, ReadOptions, Thinning,
+};
 
+use crate::input::heights::HeightColumn;
 use crate::input::obstacles::Obstacles;
 use crate::input::size;
 use crate::output::numbers::coordinates;
@@ -35,6 +39,12 @@ pub(crate) struct Reading {
     /// Of a LAS or LAZ file the classes of points to keep, such as 2 or 2,9; points are numbered after that [default: all]
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     classes: Option<Vec<u8>>,
+    /// Keep the points in a box, given as XMIN,YMIN,XMAX,YMAX or with more coordinates; points are numbered after that
+    #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
+    bounds: Option<Bounds>,
+    /// Keep the first point in each cell of a grid with this side; points are numbered after that
+    #[arg(long, value_name = "LENGTH", value_parser = side)]
+    thin: Option<f64>,
     /// States whether the first row of a text file holds names
     #[arg(long, value_name = "WHEN", default_value = "auto", value_parser = header())]
     header: Header,
@@ -50,6 +60,9 @@ pub(crate) struct Reading {
     /// Bytes before the first coordinate in a raw file [default: 0]
     #[arg(long, value_name = "BYTES")]
     raw_offset: Option<u64>,
+    /// A column that is a height, and no axis of the grid that thins.
+    #[arg(skip)]
+    height: Option<String>,
 }
 
 pub(crate) fn formats(
@@ -66,6 +79,11 @@ pub(crate) fn scalar() -> impl TypedValueParser<Value = ScalarKind> {
         "f32" => ScalarKind::F32,
         _ => ScalarKind::F64,
     })
+}
+
+fn side(text: &str) -> Result<f64, String> {
+    let side = text.parse::<f64>().ok().filter(|side| *side > 0.0 && side.is_finite());
+    side.ok_or_else(|| "expected a length of more than 0".to_owned())
 }
 
 fn header() -> impl TypedValueParser<Value = Header> {
@@ -87,6 +105,11 @@ impl Reading {
         Self { memory: Some(memory / 8), ..self.clone() }
     }
 
+    /// The same where a column is a height.
+    pub(crate) fn with_height(&self, height: Option<&str>) -> Self {
+        Self { height: height.map(str::to_owned), ..self.clone() }
+    }
+
     fn options(&self) -> anyhow::Result<ReadOptions> {
         let raw = match (self.raw_dim, self.raw_type) {
             (Some(dim), Some(scalar)) => {
@@ -103,6 +126,8 @@ impl Reading {
             memory: self.memory,
             feature: self.select.clone(),
             classes: self.classes.clone(),
+            bounds: self.bounds.clone(),
+            thinning: self.thin.map(|cell| Thinning { cell, except: self.height.clone() }),
             raw,
             temp_dir: None,
         })
@@ -175,11 +200,13 @@ pub(crate) struct Opened {
     input: Input,
     /// What is known of how they were made of other points.
     origin: Option<Field>,
+    /// The points with their heights, where one column is a height.
+    heights: Option<HeightColumn>,
 }
 
 impl Opened {
     fn of(input: Input) -> Self {
-        Opened { input, origin: None }
+        Opened { input, origin: None, heights: None }
     }
 
     pub(crate) fn of_bytes(bytes: &[u8], name: &str) -> anyhow::Result<Self> {
@@ -203,13 +230,33 @@ impl Opened {
         self
     }
 
+    /// The same file with other points, made from the points as they were read.
+    pub(super) fn picked(
+        mut self,
+        pick: impl FnOnce(Arc<dyn PointSource>) -> (Box<dyn PointSource>, HeightColumn),
+    ) -> Self {
+        let (places, heights) = pick(Arc::from(self.input.source));
+        self.input.source = places;
+        Opened { heights: Some(heights), ..self }
+    }
+
+    /// The points with their heights, where one column is a height.
+    pub(crate) fn heights(&self) -> Option<&HeightColumn> {
+        self.heights.as_ref()
+    }
+
+    /// The vertices of a mesh: the points, with their heights last where one column is a height.
+    pub(crate) fn vertices(&self) -> &dyn PointSource {
+        self.heights.as_ref().map_or(&*self.input.source, |heights| &heights.solid)
+    }
+
     pub(crate) fn source(&self) -> &dyn PointSource {
         &*self.input.source
     }
 
     /// What the points leave of `memory`, but not less than 64 MiB of it.
     pub(crate) fn memory_left(&self, memory: u64) -> u64 {
-        let source = self.source();
+        let source = self.heights.as_ref().map_or(&*self.input.source, |heights| &*heights.points);
         let held = match source.in_memory() {
             Some(_) => source.len().saturating_mul(8 * source.dim() as u64),
             None => 0,
@@ -245,7 +292,10 @@ impl Opened {
     /// Returns what any solver refuses.
     fn explain_input(&self, error: InputError) -> anyhow::Error {
         match error {
-            InputError::NonFinite { row, column, value } => self.not_finite(row, column, value),
+            InputError::NonFinite { row, column, value } => {
+                let column = self.heights.as_ref().map_or(column, |heights| heights.axes[column]);
+                self.not_finite(row, column, value)
+            }
             InputError::Dimension { dim, expected } => anyhow!(
                 "{}: points have {dim} coordinate{}: expected {expected}; choose them with --columns",
                 self.name(),

@@ -71,12 +71,12 @@ fn points_of_any_format_get_tiles() {
     assert_eq!(piped.json()["answer"]["sites"], 800);
 }
 
-/// What would take more than the memory needs a folder.
+/// What would take more than the memory goes to tiles by itself; only the answer as JSON needs memory.
 #[test]
-fn points_that_do_not_fit_ask_for_a_folder() {
+fn points_that_do_not_fit_go_to_tiles() {
     let folder = TestFolder::new();
     folder.taut("generate uniform -n 300000 -d 2 -o points.npy").ends(0);
-    let refused = folder.taut("delaunay points.npy --memory 64M -o mesh.ply").ends(2);
+    let refused = folder.taut("delaunay points.npy --memory 64M -o mesh.json").ends(2);
     assert!(refused.err.contains("name a folder for tiles with -o FOLDER/"), "{}", refused.err);
     assert!(
         refused.err.contains("73.2 MiB") && refused.err.contains("64.0 MiB"),
@@ -84,10 +84,49 @@ fn points_that_do_not_fit_ask_for_a_folder() {
         refused.err
     );
     folder.taut("delaunay points.npy --memory 64M").ends(2);
+    folder.taut("delaunay points.npy --memory 64M --resume -o mesh.ply").ends(2);
     assert_eq!(folder.files(), ["points.npy"]);
+    let run = folder
+        .taut("delaunay points.npy --memory 64M -o mesh.ply --progress always")
+        .ends(0)
+        .stdout_has(&[" for a while, on the disk\n", "\n  verified  yes; "]);
+    assert!(run.err.contains("of disk will be taken while 300,000 points"), "{}", run.err);
+    assert_eq!(folder.files(), ["mesh.ply", "points.npy"]);
+    let verified = folder.taut("verify mesh.ply points.npy").ends(0);
+    assert_eq!(field(&verified.out, "hash"), field(&run.out, "hash"));
     folder.taut("delaunay points.npy --memory 64M -o tiles").ends(0);
     assert!(folder.path("tiles/manifest.txt").is_file());
     folder.taut("delaunay points.npy --memory 200M -o mesh.json -q").ends(0);
+}
+
+/// Cells of tiles are those of memory, in another order, and so are alpha complexes.
+#[test]
+fn cells_and_alpha_complexes_are_written_from_tiles() {
+    let folder = folder();
+    let options = |name: &str| {
+        format!(
+            "--voronoi {name}.geojson --alpha 0.02 --alpha-out {name}.parquet --alpha-boundary {name}.ply"
+        )
+    };
+    let memory = folder.taut(&format!("delaunay points.npy {}", options("memory"))).ends(0);
+    let tiles = folder.taut(&format!("delaunay points.npy -o tiles/ {}", options("tiles"))).ends(0);
+    let alpha =
+        |text: &str| text.lines().find(|line| line.starts_with("  alpha")).map(str::to_owned);
+    assert!(alpha(&memory.out).is_some_and(|line| line.contains("of radius at most 0.02")));
+    assert_eq!(alpha(&tiles.out), alpha(&memory.out));
+    for name in ["ply", "parquet"] {
+        let sizes = ["memory", "tiles"].map(|of| folder.bytes(&format!("{of}.{name}")).len());
+        assert!(sizes[0].abs_diff(sizes[1]) < sizes[0] / 4, "{name}: {sizes:?}");
+    }
+    let lines = |name: &str| {
+        let text = folder.text(name);
+        let mut lines: Vec<String> =
+            text.lines().map(|line| line.trim_end_matches(',').to_owned()).collect();
+        lines.sort();
+        lines
+    };
+    assert_eq!(lines("tiles.geojson").len(), 3002);
+    assert!(lines("tiles.geojson") == lines("memory.geojson"));
 }
 
 #[test]
@@ -106,11 +145,9 @@ fn bad_input_and_usage_leave_earlier_output_as_it_was() {
     folder.put("deep.csv", "0,0,0,0\n1,0,2,3\n");
     let refused = folder.taut("delaunay deep.csv -o deep/").ends(2);
     assert!(refused.err.contains("4 coordinates"), "{}", refused.err);
-    for option in
-        ["--hull h.ply", "--draw d.svg", "--voronoi v.json", "--alpha 2", "--no-neighbors"]
-    {
+    for option in ["--hull h.ply", "--draw d.svg", "--no-neighbors"] {
         let refused = folder.taut(&format!("delaunay points.npy -o new/ {option}")).ends(2);
-        assert!(refused.err.contains("not to folders of tiles"), "{option}: {}", refused.err);
+        assert!(refused.err.contains("not to tiles"), "{option}: {}", refused.err);
     }
     let refused = folder.taut("delaunay points.npy -o new/ --memory 10M").ends(2);
     assert!(refused.err.contains("64 MiB"), "{}", refused.err);

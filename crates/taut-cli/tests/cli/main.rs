@@ -7,6 +7,7 @@ mod centers;
 mod classify;
 mod curve;
 mod delaunay;
+mod delaunay_terrain;
 mod delaunay_tiles;
 mod dop;
 mod ellipsoid;

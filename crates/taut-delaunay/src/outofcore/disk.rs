@@ -124,6 +124,23 @@ pub fn plan_folder(
     DiskPlan::new(source.len(), source.dim(), memory, threads)
 }
 
+/// What the manifest of a complete folder says of its tiles.
+pub(super) struct CompleteManifest {
+    /// Coordinates of a point.
+    pub(super) dimension: u64,
+    /// The numbers of the tiles, ascending.
+    pub(super) tiles: Vec<u32>,
+}
+
+/// Reads the manifest of a folder that must be complete.
+pub(super) fn complete_manifest(path: &Path) -> Result<CompleteManifest, Error> {
+    let unfinished = || Error::UnfinishedFolder { folder: path.display().to_string() };
+    let manifest = Manifest::read(&Folder::new(path).manifest())?.ok_or_else(unfinished)?;
+    let complete = manifest.complete.ok_or_else(unfinished)?;
+    let tiles = complete.tiles.iter().map(|tile| tile.0).collect();
+    Ok(CompleteManifest { dimension: manifest.begun.dimension, tiles })
+}
+
 /// The node of the first bucket: nodes are numbered level by level.
 fn first_bucket(plan: &DiskPlan) -> u32 {
     (1 << plan.levels) - 1

@@ -49,7 +49,7 @@ pub const OTHER_TILE: u32 = u32::MAX - 1;
 const MAGIC: &[u8; 8] = b"TAUTTILE";
 const VERSION: u32 = 1;
 /// Bytes before the sites.
-const HEAD_BYTES: usize = 16;
+pub(super) const HEAD_BYTES: usize = 16;
 /// Bytes of the counts, with the sum.
 pub(super) const COUNTS_BYTES: usize = 104;
 

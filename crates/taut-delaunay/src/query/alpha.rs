@@ -27,7 +27,7 @@ pub struct AlphaComplex<const D: usize> {
 /// The radii that the simplices of the plane and of space give.
 ///
 /// Radii are taken of the simplex blown up to size 1: products of eight coordinates leave the range of `f64` early.
-trait Radii<const D: usize, const V: usize> {
+pub(crate) trait Radii<const D: usize, const V: usize> {
     fn circumradius(corners: [[f64; D]; V]) -> f64;
     /// The radius of the smallest sphere through a facet.
     fn facet_radius(corners: [[f64; D]; D]) -> f64;
@@ -89,12 +89,20 @@ impl Radii<3, 4> for Space {
     }
 }
 
+/// Points in the order of their coordinates: radii are rounded, and each must have one value.
+pub(crate) fn ascending<const D: usize, const N: usize>(
+    mut corners: [[f64; D]; N],
+) -> [[f64; D]; N] {
+    corners.sort_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
+    corners
+}
+
 /// The circumradius of a finite simplex in the scale of the sites.
 fn radius<R: Radii<D, V>, const D: usize, const V: usize>(
     of: &Triangulation<D, V>,
     simplex: u32,
 ) -> f64 {
-    R::circumradius(of.vertices(simplex).map(|v| of.sites.coordinates[v as usize]))
+    R::circumradius(ascending(of.vertices(simplex).map(|v| of.sites.coordinates[v as usize])))
 }
 
 fn alpha_complex<R: Radii<D, V>, const D: usize, const V: usize>(
@@ -129,7 +137,7 @@ fn alpha_complex<R: Radii<D, V>, const D: usize, const V: usize>(
                         .filter(|&&v| v != GHOST)
                         .any(|&v| R::in_facet_sphere(corners, of.sites.coordinates[v as usize]));
                     let sites = hull_facet::<D, V>(with_ghost);
-                    if !hit && R::facet_radius(corners) <= limit {
+                    if !hit && R::facet_radius(ascending(corners)) <= limit {
                         complex.singular.push(turned(sites));
                     }
                 }
@@ -141,7 +149,7 @@ fn alpha_complex<R: Radii<D, V>, const D: usize, const V: usize>(
 }
 
 /// A facet seen from the other side.
-fn turned<const D: usize>(mut facet: [u32; D]) -> [u32; D] {
+pub(crate) fn turned<const D: usize>(mut facet: [u32; D]) -> [u32; D] {
     facet.swap(0, 1);
     facet
 }

@@ -69,6 +69,13 @@ fn weights<const D: usize, B: Touches<D>>(neighbors: &[[f64; D]]) -> Vec<f64> {
     shares.into_iter().map(|share| share / whole).collect()
 }
 
+/// Sibson's weights of the natural neighbors of the origin of the plane; they sum to 1.
+///
+/// They are the same bits for the same neighbors in the same order.
+pub(crate) fn sibson_weights(neighbors: &[[f64; 2]]) -> Vec<f64> {
+    weights::<2, Polygon>(neighbors)
+}
+
 /// Interpolation in the plane and in space.
 macro_rules! interpolation {
     ($d:literal, $v:literal, $body:ty) => {

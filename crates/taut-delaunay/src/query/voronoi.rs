@@ -13,24 +13,36 @@ use crate::vector::difference;
 /// finite.
 const COORDINATE_MAX: f64 = (1u64 << 50) as f64;
 
+/// What of the box is nearer to `here` than to any of the other places, which come in the order of their coordinates, so that
+/// the corners are one function of the set. Relative to `here`, as products of coordinates as they are given may leave the
+/// range of `f64`.
+pub(crate) fn clipped<const D: usize, B: Body<D>>(
+    here: [f64; D],
+    others: &mut [[f64; D]],
+    [low, high]: [[f64; D]; 2],
+) -> B {
+    others.sort_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
+    let relative =
+        |p: [f64; D]| difference(p.map(|x| x.clamp(-COORDINATE_MAX, COORDINATE_MAX)), here);
+    let mut body = B::from_box(relative(low), relative(high));
+    for &mut there in others {
+        if !body.is_empty() {
+            body.cut(&HalfSpace::nearer_to([0.0; D], difference(there, here)));
+        }
+    }
+    // Adding 0 turns −0 into 0.
+    body.map(|p| std::array::from_fn(|i| p[i] + here[i] + 0.0))
+}
+
 impl<const D: usize, const V: usize> Locator<'_, D, V> {
-    /// Returns what of the box is nearer to `site` than to any other site. In the scale of the sites and relative to `site`, as
-    /// products of coordinates as they are given may leave the range of `f64`.
+    /// Returns what of the box is nearer to `site` than to any other site.
     fn cell<B: Body<D>>(&self, site: u32, low: [f64; D], high: [f64; D]) -> B {
         let Triangulation { sites, .. } = self.triangulation;
-        let here = sites.coordinates[site as usize];
-        let relative = |p: [f64; D]| {
-            difference(p.map(|x| sites.scale.apply(x).clamp(-COORDINATE_MAX, COORDINATE_MAX)), here)
-        };
-        let mut body = B::from_box(relative(low), relative(high));
-        for other in self.adjacent(site) {
-            if !body.is_empty() {
-                let there = difference(sites.coordinates[other as usize], here);
-                body.cut(&HalfSpace::nearer_to([0.0; D], there));
-            }
-        }
+        let at = |&site: &u32| sites.coordinates[site as usize];
+        let mut others: Vec<[f64; D]> = self.adjacent(site).iter().map(at).collect();
+        let corners = [low, high].map(|p| p.map(|x| sites.scale.apply(x)));
         let back = sites.scale.inverse();
-        body.map(|p| std::array::from_fn(|i| back.apply(p[i] + here[i])))
+        clipped::<D, B>(at(&site), &mut others, corners).map(|p| p.map(|x| back.apply(x)))
     }
 }
 

@@ -73,6 +73,27 @@ fn temporary(around: &Path) -> io::Result<TempDir> {
     builder.tempdir_in(around)
 }
 
+/// A folder for work, which goes with all it holds when this is dropped.
+#[derive(Debug)]
+pub struct ScratchFolder(TempDir);
+
+impl ScratchFolder {
+    /// Makes one beside the file or folder `path`.
+    ///
+    /// # Errors
+    /// [`Error::NotFound`] (of the folder around it), [`Error::Permission`], [`Error::Write`].
+    pub fn beside(path: &Path) -> Result<Self, Error> {
+        let around = folder_of(path);
+        let failed = |source| Error::writing(&shown_path(path), refused(source, around));
+        temporary(around).map(ScratchFolder).map_err(failed)
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        self.0.path()
+    }
+}
+
 impl AtomicFolder {
     /// The folder to which files are written until it takes its name.
     pub fn path(&self) -> &Path {
@@ -140,6 +161,17 @@ mod tests {
             (names(&path), names(around.path())),
             (vec!["c.obj".into()], vec!["parts".into()])
         );
+    }
+
+    #[test]
+    fn a_folder_for_work_goes_with_what_it_holds() {
+        let around = tempfile::tempdir().unwrap();
+        let made = ScratchFolder::beside(&around.path().join("mesh.ply")).unwrap();
+        fs::write(made.path().join("file"), "x").unwrap();
+        assert_eq!(names(around.path()).len(), 1);
+        drop(made);
+        assert_eq!(names(around.path()), [""; 0]);
+        assert!(ScratchFolder::beside(&around.path().join("no/where")).is_err());
     }
 
     #[test]

@@ -21,7 +21,7 @@ impl Error {
     }
 
     /// Returns what an error of creating or writing `path` means.
-    pub(crate) fn writing(path: &str, source: io::Error) -> Error {
+    pub fn writing(path: &str, source: io::Error) -> Error {
         let path = path.to_owned();
         match source.kind() {
             io::ErrorKind::NotFound => Error::NotFound { path },

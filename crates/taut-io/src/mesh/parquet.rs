@@ -31,15 +31,14 @@ pub(super) fn write(job: &Job<'_>, out: &mut OutputFile<'_>) -> Result<(), Error
         .build();
     let mut writer =
         ArrowWriter::try_new(&mut out.to, schema.clone(), Some(properties)).map_err(failed)?;
-    for piece in job.pieces() {
-        let piece = piece?;
+    job.each_piece(|piece| {
         let column = |i: usize| -> ArrayRef {
             Arc::new(UInt32Array::from_iter_values(piece.chunks_exact(width).map(|row| row[i])))
         };
         let batch = RecordBatch::try_new(schema.clone(), (0..width).map(column).collect())
             .expect("the columns fit the schema of the simplices");
-        writer.write(&batch).map_err(failed)?;
-    }
+        writer.write(&batch).map_err(failed)
+    })?;
     writer.close().map(drop).map_err(failed)
 }
 

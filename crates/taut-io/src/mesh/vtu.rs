@@ -18,7 +18,7 @@ const MOST_TAGS: usize = 1 << 10;
 
 pub(super) fn write(job: &Job<'_>, out: &mut OutputFile<'_>) -> Result<(), Error> {
     let (vertices, width) = (job.mesh.vertex_count(), job.mesh.width as u64);
-    let cells = job.mesh.simplex_count() as u64;
+    let cells = job.mesh.simplex_count();
     // Each array is its length in bytes, as 8 bytes, and its values.
     let sizes = [24 * vertices, 8 * cells * width, 8 * cells, cells];
     let mut at = [0; 4];

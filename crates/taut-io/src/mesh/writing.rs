@@ -4,7 +4,7 @@ use std::path::Path;
 
 use taut_points::{Monitor, ReadError, Rows};
 
-use super::{MeshView, Vertices, dxf, gltf, obj, off, ply, pov, stl, vrml, vtu};
+use super::{MeshView, Simplices, Vertices, dxf, gltf, obj, off, ply, pov, stl, vrml, vtu};
 use crate::create::AtomicFile;
 use crate::error::shown_path;
 use crate::format::format_to_write;
@@ -131,9 +131,9 @@ fn check_triangulation(mesh: &MeshView<'_>, shown: &str, format: Format) -> Resu
     {
         return Err(Error::Dimension { path, format, expected: "1, 2 or 3", dim: source.dim() });
     }
-    assert!(mesh.simplices.len().is_multiple_of(width), "simplices are whole rows");
+    assert!(mesh.ids().len().is_multiple_of(width), "simplices are whole rows");
     assert!(
-        mesh.simplices.iter().all(|&id| u64::from(id) < mesh.vertex_count()),
+        mesh.ids().iter().all(|&id| u64::from(id) < mesh.vertex_count()),
         "simplices name rows of the points"
     );
     Ok(())
@@ -161,7 +161,7 @@ fn check_surface(
         let (vertex, column, value) = (place / 3, place % 3, normals[place]);
         return Err(Error::MeshNormal { path: path(), vertex, column, value });
     }
-    if mesh.simplices.is_empty() && (vertices.is_empty() || !format.holds_bare_vertices()) {
+    if mesh.simplex_count() == 0 && (vertices.is_empty() || !format.holds_bare_vertices()) {
         return Err(Error::NoTriangles { path: path() });
     }
     let single = match format {
@@ -230,19 +230,44 @@ impl Job<'_> {
         mut write: impl FnMut(&[u32], &mut Vec<u8>),
     ) -> Result<(), Error> {
         let mut bytes = Vec::new();
-        for piece in self.pieces() {
+        self.each_piece(|piece| {
             bytes.clear();
-            piece?.chunks_exact(self.mesh.width).for_each(|ids| write(ids, &mut bytes));
-            out.put(&bytes)?;
-        }
-        Ok(())
-    }
-
-    /// The ids of many simplices at a time; an error when the monitor says so.
-    pub(super) fn pieces(&self) -> impl Iterator<Item = Result<&[u32], Error>> {
-        self.mesh.simplices.chunks(PIECE_SIMPLICES * self.mesh.width).map(|piece| {
-            self.monitor.check().map_err(ReadError::from)?;
-            Ok(piece)
+            piece.chunks_exact(self.mesh.width).for_each(|ids| write(ids, &mut bytes));
+            out.put(&bytes)
         })
     }
+
+    /// Hands the ids of many simplices at a time to `work`; an error when the monitor says so, and where a stream has other
+    /// simplices than it promised.
+    pub(super) fn each_piece(
+        &self,
+        mut work: impl FnMut(&[u32]) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        let width = self.mesh.width;
+        let mut count = 0;
+        let mut in_pieces = |ids: &[u32], is_checked: bool| {
+            for piece in ids.chunks(PIECE_SIMPLICES * width) {
+                self.monitor.check().map_err(ReadError::from)?;
+                let is_known = |&id: &u32| u64::from(id) < self.mesh.vertex_count();
+                if !is_checked && !(piece.len().is_multiple_of(width) && piece.iter().all(is_known))
+                {
+                    return Err(other_simplices());
+                }
+                count += (piece.len() / width) as u64;
+                work(piece)?;
+            }
+            Ok(())
+        };
+        match self.mesh.simplices {
+            Simplices::Ids(ids) => in_pieces(ids, true)?,
+            Simplices::Stream(source) => source.read(&mut |ids| in_pieces(ids, false))?,
+        }
+        if count == self.mesh.simplex_count() { Ok(()) } else { Err(other_simplices()) }
+    }
+}
+
+/// A stream of simplices is not what it promised to be.
+fn other_simplices() -> Error {
+    let problem = "there are other simplices than were promised, or ids of no vertex";
+    Error::reading("the stream of simplices", std::io::Error::other(problem))
 }

@@ -88,7 +88,7 @@ fn chain<'a>(
     Ok(())
 }
 
-fn place([x, y]: [f64; 2], text: &mut Text<'_>) {
+pub(super) fn place([x, y]: [f64; 2], text: &mut Text<'_>) {
     text.put("[");
     text.number(x);
     text.put(", ");

@@ -4,14 +4,15 @@
 //! number·scale + offset in double precision, rounded twice, as every reader has it.
 //! *Reference.* ASPRS, LAS Specification 1.4, revision 15, 2019; M. Isenburg, LASzip: lossless compression of lidar data, 2013.
 
-use std::io::{BufReader, Cursor};
+use std::io::{BufReader, Cursor, Read, Seek, SeekFrom};
 
 use las::{PointDataBuilder, Reader};
 
 use super::{Decoded, Seekable, first_line, guarded};
+use crate::filter::Filter;
 use crate::input::{Job, Medium};
 use crate::sink::Sink;
-use crate::{Error, FilePlace, Format};
+use crate::{Error, FilePlace, FilterError, Format};
 
 /// Bytes of points that are decoded at once; the header may claim up to 64 KiB for each.
 const BATCH_BYTES: u64 = 1 << 20;
@@ -19,16 +20,62 @@ const BATCH_BYTES: u64 = 1 << 20;
 /// Bytes of the file that are read at once.
 const READ_BYTES: usize = 1 << 18;
 
-pub(super) fn read(job: &Job<'_>, medium: Medium) -> Result<Decoded, Error> {
+/// Where a header has the offset of the points.
+const POINTS_OFFSET_AT: u64 = 96;
+
+/// Where it has their format.
+const POINT_FORMAT_AT: u64 = 104;
+
+pub(super) fn read(job: &Job<'_>, medium: Medium, filter: &mut Filter) -> Result<Decoded, Error> {
     guarded(job, || match medium.seekable(job)? {
         Seekable::File(file) => {
-            decode(job, Reader::new(BufReader::with_capacity(READ_BYTES, file)))
+            let mut stream = BufReader::with_capacity(READ_BYTES, file);
+            check_chunks(job, &mut stream)?;
+            decode(job, Reader::new(stream), filter)
         }
-        Seekable::Bytes(bytes) => decode(job, Reader::new(Cursor::new(bytes))),
+        Seekable::Bytes(bytes) => {
+            let mut stream = Cursor::new(bytes);
+            check_chunks(job, &mut stream)?;
+            decode(job, Reader::new(stream), filter)
+        }
     })
 }
 
-fn decode(job: &Job<'_>, opened: las::Result<Reader>) -> Result<Decoded, Error> {
+/// Refuses a compressed file that was cut before its table of chunks, which is at its end and which the decoder asks for first.
+fn check_chunks(job: &Job<'_>, stream: &mut (impl Read + Seek)) -> Result<(), Error> {
+    let failed = |source| Error::reading(job.path, source);
+    let length = stream.seek(SeekFrom::End(0)).map_err(failed)?;
+    let mut read = |at: u64, bytes: &mut [u8]| {
+        stream.seek(SeekFrom::Start(at)).and_then(|_| stream.read_exact(bytes)).is_ok()
+    };
+    // The offset of the points, u32; the format of points, whose highest bits say that it is compressed; both in the header.
+    let (mut points, mut format, mut table) = ([0; 4], [0; 1], [0; 8]);
+    let has_header = read(POINTS_OFFSET_AT, &mut points) && read(POINT_FORMAT_AT, &mut format);
+    let is_compressed = has_header && format[0] & 0xc0 != 0;
+    let begin = u64::from(u32::from_le_bytes(points));
+    let wanted = match read(begin, &mut table) {
+        true => u64::try_from(i64::from_le_bytes(table)).unwrap_or(0),
+        false => begin + 8,
+    };
+    stream.rewind().map_err(failed)?;
+    match is_compressed && wanted > length {
+        false => Ok(()),
+        true => Err(Error::Damaged {
+            path: job.path.to_owned(),
+            format: Format::Las,
+            place: FilePlace::Element("byte", length),
+            problem: format!(
+                "it ends here, before its points and their table of chunks at byte {wanted}: it was cut"
+            ),
+        }),
+    }
+}
+
+fn decode(
+    job: &Job<'_>,
+    opened: las::Result<Reader>,
+    filter: &mut Filter,
+) -> Result<Decoded, Error> {
     let damaged = |place: FilePlace, error: las::Error| Error::Damaged {
         path: job.path.to_owned(),
         format: Format::Las,
@@ -43,7 +90,10 @@ fn decode(job: &Job<'_>, opened: las::Result<Reader>) -> Result<Decoded, Error> 
         None => vec![0, 1, 2],
     };
     let is_kept = |class: u8| job.options.classes.as_ref().is_none_or(|list| list.contains(&class));
-    let mut sink = Sink::<f64>::new(job, numbers.len());
+    let columns: Vec<String> = numbers.iter().map(|&number| names[number].clone()).collect();
+    let (keeps_all, dim) = (filter.keeps_all(), numbers.len());
+    let mut sieve = filter.sieve(job.path, dim, &columns)?;
+    let mut sink = Sink::<f64>::new(job, dim);
     let mut batch = PointDataBuilder::new().for_header(reader.header()).build();
     let at_once = (BATCH_BYTES / batch.record_len().max(1) as u64).max(1);
     let (mut done, mut rows) = (0, vec![]);
@@ -59,15 +109,17 @@ fn decode(job: &Job<'_>, opened: las::Result<Reader>) -> Result<Decoded, Error> 
         }
         rows.clear();
         let points = batch.x().zip(batch.y()).zip(batch.z()).zip(batch.classification());
-        for (((x, y), z), class) in points.take(found as usize) {
-            if is_kept(class) {
-                let point = [x, y, z];
+        for (row, (((x, y), z), class)) in (done..).zip(points.take(found as usize)) {
+            let point = [x, y, z];
+            if is_kept(class) && (keeps_all || sieve.keeps(row, |k| point[numbers[k]], dim)?) {
                 rows.extend(numbers.iter().map(|&number| point[number]));
             }
         }
         sink.push(&rows)?;
         done += found;
     }
-    let columns = numbers.iter().map(|&number| names[number].clone()).collect();
+    if sink.len() == 0 && !keeps_all {
+        return Err(FilterError::NothingKept { path: job.path.to_owned() }.into());
+    }
     Ok(Decoded { source: sink.finish()?, columns, numbers: Some(numbers), labels: Vec::new() })
 }

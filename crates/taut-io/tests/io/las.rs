@@ -1,10 +1,11 @@
 //! LAS and LAZ files, written by the crate that reads them.
 
+use std::collections::HashSet;
 use std::io::Cursor;
 
 use las::point::{Classification, Format as PointFormat};
 use las::{Builder, Color, Point, Transform, Vector, Writer};
-use taut_io::{Error, Format, ReadOptions, open_bytes};
+use taut_io::{Bounds, Error, Format, ReadOptions, Thinning, open_bytes};
 
 use super::{message, values};
 
@@ -90,6 +91,46 @@ fn files_are_told_by_their_first_bytes_and_may_outgrow_memory() {
     assert_eq!(input.format, Format::Las);
 }
 
+/// A box, a grid of which the height is no axis, and both with classes.
+#[test]
+fn points_are_kept_within_bounds_and_one_in_each_cell() {
+    let bytes = file(30_000, 1, true);
+    let bounds: Bounds = "500100,-4004000,500600,-3999000".parse().unwrap();
+    let is_within = |p: [f64; 3]| {
+        (500_100.0..=500_600.0).contains(&p[0]) && (-4_004_000.0..=-3_999_000.0).contains(&p[1])
+    };
+    let (cell, mut seen) = (25.0, HashSet::new());
+    let is_first = |p: [f64; 3], seen: &mut HashSet<[i64; 2]>| {
+        seen.insert([p[0], p[1]].map(|x| (x / cell).floor() as i64))
+    };
+    let thinning = Some(Thinning { cell, except: Some("z".to_owned()) });
+    let options = ReadOptions { bounds: Some(bounds), ..Default::default() };
+    let found = values(&open_bytes(bytes.clone(), "scan.laz", &options).unwrap());
+    let wanted = expected(30_000, |i| is_within(coordinates(i)));
+    assert!(wanted.len() > 3000 && found == wanted);
+    let options = ReadOptions { thinning: thinning.clone(), ..Default::default() };
+    let found = values(&open_bytes(bytes.clone(), "scan.laz", &options).unwrap());
+    let mut kept = vec![];
+    for i in 0..30_000 {
+        if is_first(coordinates(i), &mut seen) {
+            kept.extend(coordinates(i));
+        }
+    }
+    assert!(kept.len() > 3000 && kept.len() < 80_000 && found == kept);
+    let classes = Some(vec![9]);
+    let options = ReadOptions { classes, thinning, ..Default::default() };
+    let found = values(&open_bytes(bytes.clone(), "scan.laz", &options).unwrap());
+    seen.clear();
+    let kept: Vec<f64> = (0..30_000)
+        .filter(|i| i % 3 == 1 && is_first(coordinates(*i), &mut seen))
+        .flat_map(coordinates)
+        .collect();
+    assert!(found == kept);
+    let options = ReadOptions { bounds: "0,0,1,1".parse().ok(), ..Default::default() };
+    let refused = open_bytes(bytes, "scan.laz", &options);
+    assert!(message(refused).contains("no point is within the bounds"));
+}
+
 #[test]
 fn damaged_files_are_refused_with_the_place() {
     for is_compressed in [false, true] {
@@ -98,7 +139,7 @@ fn damaged_files_are_refused_with_the_place() {
         for part in [2, 3, 7] {
             let cut = bytes[..bytes.len() / part].to_vec();
             let said = message(open_bytes(cut, name, &ReadOptions::default()));
-            assert!(said.starts_with(name), "{said}");
+            assert!(said.starts_with(name) && said.contains("point"), "{said}");
         }
         for length in [0, 4, 100, 227, 374, 376] {
             message(open_bytes(bytes[..length].to_vec(), name, &ReadOptions::default()));

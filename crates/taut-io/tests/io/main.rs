@@ -11,6 +11,7 @@ mod corpus;
 mod create;
 mod damaged;
 mod data;
+mod filter;
 mod folders;
 mod geojson;
 mod labels;

@@ -1,6 +1,6 @@
 //! The part of a triangulation that an eraser of a given radius leaves.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use taut::delaunay::{Plane, Space};
 use taut::{Monitor, PointSource};
@@ -33,9 +33,17 @@ fn length(text: &str) -> Result<f64, String> {
 }
 
 impl Alpha {
-    /// Tests whether an alpha complex is asked for.
-    pub(super) fn is_asked(&self) -> bool {
-        self.radius.is_some()
+    /// The radius, where an alpha complex is asked for.
+    pub(super) fn radius(&self) -> Option<f64> {
+        self.radius
+    }
+
+    pub(super) fn simplices_file(&self) -> Option<&Path> {
+        self.alpha_out.as_deref()
+    }
+
+    pub(super) fn boundary_file(&self) -> Option<&Path> {
+        self.alpha_boundary.as_deref()
     }
 
     pub(super) fn files(&self) -> impl Iterator<Item = &PathBuf> {
@@ -89,16 +97,8 @@ impl Complex {
     pub(super) fn field(&self) -> Field {
         let simplices = (self.simplices.len() / self.width) as u64;
         let boundary = (self.boundary.len() / (self.width - 1)) as u64;
-        let name = if self.width == 3 { "triangles" } else { "tetrahedra" };
-        Field::new(
-            "alpha",
-            format!("{} {name} of radius at most {}", count(simplices), exact(self.radius)),
-        )
-        .remark(format!(
-            "{} facets on their boundary, {} more on their own",
-            count(boundary),
-            count(self.singular as u64)
-        ))
+        let names = if self.width == 3 { "triangles" } else { "tetrahedra" };
+        field(self.radius, names, [simplices, boundary, self.singular as u64])
     }
 
     pub(super) fn write(
@@ -120,4 +120,14 @@ impl Complex {
         }
         Ok(())
     }
+}
+
+/// What is said of a complex of so many simplices, facets on their boundary, and facets on their own.
+pub(super) fn field(radius: f64, names: &str, [simplices, boundary, singular]: [u64; 3]) -> Field {
+    Field::new("alpha", format!("{} {names} of radius at most {}", count(simplices), exact(radius)))
+        .remark(format!(
+            "{} facets on their boundary, {} more on their own",
+            count(boundary),
+            count(singular)
+        ))
 }

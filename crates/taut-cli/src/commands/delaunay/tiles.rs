@@ -7,16 +7,19 @@ use serde_json::json;
 use taut::certify::TilesVerdict;
 use taut::delaunay::Error as DelaunayError;
 use taut::delaunay::outofcore::{
-    FolderOptions, TiledTriangulation, delaunay_to_folder, plan_folder,
+    DiskPlan, FolderOptions, Mosaic, TiledTriangulation, delaunay_to_folder, plan_folder,
 };
+use taut_io::ScratchFolder;
 
 use super::Args;
+use super::exports::{self, Exports, Tiled};
 use crate::clock::Clock;
 use crate::commands::verify::tiles::{MEMORY_DEFAULT, judge};
 use crate::exit::Outcome;
 use crate::input::reading::Opened;
 use crate::output::numbers::{count, counted};
-use crate::output::writing;
+use crate::output::writing::{self, Outputs};
+use crate::pipeline::Find as _;
 use crate::reports::{self, Field};
 use crate::watch::Watch;
 
@@ -32,12 +35,20 @@ pub(super) fn is_folder(out: &Path) -> bool {
     !writing::is_stream(out) && (ends_open || out.is_dir())
 }
 
+/// Where tiles go.
+pub(super) enum TilesPlace<'a> {
+    /// To a folder that is the output.
+    Folder(&'a Path),
+    /// To a folder beside this output, until all outputs are written from them.
+    Temporary(&'a Path),
+}
+
 impl Args {
-    /// Returns the folder for tiles where the output is one, or where points take more memory than allowed.
-    pub(super) fn tiles_folder(&self, points: &Opened) -> anyhow::Result<Option<&Path>> {
+    /// Returns where tiles go: to a folder that is the output, or beside the outputs where points take more memory than allowed.
+    pub(super) fn tiles_place(&self, points: &Opened) -> anyhow::Result<Option<TilesPlace<'_>>> {
         let out = self.out.as_deref();
         if let Some(folder) = out.filter(|out| is_folder(out)) {
-            return Ok(Some(folder));
+            return Ok(Some(TilesPlace::Folder(folder)));
         }
         let (n, dim) = (points.source().len(), points.source().dim());
         let needed = n.saturating_mul(bytes_in_memory(dim));
@@ -47,42 +58,68 @@ impl Args {
                 false => Ok(None),
             };
         };
-        match out.filter(|out| !writing::is_stream(out) && out.extension().is_none()) {
-            Some(folder) => Ok(Some(folder)),
-            None => bail!(
-                "{}: to triangulate {} in memory takes about {}, more than --memory {}: name a folder for tiles with -o \
-                 FOLDER/, or allow more memory",
+        if self.resume {
+            bail!("--resume goes on with a folder of tiles: name it with -o FOLDER");
+        }
+        let refused = |remedy: &str| {
+            anyhow!(
+                "{}: to triangulate {} in memory takes about {}, more than --memory {}: {remedy}, or allow more memory",
                 points.name(),
                 counted(n, "point"),
                 bytes(needed),
                 bytes(memory)
-            ),
+            )
+        };
+        match out {
+            Some(out) if !writing::is_stream(out) && out.extension().is_none() => {
+                return Ok(Some(TilesPlace::Folder(out)));
+            }
+            Some(_) if self.mesh_format()?.is_none() => {
+                return Err(refused(
+                    "name a folder for tiles with -o FOLDER/, or a mesh such as .ply or .parquet",
+                ));
+            }
+            _ => {}
+        }
+        match self.side_files().into_iter().chain(out).find(|path| !writing::is_stream(path)) {
+            Some(output) => Ok(Some(TilesPlace::Temporary(output))),
+            None => Err(refused("name a folder for tiles with -o FOLDER/")),
         }
     }
 
-    /// Refuses options that a folder of tiles does not have.
+    /// Refuses options that tiles do not have.
     fn refuse_other_outputs(&self) -> anyhow::Result<()> {
         let others = [
             ("--hull", self.hull.is_some()),
-            ("--voronoi", self.voronoi.is_some()),
-            ("--alpha", self.alpha.is_asked()),
             ("--draw", self.draw.is_some()),
             ("--no-neighbors", self.no_neighbors),
         ];
         match others.into_iter().find(|(_, is_there)| *is_there) {
             Some((name, _)) => {
-                bail!(
-                    "{name} belongs to triangulations in memory, not to folders of tiles: leave it out"
-                )
+                bail!("{name} belongs to triangulations in memory, not to tiles: leave it out")
             }
             None => Ok(()),
         }
     }
 
-    /// Triangulates to a folder, checks and reports.
+    /// Bytes of a mesh of all simplices, and of files that wait for it, beside the tiles.
+    fn export_bytes(&self, plan: &DiskPlan, points: &Opened) -> u64 {
+        let dim = points.source().dim() as u64;
+        let n = points.source().len();
+        // In PLY: three coordinates, and a list of ids for each of the simplices of uniform points.
+        let simplices = n.saturating_mul(if dim == 2 { 2 } else { 7 });
+        let mesh = n.saturating_mul(24).saturating_add(simplices.saturating_mul(1 + 4 * (dim + 1)));
+        let is_mesh =
+            self.out.as_deref().is_some_and(|out| !is_folder(out) && out.extension().is_some());
+        // Both parts of an alpha complex wait in a file, and are then written.
+        let alpha = if self.alpha.radius().is_some() { mesh.saturating_mul(2) } else { 0 };
+        plan.disk_bytes().saturating_add(if is_mesh { mesh } else { 0 }).saturating_add(alpha)
+    }
+
+    /// Triangulates to tiles, checks, writes what is computed from them, and reports.
     pub(super) fn run_tiles(
         &self,
-        folder: &Path,
+        place: &TilesPlace<'_>,
         points: &Opened,
         watch: &Watch,
     ) -> anyhow::Result<Outcome> {
@@ -91,17 +128,15 @@ impl Args {
         let mut clock = Clock::start();
         let plan = plan_folder(points.source(), memory, rayon::current_num_threads());
         let plan = plan.map_err(|error| explain(points, error))?;
-        let disk = bytes(plan.disk_bytes());
-        watch.print(&format!(
-            "{}: {} of disk will be taken while {} triangulated within {} of memory",
-            folder.display(),
-            disk,
-            match points.source().len() {
-                1 => "1 point is".to_owned(),
-                n => format!("{} points are", count(n)),
-            },
-            bytes(memory)
-        ));
+        let scratch;
+        let (folder, output) = match *place {
+            TilesPlace::Folder(folder) => (folder, folder),
+            TilesPlace::Temporary(output) => {
+                scratch = ScratchFolder::beside(output)?;
+                (scratch.path(), output)
+            }
+        };
+        self.tell_disk(&plan, points, output, memory, watch)?;
         let found = watch.during("triangulating", |monitor| {
             let options = FolderOptions {
                 memory,
@@ -125,17 +160,90 @@ impl Args {
             }
             clock.lap("checking");
         }
+        let mesh = match place {
+            TilesPlace::Folder(_) => None,
+            TilesPlace::Temporary(_) => self.out.as_deref(),
+        };
+        let exports = self.exports(folder, mesh, points, memory, watch)?;
+        if !exports.files.is_empty() {
+            clock.lap("writing");
+        }
+        let mut outputs = Outputs::default();
+        exports.files.into_iter().for_each(|file| outputs.hold(file));
+        let is_kept = matches!(place, TilesPlace::Folder(_));
         if self.json {
-            writing::print(format!("{:#}\n", document(folder, &found, verdict)).as_bytes())?;
-        } else if !self.effort.quiet {
-            let mut fields = fields(folder, &found, verdict);
+            outputs.print(&format!("{:#}\n", document(is_kept.then_some(folder), &found, verdict)));
+        } else if !self.effort.quiet && !self.side_files().into_iter().any(writing::is_stream) {
+            let mut fields = fields(is_kept.then_some(folder), &found, verdict);
+            fields.extend(exports.fields);
             fields.push(clock.field());
             let place = if found.dimension == 2 { "the plane" } else { "space" };
             let points = counted(found.points, "point");
             let title = format!("Delaunay triangulation of {points} in {place}, in tiles");
-            writing::print(reports::text(&title, &fields).as_bytes())?;
+            outputs.print(&reports::text(&title, &fields));
         }
+        outputs.finish()?;
         Ok(Outcome::Done)
+    }
+
+    /// Says how much disk will be taken, and refuses what does not fit.
+    fn tell_disk(
+        &self,
+        plan: &DiskPlan,
+        points: &Opened,
+        output: &Path,
+        memory: u64,
+        watch: &Watch,
+    ) -> anyhow::Result<()> {
+        let needed = self.export_bytes(plan, points);
+        watch.print(&format!(
+            "{}: {} of disk will be taken while {} triangulated within {} of memory",
+            output.display(),
+            bytes(needed),
+            match points.source().len() {
+                1 => "1 point is".to_owned(),
+                n => format!("{} points are", count(n)),
+            },
+            bytes(memory)
+        ));
+        match taut_io::free_bytes(output).filter(|&free| free < needed && !self.resume) {
+            Some(free) => bail!(
+                "{}: {} of disk are needed, but {} are free: make room or choose another folder",
+                output.display(),
+                bytes(needed),
+                bytes(free)
+            ),
+            None => Ok(()),
+        }
+    }
+
+    /// Prepares all files that are computed from the tiles of a folder.
+    fn exports(
+        &self,
+        folder: &Path,
+        mesh: Option<&Path>,
+        points: &Opened,
+        memory: u64,
+        watch: &Watch,
+    ) -> anyhow::Result<Exports> {
+        if mesh.is_none() && self.side_files().is_empty() && self.alpha.radius().is_none() {
+            return Ok(Exports::default());
+        }
+        // A tile takes at most half, as its bytes and as its lists; the links and the cells of a grid an eighth each.
+        let part = memory / 8;
+        let tiled = Tiled { points, memory: part, scratch: folder, watch };
+        let opened = |error| explain(points, error);
+        if points.source().dim() == 2 {
+            let mosaic = Mosaic::<2>::open(folder, part).map_err(opened)?;
+            let mut exports = exports::of_plane(self, &mosaic, mesh, &tiled)?;
+            let terrain =
+                self.terrain.export(&mosaic, points, Some(tiled.memory), Some(folder), watch)?;
+            exports.extend(terrain);
+            Ok(exports)
+        } else {
+            let mosaic = Mosaic::<3>::open(folder, part).map_err(opened)?;
+            exports::of_space(self, &mosaic, mesh, &tiled)
+        }
     }
 }
 
@@ -166,7 +274,11 @@ fn bytes(amount: u64) -> String {
     }
 }
 
-fn fields(folder: &Path, found: &TiledTriangulation, verdict: Option<TilesVerdict>) -> Vec<Field> {
+fn fields(
+    folder: Option<&Path>,
+    found: &TiledTriangulation,
+    verdict: Option<TilesVerdict>,
+) -> Vec<Field> {
     let totals = &found.totals;
     let size: u64 = found.tiles.iter().map(|tile| tile.1).sum();
     let equal = match totals.duplicates {
@@ -185,11 +297,10 @@ fn fields(folder: &Path, found: &TiledTriangulation, verdict: Option<TilesVerdic
         Field::new("sites", count(totals.sites)).remark(equal),
         Field::new("simplices", count(totals.simplices)),
         Field::new("hull", counted(totals.hull, "facet")),
-        Field::new("tiles", counted(found.tiles.len() as u64, "file")).remark(format!(
-            "{} in {}",
-            bytes(size),
-            folder.display()
-        )),
+        Field::new("tiles", counted(found.tiles.len() as u64, "file")).remark(match folder {
+            Some(folder) => format!("{} in {}", bytes(size), folder.display()),
+            None => format!("{} for a while, on the disk", bytes(size)),
+        }),
         verified,
         Field::new("hash", totals.fingerprint.to_string())
             .remark("of the simplices, whatever their order"),
@@ -197,7 +308,7 @@ fn fields(folder: &Path, found: &TiledTriangulation, verdict: Option<TilesVerdic
 }
 
 fn document(
-    folder: &Path,
+    folder: Option<&Path>,
     found: &TiledTriangulation,
     verdict: Option<TilesVerdict>,
 ) -> serde_json::Value {
@@ -206,7 +317,7 @@ fn document(
         "schema": taut::certify::SCHEMA,
         "kind": "delaunay-tiles",
         "answer": {
-            "folder": folder.display().to_string(),
+            "folder": folder.map(|folder| folder.display().to_string()),
             "dimension": found.dimension,
             "points": found.points,
             "points_hash": found.points_hash.to_string(),

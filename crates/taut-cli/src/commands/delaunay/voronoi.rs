@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 use anyhow::anyhow;
 use rayon::prelude::*;
 use taut::PointSource;
-use taut::delaunay::{Plane, Space};
+use taut::delaunay::{Plane, Polygon, Polyhedron, Space};
 use taut::points::{Blocks, Scratch};
 
 use super::built::Built;
@@ -22,13 +22,13 @@ const TASK: usize = 1 << 10;
 pub(super) fn cells(built: &Built, source: &dyn PointSource) -> anyhow::Result<Vec<u8>> {
     let (low, high) = frame(source)?;
     match built {
-        Built::Plane(plane) => Ok(in_plane(plane, [low[0], low[1]], [high[0], high[1]])),
+        Built::Plane(plane) => Ok(in_plane(plane, low, high)),
         Built::Space(space) => Ok(in_space(space, low, high)),
     }
 }
 
 /// Two corners of the box that the cells are clipped to.
-fn frame(source: &dyn PointSource) -> anyhow::Result<([f64; 3], [f64; 3])> {
+pub(super) fn frame(source: &dyn PointSource) -> anyhow::Result<([f64; 3], [f64; 3])> {
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     let (blocks, mut scratch) = (Blocks::of(source), Scratch::new());
     for block in 0..blocks.count() {
@@ -82,34 +82,53 @@ fn document(
     format!("{head}\n{cells}\n]}}\n").into_bytes()
 }
 
-fn in_plane(plane: &Plane, low: [f64; 2], high: [f64; 2]) -> Vec<u8> {
+/// The beginning of a document of cells in the plane.
+pub(super) fn head_in_plane(_: [f64; 3], _: [f64; 3]) -> String {
+    "{\"type\": \"FeatureCollection\", \"features\": [".to_owned()
+}
+
+/// The beginning of a document of cells in space.
+pub(super) fn head_in_space(low: [f64; 3], high: [f64; 3]) -> String {
+    format!("{{\"low\": {low:?}, \"high\": {high:?}, \"cells\": [")
+}
+
+/// The cell of the site of a row in the plane.
+pub(super) fn put_feature(text: &mut String, row: u64, cell: &Polygon) {
+    let _ = write!(
+        text,
+        "{{\"type\": \"Feature\", \"properties\": {{\"point\": {row}}}, \"geometry\": {{\"type\": \"Polygon\", \
+         \"coordinates\": [["
+    );
+    // A ring of GeoJSON ends where it begins.
+    corners(text, cell.corners.iter().chain(cell.corners.first()));
+    text.push_str("]]}}");
+}
+
+/// The cell of the site of a row in space.
+pub(super) fn put_polyhedron(text: &mut String, row: u64, cell: &Polyhedron) {
+    let _ = write!(text, "{{\"point\": {row}, \"faces\": [");
+    for (i, face) in cell.faces.iter().enumerate() {
+        text.push_str(if i == 0 { "[" } else { ", [" });
+        corners(text, face.iter());
+        text.push(']');
+    }
+    text.push_str("]}");
+}
+
+fn in_plane(plane: &Plane, low: [f64; 3], high: [f64; 3]) -> Vec<u8> {
     let locator = plane.locator();
-    let head = "{\"type\": \"FeatureCollection\", \"features\": [";
-    document(head, &order(plane.site_count(), |site| plane.row(site)), |text, row, site| {
-        let cell = locator.voronoi_cell(site, low, high);
-        let _ = write!(
-            text,
-            "{{\"type\": \"Feature\", \"properties\": {{\"point\": {row}}}, \"geometry\": {{\"type\": \"Polygon\", \
-             \"coordinates\": [["
-        );
-        // A ring of GeoJSON ends where it begins.
-        corners(text, cell.corners.iter().chain(cell.corners.first()));
-        text.push_str("]]}}");
+    let (head, order) = (head_in_plane(low, high), order(plane.site_count(), |v| plane.row(v)));
+    document(&head, &order, |text, row, site| {
+        let cell = locator.voronoi_cell(site, [low[0], low[1]], [high[0], high[1]]);
+        put_feature(text, row.into(), &cell);
     })
 }
 
 fn in_space(space: &Space, low: [f64; 3], high: [f64; 3]) -> Vec<u8> {
     let locator = space.locator();
-    let head = format!("{{\"low\": {low:?}, \"high\": {high:?}, \"cells\": [");
-    document(&head, &order(space.site_count(), |site| space.row(site)), |text, row, site| {
-        let cell = locator.voronoi_cell(site, low, high);
-        let _ = write!(text, "{{\"point\": {row}, \"faces\": [");
-        for (i, face) in cell.faces.iter().enumerate() {
-            text.push_str(if i == 0 { "[" } else { ", [" });
-            corners(text, face.iter());
-            text.push(']');
-        }
-        text.push_str("]}");
+    let (head, order) = (head_in_space(low, high), order(space.site_count(), |v| space.row(v)));
+    document(&head, &order, |text, row, site| {
+        put_polyhedron(text, row.into(), &locator.voronoi_cell(site, low, high));
     })
 }
 

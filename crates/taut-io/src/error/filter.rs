@@ -1,0 +1,47 @@
+//! Errors of points that are kept by a box or a grid.
+
+/// Why no points are kept of a file.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum FilterError {
+    /// A box or a grid does not fit the points.
+    #[error("{path}: option `{option}`: expected {expected}")]
+    Option {
+        /// The file.
+        path: String,
+        /// `bounds` or `thin`.
+        option: &'static str,
+        /// What it must be.
+        expected: String,
+    },
+    /// A coordinate is not finite, so that no box or cell holds the point.
+    #[error("{path}: row {row}: coordinate {column} is {value}: all coordinates must be finite")]
+    Value {
+        /// The file.
+        path: String,
+        /// The row, from 1.
+        row: u64,
+        /// The coordinate, from 0.
+        column: usize,
+        /// The value as shown.
+        value: String,
+    },
+    /// The table of the cells of a grid takes more than the memory that was allowed.
+    #[error(
+        "{path}: at row {row} the cells of the grid take more than {memory} bytes: allow more memory, or larger cells"
+    )]
+    Memory {
+        /// The file.
+        path: String,
+        /// The row, from 1.
+        row: u64,
+        /// Bytes that are allowed.
+        memory: u64,
+    },
+    /// No point of a file is within the box.
+    #[error("{path}: no point is within the bounds: choose others")]
+    NothingKept {
+        /// The file.
+        path: String,
+    },
+}
