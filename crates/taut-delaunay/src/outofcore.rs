@@ -22,6 +22,7 @@
 //! | `node` | the functions for drivers |
 //! | `driver` | from the leaves to the root, on several threads |
 //! | `disk` | points from a source to a folder of tiles |
+//! | `stream` | points that come once, in a coherent order |
 
 mod bytes;
 mod disk;
@@ -31,6 +32,7 @@ mod front;
 mod node;
 mod points;
 mod solve;
+mod stream;
 #[cfg(test)]
 mod tests;
 mod tile;
@@ -45,5 +47,6 @@ pub use front::{Front, Link};
 pub use node::{Dim, Dimension, NodeJob, finish, merge, summarize};
 pub use points::NodePoints;
 pub use solve::Whole;
+pub use stream::{Coherence, Stream, StreamOptions, TakeSimplex};
 pub use tile::{NO_NEIGHBOR, OTHER_TILE, Tile, TileCounts, TileLink};
 pub use tree::{CellBox, FINE_LEVELS, LEVELS_MAX, Router, Tree};

@@ -7,4 +7,4 @@ mod checked;
 mod contract;
 mod folders;
 mod properties;
-mod sets;
+pub(super) mod sets;
