@@ -6,7 +6,7 @@
 //! if it is nearer than v to some place of it; the points in conflict with diamond vw are those whose cavity in Del(R) has the
 //! edge vw. Each diamond triangulates its list and reports the simplices whose circumcenters lie in it.
 //! *Guarantee.* A circumcenter in a diamond is that of a simplex of all points exactly if it is one of the list, v and w. The
-//! lists have all points together 9 times in the plane, as a cavity has 3 inner edges and 6 on its border, and about 48 times
+//! lists have all points together 9 times in the plane, as a cavity has 3 inner edges and 6 on its border, and about 47 times
 //! in space.
 //! *Trap.* Cells of the hull reach to infinity. The part of such a cell that no facet spans, a wedge at v, is the diamond of v
 //! and infinity, and its list has the points in conflict with the ghosts at v.
