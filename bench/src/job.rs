@@ -6,7 +6,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use crate::prelude::*;
-use crate::{ball, curve, delaunay, ellipsoid, oblivious, process, surface};
+use crate::{ball, curve, delaunay, ellipsoid, oblivious, outofcore, process, surface};
 
 /// What is to be done. It is handed over as JSON on the command line, and prints one line of JSON.
 #[derive(Serialize, Deserialize)]
@@ -14,6 +14,8 @@ pub(crate) enum Job {
     Ball(ball::file::Task),
     Ellipsoid(ellipsoid::file::Task),
     Delaunay(delaunay::one::Task),
+    /// A triangulation on the disk, its check, or what it is compared with.
+    OutOfCore(outofcore::one::Task),
     Curve(curve::one::Task),
     Surface(surface::one::Task),
     File(oblivious::one::Task),
@@ -26,6 +28,7 @@ impl Job {
             Job::Ball(task) => json!(task.perform()?),
             Job::Ellipsoid(task) => json!(task.perform()?),
             Job::Delaunay(task) => json!(task.perform()?),
+            Job::OutOfCore(task) => json!(task.perform()?),
             Job::Curve(task) => json!(task.perform()?),
             Job::Surface(task) => json!(task.perform()?),
             Job::File(task) => json!(task.perform()?),

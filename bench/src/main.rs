@@ -22,6 +22,7 @@ mod machine;
 mod meter;
 mod oblivious;
 mod outcome;
+mod outofcore;
 mod peer;
 mod prelude;
 mod process;
@@ -54,6 +55,8 @@ enum Command {
     Ball(Options),
     /// Delaunay triangulations: processor time, memory and the number of simplices, program by program.
     Delaunay(delaunay::Arguments),
+    /// Delaunay triangulations of more points than memory holds: times, memory, disk, and the method of the thesis.
+    Outofcore(outofcore::Arguments),
     /// Ellipsoids of points and of ellipsoids, and robust ones: times, ratios, and a proof of every answer.
     Ellipsoid(Options),
     /// k centers: times, radii and nodes of proven optima, traversals and streams, with a proof of every answer.
@@ -90,6 +93,7 @@ fn main() -> anyhow::Result<()> {
     match Arguments::parse().command {
         Command::Ball(options) => ball::AREA.run_all(&options),
         Command::Delaunay(arguments) => delaunay::run(&arguments),
+        Command::Outofcore(arguments) => outofcore::run(&arguments),
         Command::Ellipsoid(options) => ellipsoid::AREA.run_all(&options),
         Command::Centers(options) => centers::AREA.run_all(&options),
         Command::Curve(options) => curve::AREA.run_all(&options),

@@ -1,7 +1,7 @@
 //! Figures and the table of the thesis, rerun: CSV for those who compute, SVG for those who look.
 //!
 //! *What is rerun.* Core-sets and times of balls (figures 5 to 15) and of ellipsoids (figure 18), curves through noisy
-//! points (figures 2, 21 and 22), surfaces (table 1), classifiers (tables 2 and 3), the ellipse in a projected model (figure 62), and k-dops in meshes (tables 4 to 6, figures 76 and
+//! points (figures 2, 21 and 22), surfaces (table 1), diamonds and times of triangulations (figures 52 and 53), classifiers (tables 2 and 3), the ellipse in a projected model (figure 62), and k-dops in meshes (tables 4 to 6, figures 76 and
 //! 77). taut's default methods are drawn beside those of the thesis.
 //! *What differs.* The machine (the thesis had a 2.66 GHz Xeon for chapter 2, and for figures 14 and 15 a 1 GHz Pentium III; other
 //! chapters name others), the conic solver, and the random points. Sizes can be compared; times only within one figure.
@@ -12,6 +12,7 @@ mod dops;
 mod ellipse;
 mod ellipsoid;
 mod figure;
+mod outofcore;
 mod recognize;
 mod surface;
 mod sweep;
@@ -105,6 +106,8 @@ const RERUNS: &[Rerun] = &[
     (&["18"], "Ellipsoids: sizes of core-sets, by dimension and by ε.", ellipsoid::figures),
     (&["21"], "Curves: the crude method and its jagged result.", |plan| curve::write(plan, "21")),
     (&["22"], "Curves: the crude method at sharp turns.", |plan| curve::write(plan, "22")),
+    (&["52"], "Diamonds over cities of the USA.", outofcore::figure_52),
+    (&["53"], "Triangulations larger than memory: times.", outofcore::figure_53),
     (&["62"], "The largest ellipse in a projection of the bunny.", ellipse::write),
     (&["76", "77"], "Dops: the share covered, by their number.", dops::figures),
     (&["table-4", "table-5", "table-6"], "Dops: times and shares covered.", dops::tables),

@@ -4,7 +4,7 @@ use clap::{Parser, Subcommand};
 
 use crate::commands::{
     ball, centers, classify, completions, curve, delaunay, dop, draw, ellipsoid, formats, generate,
-    hand, inscribe, man, memory, surface, tour, verify,
+    hand, inscribe, man, memory, stream, surface, tour, verify,
 };
 use crate::exit::Outcome;
 
@@ -28,6 +28,7 @@ enum Command {
     Dop(dop::Args),
     Centers(centers::Args),
     Delaunay(delaunay::Args),
+    Stream(stream::Args),
     Curve(curve::Args),
     Surface(surface::Args),
     Inscribe(inscribe::Args),
@@ -51,6 +52,7 @@ impl Cli {
             Command::Dop(args) => args.run(),
             Command::Centers(args) => args.run(),
             Command::Delaunay(args) => args.run(),
+            Command::Stream(args) => args.run(),
             Command::Curve(args) => args.run(),
             Command::Surface(args) => args.run(),
             Command::Inscribe(args) => args.run(),

@@ -18,6 +18,7 @@ pub(crate) mod man;
 pub(crate) mod memory;
 mod radii;
 mod robust;
+pub(crate) mod stream;
 pub(crate) mod surface;
 pub(crate) mod tour;
 pub(crate) mod verify;

@@ -45,6 +45,30 @@ pub enum Error {
         /// Bytes that there are for them.
         budget: u64,
     },
+    /// A point of a stream lies where the stream said that no more points will come.
+    #[error("point {row} {what}: the stream is not in the order that was promised")]
+    OutsideStream {
+        /// The point.
+        row: u64,
+        /// Where it lies.
+        what: &'static str,
+    },
+    /// A stream leaves too much open for the memory that was allowed.
+    #[error(
+        "at point {row} of the stream, {waiting} points lie where more may come and {unfinished} earlier ones are unfinished: to go on takes {needed} bytes beside those that wait, more than the {budget} that are left; order the points better, close cells earlier, or allow more memory"
+    )]
+    Incoherent {
+        /// The point that came last.
+        row: u64,
+        /// Points that wait for their cells to be closed.
+        waiting: u64,
+        /// Sites with simplices that are not final.
+        unfinished: u64,
+        /// Bytes that the next chunk takes.
+        needed: u64,
+        /// Bytes that there are for it.
+        budget: u64,
+    },
     /// The file system has less room than the work needs.
     #[error(
         "{folder}: {needed} bytes are needed, but {free} are free: make room or choose another folder"

@@ -23,6 +23,7 @@
 //! | `driver` | from the leaves to the root, on several threads |
 //! | `disk` | points from a source to a folder of tiles |
 //! | `mosaic` | tiles side by side, for what is computed from a triangulation |
+//! | `stream` | points that come once, in a coherent order |
 
 pub(crate) mod bytes;
 mod disk;
@@ -33,6 +34,7 @@ mod mosaic;
 mod node;
 mod points;
 mod solve;
+mod stream;
 #[cfg(test)]
 pub(crate) mod tests;
 mod tile;
@@ -49,5 +51,6 @@ pub(crate) use mosaic::{Corners, Place, View};
 pub use node::{Dim, Dimension, NodeJob, finish, merge, summarize};
 pub use points::NodePoints;
 pub use solve::Whole;
+pub use stream::{Coherence, Stream, StreamOptions, TakeSimplex};
 pub use tile::{NO_NEIGHBOR, OTHER_TILE, Tile, TileCounts, TileLink};
 pub use tree::{CellBox, FINE_LEVELS, LEVELS_MAX, Router, Tree};

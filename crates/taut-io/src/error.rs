@@ -141,6 +141,14 @@ pub enum Error {
         /// The error of the operating system.
         source: io::Error,
     },
+    /// What comes in a stream is no row of as many numbers as are expected.
+    #[error("{place}: {problem}")]
+    StreamRow {
+        /// The stream and the place in it.
+        place: String,
+        /// What is there.
+        problem: String,
+    },
     /// Not one byte.
     #[error("{path} is empty: it holds no byte")]
     Empty {

@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | points of a file or of standard input | [`open`] | every point or an error that names file, row, column and value |
 //! | points of bytes in memory | [`open_bytes`] | the same |
+//! | rows of numbers as they come, none of them kept | [`RowStream`] | the same |
 //! | points with a label each | [`open`] with [`ReadOptions::label`] | the same; labels of text files may be any text |
 //! | a file | [`create`] | the earlier file stays as it was until [`AtomicFile::commit`] |
 //! | a folder of files | [`create_folder`] | the earlier folder stays as it was until [`AtomicFolder::commit`] |
@@ -59,6 +60,7 @@ mod raster;
 mod read;
 mod sink;
 mod space;
+mod stream;
 mod words;
 mod write;
 
@@ -81,5 +83,6 @@ pub use options::{Bounds, Feature, Header, RawLayout, ReadOptions, Thinning};
 pub use polylines::{LineFile, polylines_file, write_polylines};
 pub use raster::{RasterFile, RasterHeader, check_raster};
 pub use space::free_bytes;
+pub use stream::{RowForm, RowStream};
 pub use taut_mesh::Polyline;
 pub use write::write_points;

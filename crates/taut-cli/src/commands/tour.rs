@@ -4,6 +4,7 @@ mod hands;
 mod inside;
 mod memory;
 mod stations;
+mod tiles;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -71,6 +72,7 @@ impl Args {
                 (station.heading, Box::new(stop) as Box<dyn Fn() -> anyhow::Result<Stop>>)
             })
             .chain([
+                (tiles::HEADING, Box::new(tiles::stop) as _),
                 (hands::HEADING, Box::new(hands::stop) as _),
                 (memory::HEADING, Box::new(memory::stop) as _),
             ]);

@@ -33,6 +33,7 @@ mod pictures;
 mod places;
 mod robust;
 mod shapes;
+mod stream;
 mod surface;
 mod test_folder;
 mod threads;

@@ -14,11 +14,13 @@
 
 use std::io::Write;
 
+use taut_certify::{Solution, Triangulation};
 use taut_points::{Monitor, Points};
 
 use super::front::Front;
 use super::points::NodePoints;
 use super::solve::{Outcome, Whole, solve};
+use super::stream::{TakeSimplex, emit_lower, emit_solved};
 use super::tile::{LowerTile, TileCounts, TileOrder, write_lower, write_solved};
 use crate::cells::{Geometry, InPlane, InSpace};
 use crate::kernel::Kernel;
@@ -58,6 +60,19 @@ pub trait Dimension<const D: usize>: sealed::Sealed {
         out: &mut dyn Write,
         monitor: &Monitor<'_>,
     ) -> Result<(TileCounts, Front<D>), Error>;
+
+    /// Triangulates a chunk of a stream: `front` has what is unfinished, and points that are new behind its sites.
+    ///
+    /// # Errors
+    /// As [`merge`], and those of `take`.
+    #[doc(hidden)]
+    fn emit(
+        whole: &Whole<D>,
+        chunk: u32,
+        front: Front<D>,
+        take: &mut TakeSimplex<'_>,
+        monitor: &Monitor<'_>,
+    ) -> Result<(TileCounts, Front<D>), Error>;
 }
 
 mod sealed {
@@ -77,6 +92,16 @@ impl Dimension<2> for Dim<2> {
     ) -> Result<(TileCounts, Front<2>), Error> {
         run::<2, 3, InPlane>(whole, job, points, front, out, monitor)
     }
+
+    fn emit(
+        whole: &Whole<2>,
+        chunk: u32,
+        front: Front<2>,
+        take: &mut TakeSimplex<'_>,
+        monitor: &Monitor<'_>,
+    ) -> Result<(TileCounts, Front<2>), Error> {
+        emit::<2, 3, InPlane>(whole, chunk, front, take, monitor)
+    }
 }
 
 impl Dimension<3> for Dim<3> {
@@ -89,6 +114,16 @@ impl Dimension<3> for Dim<3> {
         monitor: &Monitor<'_>,
     ) -> Result<(TileCounts, Front<3>), Error> {
         run::<3, 4, InSpace>(whole, job, points, front, out, monitor)
+    }
+
+    fn emit(
+        whole: &Whole<3>,
+        chunk: u32,
+        front: Front<3>,
+        take: &mut TakeSimplex<'_>,
+        monitor: &Monitor<'_>,
+    ) -> Result<(TileCounts, Front<3>), Error> {
+        emit::<3, 4, InSpace>(whole, chunk, front, take, monitor)
     }
 }
 
@@ -179,17 +214,60 @@ fn run<const D: usize, const V: usize, G: Geometry<D, V>>(
             Ok((written.map_err(failed)?, front))
         }
         Outcome::Lower { front, duplicates } => {
-            let points =
-                Points::new(front.coordinates.as_flattened(), D).map_err(|_| SITES_LEFT)?;
-            let options = DelaunayOptions { monitor: *monitor, ..DelaunayOptions::default() };
-            let found = delaunay(&points, &options)?;
-            let lower = LowerTile {
-                vertices_per_simplex: found.answer.vertices_per_simplex(),
-                simplices: &found.answer.simplices,
-                neighbors: &found.certificate.neighbors,
-            };
-            let written = write_lower(&front, &lower, &duplicates, name, &mut out);
+            let found = in_memory(&front, monitor)?;
+            let written = write_lower(&front, &listed(&found), &duplicates, name, &mut out);
             Ok((written.map_err(failed)?, Front::empty()))
         }
+    }
+}
+
+fn emit<const D: usize, const V: usize, G: Geometry<D, V>>(
+    whole: &Whole<D>,
+    chunk: u32,
+    mut front: Front<D>,
+    take: &mut TakeSimplex<'_>,
+    monitor: &Monitor<'_>,
+) -> Result<(TileCounts, Front<D>), Error> {
+    let failed = |source| Error::File { path: "the output of simplices".to_owned(), source };
+    let points = NodePoints {
+        coordinates: std::mem::take(&mut front.coordinates),
+        rows: std::mem::take(&mut front.rows),
+    };
+    match solve::<D, V, G>(whole, chunk, points, front.facets, monitor)? {
+        Outcome::Full(solved) => {
+            let unscale = whole.scale.inverse();
+            let up = solved.sites_up();
+            let counts = emit_solved(&solved, &up, unscale, take).map_err(failed)?;
+            // A stream has no tiles: of a link only matters that it leads to a simplex.
+            Ok((counts, solved.front(chunk, &up, |_, _| 0, unscale)))
+        }
+        Outcome::Lower { front, .. } if !front.facets.is_empty() => Err(FLAT_WITH_FACETS),
+        Outcome::Lower { front, duplicates } if chunk != 0 => {
+            let duplicates = duplicates.len() as u64;
+            Ok((TileCounts { duplicates, ..TileCounts::default() }, front))
+        }
+        Outcome::Lower { front, duplicates } => {
+            let found = in_memory(&front, monitor)?;
+            let duplicates = duplicates.len() as u64;
+            let counts = emit_lower(&front, &listed(&found), duplicates, take).map_err(failed)?;
+            Ok((counts, Front::empty()))
+        }
+    }
+}
+
+/// The triangulation of sites that do not span all dimensions.
+fn in_memory<const D: usize>(
+    sites: &Front<D>,
+    monitor: &Monitor<'_>,
+) -> Result<Solution<Triangulation>, Error> {
+    let points = Points::new(sites.coordinates.as_flattened(), D).map_err(|_| SITES_LEFT)?;
+    delaunay(&points, &DelaunayOptions { monitor: *monitor, ..DelaunayOptions::default() })
+}
+
+fn listed(found: &Solution<Triangulation>) -> LowerTile<'_> {
+    LowerTile {
+        vertices_per_simplex: found.answer.vertices_per_simplex(),
+        simplices: &found.answer.simplices,
+        neighbors: &found.certificate.neighbors,
     }
 }

@@ -38,6 +38,9 @@ pub struct Whole<const D: usize> {
     pub(super) tree: Tree<D>,
     pub(super) scale: Scale,
     pub(super) settings: Settings,
+    /// In a stream, whose tree has the places where points may still come, whatever the node: a point of each connected part
+    /// of these, scaled.
+    seeds: Option<Vec<[f64; D]>>,
 }
 
 impl<const D: usize> Whole<D> {
@@ -45,7 +48,25 @@ impl<const D: usize> Whole<D> {
     /// machine has them, which changes no byte.
     pub fn new(tree: &Tree<D>, magnitudes: Magnitudes, vectors: bool) -> Self {
         let (scale, settings) = magnitudes.normalization(vectors);
-        Self { tree: tree.scaled(scale), scale, settings }
+        Self { tree: tree.scaled(scale), scale, settings, seeds: None }
+    }
+
+    /// What a chunk of a stream must know: `tree` has the places where points may still come, and `seeds` a point of each
+    /// connected part of these that may lie within the hull of the points so far.
+    pub(super) fn open(
+        tree: &Tree<D>,
+        mut seeds: Vec<[f64; D]>,
+        magnitudes: Magnitudes,
+        vectors: bool,
+    ) -> Self {
+        let (scale, settings) = magnitudes.normalization(vectors);
+        seeds.iter_mut().flatten().for_each(|x| *x = scale.apply(*x));
+        Self { tree: tree.scaled_outward(scale), scale, settings, seeds: Some(seeds) }
+    }
+
+    /// The cell of the tree that the points of a node come from; none in a stream.
+    fn own_cell(&self, node: u32) -> Option<u32> {
+        self.seeds.is_none().then_some(node)
     }
 }
 
@@ -96,7 +117,13 @@ pub(super) fn solve<const D: usize, const V: usize, G: Geometry<D, V>>(
     mesh.start(start);
     insert_all(&mut mesh, &start, (InsertionOrder::Strided, 0), monitor)?;
     let (mut states, links) = unfinished::<D, V>(mesh.simplices(), rows.len(), facets)?;
-    let open = mark_open::<D, V, G>(whole, node, &mesh, &mut states);
+    let mut hint = mesh.last();
+    let mut within: Vec<u32> = Vec::new();
+    for &seed in whole.seeds.iter().flatten() {
+        hint = mesh.locate(seed, hint);
+        within.push(hint);
+    }
+    let open = mark_open::<D, V, G>(whole, node, &mesh, &within, &mut states);
     Ok(Outcome::Full(Solved { mesh, states, links, open, rows, duplicates }))
 }
 
@@ -134,11 +161,13 @@ fn start_simplex<const D: usize, const V: usize, G: Geometry<D, V>>(
     })
 }
 
-/// Marks the unfinished simplices that a point outside the node may conflict with, and lists them.
+/// Marks the unfinished simplices that a point outside the node may conflict with, and lists them. Those are connected with
+/// a ghost or with a simplex of `within`.
 fn mark_open<const D: usize, const V: usize, G: Geometry<D, V>>(
     whole: &Whole<D>,
     node: u32,
     mesh: &G::Mesh,
+    within: &[u32],
     states: &mut States,
 ) -> Vec<u32> {
     let simplices = mesh.simplices();
@@ -149,6 +178,7 @@ fn mark_open<const D: usize, const V: usize, G: Geometry<D, V>>(
         }
     }
     let site = |v: u32| mesh.site(v);
+    let own = whole.own_cell(node);
     let mut nodes = Vec::new();
     let mut may_conflict = |t: u32| {
         // Rounding depends on the order of the vertices, and that on how the mesh was built.
@@ -165,7 +195,7 @@ fn mark_open<const D: usize, const V: usize, G: Geometry<D, V>>(
         // What cannot be filtered cannot be bounded by boxes either.
         let zone = ConflictZone::<D, V>::of::<G>(vertices, behind, site);
         let may_meet = |b: &_| !whole.settings.filtered || zone.may_meet::<G>(b);
-        !whole.tree.outside_is_clear(node, &mut nodes, may_meet)
+        !whole.tree.outside_is_clear(own, &mut nodes, may_meet)
     };
     let mut open: Vec<u32> = Vec::new();
     let mut asked = vec![0u64; simplices.len().div_ceil(64)];
@@ -179,7 +209,7 @@ fn mark_open<const D: usize, const V: usize, G: Geometry<D, V>>(
             }
         }
     };
-    ghosts.iter().for_each(|&ghost| ask(ghost, states, &mut open));
+    ghosts.iter().chain(within).for_each(|&t| ask(t, states, &mut open));
     let mut next = 0;
     while next < open.len() {
         for neighbor in simplices[open[next] as usize].neighbors {

@@ -8,7 +8,7 @@ mod contract;
 mod folders;
 mod mosaics;
 mod properties;
-mod sets;
+pub(super) mod sets;
 
 use std::path::Path;
 

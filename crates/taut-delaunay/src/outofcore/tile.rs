@@ -35,7 +35,7 @@ mod read;
 mod write;
 
 pub use read::Tile;
-pub(super) use write::{LowerTile, TileOrder, write_lower, write_solved};
+pub(super) use write::{LowerTile, TileOrder, fingerprint_lower, write_lower, write_solved};
 
 use taut_certify::Fingerprint;
 

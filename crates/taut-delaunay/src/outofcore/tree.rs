@@ -241,6 +241,39 @@ impl<const D: usize> Tree<D> {
         sound.then_some(Self { nodes })
     }
 
+    /// Takes the points of a leaf away, in a tree of which no node was grown.
+    pub(crate) fn clear(&mut self, leaf: u32) {
+        let mut node = leaf as usize;
+        self.nodes[node].cell = CellBox::EMPTY;
+        while node > 0 {
+            // Nodes are numbered level by level.
+            node = (node - 1) / 2;
+            if let Some([left, right]) = self.nodes[node].children {
+                let mut cell = self.nodes[left as usize].cell;
+                cell.merge(&self.nodes[right as usize].cell);
+                self.nodes[node].cell = cell;
+            }
+        }
+    }
+
+    /// The tree of boxes that hold those of this one multiplied with a power of two, where that loses bits too.
+    pub(crate) fn scaled_outward(&self, scale: Scale) -> Self {
+        let mut tree = self.scaled(scale);
+        let back = scale.inverse();
+        for (scaled, given) in tree.nodes.iter_mut().zip(&self.nodes) {
+            let (bounds, given) = (&mut scaled.cell.bounds, &given.cell.bounds);
+            for i in 0..D {
+                if back.apply(bounds.low[i]) != given.low[i] {
+                    bounds.low[i] = bounds.low[i].next_down();
+                }
+                if back.apply(bounds.high[i]) != given.high[i] {
+                    bounds.high[i] = bounds.high[i].next_up();
+                }
+            }
+        }
+        tree
+    }
+
     /// The same tree of points multiplied with a power of two.
     pub(crate) fn scaled(&self, scale: Scale) -> Self {
         let mut tree = self.clone();
@@ -252,10 +285,10 @@ impl<const D: usize> Tree<D> {
         tree
     }
 
-    /// Tests whether `may_meet` rules out all boxes with points outside `node`.
+    /// Tests whether `may_meet` rules out all boxes with points, except those of `node`.
     pub(crate) fn outside_is_clear(
         &self,
-        node: u32,
+        node: Option<u32>,
         open: &mut Vec<u32>,
         mut may_meet: impl FnMut(&Bounds<D>) -> bool,
     ) -> bool {
@@ -263,7 +296,7 @@ impl<const D: usize> Tree<D> {
         open.push(0);
         while let Some(other) = open.pop() {
             let Node { cell, children } = &self.nodes[other as usize];
-            if other == node || cell.count == 0 || !may_meet(&cell.bounds) {
+            if Some(other) == node || cell.count == 0 || !may_meet(&cell.bounds) {
                 continue;
             }
             match children {
@@ -315,9 +348,9 @@ mod tests {
         let holds = |x: f64| move |b: &Bounds<2>| b.low[0] <= x && x <= b.high[0];
         let [left, right] = tree.children(0).expect("cut");
         let open = &mut Vec::new();
-        assert!(tree.outside_is_clear(left, open, holds(3.0)));
-        assert!(!tree.outside_is_clear(right, open, holds(3.0)));
-        assert!(tree.outside_is_clear(left, open, holds(7.5)));
-        assert!(tree.outside_is_clear(0, open, |_| true));
+        assert!(tree.outside_is_clear(Some(left), open, holds(3.0)));
+        assert!(!tree.outside_is_clear(Some(right), open, holds(3.0)));
+        assert!(tree.outside_is_clear(Some(left), open, holds(7.5)));
+        assert!(tree.outside_is_clear(Some(0), open, |_| true));
     }
 }

@@ -162,6 +162,13 @@ impl<const D: usize, const V: usize> Locator<'_, D, V> {
         }
     }
 
+    fn conflicts_by<G: Geometry<D, V>>(&self, point: [f64; D]) -> Vec<u32> {
+        match self.locate_by::<G>(point) {
+            Location::Inside(t) | Location::Outside(t) => self.cavity::<G>(point, t),
+            Location::Site(_) | Location::Nowhere => Vec::new(),
+        }
+    }
+
     fn natural_neighbors_by<G: Geometry<D, V>>(&self, point: [f64; D]) -> Vec<u32> {
         let first = match self.locate_by::<G>(point) {
             Location::Inside(t) | Location::Outside(t) => t,
@@ -197,6 +204,13 @@ macro_rules! questions {
             /// Where a point lies: exact for any finite point. One walk of a few steps from the nearest site.
             pub fn locate(&self, point: [f64; $d]) -> Location {
                 self.locate_by::<$geometry>(point)
+            }
+
+            /// The simplices, ghosts among them, that would go if the point were inserted: those whose spheres hold it,
+            /// ties decided by the perturbation. None for a site, and where the point lies
+            /// [`Nowhere`](Location::Nowhere).
+            pub fn conflicts(&self, point: [f64; $d]) -> Vec<u32> {
+                self.conflicts_by::<$geometry>(point)
             }
 
             /// The natural neighbors of a point: the sites it would be joined with if it were one, ascending. Their

@@ -127,8 +127,12 @@ impl<'a> Network<'a> {
     pub(super) fn push(&mut self, facet: u32, amount: i32) {
         let (other, k) = decode(self.cells.mirror(facet));
         let (cell, i) = decode(facet);
-        self.used[cell as usize][i] += amount;
-        self.used[other as usize][k] -= amount;
+        // Between two of the ways that are turned together a sum may leave the range, but the last one is within a weight:
+        // arithmetic modulo 2³² gets there.
+        let there = &mut self.used[cell as usize][i];
+        *there = there.wrapping_add(amount);
+        let there = &mut self.used[other as usize][k];
+        *there = there.wrapping_sub(amount);
     }
 
     /// Searches the cells that flow from one can reach, nearest first, for a goal. Fixed cells are not left again.
@@ -318,7 +322,7 @@ impl Objection {
     /// Turns what cycles carry.
     pub(super) fn turn(&mut self, network: &mut Network<'_>) {
         for (amount, way) in &self.cycles {
-            let twice = if self.is_turned { 2 * *amount as i32 } else { -2 * *amount as i32 };
+            let twice = (*amount as i32).wrapping_mul(if self.is_turned { 2 } else { -2 });
             way.iter().for_each(|&facet| network.push(facet, twice));
         }
         self.is_turned = !self.is_turned;
@@ -331,7 +335,7 @@ impl Objection {
         self.cycles.retain(|(amount, way)| {
             let is_kept = !is_vain && !way.iter().any(|&facet| network.disagrees(facet));
             if !is_kept {
-                let back = if is_turned { *amount as i32 } else { -(*amount as i32) };
+                let back = (*amount as i32).wrapping_mul(if is_turned { 1 } else { -1 });
                 way.iter().for_each(|&facet| network.push(facet, back));
                 *left += amount;
                 *tried = 0;

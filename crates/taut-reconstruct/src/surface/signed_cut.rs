@@ -184,7 +184,7 @@ impl Improver<'_> {
         }
         // Cycles alone stay for the next round.
         for (way, amount) in flows {
-            way.iter().for_each(|&facet| self.network.push(facet, -(amount as i32)));
+            way.iter().for_each(|&facet| self.network.push(facet, (amount as i32).wrapping_neg()));
         }
         ends.iter().for_each(|&cell| self.demand[cell as usize] = 0);
         let turned = self.turn(&region);

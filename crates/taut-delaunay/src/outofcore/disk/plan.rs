@@ -21,10 +21,15 @@ pub(in crate::outofcore) const MEMORY_MIN: u64 = 64 << 20;
 /// Leaves of the largest size that fit into memory at the same time, or more.
 const LEAVES_AT_ONCE: u64 = 3;
 
-/// Most points of a leaf: fronts are then 0.3 % of the points in the plane and 10 % in space.
+/// Most points of a leaf where memory has room for more: fronts are then 1.1 % of the points in the plane and 10 % in space.
+/// (Measured in the plane, 3·10⁶ uniform points: leaves of a fourth of the size take 6 % less processor time, as their arrays
+/// stay in the cache and with the allocator.)
 const fn leaf_points_max(d: usize) -> u64 {
-    if d == 2 { 4 << 20 } else { 1 << 20 }
+    if d == 2 { 1 << 18 } else { 1 << 20 }
 }
+
+/// Buckets beyond which leaves become larger instead: all are open at the same time, and systems allow 1024 files.
+const BUCKETS_WANTED: u64 = 512;
 
 /// Most buckets: each is a file that is written to.
 const BUCKET_LEVELS_MAX: u32 = 12;
@@ -79,7 +84,8 @@ impl DiskPlan {
             return Err(refused("at least 67108864, which is 64 MiB"));
         }
         let node_budget = memory - memory / 8 - BASE_BYTES;
-        let leaf_points = (node_budget / LEAVES_AT_ONCE / site_bytes(d)).min(leaf_points_max(d));
+        let wanted = leaf_points_max(d).max((points / BUCKETS_WANTED).saturating_mul(5) / 4);
+        let leaf_points = (node_budget / LEAVES_AT_ONCE / site_bytes(d)).min(wanted);
         let planned = leaf_points * 4 / 5;
         let levels = points.div_ceil(planned).max(1).next_power_of_two().ilog2();
         // All threads' buffers take at most a quarter of the memory; no node runs while points are distributed.

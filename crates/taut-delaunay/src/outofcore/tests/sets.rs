@@ -17,7 +17,7 @@ fn shuffled<const D: usize>(points: Vec<[f64; D]>, seed: u64) -> Vec<[f64; D]> {
     keyed.into_iter().map(|(_, p)| p).collect()
 }
 
-pub(super) fn plane() -> Vec<(&'static str, Vec<[f64; 2]>)> {
+pub(in super::super) fn plane() -> Vec<(&'static str, Vec<[f64; 2]>)> {
     let circle = |i: usize, n: usize| (TAU * i as f64 / n as f64).sin_cos();
     let u = uniform::<2>(3000, 7);
     let clusters = u.iter().enumerate().map(|(i, p)| {
@@ -95,7 +95,7 @@ pub(super) fn plane() -> Vec<(&'static str, Vec<[f64; 2]>)> {
     ]
 }
 
-pub(super) fn space() -> Vec<(&'static str, Vec<[f64; 3]>)> {
+pub(in super::super) fn space() -> Vec<(&'static str, Vec<[f64; 3]>)> {
     let u = uniform::<3>(2500, 17);
     let clusters = u.iter().enumerate().map(|(i, p)| {
         let center = u[i % 9];

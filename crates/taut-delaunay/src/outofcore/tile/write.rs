@@ -187,28 +187,6 @@ fn number_sites<const V: usize>(
     (numbers, sites, copies)
 }
 
-/// Hashes of sites that were lately asked for, as simplices side by side have sites in common.
-struct HashCache {
-    entries: Vec<(u32, SiteHash)>,
-}
-
-impl HashCache {
-    const ENTRIES: usize = 1 << 14;
-
-    fn new() -> Self {
-        Self { entries: vec![(GHOST, SiteHash::default()); Self::ENTRIES] }
-    }
-
-    #[inline(always)]
-    fn get(&mut self, site: u32, hash: impl FnOnce() -> SiteHash) -> SiteHash {
-        let entry = &mut self.entries[site as usize % Self::ENTRIES];
-        if entry.0 != site {
-            *entry = (site, hash());
-        }
-        entry.1
-    }
-}
-
 /// Words on their way to the output, with their sum.
 struct Words<'a, W> {
     out: &'a mut W,
@@ -302,7 +280,6 @@ pub(in super::super) fn write_solved<const D: usize, const V: usize, G: Geometry
         words.row(solved.rows[v as usize], row_bytes)?;
     }
     write_duplicates(&mut words, &solved.duplicates, row_bytes)?;
-    let mut cache = HashCache::new();
     let mut links: Vec<TileLink> = Vec::new();
     for (place, &t) in order.finite.iter().enumerate() {
         fetch(simplices, order.finite.get(place + 2 * FETCH_AHEAD));
@@ -317,7 +294,8 @@ pub(in super::super) fn write_solved<const D: usize, const V: usize, G: Geometry
         let simplex = &simplices[t as usize];
         let (mut hashes, mut numbers) = ([SiteHash::default(); V], [0; V]);
         for (i, &v) in simplex.vertices.iter().enumerate() {
-            hashes[i] = cache.get(v, || SiteHash::of(&at(v)));
+            // To hash again takes less time than to look up what was hashed.
+            hashes[i] = SiteHash::of(&at(v));
             numbers[i] = order.numbers[v as usize];
         }
         counts.fingerprint.add(hashes);
@@ -402,6 +380,33 @@ pub(in super::super) struct LowerTile<'a> {
     pub(in super::super) neighbors: &'a [u32],
 }
 
+impl LowerTile<'_> {
+    /// The facets of the hull.
+    pub(in super::super) fn hull(&self) -> u64 {
+        // A single point has no facets.
+        let is_open = |&&n: &&u32| n == NO_NEIGHBOR && self.vertices_per_simplex > 1;
+        self.neighbors.iter().filter(is_open).count() as u64
+    }
+}
+
+/// The fingerprint of simplices that are listed.
+pub(in super::super) fn fingerprint_lower<const D: usize>(
+    sites: &Front<D>,
+    lower: &LowerTile<'_>,
+) -> Fingerprint {
+    let hash = |v: u32| SiteHash::of(&sites.coordinates[v as usize]);
+    let mut fingerprint = Fingerprint::default();
+    for simplex in lower.simplices.chunks_exact(lower.vertices_per_simplex.max(1)) {
+        match *simplex {
+            [a] => fingerprint.add([a].map(hash)),
+            [a, b] => fingerprint.add([a, b].map(hash)),
+            [a, b, c] => fingerprint.add([a, b, c].map(hash)),
+            _ => {}
+        }
+    }
+    fingerprint
+}
+
 /// Writes the tile of a node with sites that are all its own and simplices that are listed.
 pub(in super::super) fn write_lower<const D: usize>(
     sites: &Front<D>,
@@ -411,19 +416,6 @@ pub(in super::super) fn write_lower<const D: usize>(
     out: &mut impl Write,
 ) -> io::Result<TileCounts> {
     let vertices = lower.vertices_per_simplex;
-    // A single point has no facets.
-    let is_open = |&&n: &&u32| n == NO_NEIGHBOR && vertices > 1;
-    let hull = lower.neighbors.iter().filter(is_open).count() as u64;
-    let hash = |v: u32| SiteHash::of(&sites.coordinates[v as usize]);
-    let mut fingerprint = Fingerprint::default();
-    for simplex in lower.simplices.chunks_exact(vertices.max(1)) {
-        match *simplex {
-            [a] => fingerprint.add([a].map(hash)),
-            [a, b] => fingerprint.add([a, b].map(hash)),
-            [a, b, c] => fingerprint.add([a, b, c].map(hash)),
-            _ => {}
-        }
-    }
     let counts = TileCounts {
         vertices_per_simplex: vertices as u32,
         row_bytes,
@@ -433,8 +425,8 @@ pub(in super::super) fn write_lower<const D: usize>(
         duplicates: duplicates.len() as u64,
         simplices: (lower.simplices.len() / vertices.max(1)) as u64,
         links: 0,
-        hull,
-        fingerprint,
+        hull: lower.hull(),
+        fingerprint: fingerprint_lower(sites, lower),
     };
     let mut words = Words::new(out);
     words.head(D)?;
