@@ -8,9 +8,8 @@ use super::valley::valley;
 /// A gap is compared with this many gaps on either side.
 const NEIGHBOR_GAPS: usize = 32;
 
-/// −ln of how seldom chance may leave a gap as long: of honest curves one in ninety has such a gap, and of arcs missing
-/// for ln n + 8 spacings nearly all are found.
-const GAP_RARITY: f64 = 4.5;
+/// −ln of how seldom chance may leave a gap as long: of honest curves one in four hundred has such a gap.
+const GAP_RARITY: f64 = 6.0;
 
 /// Rows across whose offsets bands are sought: short windows follow the curve, long ones find thin gaps. The last is all rows.
 const WINDOWS: [usize; 5] = [64, 128, 512, 2048, usize::MAX];

@@ -88,9 +88,9 @@ pub(super) const SPLITS_MAX: usize = 3;
 pub(super) const SPACING_RATIO_MAX: f64 = 5.0;
 /// At least one of this many points is on curves: fewer, such as a clump in one place, do not tell how dense those are. Chosen.
 pub(super) const POINTS_PER_CURVE_POINT_MAX: usize = 8;
-/// Largest ratio of the density along the curve to that of a seed: a seed beside the curve has few points. No unit. Measured: beside a strand
-/// four times as dense, 4 drops the sparser one.
-pub(super) const DENSITY_RATIO_MAX: f64 = 8.0;
+/// Largest ratio of the density along the curve to that of a seed: a seed beside the curve has few points. No unit. Chosen: with 8, seeds
+/// among outliers stay.
+pub(super) const DENSITY_RATIO_MAX: f64 = 4.0;
 /// Most tangents within this distance of a seed are along its own, else it runs across the band. Unit: windows. Chosen.
 pub(super) const ALONG_WINDOWS: f64 = 1.5;
 /// Least ratio of the length of a window to that of one within it that is flat by chance. In length alone they differ where points are sparse,
