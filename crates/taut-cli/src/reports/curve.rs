@@ -118,6 +118,10 @@ fn advice(found: &Solution<Curve>, rows: u64) -> Option<String> {
         "thesis" | "thesis-crude" if answer.curves.is_empty() && rows > 0 => {
             let (sparse, wide) = (counted("samples_too_sparse"), counted("samples_not_flat"));
             Some(match sparse > wide {
+                _ if 2 * (sparse + wide) < rows => format!(
+                    "--method fit, or a smaller --feature: the disks are so large that pruning left {} of the centers",
+                    counted("centers_selected")
+                ),
                 true => format!(
                     "--method fit, or --feature: around {} the points are too sparse beside the least feature size",
                     share(sparse, rows)
