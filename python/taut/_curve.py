@@ -44,7 +44,7 @@ def curve(
         Finite real numbers, taken as by `ball`.
     method : str, default "auto"
         The way to find them. "auto" takes "fit" where the points are noisy, else
-        "nn-crust" or "fit" where that is certified, else "corners". For noisy points: "fit",
+        "nn-crust" where that is certified, else "hnn-crust" or "corners". For noisy points: "fit",
         which first decides which neighbors belong together and then fits along the order they have; "thesis" and
         "thesis-crude", the methods of the literature it is compared with. For points without noise, which then are the
         vertices: "crust", "one-step-crust", "nn-crust", "conservative-crust" (curves with ends), "hnn-crust" and "corners".

@@ -23,8 +23,8 @@ pub struct Curve {
     pub curves: Vec<CurveComponent>,
     /// Half the width of the band around the curve that noise fills, as estimated; 0 where vertices are points of the input.
     pub noise: f64,
-    /// The rows that no curve accounts for, ascending.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    /// The rows that no curve accounts for, ascending; in JSON also where there are none.
+    #[serde(default)]
     pub outliers: Vec<u64>,
     /// On request, for each row its place on the curves; of outliers the place next to them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -61,9 +61,9 @@ pub struct Place(pub u32, pub f64);
 /// choices, tried on known curves.
 ///
 /// It is evidence, not proof, for points cannot tell of what was not sampled. What deceives it: a curve with features smaller than the gaps
-/// between its samples; a curve open by less than gaps vary, three times the usual one even where samples are evenly spaced; two
-/// strands nearer to each other than the noise is wide, with samples all over the room between, or so few that chance could leave it
-/// as empty; a curve of samples as sparse as the outliers among which it lies, or of ten or so.
+/// between its samples; a curve open by less than gaps vary, by less than about ln n + 8 of n gaps, or three times the usual one where
+/// samples are evenly spaced; two strands nearer to each other than the noise is wide, with samples all over the room between, or so few
+/// that chance could leave it as empty; a curve of samples as sparse as the outliers among which it lies.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(
     deny_unknown_fields,

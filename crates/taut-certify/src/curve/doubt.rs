@@ -107,6 +107,38 @@ pub enum CurveDoubt {
         /// Mean squared difference of neighbors over twice the variance.
         share: f64,
     },
+    /// A stretch is wider and denser than what is beside it, as one would be along which the curve runs forth, back and forth again.
+    #[error(
+        "the rows beside curve {curve}, after vertex {vertex}, lie {wider:.1} times as far off and {denser:.1} times as densely as on both sides, as those of a fold would"
+    )]
+    Swollen {
+        /// Curve, from 0.
+        curve: usize,
+        /// The vertex after which they lie, from 0.
+        vertex: usize,
+        /// Root mean square of their distance, over that beside them.
+        wider: f64,
+        /// Their density along the curve, over that beside them.
+        denser: f64,
+    },
+    /// Rows lie much farther off the curve in one place than they usually do.
+    #[error(
+        "the rows beside curve {curve}, after vertex {vertex}, lie {times:.1} times as far off as rows of it usually do"
+    )]
+    Wide {
+        /// Curve, from 0.
+        curve: usize,
+        /// The vertex after which they lie, from 0.
+        vertex: usize,
+        /// Distance that four fifths of them do not exceed, over the median of that along the curve.
+        times: f64,
+    },
+    /// Too few outliers to tell whether they are a small curve.
+    #[error("{outliers} outliers are too few to tell them from the samples of a small curve")]
+    Handful {
+        /// How many.
+        outliers: u64,
+    },
     /// Too many rows are said to be outliers.
     #[error("{outliers} of {rows} rows are outliers")]
     Outliers {

@@ -6,7 +6,7 @@ use taut::{PointSource, Solution};
 
 use crate::output::numbers::{count, counted, exact, gap, short};
 use crate::reports::{
-    Claims, Field, Report, Summary, rows_of, without_outliers, yes_without_outliers,
+    Claims, Field, Report, Summary, rows_of, share, without_outliers, yes_without_outliers,
 };
 
 impl Summary for Curve {
@@ -69,6 +69,8 @@ impl Summary for Curve {
             None => Field::new("verified", "not checked"),
         });
         fields.push(Field::new("method", &*report.found.trace.method));
+        let rows = report.points.source().len();
+        fields.extend(advice(report.found, rows).map(|text| Field::new("try", text)));
         fields
     }
 
@@ -102,6 +104,46 @@ impl Summary for Curve {
             gap: verdict.tour_gap,
             fields,
         }
+    }
+}
+
+/// A fit that leaves out more than one in so many of the points is told to be doubtful.
+const ROWS_PER_OUTLIER_MIN: f64 = 1.0 / 0.15;
+
+/// Returns what to try instead of a method that found little, and why it did.
+fn advice(found: &Solution<Curve>, rows: u64) -> Option<String> {
+    let (answer, trace) = (&found.answer, &found.trace);
+    let counted = |name: &str| trace.counters.get(name).copied().unwrap_or(0);
+    match &*trace.method {
+        "thesis" | "thesis-crude" if answer.curves.is_empty() && rows > 0 => {
+            let (sparse, wide) = (counted("samples_too_sparse"), counted("samples_not_flat"));
+            Some(match sparse > wide {
+                _ if 2 * (sparse + wide) < rows => format!(
+                    "--method fit, or a smaller --feature: the disks are so large that pruning left {} of the centers",
+                    counted("centers_selected")
+                ),
+                true => format!(
+                    "--method fit, or --feature: around {} the points are too sparse beside the least feature size",
+                    share(sparse, rows)
+                ),
+                false => format!(
+                    "--method fit, a smaller --rho, or --feature: around {} no disk within the least feature size is ρ times \
+                     as long as its points are wide",
+                    share(wide, rows)
+                ),
+            })
+        }
+        "fit" if answer.curves.is_empty() && rows > 0 => Some(
+            "--method corners or hnn-crust, for points without noise: no band of noise was found".to_owned(),
+        ),
+        "fit" if answer.outliers.len() as f64 * ROWS_PER_OUTLIER_MIN > rows as f64 => Some(format!(
+            "--method corners or hnn-crust, if the points have no noise: {} lie on no curve of the fit",
+            share(answer.outliers.len() as u64, rows)
+        )),
+        "fit" if answer.curves.iter().all(|one| !one.closed) && !answer.curves.is_empty() => {
+            Some("--method corners or hnn-crust, if the points have no noise: all curves of the fit are open".to_owned())
+        }
+        _ => None,
     }
 }
 

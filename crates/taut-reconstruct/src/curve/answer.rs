@@ -37,6 +37,16 @@ pub(super) struct Outcome {
     pub(super) counters: BTreeMap<String, u64>,
 }
 
+impl Outcome {
+    /// The same for all sites, where this was found of some of them, ascending: the others are outliers if they are `far`.
+    pub(super) fn spread(mut self, sites: &[u32], far: &[u32]) -> Self {
+        self.outliers = self.outliers.iter().map(|&site| sites[site as usize]).collect();
+        self.outliers.extend_from_slice(far);
+        self.outliers.sort_unstable();
+        self
+    }
+}
+
 /// The answer and its certificate.
 pub(super) fn finish(
     cloud: &Cloud,

@@ -68,6 +68,47 @@ impl Cloud {
         Self { sites, starts, rows }
     }
 
+    /// The cloud of some of the sites, ascending.
+    pub(super) fn subset(&self, sites: &[u32]) -> Self {
+        let (mut rows, mut starts) = (Vec::new(), Vec::with_capacity(sites.len() + 1));
+        for &site in sites {
+            starts.push(rows.len() as u32);
+            rows.extend_from_slice(self.rows(site));
+        }
+        starts.push(rows.len() as u32);
+        Self { sites: sites.iter().map(|&site| self.sites[site as usize]).collect(), starts, rows }
+    }
+
+    /// The sites that are so far from the others that no square tells of those any more: all others lie within a 2³⁰⁰th of the
+    /// distance. Ascending; none where they are more than one in ten.
+    pub(super) fn far(&self) -> Vec<u32> {
+        /// A distance over that within which nine tenths lie.
+        const FAR_RATIO_MIN: f64 =
+            (1u128 << 100) as f64 * (1u128 << 100) as f64 * (1u128 << 100) as f64;
+        let count = self.sites.len();
+        // Halves, so that no difference overflows.
+        let middle = [0, 1].map(|k| {
+            let mut all: Vec<f64> = self.sites.iter().map(|p| 0.5 * p[k]).collect();
+            match count {
+                0 => 0.0,
+                _ => *all.select_nth_unstable_by(count / 2, f64::total_cmp).1,
+            }
+        });
+        let distance =
+            |p: &[f64; 2]| (0.5 * p[0] - middle[0]).abs().max((0.5 * p[1] - middle[1]).abs());
+        let mut all: Vec<f64> = self.sites.iter().map(distance).collect();
+        let largest = all.iter().copied().fold(0.0, f64::max);
+        let usual = match count {
+            0 => return Vec::new(),
+            _ => *all.select_nth_unstable_by(count * 9 / 10, f64::total_cmp).1,
+        };
+        if usual == 0.0 || largest / FAR_RATIO_MIN <= usual {
+            return Vec::new();
+        }
+        let is_far = |site: &u32| distance(&self.sites[*site as usize]) / FAR_RATIO_MIN > usual;
+        (0..count as u32).filter(is_far).collect()
+    }
+
     /// The first row of a site.
     pub(super) fn row(&self, site: u32) -> u64 {
         u64::from(self.rows[self.starts[site as usize] as usize])

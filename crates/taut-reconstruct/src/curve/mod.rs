@@ -1,12 +1,14 @@
 //! Curves through samples of the plane.
 
 mod answer;
+mod auto;
 mod boxes;
 mod chains;
 mod clean;
 mod cloud;
 mod fit;
 mod index;
+mod kind;
 mod nearest;
 mod options;
 mod thesis;
@@ -35,10 +37,27 @@ pub fn curve(
     let monitor = &options.monitor;
     on_threads(options.threads, || {
         let cloud = Cloud::read(source, monitor)?;
-        let finish = |outcome| finish(&cloud, outcome, options, source, monitor);
+        // A tour passes all points, however far.
+        let far = match options.method {
+            CurveMethod::Tour | CurveMethod::ThesisCrude(_) => Vec::new(),
+            _ => cloud.far(),
+        };
+        if far.is_empty() {
+            let finish = |outcome| finish(&cloud, outcome, options, source, monitor);
+            return match options.method {
+                CurveMethod::Auto => auto::auto(&cloud, options, finish, monitor),
+                _ => finish(solve(&cloud, options, monitor)?),
+            };
+        }
+        let others: Vec<u32> =
+            (0..cloud.sites.len() as u32).filter(|site| far.binary_search(site).is_err()).collect();
+        let near = cloud.subset(&others);
+        let finish = |outcome: Outcome| {
+            finish(&cloud, outcome.spread(&others, &far), options, source, monitor)
+        };
         match options.method {
-            CurveMethod::Auto => auto(&cloud, options, finish, monitor),
-            _ => finish(solve(&cloud, options, monitor)?),
+            CurveMethod::Auto => auto::auto(&near, options, finish, monitor),
+            _ => finish(solve(&near, options, monitor)?),
         }
     })
 }
@@ -63,31 +82,4 @@ fn solve(
         CurveMethod::Tour => tour::tour(cloud, options, monitor)?,
         CurveMethod::Fit => fit::fit(cloud, options.ends, monitor)?,
     })
-}
-
-/// A fit where points are noisy, else vertices that are points: by NN-Crust where samples are so dense that it can be certified, which
-/// it is however uneven they are; else a fit where that can be certified; else as corners ask for.
-fn auto(
-    cloud: &Cloud,
-    options: &CurveOptions<'_>,
-    finish: impl Fn(Outcome) -> Result<Solution<Curve>, Error>,
-    monitor: &Monitor<'_>,
-) -> Result<Solution<Curve>, Error> {
-    let fitted = match fit::fit_unless_vertices(cloud, options.ends, monitor)? {
-        Some((outcome, true)) => return finish(outcome),
-        Some((outcome, false)) => Some(outcome),
-        None => None,
-    };
-    let dense = finish(clean::solve(cloud, CurveMethod::NnCrust, options.ends, monitor)?)?;
-    if dense.certificate.certified {
-        return Ok(dense);
-    }
-    drop(dense);
-    if let Some(outcome) = fitted {
-        let fitted = finish(outcome)?;
-        if fitted.certificate.certified {
-            return Ok(fitted);
-        }
-    }
-    finish(solve(cloud, options, monitor)?)
 }

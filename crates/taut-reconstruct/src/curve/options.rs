@@ -90,8 +90,8 @@ pub enum Ends {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum CurveMethod {
-    /// [`Fit`](Self::Fit) where most points are noisy; else [`NnCrust`](Self::NnCrust) or [`Fit`](Self::Fit) where what it finds is
-    /// certified; else [`Corners`](Self::Corners).
+    /// [`Fit`](Self::Fit) where points are noisy, region by region; else [`NnCrust`](Self::NnCrust) where what it finds is certified, and
+    /// on lattices; else [`HnnCrust`](Self::HnnCrust) where it leaves no ends or lines are rugged; else [`Corners`](Self::Corners).
     #[default]
     Auto,
     /// For noisy points: which neighbors belong together is decided first, and then the curve is fitted along the order they have.
@@ -119,7 +119,7 @@ pub enum CurveMethod {
 
 choice! { "method", CurveMethod {
     Auto = "auto",
-        "fit where the points are noisy, else nn-crust or fit where that is certified, else corners";
+        "fit where the points are noisy, else nn-crust where that is certified, else hnn-crust or corners";
     Fit = "fit", "for noise: neighbors first, then a fit along the order they have";
     Thesis(CurveThesisOptions::DEFAULT) = "thesis", "for noise: slabs and center points, step by step";
     ThesisCrude(CurveThesisOptions::DEFAULT) = "thesis-crude",

@@ -258,7 +258,7 @@ fn dense_noisy_samples_are_certified() {
     for &name in names {
         let truth = TestCurve::named(name).unwrap().build_with(3000);
         let n = (1000.0 * truth.length_over_feature) as usize;
-        for seed in 0..trials(1) {
+        for seed in 0..trials(2) {
             let noise =
                 CurveNoise { delta: 0.05, outliers: outliers.unwrap_or(0.0), ..Default::default() };
             let rows = sample_curve(&truth, n, &noise, seed).points;

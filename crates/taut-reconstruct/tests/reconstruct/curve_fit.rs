@@ -482,7 +482,7 @@ fn auto_interpolates_clean_points_and_fits_noisy_ones() {
 }
 
 /// Clean points at random places, whose gaps differ by any factor, are one certified curve: NN-Crust asks for density alone. The corners of
-/// a square, which no sample is dense enough for, take the other method.
+/// a square, which no sample is dense enough for, take one that leaves no ends.
 #[test]
 fn auto_takes_uneven_samples_and_corners_as_they_come() {
     let lots: Vec<f64> = generate(Distribution::Uniform, 20_000, 1, 5).expect("numbers");
@@ -502,5 +502,5 @@ fn auto_takes_uneven_samples_and_corners_as_they_come() {
         .collect();
     let found = of(&square);
     assert_eq!((found.answer.curves.len(), found.certificate.certified), (1, false));
-    assert_eq!((found.answer.curves[0].rows.len(), &found.trace.method[..]), (400, "corners"));
+    assert_eq!((found.answer.curves[0].rows.len(), &found.trace.method[..]), (400, "hnn-crust"));
 }

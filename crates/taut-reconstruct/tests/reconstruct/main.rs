@@ -9,6 +9,8 @@ mod clean_guarantees;
 mod curve_bytes;
 mod curve_certificates;
 mod curve_fit;
+mod curve_scenes;
+mod curve_unseen;
 mod samples;
 mod surface_any;
 mod surface_bytes;

@@ -7,17 +7,17 @@ use taut_points::{Cancelled, Monitor};
 use super::super::{CurveComponent, CurveDoubt};
 use super::band::{Foot, Placed, next_to, of_vertices};
 use super::edges::Edges;
-use super::{features, outliers, sampling};
+use super::{features, outliers, sampling, swell};
 
 /// ε, the most that half a gap may be of φ, where vertices are rows. NN-Crust's theorem asks for 1/3 of the local feature size, which
 /// is at most φ.
 const SAMPLING_MOST: f64 = 0.25;
 
-/// The same for noise.
-const NOISY_SAMPLING_MOST: f64 = 0.125;
+/// The same for noise: forty independent samples to the length of a feature leave gaps of up to half of it.
+const NOISY_SAMPLING_MOST: f64 = 0.25;
 
-/// The most that the distance of a row may be of φ.
-const NOISE_MOST: f64 = 0.25;
+/// The most that the distance of a row may be of φ: below one half, rows lie on their own side of the medial axis.
+const NOISE_MOST: f64 = 0.5;
 
 /// A curve has at least this many rows where vertices are rows, and this many where they are not. A window of a band
 /// takes 128.
@@ -127,16 +127,19 @@ pub(super) fn judge(
         if !placed.is_exact {
             doubts.split = doubts.split.or_else(|| sampling::split(curve, &samples));
             doubts.winding = doubts.winding.or_else(|| sampling::winding(curve, &samples));
+            let length = features.along[features.size.len()];
+            doubts.swell = doubts.swell.or_else(|| swell::swell(curve, &samples, length));
         }
         gaps.extend(sampling::lengths(&samples, &features));
     }
-    let Doubts { corner, sparse, wide_gap, noisy, split, winding } = doubts;
+    let Doubts { corner, sparse, wide_gap, noisy, split, winding, swell } = doubts;
     let doubt = corner
         .or(sparse)
         .or(noisy)
         .or(wide_gap)
         .or(winding)
         .or(split)
+        .or(swell)
         .or_else(|| outliers::doubt(edges, placed, gaps, band));
     Ok(CurveEvidence { band: placed.band, sampling_ratio, noise_ratio, doubt })
 }
@@ -150,4 +153,5 @@ struct Doubts {
     noisy: Option<CurveDoubt>,
     split: Option<CurveDoubt>,
     winding: Option<CurveDoubt>,
+    swell: Option<CurveDoubt>,
 }

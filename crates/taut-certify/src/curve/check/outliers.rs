@@ -21,11 +21,27 @@ const LINK_RATIO: f64 = 1.5;
 const OUTLIERS_MIN: usize = 8;
 const NEAR_LEAST: f64 = 0.75;
 
+/// Parts of the outliers that chance puts as near to their next, and −ln of how seldom it may put as many more: neighbors that name each other
+/// count twice, so it is half of that.
+const NEXT_SHARES: [f64; 3] = [0.1, 0.2, 0.4];
+const NEXT_RARITY: f64 = 14.0;
+
 /// In circles around outliers, in which chance puts so many others, those that there are are counted.
 const EXPECTED: [f64; 7] = [0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0];
 
-/// ln of how seldom chance may fill any of these circles so.
-const FILL_RARITY: f64 = 6.0;
+/// −ln of how seldom chance may fill any of these circles so. With 16 a loop of 30 rows among 85 outliers is not noticed.
+const FILL_RARITY: f64 = 8.0;
+
+/// Fewest and most outliers far from all curves that are too few to tell from the samples of a small curve: more show how they are spread.
+const HANDFUL: std::ops::Range<usize> = 4..24;
+
+/// Outliers nearer to the curve than this times what nine of ten rows are off it are counted along it, and −ln of how seldom chance may
+/// gather as many in one stretch.
+const NEAR_BAND_RATIO: f64 = 6.0;
+const NEAR_RARITY: f64 = 8.0;
+
+/// Chance links outliers, too: not where each has this many others within reach on average.
+const CHANCE_NEIGHBORS_MAX: f64 = 0.15;
 
 /// One of this many rows may be said to be an outlier though it is no farther from the curve than others are.
 const ROWS_PER_NEAR_OUTLIER: usize = 50;
@@ -50,7 +66,7 @@ pub(super) fn doubt(
     gaps.sort_by(f64::total_cmp);
     let usual = gaps.get(gaps.len() * 19 / 20).copied().unwrap_or(0.0);
     let link = band.max(LINK_RATIO * usual);
-    let (mut far, mut inside, mut beside) = (vec![], 0, 0u32);
+    let (mut far, mut inside, mut beside) = (vec![], 0u32, 0u32);
     for &(row, place) in &placed.outliers {
         if nearest(edges, place, OWN_BAND_RATIO * band).is_none() {
             far.push((row, place));
@@ -60,10 +76,13 @@ pub(super) fn doubt(
             beside += 1;
         }
     }
-    if inside > OUTLIERS_MIN.max(rows / ROWS_PER_NEAR_OUTLIER) {
-        return Some(CurveDoubt::Inside { outliers: inside as u64 });
-    }
     let room = Room::of(edges, placed, band);
+    // Outliers fall into the band as they do elsewhere, and stay outliers where it is narrower than where it is widest.
+    let chance = far.len() as f64 * room.inside / room.far;
+    let most = chance + 4.0 * chance.sqrt() + OUTLIERS_MIN.max(rows / ROWS_PER_NEAR_OUTLIER) as f64;
+    if f64::from(inside) > most {
+        return Some(CurveDoubt::Inside { outliers: u64::from(inside) });
+    }
     // Those that chance puts there, as dense as farther off, four deviations more, and tails.
     let expected = far.len() as f64 * room.beside / room.far;
     let most =
@@ -71,7 +90,57 @@ pub(super) fn doubt(
     if f64::from(beside) > most {
         return Some(CurveDoubt::Beside { outliers: u64::from(beside) });
     }
-    cluster(&far, link).or_else(|| gathered(&room, &far))
+    if !placed.is_exact && HANDFUL.contains(&far.len()) {
+        return Some(CurveDoubt::Handful { outliers: far.len() as u64 });
+    }
+    let by_chance = (CHANCE_NEIGHBORS_MAX * room.far / (PI * far.len().max(1) as f64)).sqrt();
+    cluster(&far, link.min(by_chance))
+        .or_else(|| gathered(&room, &far))
+        .or_else(|| near_one_stretch(edges, placed))
+}
+
+/// Whether outliers near a curve gather in one stretch of it, as they do beside a strand that was left out.
+fn near_one_stretch(edges: &Edges, placed: &Placed) -> Option<CurveDoubt> {
+    let mut offsets: Vec<f64> = placed.inliers.iter().map(|foot| foot.offset.abs()).collect();
+    let at = offsets.len() * 9 / 10;
+    if placed.is_exact || at >= offsets.len() {
+        return None;
+    }
+    let (_, &mut usual, _) = offsets.select_nth_unstable_by(at, f64::total_cmp);
+    let mut ways = vec![0.0];
+    for edge in 0..edges.ends.len() {
+        let [a, b] = edges.segment(edge);
+        ways.push(ways[edge] + (b[0] - a[0]).hypot(b[1] - a[1]));
+    }
+    let mut near: Vec<(f64, usize)> = vec![];
+    for &(row, place) in &placed.outliers {
+        if let Some((edge, t)) = nearest(edges, place, NEAR_BAND_RATIO * usual) {
+            near.push((ways[edge] + t * (ways[edge + 1] - ways[edge]), row));
+        }
+    }
+    near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    let (many, length) = (near.len(), ways[edges.ends.len()]);
+    let most = (many as f64).ln() + NEAR_RARITY;
+    let mut count = OUTLIERS_MIN / 2;
+    while count < many {
+        for k in 0..many {
+            let (last, wraps) = ((k + count - 1) % many, (k + count - 1) / many);
+            let stretch = near[last].0 - near[k].0 + length * wraps as f64;
+            // As many as chance puts into the stretch of so many; the two at its ends are there by choice.
+            let (found, expected) = ((count - 1) as f64, many as f64 * stretch / length);
+            if found > expected && chernoff(found, expected) > most {
+                let (row, rows) = (near[k].1 as u64, count);
+                return Some(CurveDoubt::Gathered { row, rows, near: expected / found });
+            }
+        }
+        count *= 2;
+    }
+    None
+}
+
+/// Chernoff's bound of the tail of a Poisson distribution: −ln of the probability of at least so many.
+fn chernoff(count: f64, expected: f64) -> f64 {
+    count * (count / expected).ln() - (count - expected)
 }
 
 /// The box around curves and outliers.
@@ -81,6 +150,8 @@ struct Room {
     far: f64,
     /// That of those beyond the band.
     beside: f64,
+    /// That of the band.
+    inside: f64,
 }
 
 impl Room {
@@ -95,7 +166,8 @@ impl Room {
         }
         let all = (high[0] - low[0]) * (high[1] - low[1]);
         let far = (all - 2.0 * OWN_BAND_RATIO * band * length).max(all / 4.0);
-        Self { low, far, beside: 2.0 * (OWN_BAND_RATIO - 1.0) * band * length }
+        let inside = 2.0 * band * length;
+        Self { low, far, beside: (OWN_BAND_RATIO - 1.0) * inside, inside }
     }
 }
 
@@ -108,11 +180,8 @@ fn gathered(room: &Room, far: &[(usize, [f64; 2])]) -> Option<CurveDoubt> {
     }
     let usual = 0.5 * (area / many).sqrt();
     let reaches = EXPECTED.map(|expected| (expected * area / (PI * many)).sqrt());
-    let most = (many * EXPECTED.len() as f64).ln() + FILL_RARITY;
-    // Chernoff's bound of the tail of a Poisson distribution.
-    let is_crowd = |count: f64, expected: f64| {
-        count > expected && count * (count / expected).ln() - (count - expected) > most
-    };
+    let most = many.ln() + FILL_RARITY;
+    let is_crowd = |count: f64, expected: f64| count > expected && chernoff(count, expected) > most;
     let gathered = |row: usize, near: f64| {
         Some(CurveDoubt::Gathered { row: row as u64, rows: far.len(), near })
     };
@@ -153,6 +222,18 @@ fn gathered(room: &Room, far: &[(usize, [f64; 2])]) -> Option<CurveDoubt> {
     let near = distances.iter().sum::<f64>() / many / usual;
     // The mean of so many distances is off by 0.52/√n of itself, by four times that hardly ever.
     let is_gathered = near < NEAR_LEAST.min(1.0 - 4.0 * 0.52 / many.sqrt());
+    let is_gathered = is_gathered
+        || NEXT_SHARES.iter().any(|share| {
+            // Of points at random, so many have their next within t: 1 − exp(−πt²·n/area).
+            let t = (-(1.0 - share).ln() * area / (PI * many)).sqrt();
+            let (found, expected) = (distances.partition_point(|&x| x < t) as f64, share * many);
+            let rest = |found: f64, expected: f64| match found > 0.0 {
+                true => found * (found / expected).ln(),
+                false => 0.0,
+            };
+            found > expected
+                && rest(found, expected) + rest(many - found, many - expected) > NEXT_RARITY
+        });
     match crowded.or(is_gathered.then_some(far[0].0)) {
         Some(row) => gathered(row, near),
         None => None,

@@ -6,7 +6,10 @@ use super::features::Features;
 use super::valley::valley;
 
 /// A gap is compared with this many gaps on either side.
-const NEIGHBOR_GAPS: usize = 16;
+const NEIGHBOR_GAPS: usize = 32;
+
+/// −ln of how seldom chance may leave a gap as long: of honest curves one in four hundred has such a gap.
+const GAP_RARITY: f64 = 6.0;
 
 /// Rows across whose offsets bands are sought: short windows follow the curve, long ones find thin gaps. The last is all rows.
 const WINDOWS: [usize; 5] = [64, 128, 512, 2048, usize::MAX];
@@ -15,7 +18,7 @@ const WINDOWS: [usize; 5] = [64, 128, 512, 2048, usize::MAX];
 const WINDOW_ROWS: usize = 128;
 
 /// ln of how seldom chance may leave any of the windows of a curve with this few rows between two bands.
-const GAP_RARITY: f64 = 4.0;
+const VALLEY_RARITY: f64 = 4.0;
 
 /// The least that squared differences of neighbors may be on average, over twice the variance. Of 128 numbers that chance orders it is
 /// 1 ± 0.09, normal or uniform: less than this once in 10⁸ windows.
@@ -102,14 +105,17 @@ pub(super) fn lengths(samples: &[Sample], features: &Features) -> Vec<f64> {
 /// Gaps that are more even are supposed to have this coefficient of variation.
 const VARIATION_MIN: f64 = 0.1;
 
-/// A gap so much longer than those beside it that chance would make one in many curves sampled as these are.
+/// A gap so much longer than those beside it that chance would make one in few curves sampled as these are.
+///
+/// Of n independent gaps one is t times as long as the mean s of k others with a probability of about n·(1 + t/k)⁻ᵏ. Gaps with a
+/// coefficient of variation c below 1 leave less to chance: 1 + (g/s − 1)/c takes the place of t.
 pub(super) fn wide_gap(
     curve: usize,
     samples: &[Sample],
     features: &Features,
 ) -> Option<CurveDoubt> {
     let gaps: Vec<(f64, usize, usize)> = gaps(samples, features).collect();
-    let (count, mut worst) = (gaps.len(), Worst::NONE);
+    let (count, mut worst) = (gaps.len(), (GAP_RARITY, None));
     let beside = NEIGHBOR_GAPS.min((count - 1) / 2);
     for (k, &(gap, vertex, _)) in gaps.iter().enumerate() {
         let near = || {
@@ -118,16 +124,19 @@ pub(super) fn wide_gap(
         };
         let many = (2 * beside) as f64;
         let mean = near().sum::<f64>() / many;
+        // Most are shorter than twice the mean, and none of those is seldom.
+        if gap <= 2.0 * mean || gap == 0.0 {
+            continue;
+        }
         let variance = near().map(|gap| (gap - mean).powi(2)).sum::<f64>() / many;
-        // Of n exponential gaps, one in about n·(1 + t/32)⁻³² is t times as long as the mean of 32 others. Even gaps leave less to chance.
         let varied = (variance.sqrt() / mean).clamp(VARIATION_MIN, 1.0);
-        let most = 1.0 + (9.0 + 1.5 * (count as f64).ln()) * varied;
-        if gap > 0.0 && gap > most * mean {
-            worst.see(gap / mean, vertex);
+        let times = 1.0 + (gap / mean - 1.0) / varied;
+        let rarity = many * (times / many).ln_1p() - (count as f64).ln();
+        if rarity > worst.0 {
+            worst = (rarity, Some(CurveDoubt::Lacuna { curve, vertex, times: gap / mean }));
         }
     }
-    let (vertex, times) = (worst.at, worst.value);
-    (times > 0.0).then_some(CurveDoubt::Lacuna { curve, vertex, times })
+    worst.1
 }
 
 /// The largest distance of a row over φ at its place, and the row.
@@ -142,7 +151,7 @@ pub(super) fn noise_ratio(samples: &[Sample], features: &Features) -> Worst {
 
 /// Two bands with fewer rows between them than either holds, more so than chance would have it.
 pub(super) fn split(curve: usize, samples: &[Sample]) -> Option<CurveDoubt> {
-    let most = (samples.len() as f64).ln() + GAP_RARITY;
+    let most = (samples.len() as f64).ln() + VALLEY_RARITY;
     let mut offsets = Vec::new();
     for window in WINDOWS.map(|window| window.min(samples.len())) {
         let (mut worst, mut share) = (Worst::NONE, 0.0);

@@ -6,7 +6,7 @@ mod corners;
 mod crust;
 mod graph;
 mod hnn_crust;
-mod near;
+pub(super) mod near;
 mod nn_crust;
 mod one_step_crust;
 #[cfg(test)]
@@ -86,7 +86,7 @@ fn edges(
 
 /// The sites, scaled by a power of two if squares of their coordinates could leave the range of a double. Scaling is exact but for
 /// coordinates 2⁸⁰⁰ times smaller than the largest.
-fn normalized(sites: &[[f64; 2]]) -> Cow<'_, [[f64; 2]]> {
+pub(super) fn normalized(sites: &[[f64; 2]]) -> Cow<'_, [[f64; 2]]> {
     let largest = sites.as_flattened().iter().fold(0.0, |most: f64, x| most.max(x.abs()));
     let exponent = if largest > 0.0 { largest.log2().floor() as i32 } else { 0 };
     if exponent.abs() <= SAFE_EXPONENT {

@@ -11,23 +11,23 @@ use rayon::prelude::*;
 use crate::curve::boxes::{Bounds, Boxes, FAN_OUT};
 
 /// Stands for no site.
-pub(super) const NONE: u32 = u32::MAX;
+pub(in crate::curve) const NONE: u32 = u32::MAX;
 
 /// Sites in Hilbert order with the tree over them.
-pub(super) struct Near<'a> {
-    pub(super) sites: &'a [[f64; 2]],
+pub(in crate::curve) struct Near<'a> {
+    pub(in crate::curve) sites: &'a [[f64; 2]],
     boxes: Boxes,
 }
 
 /// The squared distance, the same from either end.
 #[inline(always)]
-pub(super) fn distance2(p: [f64; 2], q: [f64; 2]) -> f64 {
+pub(in crate::curve) fn distance2(p: [f64; 2], q: [f64; 2]) -> f64 {
     let (dx, dy) = (p[0] - q[0], p[1] - q[1]);
     dx * dx + dy * dy
 }
 
 impl<'a> Near<'a> {
-    pub(super) fn new(sites: &'a [[f64; 2]]) -> Self {
+    pub(in crate::curve) fn new(sites: &'a [[f64; 2]]) -> Self {
         Self { sites, boxes: Boxes::over(sites.len(), |i| Bounds::of(sites[i])) }
     }
 
@@ -35,7 +35,7 @@ impl<'a> Near<'a> {
     ///
     /// `rank(p)(q, d²)` is d², or infinite where q will not do for p: a choice of numbers, as a branch would be guessed wrong every
     /// other time. `admits(p)(box)` is whether the box can hold something that will do. One descent serves all sites of a leaf.
-    pub(super) fn nearest<R, A>(
+    pub(in crate::curve) fn nearest<R, A>(
         &self,
         wanted: impl Fn(u32) -> bool + Sync,
         rank: impl Fn(u32) -> R + Sync,

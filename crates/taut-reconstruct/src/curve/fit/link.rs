@@ -7,7 +7,9 @@
 
 use taut_oblivious::hilbert_order;
 
-use super::parameters::{ALONG_COS_MIN, CHAIN_SEEDS_MIN, END_DISTANCE_MAX, SEED_DISTANCE_MAX};
+use super::parameters::{
+    ACROSS_FACTOR, ALONG_COS_MIN, CHAIN_SEEDS_MIN, END_DISTANCE_MAX, SEED_DISTANCE_MAX,
+};
 use super::seeds::Seed;
 use crate::curve::Ends;
 use crate::curve::index::Index;
@@ -62,6 +64,15 @@ impl Sides<'_> {
         sign * (dx * seed.tangent[0] + dy * seed.tangent[1]) / dx.hypot(dy)
     }
 
+    /// How far it is from one seed to another, the way across the tangents counted more often.
+    fn way(&self, i: usize, j: usize) -> f64 {
+        let (a, b) = (&self.seeds[i], &self.seeds[j]);
+        let (dx, dy) = (b.at[0] - a.at[0], b.at[1] - a.at[1]);
+        let across = |t: Point| (dx * t[1] - dy * t[0]).abs();
+        let across = 0.5 * (across(a.tangent) + across(b.tangent));
+        (dx * dx + dy * dy + (ACROSS_FACTOR * ACROSS_FACTOR - 1.0) * across * across).sqrt()
+    }
+
     /// The side of `to` that faces a seed.
     fn facing(&self, from: usize, to: usize) -> Side {
         2 * to + usize::from(self.along(2 * to + 1, from) > 0.0)
@@ -112,7 +123,7 @@ fn next(sides: &Sides<'_>, index: &Index<'_>, side: Side) -> Option<Side> {
         if sides.along(other, i) < ALONG_COS_MIN {
             return;
         }
-        let apart = distance(sides, i, j);
+        let apart = sides.way(i, j);
         if best.is_none_or(|(least, _)| apart < least) {
             best = Some((apart, other));
         }

@@ -20,9 +20,10 @@ mod noise;
 mod output;
 mod parameters;
 mod regress;
+mod residuals;
 mod seeds;
 mod spline;
-mod vertices;
+mod split;
 
 use taut_points::Monitor;
 
@@ -34,7 +35,7 @@ use crate::Error;
 use noise::Noise;
 use parameters::{
     BAND_DEVIATIONS, EDGE_DEVIATIONS_MAX, NODES_PER_SEED, NOISE_RATIO_MIN, NOISE_SEEDS,
-    POINT_DEVIATIONS_MAX,
+    OUTLIER_SHARE_MAX, POINT_DEVIATIONS_MAX,
 };
 use spline::{Spline, assign};
 
@@ -47,30 +48,20 @@ pub(super) fn fit(cloud: &Cloud, ends: Ends, monitor: &Monitor<'_>) -> Result<Ou
     Ok(fit_within(&frame, &points, &Index::new(&points), ends, monitor)?.outcome)
 }
 
-/// The curves of points that are not plainly vertices, and whether they are to be preferred to those through vertices: they are where
-/// points are off them by a length that shows beside their spacing. None where they show no curves.
-pub(super) fn fit_unless_vertices(
-    cloud: &Cloud,
-    ends: Ends,
-    monitor: &Monitor<'_>,
-) -> Result<Option<(Outcome, bool)>, Error> {
+/// The curves of points, and whether they are to be preferred to those through vertices.
+pub(super) fn judged(cloud: &Cloud, ends: Ends, monitor: &Monitor<'_>) -> Result<Fitted, Error> {
     let frame = Frame::of(&cloud.sites);
     let points = frame.all_inward(&cloud.sites);
-    let index = Index::new(&points);
-    if vertices::are_vertices(&points, &index) {
-        return Ok(None);
-    }
-    let fitted = fit_within(&frame, &points, &index, ends, monitor)?;
-    Ok(fitted.shows_curves.then_some((fitted.outcome, fitted.is_noisy)))
+    fit_within(&frame, &points, &Index::new(&points), ends, monitor)
 }
 
 /// The curves, and whether they are a good answer.
-struct Fitted {
-    outcome: Outcome,
-    /// Whether points are off the curve by a length that shows beside their spacing.
-    is_noisy: bool,
-    /// Whether most points lie on curves.
-    shows_curves: bool,
+pub(super) struct Fitted {
+    /// The curves.
+    pub(super) outcome: Outcome,
+    /// Whether points lie around the curves as noise does: off them by a length that shows beside their spacing, each for itself, few of
+    /// them far off.
+    pub(super) is_noisy: bool,
 }
 
 /// The curves of points in a frame.
@@ -113,7 +104,8 @@ fn fit_within(
     );
     monitor.check()?;
     let deviation = typical(&splines, |_| 1.0);
-    let is_noisy = noisiness(&splines) > NOISE_RATIO_MIN;
+    let is_noise = residuals::are_noise(&splines);
+    let is_apart = noisiness(&splines) > NOISE_RATIO_MIN;
     let (curves, crossed) = output::curves(&splines, frame, ends, monitor)?;
     let counters = [
         ("seeds", found.len()),
@@ -123,7 +115,8 @@ fn fit_within(
         ("edged_noise", usize::from(noise.edge.is_some())),
         ("edges_crossed", crossed as usize),
     ];
-    let shows_curves = 2 * outliers.len() < points.len() && !curves.is_empty();
+    let shows_curves =
+        outliers.len() as f64 <= OUTLIER_SHARE_MAX * points.len() as f64 && !curves.is_empty();
     let outcome = Outcome {
         method: "fit",
         curves,
@@ -132,7 +125,7 @@ fn fit_within(
         counters: counters.into_iter().map(|(name, n)| (name.into(), n as u64)).collect(),
         ..Outcome::default()
     };
-    Ok(Fitted { outcome, is_noisy, shows_curves })
+    Ok(Fitted { outcome, is_noisy: is_noise && is_apart && shows_curves })
 }
 
 /// How far most points are off, beside their spacing along their spline.

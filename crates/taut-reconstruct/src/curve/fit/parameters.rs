@@ -30,21 +30,18 @@ pub(super) const KIND_POINTS_MIN: usize = 100;
 /// Noise counts up to this distance, and background from there to twice as far. Unit: standard deviations. Formula: 99.7 % of normal noise.
 pub(super) const NOISE_DEVIATIONS_MAX: f64 = 3.0;
 
-// Whether points are vertices.
+// Whether what is left of points is noise.
 
-/// Most places that are looked at. Chosen.
-pub(super) const PLACES_MAX: usize = 1000;
-/// Points of a short window, with the one in the middle. Chosen.
-pub(super) const SHORT_WINDOW_POINTS: usize = 9;
-/// Points of a long window, with the one in the middle. Chosen.
-pub(super) const LONG_WINDOW_POINTS: usize = 33;
-/// Largest distance of vertices from a parabola, over their spacing. No unit. Chosen.
-pub(super) const VERTEX_OFFSET_MAX: f64 = 0.05;
-/// Least distance of points of a blob, or of a rugged curve, from a parabola, over their spacing. No unit. Chosen.
-pub(super) const ROUGH_OFFSET_MIN: f64 = 0.6;
-/// Least ratio of the residuals of long windows to those of short ones where points are rugged. No unit. Measured: 2 for blobs, at most 2.3
-/// in 1500 random draws of noisy curves, 3 for vertices of coastlines.
-pub(super) const RUGGED_GROWTH_MIN: f64 = 2.6;
+/// Points along the curve whose offsets are compared with each other. Chosen.
+pub(super) const RUN_POINTS: usize = 24;
+/// Least median of the mean squares of successive differences of offsets, over twice their variance, of many runs. No unit. Measured: 0.4
+/// to 0.82 of rugged borders, 0.93 and more of noise where points are many.
+pub(super) const NOISE_NEUMANN_MIN: f64 = 0.94;
+/// By how much that is less for one run; for n runs by a √n-th of it. No unit. Formula: twice the standard error of the median, 0.25/√n, but
+/// for a tenth.
+pub(super) const NOISE_NEUMANN_SPREAD: f64 = 0.45;
+/// Largest share of outliers of points that lie around curves. No unit. Chosen: a tenth more than the outliers that fits are tried with.
+pub(super) const OUTLIER_SHARE_MAX: f64 = 0.3;
 
 // Seeds.
 
@@ -83,11 +80,16 @@ pub(super) const DENSITY_NEIGHBORS: usize = 8;
 pub(super) const SLAB_LENGTH_RATIO: f64 = 0.45;
 /// Largest residual of points of the slab. Unit: standard deviations, of which the edge of uniform noise has 1.73. Chosen.
 pub(super) const SLAB_DEVIATIONS_MAX: f64 = 4.0;
+/// The same where the window holds another strand. Measured: two strands of 500 points 4 half-widths apart need it.
+pub(super) const SPLIT_SLAB_DEVIATIONS_MAX: f64 = 2.2;
+/// Most times that another strand is left out of a window. Formula: two on either side would be four.
+pub(super) const SPLITS_MAX: usize = 3;
 /// Largest spacing of points of a curve, over that at nine tenths of it; beyond are outliers. No unit. Chosen.
 pub(super) const SPACING_RATIO_MAX: f64 = 5.0;
 /// At least one of this many points is on curves: fewer, such as a clump in one place, do not tell how dense those are. Chosen.
 pub(super) const POINTS_PER_CURVE_POINT_MAX: usize = 8;
-/// Largest ratio of the density along the curve to that of a seed: a seed beside the curve has few points. No unit. Chosen.
+/// Largest ratio of the density along the curve to that of a seed: a seed beside the curve has few points. No unit. Chosen: with 8, seeds
+/// among outliers stay.
 pub(super) const DENSITY_RATIO_MAX: f64 = 4.0;
 /// Most tangents within this distance of a seed are along its own, else it runs across the band. Unit: windows. Chosen.
 pub(super) const ALONG_WINDOWS: f64 = 1.5;
@@ -101,6 +103,9 @@ pub(super) const WIDTH_RATIO_MIN: f64 = 1.5;
 
 /// Largest distance of the next seed. Unit: windows. Chosen.
 pub(super) const SEED_DISTANCE_MAX: f64 = 2.5;
+/// How often the way across a tangent counts beside that along it: the next seed lies on the same strand. No unit. Measured: 3 for strands
+/// 4 half-widths apart.
+pub(super) const ACROSS_FACTOR: f64 = 3.0;
 /// Largest distance of ends that face each other. Unit: windows. Chosen.
 pub(super) const END_DISTANCE_MAX: f64 = 4.0;
 /// Fewest seeds of a chain. Chosen.

@@ -25,9 +25,10 @@ use super::parameters::{
     CONFIRMED_FLATNESS_RATIO, CONFIRMING_RATIO, DENSITY_NEIGHBORS, DENSITY_RATIO_MAX, FLATNESS_MIN,
     LENGTH_RATIO_MIN, LENGTHS_TRIED, NEUMANN_RATIO_MIN, POINTS_PER_CURVE_POINT_MAX,
     SAMPLE_FLATNESS_RATIO, SAMPLE_POINTS, SEED_WINDOW_GROWTH, SLAB_DEVIATIONS_MAX,
-    SLAB_LENGTH_RATIO, SPACING_RATIO_MAX, SURE_POINTS_MIN, VAIN_POINTS_RATIO_MAX, WIDTH_RATIO_MIN,
-    WINDOW_RATIO_MAX,
+    SLAB_LENGTH_RATIO, SPACING_RATIO_MAX, SPLIT_SLAB_DEVIATIONS_MAX, SPLITS_MAX, SURE_POINTS_MIN,
+    VAIN_POINTS_RATIO_MAX, WIDTH_RATIO_MIN, WINDOW_RATIO_MAX,
 };
+use super::split::{SPLIT_POINTS_MIN, split};
 use crate::Error;
 use crate::curve::index::{Index, distance2};
 
@@ -188,8 +189,11 @@ struct Search<'a> {
     covered: Vec<u32>,
     window: Window,
     ids: Vec<u32>,
+    /// How many points the window had before points of other strands were left out of it.
+    seen: usize,
     /// Places along a parabola and residuals.
     along: Vec<Point>,
+    residuals: Vec<f64>,
     /// Points of the largest windows where none was flat.
     vain: usize,
 }
@@ -197,8 +201,19 @@ struct Search<'a> {
 impl<'a> Search<'a> {
     fn new(points: &'a [Point], index: &'a Index<'a>, rank: &'a [u32]) -> Self {
         let covered = vec![NONE; points.len()];
-        let (seeds, ids, along) = (Vec::new(), Vec::new(), Vec::new());
-        Self { points, index, rank, seeds, covered, window: Window::default(), ids, along, vain: 0 }
+        Self {
+            points,
+            index,
+            rank,
+            seeds: Vec::new(),
+            covered,
+            window: Window::default(),
+            ids: Vec::new(),
+            seen: 0,
+            along: Vec::new(),
+            residuals: Vec::new(),
+            vain: 0,
+        }
     }
 
     /// Seeds until all points are accounted for but those that are too sparse.
@@ -281,8 +296,29 @@ impl<'a> Search<'a> {
 
     fn fit(&mut self, at: Point, reach: f64) -> Option<Parabola> {
         self.look(at, reach);
+        self.fit_one_band(at)
+    }
+
+    /// The parabola of the strand in the middle of the window: where residuals are those of two, those of the other one are left out.
+    fn fit_one_band(&mut self, at: Point) -> Option<Parabola> {
         let points = self.points;
-        self.window.fit(at, self.ids.iter().map(|&i| points[i as usize]))
+        let mut parabola = self.window.fit(at, self.ids.iter().map(|&i| points[i as usize]))?;
+        for _ in 0..SPLITS_MAX {
+            if self.ids.len() < SPLIT_POINTS_MIN {
+                break;
+            }
+            self.residuals.clear();
+            self.residuals.extend(self.window.local.iter().map(|&p| parabola.residual(p)));
+            self.residuals.sort_unstable_by(f64::total_cmp);
+            let Some(middle) = split(&self.residuals) else { break };
+            let is_above = parabola.residual(parabola.local(at)) > middle;
+            let mut local = self.window.local.iter();
+            self.ids.retain(|_| {
+                local.next().is_some_and(|&p| (parabola.residual(p) > middle) == is_above)
+            });
+            parabola = self.window.fit(at, self.ids.iter().map(|&i| points[i as usize]))?;
+        }
+        Some(parabola)
     }
 
     /// Finds the points of a window.
@@ -290,6 +326,7 @@ impl<'a> Search<'a> {
         let ids = &mut self.ids;
         ids.clear();
         self.index.within(at, reach * reach, &mut |i| ids.push(i));
+        self.seen = ids.len();
     }
 
     /// The same as [`fit`](Self::fit), or none where a sample of the points shows that the window is far from as flat as `least`.
@@ -308,7 +345,7 @@ impl<'a> Search<'a> {
                 return None;
             }
         }
-        self.window.fit(at, self.ids.iter().map(|&i| points[i as usize]))
+        self.fit_one_band(at)
     }
 
     /// The first window that is flat, centered on its parabola; or the flattest, where none is flat enough.
@@ -332,7 +369,7 @@ impl<'a> Search<'a> {
                     longest = WINDOW_RATIO_MAX * reach;
                 }
             }
-            let seen = self.ids.len();
+            let seen = self.seen;
             if seen > most || seen == self.points.len() || reach > longest {
                 break;
             }
@@ -410,7 +447,10 @@ impl<'a> Search<'a> {
 
     /// Marks the points of the slab for the next seed.
     fn cover(&mut self, parabola: &Parabola, reach: f64) {
-        let width = SLAB_DEVIATIONS_MAX * parabola.variance.sqrt();
+        // Beside another strand no farther than the edge of uniform noise, lest that strand get no seed of its own.
+        let is_split = self.ids.len() < self.seen;
+        let deviations = if is_split { SPLIT_SLAB_DEVIATIONS_MAX } else { SLAB_DEVIATIONS_MAX };
+        let width = deviations * parabola.variance.sqrt();
         for (&i, &local) in self.ids.iter().zip(&self.window.local) {
             if local[0].abs() <= SLAB_LENGTH_RATIO * reach
                 && parabola.residual(local).abs() <= width

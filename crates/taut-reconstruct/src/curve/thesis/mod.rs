@@ -112,7 +112,16 @@ impl Start {
         let mut heights: Vec<f64> = estimates.iter().map(|found| found.height).collect();
         outcome.noise = self.scale.up(0.5 * median(&mut heights));
         outcome.method = method.name();
-        outcome.counters.insert("centers".into(), estimates.len() as u64);
+        // Why samples have no center: their first disk is larger than the formulas enlarge it to, or no disk was flat.
+        let sparse = self.initial.iter().filter(|initial| initial.is_none()).count();
+        let other = self.samples.len() - estimates.len() - sparse;
+        let counters = [
+            ("centers", estimates.len()),
+            ("samples_too_sparse", sparse),
+            ("samples_not_flat", other),
+        ];
+        let counters = counters.map(|(name, count)| (name.to_owned(), count as u64));
+        outcome.counters.extend(counters);
         outcome
     }
 }
