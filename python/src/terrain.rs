@@ -49,6 +49,9 @@ fn no_values(frame: &RasterFrame) -> Result<Vec<f64>, Error> {
     Ok(values)
 }
 
+/// Heights, numbers of places, and all places one behind the other.
+type Lines<'py> = (Vec<f64>, Vec<usize>, Bound<'py, PyArray1<f64>>);
+
 /// The lines of equal height: the height and the number of places of each, and all places.
 #[pyfunction]
 pub(crate) fn contours<'py>(
@@ -59,7 +62,7 @@ pub(crate) fn contours<'py>(
     interval: Option<f64>,
     folder: Option<PathBuf>,
     memory: u64,
-) -> PyResult<(Vec<f64>, Vec<usize>, Bound<'py, PyArray1<f64>>)> {
+) -> PyResult<Lines<'py>> {
     let (rows, heights) = (Rows::borrow(rows)?, Rows::borrow(heights)?);
     let (places, heights) = (rows.source()?, heights.source()?);
     let made = interruptible(py, |monitor| {

@@ -110,7 +110,9 @@ pub(super) fn figure_53(plan: &Plan) -> Result<()> {
     let mut figure = Figure::of_times(53, "triangulations of the plane, one thread", "points")
         .note("The thesis: 79 million points of TIGER and up to 300 million; here uniform points.");
     let sizes = plan.upto(&[20_000, 100_000, 300_000, 1_000_000, 3_000_000, 10_000_000], 1, 4);
-    let ways: [(&str, fn(PathBuf) -> Way); 3] = [
+    /// The way, given the folder for tiles.
+    type WayIn = fn(PathBuf) -> Way;
+    let ways: [(&str, WayIn); 3] = [
         ("diamonds of the thesis", |_| Way::Diamonds),
         ("tree merge on the disk, 512 MiB", |folder| Way::Folder { memory: MEMORY, folder }),
         ("in memory", |_| Way::Memory),

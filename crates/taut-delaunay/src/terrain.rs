@@ -29,7 +29,7 @@ mod wide;
 
 pub use contours::{ContourOptions, Levels, Stroke, contours};
 pub use heights::Heights;
-pub use raster::{Interpolation, RasterFrame, RasterOptions, raster};
+pub use raster::{Interpolation, PutCells, RasterFrame, RasterOptions, raster};
 
 use crate::Error;
 use crate::outofcore::Mosaic;

@@ -232,7 +232,7 @@ mod tests {
     #[test]
     fn rows_do_not_depend_on_the_pieces_that_bytes_come_in() {
         let text = b"x y\n1,2\r\n\n# a remark\n3;-4.5 # another\n\t5e-1  6\n7 8";
-        let rows = vec![[1.0, 2.0], [3.0, -4.5], [0.5, 6.0], [7.0, 8.0]];
+        let rows = vec![[1.0f64, 2.0], [3.0, -4.5], [0.5, 6.0], [7.0, 8.0]];
         let raw: Vec<u8> = rows.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect();
         for drop in [1, 2, 3, 7, 1000] {
             assert_eq!(all(text, RowForm::Text, drop), Ok(rows.clone()), "{drop}");

@@ -17,7 +17,7 @@ fn a_plane_has_exact_cells_and_straight_lines() {
     let folder = TestFolder::new();
     let rows: String =
         (0..49).map(|i| (i % 7, i / 7)).map(|(x, y)| format!("{},{x},{y}\n", 10 * x + y)).collect();
-    folder.put("points.csv", &format!("h,x,y\n{rows}"));
+    folder.put("points.csv", format!("h,x,y\n{rows}"));
     folder
         .taut("delaunay points.csv --height h --cell 2 --grid grid.asc --grid grid.npy --contours lines.geojson --levels 25,-3 -o mesh.ply")
         .ends(0)

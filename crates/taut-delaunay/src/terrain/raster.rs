@@ -134,7 +134,7 @@ pub fn raster(
     terrain: Terrain<'_>,
     frame: &RasterFrame,
     options: &RasterOptions<'_>,
-    put: &mut dyn FnMut(u64, u64, &[f64]) -> Result<(), Error>,
+    put: &mut PutCells<'_>,
 ) -> Result<u64, Error> {
     options.monitor.pass(1, terrain.mosaic.simplices());
     let mut answered = 0;
@@ -159,14 +159,14 @@ struct TileRaster<'a> {
     options: &'a RasterOptions<'a>,
 }
 
+/// Takes values of cells that lie side by side: row, first column, values.
+pub type PutCells<'a> = dyn FnMut(u64, u64, &[f64]) -> Result<(), Error> + 'a;
+
 /// A cell by its row and column, and its value.
 type Answer = (u64, u64, f64);
 
 impl TileRaster<'_> {
-    fn fill(
-        &self,
-        put: &mut dyn FnMut(u64, u64, &[f64]) -> Result<(), Error>,
-    ) -> Result<u64, Error> {
+    fn fill(&self, put: &mut PutCells<'_>) -> Result<u64, Error> {
         let mut extent = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
         for at in self.tile.simplices.iter().map(|&v| self.tile.coordinates[v as usize]) {
             for (k, &x) in at.iter().enumerate() {
@@ -197,7 +197,7 @@ impl TileRaster<'_> {
         &self,
         rows: std::ops::Range<i64>,
         columns: &std::ops::Range<i64>,
-        put: &mut dyn FnMut(u64, u64, &[f64]) -> Result<(), Error>,
+        put: &mut PutCells<'_>,
     ) -> Result<u64, Error> {
         let tasks = self.tile.simplices.par_chunks(3 * TASK).enumerate();
         let answers: Vec<Vec<Answer>> = tasks

@@ -249,8 +249,8 @@ impl Job<'_> {
             for piece in ids.chunks(PIECE_SIMPLICES * width) {
                 self.monitor.check().map_err(ReadError::from)?;
                 let is_known = |&id: &u32| u64::from(id) < self.mesh.vertex_count();
-                if !is_checked && !(piece.len().is_multiple_of(width) && piece.iter().all(is_known))
-                {
+                let is_whole = || piece.len().is_multiple_of(width) && piece.iter().all(is_known);
+                if !is_checked && !is_whole() {
                     return Err(other_simplices());
                 }
                 count += (piece.len() / width) as u64;
