@@ -125,8 +125,13 @@ class SurfaceVerdict(Record):
         closed parts face outwards.
     displacement : float
         The largest distance of a vertex from its row, rounded up.
+    sound : bool
+        Whether it is an oriented manifold of Delaunay triangles that meets itself nowhere and faces outwards: proved.
+    confident : bool
+        Whether the method named no place where handles or parts are in doubt: evidence, with the error rates of the page on
+        surfaces.
     certified : bool
-        Whether it is an oriented manifold of Delaunay triangles that meets itself nowhere and faces outwards.
+        Whether it is both.
     doubt : str or None
         Where it is not, the first reason.
     """
@@ -145,5 +150,7 @@ class SurfaceVerdict(Record):
     delaunay: bool = value("is_delaunay")
     outward: bool = value("is_outward")
     displacement: float
+    sound: bool = value("is_sound")
+    confident: bool = value("is_confident")
     certified: bool
     doubt: str | None
