@@ -4,6 +4,7 @@ mod display;
 mod filter;
 mod place;
 mod raster;
+mod stream;
 mod system;
 
 use std::io;
@@ -16,6 +17,7 @@ pub(crate) use display::shown_path;
 pub use filter::FilterError;
 pub use place::{FilePlace, Place};
 pub use raster::RasterError;
+pub use stream::StreamRowError;
 
 use display::{Abbreviated, Printable, columns, format_of, names, names_or_extensions};
 use place::Row;
@@ -142,13 +144,8 @@ pub enum Error {
         source: io::Error,
     },
     /// What comes in a stream is no row of as many numbers as are expected.
-    #[error("{place}: {problem}")]
-    StreamRow {
-        /// The stream and the place in it.
-        place: String,
-        /// What is there.
-        problem: String,
-    },
+    #[error(transparent)]
+    StreamRow(#[from] StreamRowError),
     /// Not one byte.
     #[error("{path} is empty: it holds no byte")]
     Empty {

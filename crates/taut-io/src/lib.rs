@@ -71,7 +71,7 @@ pub use create::{
     remove_unfinished,
 };
 pub use device::refuse_device;
-pub use error::{Error, FilePlace, FilterError, Place, RasterError};
+pub use error::{Error, FilePlace, FilterError, Place, RasterError, StreamRowError};
 pub use format::{Compression, Content, Format};
 pub use input::{Input, open, open_bytes};
 pub use limits::LONGEST_LINE;

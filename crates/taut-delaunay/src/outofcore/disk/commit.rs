@@ -3,7 +3,7 @@
 //! *Bytes*, little-endian: magic `TAUTDIST`, version u32, D u32; the hash of the sample u64; largest magnitude f64, lowest
 //! exponent i32; blocks u64 and the hash of each; buckets u64 and the length of each; cells u64 and for each its smallest and
 //! largest coordinates and its points; the sum of the words.
-//! *Trap.* The sample is drawn anew by a resumed run. If rows that were not distributed yet are others now, so is the sample,
+//! *Trap.* A resumed run draws the sample again. If rows that were not distributed yet are others now, so is the sample,
 //! and with it the cells: the first part of the points would lie in cells of another cut.
 
 use std::path::Path;

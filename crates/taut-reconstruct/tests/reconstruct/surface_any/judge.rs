@@ -50,7 +50,11 @@ pub(crate) fn found(points: &[Point], options: &SurfaceOptions<'_>) -> JudgedSur
     assert!(topology.is_oriented() || !is_two_sided);
     assert_eq!(
         verdict.is_sound,
-        topology.is_manifold() && is_two_sided && verdict.is_embedded && verdict.is_delaunay,
+        topology.is_manifold()
+            && is_two_sided
+            && verdict.is_embedded
+            && verdict.is_delaunay
+            && !triangles.is_empty(),
         "{:?}",
         verdict.doubt
     );
