@@ -45,10 +45,10 @@ def _split(points: ArrayLike, tiles: Tiles | None) -> tuple[Rows, Rows, str | No
     if rows.shape[1] != 3:
         raise ValueError(f"points have shape {rows.shape}: expected (n, 3), a height beside x and y")
     if tiles is None:
-        return np.ascontiguousarray(rows[:, :2]), np.ascontiguousarray(rows[:, 2:]), None
+        return rows[:, :2].copy(), rows[:, 2:].copy(), None
     if (tiles.points, tiles.dimension) != (len(rows), 2):
         raise ValueError(f"{tiles.folder} has tiles of other points: expected those of points[:, :2]")
-    return rows[:0, :2].copy(), np.ascontiguousarray(rows[:, 2:]), tiles.folder
+    return rows[:0, :2].copy(), rows[:, 2:].copy(), tiles.folder
 
 
 def contours(
