@@ -33,7 +33,7 @@ const CASES: [Case; 5] = [
         name: "2·10⁴ × 10, narrow, hard",
         n: 20_000,
         dim: 10,
-        gamma: 0.25,
+        gamma: 0.3,
         faster: Some([1.5, 3.0]),
         ..NORMAL
     },

@@ -3,37 +3,43 @@
 //! *Problem.* Of all points x, which have |φ(x) − c|² = Σ λᵢρ(x, xᵢ) − D above a level?
 //! *Idea, Gaussian.* For a group G of the support with weight Λ = Σ λᵢ, mean m = Σ λᵢxᵢ/Λ and spread v = Σ λᵢ|xᵢ − m|²/Λ, Jensen's
 //! inequality for the convex function e^{−γs} gives Σ λᵢρ(x, xᵢ) ≤ 2Λ(1 − exp(−γ(|x − m|² + v))). With one group that is a bound on
-//! |x − m|², so that one distance and a comparison prove most points to be inside. Those left over are tried with the 8 and the 64
-//! groups of a tree over the support. Then, from the nearest group on, the bound of a group gives way to the sum of its terms, until
-//! the point is inside; only of points outside are all terms summed up. Where a kernel is narrow, few groups are near a point.
+//! |x − m|², so that one distance and a comparison prove most points to be inside. Those left over are tried with the groups
+//! of a tree over the support, 8 and then as many as have 16 points each. Then, from the nearest group on, the bound of a group gives way
+//! to the sum of its terms, until the point is inside; only of points outside are all terms summed up. Where a kernel is narrow, few
+//! groups are near a point. What a pass finds is kept for the next ones ([`reach`](super::reach)).
 //! *Idea, linear.* |φ(x) − c|² = |x − m|²: one group is exact.
 //! *Guarantee.* No point above the level is passed over but by rounding, which the checker allows for.
 
 use taut_certify::Kernel;
-use taut_points::{
-    BlockHash, InputError, Monitor, PointSource, PointsHash, Rows, hash_block, map_blocks,
-};
+use taut_points::{Monitor, PointSource, Rows, map_blocks};
 
-use super::decay::{decay, decay_all};
+use super::cluster::Cluster;
+use super::decay::decay_all;
 use super::features::Features;
+use super::reach::Reaches;
 use crate::Error;
 use crate::kernel::{Center as Mean, squared_distances};
 use crate::top::{Far, Top};
 
-/// Numbers of groups: those that the support has at least four times as many points as.
-const GROUPS: [usize; 3] = [1, 8, 64];
+/// Members of a group of the finest level, at least.
+const MEMBERS_MIN: usize = 16;
+/// Groups of the level before the finest, where that has more.
+const MIDDLE_GROUPS: usize = 8;
 
-/// Groups of a rough center, at most.
+/// Groups of a rough center.
 const ROUGH_GROUPS: usize = 8;
+
+/// A row is left when its bound is below the level by this part of the distance from the level to 2, so that the next pass, with a center
+/// that has moved a little, need not look at it.
+const MARGIN: f64 = 0.05;
 
 /// A group of the support: its weight, mean and spread.
 struct Group {
     weight: f64,
     mean: Mean,
     spread: f64,
-    /// Its points and their multipliers, in groups of the finest level.
-    members: Features,
-    lambda: Vec<f64>,
+    /// Its points, as places of the support.
+    members: Vec<usize>,
 }
 
 /// A center in the feature space.
@@ -46,6 +52,11 @@ pub(super) struct Center {
     pub(super) spread: f64,
     /// Coarse to fine.
     levels: Vec<Vec<Group>>,
+    /// The means of the finest groups, and their members group by group.
+    means: Cluster,
+    members: Cluster,
+    /// Where the members of each of these groups begin, and where the last end.
+    starts: Vec<usize>,
 }
 
 /// What a pass found.
@@ -60,40 +71,6 @@ pub(super) struct Found {
     pub(super) own: f64,
 }
 
-/// What a first pass finds beside.
-pub(super) struct First {
-    pub(super) hash: PointsHash,
-    /// Whether all points are the same.
-    pub(super) is_one_point: bool,
-}
-
-/// Checks and hashes all rows.
-pub(super) fn first_pass(source: &dyn PointSource, monitor: &Monitor<'_>) -> Result<First, Error> {
-    monitor.pass(1, source.len());
-    let dim = source.dim();
-    let first = taut_points::gather(source, &[0])?;
-    let blocks = map_blocks(source, monitor, |number, rows| {
-        if let Some((row, column, value)) = rows.first_non_finite() {
-            let row = number + row as u64;
-            return Err(Error::Input(InputError::NonFinite { row, column, value }));
-        }
-        let mut row = vec![0.0; dim];
-        let mut spread = 0.0f64;
-        for k in 0..rows.len() {
-            rows.copy_row(k, &mut row);
-            spread = row.iter().zip(&first).fold(spread, |most, (x, y)| most.max((x - y).abs()));
-        }
-        Ok::<(BlockHash, f64), Error>((hash_block(&rows), spread))
-    })?;
-    let spread = blocks.iter().map(|block| block.1).fold(0.0, f64::max);
-    // Two rows are at most twice as far apart as one is from the first.
-    if !(4.0 * spread * spread * dim as f64).is_finite() {
-        return Err(Error::Overflow);
-    }
-    let hash = PointsHash::of_blocks(source.len(), dim, blocks.iter().map(|block| block.0));
-    Ok(First { hash, is_one_point: spread == 0.0 })
-}
-
 impl Center {
     pub(super) fn new(
         kernel: Kernel,
@@ -102,21 +79,62 @@ impl Center {
         lambda: Vec<f64>,
         spread: f64,
     ) -> Self {
-        let mut center = Center { kernel, dim, support, lambda, spread, levels: vec![] };
+        let mut center = Center::bare(kernel, dim, support, lambda, spread);
         let places: Vec<usize> = (0..center.lambda.len()).collect();
         match kernel {
             Kernel::Gaussian { .. } => {
-                let is_worth = |&&count: &&usize| count == 1 || 4 * count <= places.len();
-                for &count in GROUPS.iter().filter(is_worth) {
+                let finest = (places.len() / MEMBERS_MIN + 1).next_power_of_two() / 2;
+                let mut numbers = vec![1];
+                numbers.extend([MIDDLE_GROUPS].iter().filter(|&&number| number < finest));
+                numbers.extend(Some(finest).filter(|&number| number > 1));
+                for count in numbers {
                     let mut groups = vec![];
                     center.split(places.clone(), count, &mut groups);
                     center.levels.push(groups);
                 }
+                center.lay_out();
             }
             Kernel::Linear => center.levels.push(vec![center.group(&places)]),
             _ => {}
         }
         center
+    }
+
+    /// A center of a few points near the mean of a sample: the means of its groups, without D. Where means are no points of the
+    /// feature space, it is the sample itself.
+    pub(super) fn rough(kernel: Kernel, dim: usize, sample: Features) -> Self {
+        let count = sample.len();
+        let center = Center::bare(kernel, dim, sample, vec![1.0 / count as f64; count], 0.0);
+        let number = match kernel {
+            Kernel::Gaussian { .. } => ROUGH_GROUPS,
+            Kernel::Linear => 1,
+            _ => return center,
+        };
+        let mut groups = vec![];
+        center.split((0..count).collect(), number, &mut groups);
+        let rows = groups.iter().flat_map(|group| group.mean.high.clone()).collect();
+        let support = Features { ids: vec![0; groups.len()], rows, ..Features::default() };
+        let lambda = groups.iter().map(|group| group.weight).collect();
+        Center::bare(kernel, dim, support, lambda, 0.0)
+    }
+
+    fn bare(kernel: Kernel, dim: usize, support: Features, lambda: Vec<f64>, spread: f64) -> Self {
+        let [means, members] = [(); 2].map(|()| Cluster::new(dim));
+        let (levels, starts) = (vec![], vec![]);
+        Center { kernel, dim, support, lambda, spread, levels, means, members, starts }
+    }
+
+    /// Puts the coordinates of the finest groups where passes want them.
+    fn lay_out(&mut self) {
+        let Some(finest) = self.levels.last() else { return };
+        let means = finest.iter().map(|group| (&group.mean.high[..], group.weight, group.spread));
+        self.means.extend(means);
+        self.starts.push(0);
+        for group in finest {
+            let point = |&i: &usize| (self.support.row(i, self.dim), self.lambda[i], 0.0);
+            self.members.extend(group.members.iter().map(point));
+            self.starts.push(self.members.len());
+        }
     }
 
     fn group(&self, places: &[usize]) -> Group {
@@ -131,27 +149,7 @@ impl Center {
             row.iter().zip(&mean).map(|(x, m)| (x - m) * (x - m)).sum::<f64>()
         };
         let spread = places.iter().map(|&i| self.lambda[i] / weight * squared(i)).sum();
-        let members = self.support.subset(places, self.dim);
-        let lambda = places.iter().map(|&i| self.lambda[i]).collect();
-        Group { weight, mean: Mean { high: mean, low: vec![] }, spread, members, lambda }
-    }
-
-    /// A center of a few points in the place of this one: the means of its groups, with their weights.
-    pub(super) fn rough(&self) -> Self {
-        let groups = self.levels.iter().rev().find(|groups| groups.len() <= ROUGH_GROUPS);
-        let Some(groups) = groups.filter(|_| self.kernel != Kernel::Linear) else {
-            return Center::new(
-                self.kernel,
-                self.dim,
-                self.support.clone(),
-                self.lambda.clone(),
-                self.spread,
-            );
-        };
-        let rows = groups.iter().flat_map(|group| group.mean.high.clone()).collect();
-        let support = Features { ids: vec![0; groups.len()], rows, ..Features::default() };
-        let lambda = groups.iter().map(|group| group.weight).collect();
-        Center::new(self.kernel, self.dim, support, lambda, 0.0)
+        Group { weight, mean: Mean { high: mean, low: vec![] }, spread, members: places.to_vec() }
     }
 
     /// Splits a group at the median of its widest coordinate, until there are `count`.
@@ -174,92 +172,93 @@ impl Center {
         self.split(rest, count / 2, groups);
     }
 
-    /// Reads all rows for those whose squared distance is above `level`; lists at most `keep` of them.
+    /// Reads all rows for those whose squared distance is above `level`; lists at most `keep` of them. Rows whose bound in `reaches` is at
+    /// most at the level are passed over, and what is found of the others is put there.
     pub(super) fn pass(
         &self,
         source: &dyn PointSource,
         level: f64,
         keep: usize,
+        mut reaches: Option<&mut Reaches>,
         monitor: &Monitor<'_>,
     ) -> Result<Found, Error> {
+        let before = reaches.as_deref();
         let blocks = map_blocks(source, monitor, |first, rows| {
-            let mut block = Block { top: Top::new(keep), excess: 0.0, largest: 0.0, own: 0.0 };
-            self.look(first, &rows, level, &mut block)?;
+            let unknown = || vec![f64::INFINITY; rows.len()];
+            let bounds = before.map_or_else(unknown, |reaches| reaches.squares(first, rows.len()));
+            let mut block = Block { first, bounds, top: Top::new(keep), excess: 0.0, own: 0.0 };
+            self.look(&rows, level, &mut block)?;
             Ok::<_, Error>(block)
         })?;
-        let mut all = Block { top: Top::new(keep), excess: 0.0, largest: 0.0, own: 0.0 };
-        for block in blocks {
-            all.top.merge(block.top);
-            all.excess += block.excess;
-            all.largest = all.largest.max(block.largest);
-            all.own = all.own.max(block.own);
+        let mut found = Found { far: vec![], excess: 0.0, largest: 0.0, own: 0.0 };
+        let mut top = Top::new(keep);
+        for block in &blocks {
+            found.excess += block.excess;
+            found.largest = block.bounds.iter().fold(found.largest, |most, &b| most.max(b));
+            found.own = found.own.max(block.own);
         }
-        Ok(Found {
-            far: all.top.into_sorted(),
-            excess: all.excess,
-            largest: all.largest,
-            own: all.own,
-        })
+        let mut bounds = vec![];
+        for block in blocks {
+            top.merge(block.top);
+            bounds.push(block.bounds);
+        }
+        found.far = top.into_sorted();
+        if let Some(reaches) = &mut reaches {
+            reaches.replace(bounds);
+        }
+        Ok(found)
     }
 
-    fn look(
+    /// The `keep` rows that are farthest, by all terms of all rows: for a center of a few points.
+    pub(super) fn farthest(
         &self,
-        first: u64,
-        rows: &Rows<'_>,
-        level: f64,
-        block: &mut Block,
-    ) -> Result<(), Error> {
-        let mut left = Features::default();
-        let mut distances = vec![0.0; rows.len()];
-        let mean_level = level + self.spread;
-        let copy = |k: usize, left: &mut Features| {
-            let start = left.rows.len();
-            left.rows.resize(start + self.dim, 0.0);
-            rows.copy_row(k, &mut left.rows[start..]);
-            left.ids.push(first + k as u64);
-        };
-        match self.levels.first().and_then(|groups| groups.first()) {
-            None => (0..rows.len()).for_each(|k| copy(k, &mut left)),
-            Some(group) => {
-                match rows {
-                    Rows::F32(points) => {
-                        squared_distances(points.values(), self.dim, &group.mean, &mut distances)
-                    }
-                    Rows::F64(points) => {
-                        squared_distances(points.values(), self.dim, &group.mean, &mut distances)
+        source: &dyn PointSource,
+        keep: usize,
+        monitor: &Monitor<'_>,
+    ) -> Result<Vec<u64>, Error> {
+        let blocks = map_blocks(source, monitor, |first, rows| {
+            let (mut sums, mut terms) = (vec![0.0; rows.len()], vec![0.0; rows.len()]);
+            let features = match self.kernel {
+                Kernel::Gaussian { .. } | Kernel::Linear => Features::default(),
+                kernel => Features::block(kernel, first, &rows, self.dim),
+            };
+            for (i, lambda) in self.lambda.iter().enumerate() {
+                if features.len() > 0 {
+                    features.distances_from(self.kernel, &self.support, i, self.dim, &mut terms);
+                } else {
+                    let high = self.support.row(i, self.dim).to_vec();
+                    self.squares(&rows, &Mean { high, low: vec![] }, &mut terms);
+                    if let Kernel::Gaussian { gamma } = self.kernel {
+                        decay_all(gamma, &mut terms);
                     }
                 }
-                let limit = match self.kernel {
-                    // 2(1 − exp(−γ(s + v))) ≤ level, solved for s.
-                    Kernel::Gaussian { gamma } if mean_level < 2.0 => {
-                        -(-mean_level / 2.0).ln_1p() / gamma - group.spread
-                    }
-                    Kernel::Gaussian { .. } => f64::INFINITY,
-                    _ => level,
-                };
-                let mut inside = f64::NEG_INFINITY;
-                for (k, &square) in distances.iter().enumerate() {
-                    if square <= limit {
-                        inside = if square > inside { square } else { inside };
-                    } else {
-                        copy(k, &mut left);
-                    }
-                    if !square.is_finite() {
-                        return Err(Error::Overflow);
-                    }
-                }
-                let bound = match self.kernel {
-                    _ if inside < 0.0 => 0.0,
-                    Kernel::Gaussian { gamma } => {
-                        2.0 * decay(gamma * (inside + group.spread)) - self.spread
-                    }
-                    _ => inside,
-                };
-                block.largest = block.largest.max(bound);
+                sums.iter_mut().zip(&terms).for_each(|(sum, rho)| *sum += lambda * rho);
             }
+            let mut top = Top::new(keep);
+            for (id, &reach2) in (first..).zip(&sums) {
+                if !reach2.is_finite() {
+                    return Err(Error::Overflow);
+                }
+                top.offer(Far { id, reach2 });
+            }
+            Ok::<_, Error>(top)
+        })?;
+        let mut all = Top::new(keep);
+        blocks.into_iter().for_each(|top| all.merge(top));
+        Ok(all.into_sorted().into_iter().map(|far| far.id).collect())
+    }
+
+    /// |x − m|² of all rows x.
+    fn squares(&self, rows: &Rows<'_>, mean: &Mean, out: &mut [f64]) {
+        match rows {
+            Rows::F32(points) => squared_distances(points.values(), self.dim, mean, out),
+            Rows::F64(points) => squared_distances(points.values(), self.dim, mean, out),
         }
-        left.complete(self.kernel, self.dim);
-        block.own = left.own_largest();
+    }
+
+    fn look(&self, rows: &Rows<'_>, level: f64, block: &mut Block) -> Result<(), Error> {
+        let mean_level = level + self.spread;
+        let mut left = self.open_rows(rows, level, block)?;
         match self.levels.split_last() {
             Some((finest, coarser)) if !coarser.is_empty() => {
                 for groups in &coarser[1..] {
@@ -269,6 +268,40 @@ impl Center {
             }
             _ => self.measure(&left, level, block),
         }
+    }
+
+    /// The rows that neither their bound so far nor one distance proves to be inside.
+    fn open_rows(&self, rows: &Rows<'_>, level: f64, block: &mut Block) -> Result<Features, Error> {
+        let mut left = Features::default();
+        let open = block.bounds.iter().filter(|&&bound| bound > level).count();
+        let coarsest = self.levels.first().and_then(|groups| groups.first());
+        // For a few rows the copy is cheaper than the distances of all.
+        if let Some(group) = coarsest
+            && 4 * open > rows.len()
+        {
+            let mut squares = vec![0.0; rows.len()];
+            self.squares(rows, &group.mean, &mut squares);
+            if squares.iter().any(|square| !square.is_finite()) {
+                return Err(Error::Overflow);
+            }
+            if let Kernel::Gaussian { gamma } = self.kernel {
+                squares.iter_mut().for_each(|s| *s += group.spread);
+                decay_all(gamma, &mut squares);
+                squares.iter_mut().for_each(|s| *s -= self.spread);
+            }
+            for (bound, square) in block.bounds.iter_mut().zip(squares) {
+                *bound = if square < *bound { square } else { *bound };
+            }
+        }
+        for k in (0..rows.len()).filter(|&k| block.bounds[k] > level) {
+            let start = left.rows.len();
+            left.rows.resize(start + self.dim, 0.0);
+            rows.copy_row(k, &mut left.rows[start..]);
+            left.ids.push(block.first + k as u64);
+        }
+        left.complete(self.kernel, self.dim);
+        block.own = left.own_largest();
+        Ok(left)
     }
 
     /// Drops rows that the bound of the groups proves to be at most at the level.
@@ -282,10 +315,11 @@ impl Center {
             decay_all(gamma, &mut distances);
             sums.iter_mut().zip(&distances).for_each(|(sum, rho)| *sum += group.weight * rho);
         }
+        for (&id, sum) in left.ids.iter().zip(&sums) {
+            block.bound(id, sum - self.spread);
+        }
         let stays: Vec<usize> =
             (0..left.len()).filter(|&k| sums[k] > mean_level || sums[k].is_nan()).collect();
-        let inside = sums.iter().filter(|&&sum| sum <= mean_level).fold(0.0, |a: f64, &b| a.max(b));
-        block.largest = block.largest.max(inside - self.spread);
         *left = left.subset(&stays, self.dim);
     }
 
@@ -298,32 +332,23 @@ impl Center {
         block: &mut Block,
     ) -> Result<(), Error> {
         let Kernel::Gaussian { gamma } = self.kernel else { return Ok(()) };
-        let means: Vec<f64> = groups.iter().flat_map(|group| &group.mean.high).copied().collect();
-        let largest = groups.iter().map(|group| group.lambda.len()).max().unwrap_or(0);
-        let (mut near, mut terms) = (vec![0.0; groups.len()], vec![0.0; largest]);
-        let mut left_over: Vec<usize> = vec![];
+        let (means, members) = (&self.means, &self.members);
+        let mut near = vec![0.0; means.len()];
+        let enough = mean_level - MARGIN * (2.0 - mean_level).max(0.0);
         for (&id, row) in left.ids.iter().zip(left.rows.chunks_exact(self.dim)) {
-            let row = Mean { high: row.to_vec(), low: vec![] };
-            squared_distances(&means, self.dim, &row, &mut near);
-            near.iter_mut().zip(groups).for_each(|(s, group)| *s += group.spread);
-            left_over.clear();
-            left_over.extend(0..groups.len());
-            decay_all(gamma, &mut near);
-            let mut sum: f64 = near.iter().zip(groups).map(|(rho, group)| group.weight * rho).sum();
-            let mut is_inside = sum <= mean_level;
-            while !is_inside && !left_over.is_empty() {
+            means.terms(gamma, row, &mut near);
+            let mut sum: f64 = near.iter().zip(means.weights()).map(|(rho, w)| w * rho).sum();
+            near[groups.len()..].fill(f64::INFINITY);
+            for _ in groups {
+                if sum <= enough {
+                    break;
+                }
                 // A few groups decide about most rows: no order of all is needed.
-                let nearest = (1..left_over.len()).fold(0, |best, i| {
-                    if near[left_over[i]] < near[left_over[best]] { i } else { best }
-                });
-                let g = left_over.swap_remove(nearest);
-                let group = &groups[g];
-                let terms = &mut terms[..group.lambda.len()];
-                squared_distances(&group.members.rows, self.dim, &row, terms);
-                decay_all(gamma, terms);
-                let exact: f64 = terms.iter().zip(&group.lambda).map(|(rho, l)| l * rho).sum();
-                sum += exact - group.weight * near[g];
-                is_inside = sum <= mean_level;
+                let nearest = least(&near);
+                let places = self.starts[nearest]..self.starts[nearest + 1];
+                let exact = members.sum(gamma, row, places.start, places.end);
+                sum += exact - groups[nearest].weight * near[nearest];
+                near[nearest] = f64::INFINITY;
             }
             block.offer(id, sum - self.spread, mean_level - self.spread)?;
         }
@@ -351,23 +376,48 @@ impl Center {
     }
 }
 
+/// The place of the least value, which is the first of equal ones. There are eights of values, none of them NaN.
+fn least(values: &[f64]) -> usize {
+    let mut lanes = [f64::INFINITY; 8];
+    for eight in values.chunks_exact(8) {
+        for (lane, &value) in lanes.iter_mut().zip(eight) {
+            *lane = if value < *lane { value } else { *lane };
+        }
+    }
+    let least = lanes.iter().fold(f64::INFINITY, |least, &lane| least.min(lane));
+    let has_least = |eight: &[f64]| eight.iter().fold(false, |has, &value| has | (value == least));
+    let first = values.chunks_exact(8).position(has_least).unwrap_or(0) * 8;
+    first + values[first..].iter().position(|&value| value == least).unwrap_or(0)
+}
+
+/// What a pass finds in a block of rows.
 struct Block {
+    first: u64,
+    /// No squared distance is larger, row by row.
+    bounds: Vec<f64>,
     top: Top,
     excess: f64,
-    largest: f64,
     own: f64,
 }
 
 impl Block {
+    /// Takes a bound of the squared distance of a row.
+    fn bound(&mut self, id: u64, square: f64) {
+        let bound = &mut self.bounds[(id - self.first) as usize];
+        *bound = bound.min(square);
+    }
+
     /// Takes a row with its squared distance, or a bound of it that is not above the level.
     fn offer(&mut self, id: u64, square: f64, level: f64) -> Result<(), Error> {
         if !square.is_finite() {
             return Err(Error::Overflow);
         }
-        self.largest = self.largest.max(square);
         if square > level {
+            self.bounds[(id - self.first) as usize] = square;
             self.excess += square - level;
             self.top.offer(Far { id, reach2: square });
+        } else {
+            self.bound(id, square);
         }
         Ok(())
     }

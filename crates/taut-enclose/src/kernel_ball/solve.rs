@@ -6,17 +6,21 @@ use taut_certify::{Kernel, KernelBall, KernelBallCertificate, PassBounds, Soluti
 use taut_points::{InputError, PointSource, PointsHash, ReadError};
 
 use super::features::Features;
+use super::first::{First, first_pass};
 use super::pairs::Pairs;
-use super::screen::{Center, First, first_pass};
+use super::reach::{Before, Reaches};
+use super::screen::Center;
 use super::{KernelBallMethod, KernelBallOptions};
 use crate::Error;
 
-/// Rows of the sample from which the search starts.
+/// Rows of the sample whose mean the search starts from.
 const SAMPLE_ROWS: u64 = 512;
+/// One of so many rows of the sample is in the first working set of a hard ball.
+const SAMPLE_STEP: usize = 4;
 /// Points that a pass of a hard ball takes into the working set: this many, and twice the support, so that narrow kernels with large
 /// supports take few passes.
 const NEW_ROWS: usize = 256;
-/// A soft ball starts from this many times the points that may be outside.
+/// A soft ball starts from this many times the points that may be outside, and from no fewer than [`NEW_ROWS`].
 const SOFT_START: f64 = 3.0;
 /// Up to so many rows all are in the working set from the start.
 const WHOLE_ROWS: u64 = 1024;
@@ -39,17 +43,29 @@ pub(super) fn solve(
         let trace = Trace { method: name(), passes: 1, core_set: 1, ..Trace::default() };
         return Ok(solution(options, hash, (vec![0], vec![1.0]), [0.0; 2], trace));
     }
-    let mut pairs = start(source, options)?;
-    let mut history = vec![];
     let mut passes = 1;
+    let mut pairs = start(source, options, &mut passes)?;
+    let mut history = vec![];
     let mut gap = START_GAP;
+    let mut reaches = match options.kernel {
+        // Distances of the feature space keep the triangle inequality where the kernel is known to be one, and are exact enough.
+        Kernel::Gaussian { .. } | Kernel::Linear => Reaches::new(source.len()),
+        _ => None,
+    };
     loop {
         // While many points are outside, more digits of the multipliers would be lost with the next of them.
         let least = (SHARE_OF_PAIRS * options.epsilon).max(TOLERANCE_MIN);
         let tolerance = least.max(SHARE_OF_GAP * gap);
+        let before = Before::of(&pairs);
         let border = pairs.maximize(tolerance, monitor).map_err(ReadError::from)?;
         let spread = pairs.spread();
         let center = center_of(&pairs, spread);
+        if let Some(reaches) = &mut reaches {
+            reaches.drift_by(before.way(&pairs));
+            for (&id, a) in pairs.features.ids.iter().zip(&pairs.mean) {
+                reaches.know(id, a - spread);
+            }
+        }
         let mut level = match options.nu {
             // Points this far beyond the support are as good as inside.
             None => spread * (1.0 + SHARE_OF_BORDER * options.epsilon),
@@ -58,7 +74,7 @@ pub(super) fn solve(
         passes += 1;
         monitor.pass(passes, source.len());
         let keep = pairs.features.len() + NEW_ROWS + 2 * pairs.support().len();
-        let found = center.pass(source, level, keep, monitor)?;
+        let found = center.pass(source, level, keep, reaches.as_mut(), monitor)?;
         let upper = match options.nu {
             None => found.largest,
             Some(nu) => {
@@ -155,44 +171,42 @@ fn center_of(pairs: &Pairs, spread: f64) -> Center {
     Center::new(pairs.kernel, pairs.dim, pairs.features.subset(&places, pairs.dim), lambda, spread)
 }
 
-/// The first working set: all rows where they are few; for a hard ball a sample; for a soft one the points farthest from the mean of a
-/// sample, of which as many have the largest multiplier as may be outside.
-fn start(source: &dyn PointSource, options: &KernelBallOptions<'_>) -> Result<Pairs, Error> {
+/// The first working set: all rows where they are few; else those farthest from the mean of a sample, with some of the sample for a hard
+/// ball; for a soft one as many of them have the largest multiplier as may be outside. For a hard ball of a kernel without such a mean it
+/// is the sample.
+fn start(
+    source: &dyn PointSource,
+    options: &KernelBallOptions<'_>,
+    passes: &mut u64,
+) -> Result<Pairs, Error> {
     let (n, dim, kernel) = (source.len(), source.dim(), options.kernel);
-    let ids: Vec<u64> = match n <= WHOLE_ROWS {
-        true => (0..n).collect(),
-        false => sample(n, options.seed),
+    let has_mean = matches!(kernel, Kernel::Gaussian { .. } | Kernel::Linear);
+    let ids: Vec<u64> = if n <= WHOLE_ROWS {
+        (0..n).collect()
+    } else if options.nu.is_none() && !has_mean {
+        sample(n, options.seed)
+    } else {
+        let drawn = sample(n, options.seed);
+        let sampled = Features::read(kernel, source, drawn.clone())?;
+        let outside = options.nu.map_or(0, |nu| (SOFT_START * nu * n as f64) as usize);
+        let center = Center::rough(kernel, dim, sampled);
+        *passes += 1;
+        options.monitor.pass(*passes, n);
+        let mut ids = center.farthest(source, outside.max(NEW_ROWS), &options.monitor)?;
+        if options.nu.is_none() {
+            // The farthest may all be on one side; a part of the sample tells of the others.
+            let known: BTreeSet<u64> = ids.iter().copied().collect();
+            ids.extend(drawn.into_iter().filter(|id| !known.contains(id)).step_by(SAMPLE_STEP));
+        }
+        ids
     };
     let features = Features::read(kernel, source, ids)?;
-    let count = features.len();
-    let Some(nu) = options.nu else {
-        let mut lambda = vec![0.0; count];
-        lambda[0] = 1.0;
-        return Ok(Pairs::new(kernel, dim, features, lambda, 1.0));
-    };
-    let most = (1.0 / (nu * n as f64)).min(1.0);
-    let (features, order) = if n <= WHOLE_ROWS {
-        (features, (0..count).collect())
-    } else {
-        let lambda = vec![1.0 / count as f64; count];
-        let mut spread = Pairs::new(kernel, dim, features, lambda.clone(), 1.0);
-        let features = std::mem::take(&mut spread.features);
-        let center = Center::new(kernel, dim, features, lambda, spread.spread()).rough();
-        let keep = ((SOFT_START * nu * n as f64) as usize).max(NEW_ROWS);
-        let found = center.pass(source, f64::MIN, keep, &options.monitor)?;
-        let ids: Vec<u64> = found.far.iter().map(|far| far.id).collect();
-        let order = (0..ids.len()).collect();
-        (Features::read(kernel, source, ids)?, order)
-    };
-    let order: Vec<usize> = order;
+    let most = options.nu.map_or(1.0, |nu| (1.0 / (nu * n as f64)).min(1.0));
     let mut lambda = vec![0.0; features.len()];
     let mut left = 1.0f64;
-    for i in order {
-        lambda[i] = left.min(most);
-        left -= lambda[i];
-        if left <= 0.0 {
-            break;
-        }
+    for lambda in &mut lambda {
+        *lambda = left.min(most);
+        left -= *lambda;
     }
     Ok(Pairs::new(kernel, dim, features, lambda, most))
 }

@@ -14,7 +14,7 @@ use taut_certify::{Kernel, Solution, Stop, Trace};
 use taut_points::PointSource;
 
 use super::features::Features;
-use super::screen::{First, first_pass};
+use super::first::{First, first_pass};
 use super::solve::{finish, out_of_range};
 use super::{KernelBall, KernelBallMethod, KernelBallOptions};
 use crate::Error;

@@ -1,0 +1,52 @@
+//! The first pass over all points: whether they are numbers, their hash, and whether they are all the same.
+
+use taut_points::{
+    BlockHash, InputError, Monitor, PointSource, PointsHash, Rows, Scalar, hash_block, map_blocks,
+};
+
+use crate::Error;
+
+/// What a first pass finds.
+pub(super) struct First {
+    pub(super) hash: PointsHash,
+    /// Whether all points are the same.
+    pub(super) is_one_point: bool,
+}
+
+/// Checks and hashes all rows.
+pub(super) fn first_pass(source: &dyn PointSource, monitor: &Monitor<'_>) -> Result<First, Error> {
+    monitor.pass(1, source.len());
+    let dim = source.dim();
+    let first = taut_points::gather(source, &[0])?;
+    let blocks = map_blocks(source, monitor, |number, rows| {
+        if let Some((row, column, value)) = rows.first_non_finite() {
+            let row = number + row as u64;
+            return Err(Error::Input(InputError::NonFinite { row, column, value }));
+        }
+        let spread = match rows {
+            Rows::F32(points) => farthest_coordinate(points.values(), &first),
+            Rows::F64(points) => farthest_coordinate(points.values(), &first),
+        };
+        Ok::<(BlockHash, f64), Error>((hash_block(&rows), spread))
+    })?;
+    let spread = blocks.iter().map(|block| block.1).fold(0.0, f64::max);
+    // Two rows are at most twice as far apart as one is from the first.
+    if !(4.0 * spread * spread * dim as f64).is_finite() {
+        return Err(Error::Overflow);
+    }
+    let hash = PointsHash::of_blocks(source.len(), dim, blocks.iter().map(|block| block.0));
+    Ok(First { hash, is_one_point: spread == 0.0 })
+}
+
+/// The largest |xⱼ − yⱼ| of any row x.
+fn farthest_coordinate<T: Scalar>(values: &[T], y: &[f64]) -> f64 {
+    // Coordinate by coordinate, so that the compiler takes several at a time.
+    let mut spreads = vec![0.0; y.len()];
+    for row in values.chunks_exact(y.len()) {
+        for ((spread, &x), y) in spreads.iter_mut().zip(row).zip(y) {
+            let way = (Into::<f64>::into(x) - y).abs();
+            *spread = if way > *spread { way } else { *spread };
+        }
+    }
+    spreads.into_iter().fold(0.0, f64::max)
+}
