@@ -90,13 +90,14 @@ pub fn inscribed_polygon(
     let body = found.ok_or(Error::TooThin)?;
     let reported = report::rounded(&body.region, &units, &polygon.edges).ok_or(Error::TooThin)?;
     let area = report::area(&reported.corners);
-    if !is_measurable(area) {
-        return Err(Error::Area);
-    }
     let by_ellipse = ellipse.answer.area * (1.0 + ellipse.certificate.gap) * RATIO_MAX;
     let hull = report::hull(polygon.edges.iter().map(|edge| edge[0]).collect());
     let upper = by_ellipse.min(report::area(&hull) + report::area_error(&hull));
     let lower = area - report::area_error(&reported.corners);
+    let gap = ((upper / lower) * (1.0 + GAP_SLACK) - 1.0).max(0.0);
+    if !is_measurable(area, gap) {
+        return Err(Error::Area);
+    }
     if lower <= 0.0 {
         return Err(Error::TooThin);
     }
@@ -113,7 +114,7 @@ pub fn inscribed_polygon(
     };
     let certificate = ConvexCertificate {
         inside: reported.inside,
-        gap: ((upper / lower) * (1.0 + GAP_SLACK) - 1.0).max(0.0),
+        gap,
         ellipse: ellipse.answer,
         ellipse_certificate: ellipse.certificate,
     };

@@ -30,7 +30,7 @@ use taut_points::{InputError, Monitor, PointSource, shown_number};
 
 use crate::Error;
 use crate::levels::Levels;
-use crate::polygon::{Polygon, is_measurable};
+use crate::polygon::{Polygon, is_inside, is_measurable};
 use crate::units::Units;
 
 use self::ascent::Ellipse;
@@ -115,10 +115,15 @@ pub(crate) fn solved(
     let best = report::rounded(&best, units).ok_or(Error::TooThin)?;
     let reached = (found.upper / best.size).powi(2) - 1.0;
     let reported = sampled.unwrap_or(best);
-    if !is_measurable(reported.answer.area) {
-        return Err(Error::Area);
+    // In units of the last place of the coordinates the center may be rounded out of the polygon.
+    if !is_inside(polygon.edges.iter().copied(), reported.answer.center) {
+        return Err(Error::TooThin);
     }
     let ratio = found.upper / reported.size;
+    let gap = (ratio * ratio * (1.0 + 16.0 * f64::EPSILON) - 1.0).max(0.0);
+    if !(report::has_digits(&reported.answer) && is_measurable(reported.answer.area, gap)) {
+        return Err(Error::Area);
+    }
     let numbers = |parts: Vec<(u32, u64)>| match parts[..] {
         [(edge, _)] => vec![polygon.rows[edge as usize]],
         _ => parts.iter().flat_map(|&(edge, w)| [polygon.rows[edge as usize], w]).collect(),
@@ -129,7 +134,7 @@ pub(crate) fn solved(
         directions: found.directions,
         tree: found.log.tree,
         leaves: found.log.leaves.into_iter().map(numbers).collect(),
-        gap: (ratio * ratio * (1.0 + 16.0 * f64::EPSILON) - 1.0).max(0.0),
+        gap,
         points_hash: polygon.points_hash,
     };
     count("cells", certificate.tree.len() as u64);

@@ -38,9 +38,10 @@ pub enum Error {
         /// The rows of the ends of the other one.
         other: [u64; 2],
     },
-    /// The area of the shape, or the radius of a circle, overflows or underflows.
+    /// The area of the shape, its radius or a half axis, or the bound proved for it, overflows or underflows.
     #[error(
-        "the area or the radius of the shape is out of the range of double precision: scale the coordinates towards 1"
+        "the area of the shape, its radius or a half axis, or the bound proved for it, is out of the range of double precision: scale the \
+         coordinates towards 1"
     )]
     Area,
     /// No point with coordinates in double precision was found that is provably inside.

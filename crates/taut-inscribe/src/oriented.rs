@@ -90,16 +90,17 @@ pub fn inscribed_oriented_rectangle(
     };
     let found = search::search(&target, options)?;
     let reported = found.best.ok_or(Error::TooThin)?;
-    if !is_measurable(reported.answer.area) {
+    let ratio = found.upper / reported.in_units;
+    let gap = (ratio * (1.0 + 16.0 * f64::EPSILON) - 1.0).max(0.0);
+    if !is_measurable(reported.answer.area, gap) {
         return Err(Error::Area);
     }
-    let ratio = found.upper / reported.in_units;
     let log = tree::log(&found.nodes, &polygon.rows);
     let certificate = OrientedRectangleCertificate {
         pivot,
         tree: log.tree,
         leaves: log.leaves,
-        gap: (ratio * (1.0 + 16.0 * f64::EPSILON) - 1.0).max(0.0),
+        gap,
         points_hash: polygon.points_hash,
     };
     let counters = [

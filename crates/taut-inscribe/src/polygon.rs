@@ -105,9 +105,11 @@ pub(crate) fn is_inside(edges: impl Iterator<Item = Segment>, p: [f64; 2]) -> bo
     edges.filter(is_left).count() % 2 == 1
 }
 
-/// Whether an area is so far from the ends of the range of numbers that a checker finds it again by other products.
-pub(crate) fn is_measurable(area: f64) -> bool {
-    (1024.0 * f64::MIN_POSITIVE..=f64::MAX / 16.0).contains(&area)
+/// Whether an area, and the upper bound that a gap makes of it, are so far from the ends of the range of numbers that a checker finds them
+/// again by other products.
+pub(crate) fn is_measurable(area: f64, gap: f64) -> bool {
+    // Comparisons with NaN are false.
+    area >= 1024.0 * f64::MIN_POSITIVE && area * (1.0 + gap) <= f64::MAX / 16.0
 }
 
 /// The rows of each ring; one ring without rows if there are none.

@@ -22,7 +22,7 @@ use taut_certify::{InscribedRectangle, RectangleCertificate, Solution, Stop, Tra
 use taut_points::{InputError, Monitor, PointSource, shown_number};
 
 use crate::Error;
-use crate::polygon::Polygon;
+use crate::polygon::{Polygon, is_measurable};
 
 use self::cell::Rectangle;
 
@@ -64,15 +64,16 @@ pub fn inscribed_rectangle(
     let found = search::search(&polygon.edges, options)?;
     let best = found.best.ok_or(Error::TooThin)?;
     let area = best.area();
-    if !area.is_normal() || !found.upper.is_finite() {
+    // Three roundings of each area, and one of the quotient.
+    let gap = ((found.upper / area) * (1.0 + 8.0 * f64::EPSILON) - 1.0).max(0.0);
+    if !is_measurable(area, gap) {
         return Err(Error::Area);
     }
     let row = |edge: u32| polygon.rows[edge as usize];
     let certificate = RectangleCertificate {
         tree: found.log.tree,
         edges: found.log.edges.into_iter().map(row).collect(),
-        // Three roundings of each area, and one of the quotient.
-        gap: ((found.upper / area) * (1.0 + 8.0 * f64::EPSILON) - 1.0).max(0.0),
+        gap,
         points_hash: polygon.points_hash,
     };
     let counters = [

@@ -77,11 +77,11 @@ pub fn inscribed_triangle(
             })?
         }
     };
-    if !is_measurable(reported.answer.area) {
-        return Err(Error::Area);
-    }
     let gap_of =
         |doubled: f64| ((found.upper / doubled) * (1.0 + 16.0 * f64::EPSILON) - 1.0).max(0.0);
+    if !is_measurable(reported.answer.area, gap_of(reported.doubled)) {
+        return Err(Error::Area);
+    }
     let certificate = TriangleCertificate {
         touching: reported.touching.iter().map(|&edge| polygon.rows[edge as usize]).collect(),
         skew: frame.skew(),

@@ -68,6 +68,13 @@ impl Units {
         })
     }
 
+    /// A bound of the distance along an axis, in units, between a point in units and that of the input for it: a unit of the last place of the
+    /// largest coordinate, and of subnormal numbers, on top of roundings of units.
+    pub(crate) fn rounding(&self, axis: usize) -> f64 {
+        let last = 2.0 * f64::EPSILON + self.scaled(axis, f64::from_bits(1));
+        last * self.growth(axis)
+    }
+
     /// A coordinate scaled by the factors of its axis: exact unless it underflows.
     pub(crate) fn scaled(&self, axis: usize, x: f64) -> f64 {
         x * self.axes[axis].factors[0] * self.axes[axis].factors[1]
@@ -83,6 +90,18 @@ impl Units {
         let Axis { factors: [one, other], growth, .. } = self.axes[axis];
         let (high, low) = minus(a * one * other, b * one * other);
         (high * growth, low * growth)
+    }
+
+    /// An area, as in the input.
+    pub(crate) fn given_area(&self, area: f64) -> f64 {
+        let [one, other] = self.axes;
+        let scaled = area / one.growth / other.growth;
+        // A large factor first meets a small one of the other axis, so that nothing is rounded on the way to a number that is not.
+        let [mut f, mut g] = [one.factors, other.factors];
+        if f[0].max(f[1]) > 1.0 {
+            std::mem::swap(&mut f, &mut g);
+        }
+        scaled / f[0] / g[0] / f[1] / g[1]
     }
 
     /// A length along an axis, as in the input.

@@ -23,7 +23,7 @@ use crate::{CheckError, Violation};
 /// How much the gap claimed may fall short of the gap proved, relatively and absolutely.
 const GAP_SLACK: (f64, f64) = (1e-9, 4e-15);
 
-/// How far the area claimed may be from that of the corners, relatively.
+/// How far the area claimed may be from the bounds of that of the corners, relatively.
 const AREA_SLACK: f64 = 1e-14;
 
 /// How much the triangle may have to grow from its centroid to reach a touching edge, relatively, besides the gap.
@@ -52,8 +52,8 @@ pub(super) fn check(
             return Err(TriangleViolation::EdgeInside { row: edge as u64 }.into());
         }
     }
-    let doubled = triangle.doubled_area(&units);
-    let lower = area(answer, doubled, &units)?;
+    let [doubled, doubled_most] = triangle.doubled_area(&units);
+    let lower = area(answer, [doubled, doubled_most], &units)?;
     touching(certificate, &triangle, &units, &polygon)?;
     let upper = replay::replay(certificate, &units, monitor)?.max(doubled);
     let gap = ((upper / doubled) * (1.0 + 8.0 * U) - 1.0).max(0.0);
@@ -97,12 +97,18 @@ fn numbers(answer: &InscribedTriangle, certificate: &TriangleCertificate) -> Res
     }
 }
 
-/// A lower bound of the area of the corners, to which the area claimed must be equal up to rounding.
-fn area(answer: &InscribedTriangle, doubled: f64, units: &Units) -> Result<f64, TriangleViolation> {
+/// A lower bound of the area of the corners. The area claimed must be between the bounds, which are equal up to rounding except
+/// for triangles that are almost as thin as the last digits of their corners.
+fn area(
+    answer: &InscribedTriangle,
+    doubled: [f64; 2],
+    units: &Units,
+) -> Result<f64, TriangleViolation> {
     // Products with powers of two, which round where the area is not normal.
-    let found = 0.5 * units.given_area(doubled);
+    let [found, most] = doubled.map(|doubled| 0.5 * units.given_area(doubled));
     let is_normal = found >= f64::MIN_POSITIVE && found.is_finite();
-    let is_near = (answer.area - found).abs() <= AREA_SLACK * found;
+    let is_near =
+        answer.area >= found * (1.0 - AREA_SLACK) && answer.area <= most * (1.0 + AREA_SLACK);
     match is_normal && is_near {
         true => Ok(found),
         false => Err(TriangleViolation::Area { claimed: answer.area, found }),

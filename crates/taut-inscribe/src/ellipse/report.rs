@@ -54,6 +54,11 @@ pub(super) fn rounded(best: &Ellipse, units: &Units) -> Option<Reported> {
     })
 }
 
+/// Whether the axes have all digits: subnormal ones would be those of another ellipse, which edges may enter.
+pub(super) fn has_digits(answer: &InscribedEllipse) -> bool {
+    [answer.axes[0][0], answer.axes[1][1]].iter().all(|x| x.is_normal())
+}
+
 /// The columns of the map from the unit disk; the first coordinate of the second is 0.
 fn columns(shape: &Shape, size: f64) -> [[f64; 2]; 2] {
     [shape.inverse([size, 0.0]), shape.inverse([0.0, size])]

@@ -16,6 +16,10 @@ const SHRINK_BITS: std::ops::RangeInclusive<i32> = 12..=50;
 /// How clear edges have to be, relative to the terms of a test: four times the error bound of a checker.
 const CLEARANCE_WANTED: f64 = 32.0 * f64::EPSILON;
 
+/// Smallest square of a half side, and smallest size of a vector along an edge whose line is looked at, where the largest coordinate of the
+/// polygon is from 1 to 2: a checker takes 2⁻⁴⁰⁰, as products of smaller numbers underflow.
+const TESTED_MIN: f64 = f64::from_bits((1023 - 390) << 52);
+
 /// An answer.
 pub(super) struct Reported {
     pub(super) answer: InscribedOrientedRectangle,
@@ -45,12 +49,13 @@ pub(super) fn rounded(best: &Candidate, target: &Target<'_>) -> Option<Reported>
         let scaled = [0, 1].map(|k| units.scaled(k, axis[k]));
         let given =
             Given { center: [0, 1].map(|k| units.scaled(k, center[k])), axis: scaled, ratio };
-        edges.iter().all(|&edge| given.is_clear_of(edge, units)).then_some((axis, given))
+        let is_tested = given.square() * ratio * ratio >= TESTED_MIN;
+        let is_clear = is_tested && edges.iter().all(|&edge| given.is_clear_of(edge, units));
+        is_clear.then_some((axis, given))
     });
     let (axis, given) = found.filter(|_| is_inside)?;
     let in_units = 4.0 * given.ratio * given.square() * units.growth(0) * units.growth(1);
-    let width = units.given_length(0, in_units);
-    let area = width * units.given_length(1, 1.0);
+    let area = units.given_area(in_units);
     let in_units = in_units * (1.0 - 16.0 * f64::EPSILON);
     let answer = InscribedOrientedRectangle { center, axis, ratio: given.ratio, area };
     (in_units > 0.0).then_some(Reported { answer, in_units })
@@ -86,6 +91,9 @@ impl Given {
             return true;
         }
         let along = [0, 1].map(|k| given[1][k] - given[0][k]);
+        if along.iter().all(|x| x.abs() < TESTED_MIN) {
+            return false;
+        }
         let turns = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)].map(|(x, y)| {
             let corner = [0, 1].map(|k| x * a[k] + y * b[k] - p[k]);
             let size = |k: usize| p[k].abs() + a[0].abs() + a[1].abs() + along[k].abs();

@@ -27,6 +27,9 @@ const COORDINATE_ERROR: f64 = f64::from_bits((1023 - 50) << 52);
 /// Bound of the errors of skewed coordinates before they are scaled: 2⁻⁴⁶.
 const SKEW_ERROR: f64 = f64::from_bits((1023 - 46) << 52);
 
+/// Bound of the error of twice an area, here and in a checker, relative to the sum of the sizes of the two products: 2⁻⁹³.
+const AREA_ERROR: f64 = f64::from_bits((1023 - 93) << 52);
+
 /// How much the root is larger than the polygon on each side, besides errors of coordinates.
 const ROOT_MARGIN: f64 = 1e-9;
 
@@ -76,6 +79,12 @@ impl Frame {
         self.units.given_point([p[0], p[1] / self.growth + self.low - self.skew * p[0]])
     }
 
+    /// A bound of the distance along each axis between a point of the frame and that of the input for it.
+    pub(super) fn rounding(&self) -> f64 {
+        let [x, y] = [0, 1].map(|axis| self.units.rounding(axis));
+        self.error + x.max((y + self.skew.abs() * x) * self.growth)
+    }
+
     /// A point of the input in the frame.
     pub(super) fn point(&self, given: [f64; 2]) -> [f64; 2] {
         let p = self.units.point(given);
@@ -83,19 +92,30 @@ impl Frame {
     }
 
     /// Twice the area of a triangle of the input, in the frame, off by 2⁻⁹⁰ times the product of its extents.
-    pub(super) fn doubled_area(&self, [p, q, r]: &Triangle) -> f64 {
-        let difference =
-            |a: &[f64; 2], b: &[f64; 2]| [0, 1].map(|k| self.units.difference(k, a[k], b[k]));
-        cross(difference(q, p), difference(r, p)) * self.growth
+    pub(super) fn doubled_area(&self, &[p, q, r]: &Triangle) -> f64 {
+        self.turn(q, r, p) * self.growth
+    }
+
+    /// A lower bound of twice the area of a triangle of the input, in the frame, that a checker confirms.
+    pub(super) fn doubled_below(&self, corners: &Triangle) -> f64 {
+        let [p, q, r] = corners;
+        let size = |a: &[f64; 2], b: &[f64; 2]| {
+            [0, 1].map(|k| self.units.difference(k, a[k], b[k]).0.abs())
+        };
+        let (d, e) = (size(q, p), size(r, p));
+        let error = AREA_ERROR * (d[0] * e[1] + d[1] * e[0]) * self.growth;
+        self.doubled_area(corners) * (1.0 - 4.0 * f64::EPSILON) - error
+    }
+
+    /// The cross product of two sides of a triangle of the input, pw × qw, in units and accurate.
+    pub(super) fn turn(&self, p: [f64; 2], q: [f64; 2], w: [f64; 2]) -> f64 {
+        let difference = |p: [f64; 2]| [0, 1].map(|k| self.units.difference(k, p[k], w[k]));
+        cross(difference(p), difference(q))
     }
 
     /// The area of a triangle of the input.
     pub(super) fn given_area(&self, corners: &Triangle) -> f64 {
-        let doubled = self.doubled_area(corners) / self.growth;
-        // A length along one axis first, so that nothing overflows on the way to a number that does not.
-        let width = self.units.given_length(0, 0.5 * doubled);
-        let height = self.units.given_length(1, 1.0);
-        width * height
+        self.units.given_area(0.5 * self.doubled_area(corners) / self.growth)
     }
 }
 

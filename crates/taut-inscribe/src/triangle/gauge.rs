@@ -51,9 +51,12 @@ impl Gauge {
         Gauge { center: centroid(triangle), sides: [side(0), side(1), side(2)] }
     }
 
-    /// How much the functions of the sides change, at most, when both coordinates change by 1.
+    /// How much the functions of the sides change, at most, when both coordinates change by 1; infinite where there is no area.
     pub(super) fn slope(&self) -> f64 {
-        self.sides.iter().map(|g| g[0].abs() + g[1].abs()).fold(0.0, f64::max)
+        let slopes = self.sides.map(|g| g[0].abs() + g[1].abs());
+        // Products of 0 and an infinite factor are NaN.
+        let is_known = slopes.iter().all(|slope| !slope.is_nan());
+        if is_known { slopes.into_iter().fold(0.0, f64::max) } else { f64::INFINITY }
     }
 
     /// The scale at which each side passes through a point.
@@ -70,17 +73,7 @@ impl Gauge {
         if (0..3).any(|k| from[k] >= most && to[k] >= most) {
             return most;
         }
-        let largest = |x: [f64; 3]| x[0].max(x[1]).max(x[2]);
-        let mut least = most.min(largest(from)).min(largest(to));
-        // Between its ends the largest of three linear functions is least where two of them are equal.
-        for (i, j) in [(0, 1), (1, 2), (2, 0)] {
-            let (one, other) = (from[i] - from[j], to[i] - to[j]);
-            if one * other < 0.0 {
-                let t = one / (one - other);
-                least = least.min(largest([0, 1, 2].map(|k| from[k] + t * (to[k] - from[k]))));
-            }
-        }
-        least
+        most.min(least_between(from, to))
     }
 
     /// The least scale at which the triangle reaches a box, or less.
@@ -89,6 +82,22 @@ impl Gauge {
         let scales = self.scales(center);
         (scales[0] - reach[0]).max(scales[1] - reach[1]).max(scales[2] - reach[2])
     }
+}
+
+/// The least value, between two points, of the largest of three linear functions with these values in the points.
+#[inline(always)]
+pub(super) fn least_between(from: [f64; 3], to: [f64; 3]) -> f64 {
+    let largest = |x: [f64; 3]| x[0].max(x[1]).max(x[2]);
+    let mut least = largest(from).min(largest(to));
+    // Between its ends the largest of three linear functions is least where two of them are equal.
+    for (i, j) in [(0, 1), (1, 2), (2, 0)] {
+        let (one, other) = (from[i] - from[j], to[i] - to[j]);
+        if one * other < 0.0 {
+            let t = one / (one - other);
+            least = least.min(largest([0, 1, 2].map(|k| from[k] + t * (to[k] - from[k]))));
+        }
+    }
+    least
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use taut_certify::{InscribedTriangle, Stop};
 use taut_predicates::plane::orient;
 
 use super::frame::Frame;
-use super::gauge::{Gauge, Triangle, scaled};
+use super::gauge::{self, Gauge, Triangle, scaled};
 use super::groups::Groups;
 use crate::levels::is_left;
 use crate::polygon::Segment;
@@ -20,6 +20,9 @@ const SHRINK_BITS: std::ops::RangeInclusive<i32> = 12..=50;
 
 /// The scale up to which edges are tested exactly, less 1, besides errors of coordinates.
 const TESTED: f64 = 1e-6;
+
+/// The error of scales above which those in the frame do not tell which edges are near.
+const ERROR_MAX: f64 = 0.5;
 
 /// Share of a gap by which rounding may miss it.
 const GAP_SLACK: f64 = 1e-9;
@@ -37,7 +40,7 @@ pub(super) struct Target<'a> {
 #[derive(Clone, Debug)]
 pub(super) struct Reported {
     pub(super) answer: InscribedTriangle,
-    /// Twice the area in the frame.
+    /// A lower bound of twice the area in the frame.
     pub(super) doubled: f64,
     /// Edges that the triangle touches up to rounding, ascending.
     pub(super) touching: Vec<u32>,
@@ -47,7 +50,8 @@ pub(super) struct Reported {
 pub(super) fn rounded(best: &Triangle, target: &Target<'_>) -> Option<Reported> {
     let frame = target.frame;
     let gauge = Gauge::of(best);
-    let tested = 1.0 + TESTED + 64.0 * frame.error * gauge.slope();
+    // Corners are moved by rounding and to vertices. Far from the origin, and where numbers are subnormal, that can be far.
+    let tested = 1.0 + TESTED + (64.0 * frame.rounding() + 2.0 * SNAP) * gauge.slope();
     let near = target.groups.reached(&gauge, tested);
     let is_in = |corners: &Triangle| {
         let given: Vec<Segment> = near.iter().map(|&edge| target.edges[edge as usize]).collect();
@@ -71,12 +75,12 @@ pub(super) fn rounded(best: &Triangle, target: &Target<'_>) -> Option<Reported> 
         .into_iter()
         .find(|corners| is_in(corners))
         .or_else(|| shrunk.find(is_in))?;
-    let doubled = frame.doubled_area(&corners);
+    let doubled = frame.doubled_below(&corners);
     let area = frame.given_area(&corners);
     let has_area = doubled > 0.0;
     has_area.then(|| Reported {
         answer: InscribedTriangle { corners, area },
-        doubled: doubled * (1.0 - 4.0 * f64::EPSILON),
+        doubled,
         touching: touching(&corners, target),
     })
 }
@@ -107,9 +111,29 @@ fn is_in_polygon(corners: &Triangle, near: &[Segment], all: &[Segment]) -> bool 
 /// The edges that a triangle touches, or comes nearest to.
 fn touching(corners: &Triangle, target: &Target<'_>) -> Vec<u32> {
     let gauge = Gauge::of(&corners.map(|p| target.frame.point(p)));
-    let least = target.groups.least_scale(&gauge, f64::INFINITY).max(1.0);
-    let most = least * (1.0 + TOUCHING_SLACK) + 16.0 * f64::EPSILON * gauge.slope();
-    target.groups.reached(&gauge, most)
+    let error = 64.0 * target.frame.error * gauge.slope();
+    // In a needle the coordinates of the frame do not tell which edges are touched.
+    let near = match error < ERROR_MAX {
+        true => {
+            let least = target.groups.least_scale(&gauge, f64::INFINITY).max(1.0);
+            target.groups.reached(&gauge, least * (1.0 + TESTED) + error)
+        }
+        false => (0..target.edges.len() as u32).collect(),
+    };
+    let scales = near.into_iter().map(|edge| (edge, scale_to_reach(corners, edge, target)));
+    let scales: Vec<(u32, f64)> = scales.collect();
+    let least = scales.iter().fold(f64::INFINITY, |least, &(_, scale)| scale.min(least)).max(1.0);
+    let is_touched = |&(_, scale): &(u32, f64)| scale <= least * (1.0 + TOUCHING_SLACK);
+    scales.into_iter().filter(is_touched).map(|(edge, _)| edge).collect()
+}
+
+/// The scale at which a triangle of the input reaches an edge from its centroid, accurate.
+fn scale_to_reach(&[p, q, r]: &Triangle, edge: u32, target: &Target<'_>) -> f64 {
+    let (frame, ends) = (target.frame, target.edges[edge as usize]);
+    let whole = frame.turn(q, r, p);
+    let sides = [[p, q], [q, r], [r, p]];
+    let [from, to] = ends.map(|end| sides.map(|[p, q]| 1.0 - 3.0 * frame.turn(p, q, end) / whole));
+    gauge::least_between(from, to)
 }
 
 /// Why the search ended.

@@ -9,6 +9,7 @@ mod countries;
 mod degenerate;
 mod ellipse_mutations;
 mod ellipses;
+mod extreme_scales;
 mod laws;
 mod mutations;
 mod oriented_rectangles;

@@ -57,19 +57,21 @@ impl Triangle {
         !is_apart
     }
 
-    /// Twice the area in units, rounded down.
-    pub(super) fn doubled_area(&self, units: &Units) -> f64 {
+    /// A lower and an upper bound of twice the area in units; 0 and infinity where the sign of the determinant is not known.
+    pub(super) fn doubled_area(&self, units: &Units) -> [f64; 2] {
         let [p, q, r] = self.scaled(units);
         let difference =
             |p: [f64; 2], q: [f64; 2]| [0, 1].map(|k| DoubleDouble::difference(p[k], q[k]));
         let (d, e) = (difference(q, p), difference(r, p));
         let (one, other) = (d[0].times(&e[1]), d[1].times(&e[0]));
         let error = ERRORS * DoubleDouble::ROUNDOFF * (one.high.abs() + other.high.abs());
-        let determinant = one.minus(&other).high * (1.0 - 4.0 * U) - error - UNDERFLOW;
+        let determinant = one.minus(&other).high;
+        let lower = determinant * (1.0 - 4.0 * U) - error - UNDERFLOW;
+        let upper = determinant * (1.0 + 4.0 * U) + error + UNDERFLOW;
         // Subnormal numbers would be rounded when they are grown.
-        match determinant > UNDERFLOW {
-            true => units.grown(determinant) * (1.0 - 4.0 * U),
-            false => 0.0,
+        match lower > UNDERFLOW {
+            true => [units.grown(lower) * (1.0 - 4.0 * U), units.grown(upper) * (1.0 + 4.0 * U)],
+            false => [0.0, f64::INFINITY],
         }
     }
 

@@ -74,7 +74,10 @@ pub(super) fn replay(
                 let refused = |problem| TriangleViolation::Leaf { leaf, problem };
                 if letter == b'b' {
                     let rows = rows(corners, reason, &tiles).map_err(refused)?;
-                    upper = upper.max(bounds::doubled_area(corners, &rows, error));
+                    // With a box that is surely outside a cell holds no triangle. The solver may not be as sure of that.
+                    if !corners.iter().any(|tile| tile.is_outside) {
+                        upper = upper.max(bounds::doubled_area(corners, &rows, error));
+                    }
                 } else {
                     has_edge_inside(corners, reason, &tiles).map_err(refused)?;
                 }
@@ -189,7 +192,7 @@ fn rows(corners: [&Tile; 3], reason: &[i64], tiles: &Tiles<'_>) -> Result<Vec<Ro
                 let largest = x.abs().max(y.abs()) as f64;
                 let normal = [x as f64 / largest, y as f64 / largest];
                 let offset = tiles.support(corners[corner], normal) + error;
-                match offset.is_finite() {
+                match offset.is_finite() || corners[corner].is_outside {
                     true => Ok(Row::Half { corner, normal, offset, weight }),
                     false => Err("names a half-plane of a box without a point of the polygon"),
                 }
