@@ -335,7 +335,8 @@ mod tests {
             all.add_all(set);
             assert_eq!(all, each, "{set:?}");
             // A second block, of larger numbers with lower bits, after the first has set the bounds.
-            let next: Vec<f64> = set.iter().map(|x| x * 3.0 + 1.0).filter(|x| x.is_finite()).collect();
+            let next: Vec<f64> =
+                set.iter().map(|x| x * 3.0 + 1.0).filter(|x| x.is_finite()).collect();
             next.iter().for_each(|&x| each.add(x));
             all.add_all(&next);
             assert_eq!(all, each, "{next:?}");

@@ -35,8 +35,8 @@ mod order;
 mod read;
 mod write;
 
-pub use read::Tile;
 pub(super) use order::TileOrder;
+pub use read::Tile;
 pub(super) use write::{LowerTile, fingerprint_lower, write_lower, write_solved};
 
 use taut_certify::Fingerprint;

