@@ -22,9 +22,6 @@ pub(crate) trait Kernel<const D: usize, const V: usize>: Sized {
 
     fn site(&self, site: u32) -> [f64; D];
 
-    /// Asks for the coordinates of a site that will be read soon; any number is allowed.
-    fn fetch(&self, site: u32);
-
     /// Begins with `first`, which must be affinely independent (any orientation).
     fn start(&mut self, first: [u32; V]);
 

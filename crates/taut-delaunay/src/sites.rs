@@ -215,6 +215,33 @@ impl Magnitudes {
         }
     }
 
+    /// Adds finite coordinates, as [`add`](Self::add) does one by one.
+    ///
+    /// A number that is not small has no bit below the lowest one so far, whatever its other bits: almost no block of
+    /// coordinates in general position is looked at more closely.
+    pub(crate) fn add_all(&mut self, coordinates: &[f64]) {
+        /// Numbers that are compared side by side, in vectors.
+        const LANES: usize = 8;
+        let (mut least, mut largest) = ([f64::INFINITY; LANES], [0.0f64; LANES]);
+        let (blocks, rest) = coordinates.as_chunks::<LANES>();
+        for block in blocks {
+            for i in 0..LANES {
+                let x = block[i].abs();
+                least[i] = if x < least[i] { x } else { least[i] };
+                largest[i] = if x > largest[i] { x } else { largest[i] };
+            }
+        }
+        rest.iter().for_each(|&x| self.add(x));
+        self.largest = largest.into_iter().fold(self.largest, f64::max);
+        let least = least.into_iter().fold(f64::INFINITY, f64::min);
+        let bits_of_significand = 52;
+        let is_clear = least > 0.0
+            && highest_exponent(least) >= self.lowest.saturating_add(bits_of_significand);
+        if !is_clear {
+            blocks.as_flattened().iter().for_each(|&x| self.add(x));
+        }
+    }
+
     /// Adds those of other points.
     pub fn merge(&mut self, other: Self) {
         self.largest = self.largest.max(other.largest);
@@ -295,6 +322,25 @@ mod tests {
             assert_eq!((lowest_exponent(x), highest_exponent(-x)), (low, high), "{x}");
         }
         assert_eq!(highest_exponent(f64::MAX), 1023);
+    }
+
+    #[test]
+    fn magnitudes_of_many_are_those_of_each() {
+        let grid: Vec<f64> = (0..40).map(|i| f64::from(i) * 0.25).collect();
+        let general: Vec<f64> = (1..60).map(|i| 1.0 / f64::from(i)).collect();
+        let ends = [f64::MAX, -1.0, 5e-324, 0.0, -f64::MIN_POSITIVE, 1e300, 3.0, 2f64.powi(52)];
+        for set in [&grid, &general, ends.as_slice(), &[4.0; 17], &[0.0; 9], &[]] {
+            let (mut each, mut all) = (Magnitudes::EMPTY, Magnitudes::EMPTY);
+            set.iter().for_each(|&x| each.add(x));
+            all.add_all(set);
+            assert_eq!(all, each, "{set:?}");
+            // A second block, of larger numbers with lower bits, after the first has set the bounds.
+            let next: Vec<f64> =
+                set.iter().map(|x| x * 3.0 + 1.0).filter(|x| x.is_finite()).collect();
+            next.iter().for_each(|&x| each.add(x));
+            all.add_all(&next);
+            assert_eq!(all, each, "{next:?}");
+        }
     }
 
     #[test]

@@ -131,13 +131,19 @@ pub(crate) fn open(
     let options = ReadOptions { memory, ..options.clone() };
     let (mut parts, mut sources, mut starts) = (vec![], vec![], vec![0]);
     let mut whole: Option<Input> = None;
+    let mut other_classes: Option<(Vec<u8>, Vec<u8>)> = None;
     for file in files {
         if file.is_dir() {
             return Err(Error::Directory { path: shown_path(&file) });
         }
         let opened = input::open_filtered(&file, &options, filter);
-        if let Err(Error::Filter(FilterError::NothingKept { .. })) = opened {
-            continue;
+        match opened {
+            Err(Error::Filter(FilterError::NothingKept { .. })) => continue,
+            Err(Error::Filter(FilterError::NothingOfClasses { wanted, found, .. })) => {
+                other_classes.get_or_insert((wanted, vec![])).1.extend(found);
+                continue;
+            }
+            _ => {}
         }
         let Input { source, columns, labels, format, path: name, numbers, .. } = opened?;
         let start = starts.last().copied().unwrap_or(0);
@@ -166,7 +172,14 @@ pub(crate) fn open(
             }
         }
     }
-    let Some(mut whole) = whole else { return Err(FilterError::NothingKept { path }.into()) };
+    let Some(mut whole) = whole else {
+        let Some((wanted, mut found)) = other_classes else {
+            return Err(FilterError::NothingKept { path }.into());
+        };
+        found.sort_unstable();
+        found.dedup();
+        return Err(FilterError::NothingOfClasses { path, wanted, found }.into());
+    };
     let (dim, first) = (whole.source.dim(), whole.source);
     sources.insert(0, first);
     let is_single = sources.iter().all(|source| source.scalar() == ScalarKind::F32);

@@ -139,6 +139,7 @@ impl Find for Args {
     }
 
     fn open(&self) -> anyhow::Result<Opened> {
+        self.refuse_within_input()?;
         let is_folder = self.out.as_deref().is_some_and(tiles::is_folder);
         let reading = self.reading.with_height(self.terrain.height());
         let opened = match reading.memory().or(is_folder.then_some(MEMORY_DEFAULT)) {

@@ -243,6 +243,11 @@ fn a_folder_of_files_is_read_as_one_set() {
     folder.taut("verify tiles parts --memory 64M").ends(0);
     folder.taut("delaunay parts -o mesh.json").ends(0);
     folder.taut("verify mesh.json parts").ends(0);
+    for out in ["parts/tiles/", "parts/", "parts/../parts/deep/er/"] {
+        let refused = folder.taut(&format!("delaunay parts -o {out}")).ends(2);
+        assert!(refused.err.contains("among the points"), "{out}: {}", refused.err);
+    }
+    assert_eq!(fs::read_dir(folder.path("parts")).unwrap().count(), 2);
     folder.put("parts/c.csv", "0,0\n1,inf\n");
     let refused = folder.taut("delaunay parts -o other/").ends(2);
     assert!(

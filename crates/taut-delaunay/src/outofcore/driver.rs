@@ -33,8 +33,8 @@ pub(super) trait Storage<const D: usize>: Sync {
     /// Has `write` write the tile of a node, and keeps it with its front: both or, after a crash, none.
     fn store(&self, node: u32, write: &mut WriteNode<'_, D>) -> Result<NodeRecord, Error>;
 
-    /// What is known of a node that was stored before, in another run perhaps.
-    fn stored(&self, node: u32) -> Option<NodeRecord>;
+    /// What is known of a node that was stored before, in another run perhaps; an error if its tile was changed since.
+    fn stored(&self, node: u32) -> Result<Option<NodeRecord>, Error>;
 
     /// The points of a leaf that is stored are of no use any more.
     fn release(&self, leaf: u32);
@@ -314,10 +314,17 @@ where
             }
             let bytes = sites.saturating_mul(self.course.site_bytes);
             let task = Task { place, bytes, fronts, sites };
-            if let Some(record) = self.storage.stored(self.walk.nodes[place]) {
-                self.release(&task);
-                self.note(board, &task, &record);
-                continue;
+            match self.storage.stored(self.walk.nodes[place]) {
+                Ok(None) => {}
+                Ok(Some(record)) => {
+                    self.release(&task);
+                    self.note(board, &task, &record);
+                    continue;
+                }
+                Err(error) => {
+                    board.failed = Some(error);
+                    return Offer::End;
+                }
             }
             if bytes > self.course.budget {
                 let needed = bytes;

@@ -31,11 +31,13 @@
 //!
 //! The counts come last, as a tile is written in one pass.
 
+mod order;
 mod read;
 mod write;
 
+pub(super) use order::TileOrder;
 pub use read::Tile;
-pub(super) use write::{LowerTile, TileOrder, fingerprint_lower, write_lower, write_solved};
+pub(super) use write::{LowerTile, fingerprint_lower, write_lower, write_solved};
 
 use taut_certify::Fingerprint;
 

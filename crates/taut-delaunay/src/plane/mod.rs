@@ -24,7 +24,6 @@ mod star;
 mod tests;
 mod walk;
 
-use taut_oblivious::machine::prefetch;
 use taut_predicates::plane::orient_exact;
 use taut_predicates::{Exact, MulAdd, Separate};
 
@@ -77,11 +76,6 @@ impl Kernel<2, 3> for Mesh {
     #[inline(always)]
     fn site(&self, site: u32) -> [f64; 2] {
         self.sites[site as usize]
-    }
-
-    #[inline(always)]
-    fn fetch(&self, site: u32) {
-        prefetch(&self.sites, site as usize);
     }
 
     fn start(&mut self, [a, b, c]: [u32; 3]) {

@@ -30,7 +30,6 @@ mod whole;
 
 use std::marker::PhantomData;
 
-use taut_oblivious::machine::prefetch;
 use taut_predicates::Separate;
 
 use crate::kernel::{Counters, Kernel, Settings, TooMany};
@@ -122,11 +121,6 @@ impl Kernel<3, 4> for Mesh {
     #[inline(always)]
     fn site(&self, site: u32) -> [f64; 3] {
         self.sites[row(site)].point()
-    }
-
-    #[inline(always)]
-    fn fetch(&self, site: u32) {
-        prefetch(&self.sites, row(site));
     }
 
     fn start(&mut self, mut first: [u32; 4]) {

@@ -44,4 +44,21 @@ pub enum FilterError {
         /// The file.
         path: String,
     },
+    /// No point of a laser scan has one of the classes that are wanted.
+    #[error(
+        "{path}: no point is of class {}: the classes of its points are {}", listed(.wanted), listed(.found)
+    )]
+    NothingOfClasses {
+        /// The file.
+        path: String,
+        /// The classes that are wanted.
+        wanted: Vec<u8>,
+        /// The classes of its points, ascending.
+        found: Vec<u8>,
+    },
+}
+
+/// Classes as the command line takes them.
+fn listed(classes: &[u8]) -> String {
+    classes.iter().map(u8::to_string).collect::<Vec<_>>().join(",")
 }

@@ -96,7 +96,7 @@ fn decode(
     let mut sink = Sink::<f64>::new(job, dim);
     let mut batch = PointDataBuilder::new().for_header(reader.header()).build();
     let at_once = (BATCH_BYTES / batch.record_len().max(1) as u64).max(1);
-    let (mut done, mut rows) = (0, vec![]);
+    let (mut done, mut rows, mut seen) = (0, vec![], [false; 256]);
     while done < expected {
         let wanted = at_once.min(expected - done);
         let place = FilePlace::Element("the batch from point", done);
@@ -111,12 +111,21 @@ fn decode(
         let points = batch.x().zip(batch.y()).zip(batch.z()).zip(batch.classification());
         for (row, (((x, y), z), class)) in (done..).zip(points.take(found as usize)) {
             let point = [x, y, z];
+            seen[usize::from(class)] = true;
             if is_kept(class) && (keeps_all || sieve.keeps(row, |k| point[numbers[k]], dim)?) {
                 rows.extend(numbers.iter().map(|&number| point[number]));
             }
         }
         sink.push(&rows)?;
         done += found;
+    }
+    let found: Vec<u8> = (0..=u8::MAX).filter(|&class| seen[usize::from(class)]).collect();
+    if let Some(wanted) = &job.options.classes
+        && !found.is_empty()
+        && !found.iter().any(|&class| is_kept(class))
+    {
+        let (path, wanted) = (job.path.to_owned(), wanted.clone());
+        return Err(FilterError::NothingOfClasses { path, wanted, found }.into());
     }
     if sink.len() == 0 && !keeps_all {
         return Err(FilterError::NothingKept { path: job.path.to_owned() }.into());

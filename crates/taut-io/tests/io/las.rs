@@ -74,9 +74,26 @@ fn columns_and_classes_are_chosen() {
         let input = open_bytes(bytes.clone(), "scan.laz", &of(classes)).unwrap();
         assert!(values(&input) == expected(1000, |i| keep[i as usize % 3]), "{classes:?}");
     }
-    assert!(matches!(open_bytes(bytes, "scan.laz", &of(&[77])), Err(Error::NoRows { .. })));
+    let said = message(open_bytes(bytes, "scan.laz", &of(&[77, 78])));
+    assert_eq!(said, "scan.laz: no point is of class 77,78: the classes of its points are 2,6,9");
     let refused = open_bytes(b"1,2\n".to_vec(), "points.csv", &of(&[2]));
     assert!(message(refused).contains("leave out --classes"));
+}
+
+/// A file of a folder without points of the classes is left out; a folder without any says which there are.
+#[test]
+fn files_of_a_folder_may_have_other_classes() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("a.las"), file(1, 1, false)).unwrap();
+    std::fs::write(folder.path().join("b.las"), file(30, 1, false)).unwrap();
+    let of = |classes: &[u8]| ReadOptions { classes: Some(classes.to_vec()), ..Default::default() };
+    let input = taut_io::open(folder.path(), &of(&[9])).unwrap();
+    assert!(values(&input) == expected(30, |i| i % 3 == 1));
+    let said = message(taut_io::open(folder.path(), &of(&[77])));
+    assert!(
+        said.contains("no point is of class 77: the classes of its points are 2,6,9"),
+        "{said}"
+    );
 }
 
 /// Points that outgrow the memory go to a temporary file; standard input has no name.

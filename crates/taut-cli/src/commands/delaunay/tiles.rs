@@ -87,6 +87,29 @@ impl Args {
         }
     }
 
+    /// Refuses an output folder within the folder of the points: the next command that reads the points would take the tiles
+    /// for some of them.
+    pub(super) fn refuse_within_input(&self) -> anyhow::Result<()> {
+        let input = &self.points.path;
+        let Some(out) = self.out.as_deref().filter(|out| input.is_dir() && is_folder(out)) else {
+            return Ok(());
+        };
+        // The folder may not be there yet, but where it will be is.
+        let there = out.ancestors().find_map(|folder| match folder.as_os_str().is_empty() {
+            true => Path::new(".").canonicalize().ok(),
+            false => folder.canonicalize().ok(),
+        });
+        match there.zip(input.canonicalize().ok()).filter(|(there, input)| there.starts_with(input))
+        {
+            Some(_) => bail!(
+                "-o {}: the tiles would lie among the points in {}: name a folder outside of it",
+                out.display(),
+                input.display()
+            ),
+            None => Ok(()),
+        }
+    }
+
     /// Refuses options that tiles do not have.
     fn refuse_other_outputs(&self) -> anyhow::Result<()> {
         let others = [
@@ -186,7 +209,8 @@ impl Args {
         Ok(Outcome::Done)
     }
 
-    /// Says how much disk will be taken, and refuses what does not fit.
+    /// Says about how much disk will be taken, and refuses what does not fit. Nobody knows how large fronts will be before the
+    /// work is done: on circles, lines and surfaces all sites may go up, and the check sorts the facets between tiles.
     fn tell_disk(
         &self,
         plan: &DiskPlan,
@@ -197,7 +221,7 @@ impl Args {
     ) -> anyhow::Result<()> {
         let needed = self.export_bytes(plan, points);
         watch.print(&format!(
-            "{}: {} of disk will be taken while {} triangulated within {} of memory",
+            "{}: {} of disk will be taken while {} triangulated within {} of memory, if they lie as evenly as uniform ones; more by points on lines, curves or surfaces and by the check of these",
             output.display(),
             bytes(needed),
             match points.source().len() {
@@ -257,9 +281,11 @@ fn explain(points: &Opened, error: DelaunayError) -> anyhow::Error {
                 "{folder} is not empty: go on with what was begun there with --resume, or name a new folder"
             )
         }
-        DelaunayError::Memory { .. } => {
-            anyhow!("{error}: go on with --resume and a larger --memory")
-        }
+        DelaunayError::Memory { sites, needed, .. } => anyhow!(
+            "{} must be triangulated at once, which takes {}: go on with --resume and a larger --memory",
+            counted(sites, "point"),
+            bytes(needed)
+        ),
         DelaunayError::File { .. } => anyhow!("{error}; go on with --resume once that is repaired"),
         other => other.into(),
     }

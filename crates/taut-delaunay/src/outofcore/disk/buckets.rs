@@ -89,14 +89,30 @@ impl Buffers {
         p: [f64; D],
         row: u64,
     ) -> Result<(), Error> {
+        // Copies of a length that is known take one instruction each.
+        if self.row_bytes == 4 {
+            self.push_with(buckets, bucket, p, (row as u32).to_le_bytes())
+        } else {
+            self.push_with(buckets, bucket, p, row.to_le_bytes())
+        }
+    }
+
+    #[inline(always)]
+    fn push_with<const D: usize, const ROW: usize>(
+        &mut self,
+        buckets: &[Bucket],
+        bucket: usize,
+        p: [f64; D],
+        row: [u8; ROW],
+    ) -> Result<(), Error> {
         let filled = self.filled[bucket] as usize;
-        let record = 8 * D + self.row_bytes;
+        let record = 8 * D + ROW;
         let begin = bucket * self.capacity + filled;
         let place = &mut self.bytes[begin..begin + record];
-        for (bytes, x) in place.chunks_exact_mut(8).zip(p) {
-            bytes.copy_from_slice(&x.to_le_bytes());
+        for (bytes, x) in place.as_chunks_mut::<8>().0.iter_mut().zip(p) {
+            *bytes = x.to_le_bytes();
         }
-        place[8 * D..].copy_from_slice(&row.to_le_bytes()[..self.row_bytes]);
+        place[8 * D..].copy_from_slice(&row);
         self.filled[bucket] = (filled + record) as u32;
         if filled + record == self.capacity { self.flush_one(buckets, bucket) } else { Ok(()) }
     }

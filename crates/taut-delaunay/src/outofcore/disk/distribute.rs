@@ -23,6 +23,9 @@ use crate::Error;
 use crate::outofcore::tree::{CellBox, FINE_LEVELS, Router};
 use crate::sites::Magnitudes;
 
+/// Points whose cells are looked for together, in a block that stays in the cache of the first level.
+const ROUTED_TOGETHER: usize = 256;
+
 /// Bytes of records between two commits.
 const COMMIT_BYTES: u64 = 256 << 20;
 
@@ -152,17 +155,35 @@ impl<const D: usize> Share<'_, D> {
         points: &Points<'_, T>,
         first: u64,
     ) -> Result<(), Error> {
-        for (row, values) in (first..).zip(points.rows()) {
-            let p: [f64; D] = std::array::from_fn(|i| values[i].into() + 0.0);
-            if let Some(column) = p.iter().position(|x| !x.is_finite()) {
-                let value = p[column];
-                return Err(Error::Input(InputError::NonFinite { row, column, value }));
+        let (mut block, mut cells) = ([[0.0; D]; ROUTED_TOGETHER], [0u32; ROUTED_TOGETHER]);
+        let begins = (first..).step_by(ROUTED_TOGETHER);
+        for (begin, values) in begins.zip(points.values().chunks(ROUTED_TOGETHER * D)) {
+            let count = values.len() / D;
+            for (p, values) in block.iter_mut().zip(values.chunks_exact(D)) {
+                *p = std::array::from_fn(|i| values[i].into() + 0.0);
             }
-            p.iter().for_each(|&x| worker.magnitudes.add(x));
-            let cell = self.router.cell(p);
-            worker.cells[cell].add(p);
-            worker.buffers.push(self.buckets, cell >> FINE_LEVELS, p, row)?;
+            let (block, cells) = (&block[..count], &mut cells[..count]);
+            // Without an exit, so that it compiles to vectors.
+            let is_finite = |all: bool, x: &f64| all & (x.abs() <= f64::MAX);
+            if !block.as_flattened().iter().fold(true, is_finite) {
+                return Err(non_finite(block, begin));
+            }
+            worker.magnitudes.add_all(block.as_flattened());
+            self.router.find_cells(block, cells);
+            for ((row, &p), &cell) in (begin..).zip(block).zip(&*cells) {
+                worker.cells[cell as usize].add(p);
+                worker.buffers.push(self.buckets, (cell >> FINE_LEVELS) as usize, p, row)?;
+            }
         }
         Ok(())
     }
+}
+
+/// The error for the first coordinate that is not finite; `begin` is the row of the first point.
+#[cold]
+fn non_finite<const D: usize>(points: &[[f64; D]], begin: u64) -> Error {
+    let wrong = |p: &[f64; D]| p.iter().position(|x| !x.is_finite());
+    let found = (begin..).zip(points).find_map(|(row, p)| Some((row, wrong(p)?, p)));
+    let (row, column, value) = found.map_or((begin, 0, f64::NAN), |(row, i, p)| (row, i, p[i]));
+    Error::Input(InputError::NonFinite { row, column, value })
 }

@@ -2,6 +2,8 @@
 //!
 //! *Guarantee.* A node is one file that appears whole; its bucket goes only when it is there. So after a crash each node is
 //! done or can be done again. Fronts are cut off when all nodes are done.
+//! *Trap.* The counts of a tile are read from its end. A resumed run reads all of it once and compares the sum, or it would
+//! write a manifest for tiles that were changed meanwhile.
 //! *Bytes* behind the tile: the front; bytes of the tile u64, of the front u64, sites and facets of the front u64 each; magic
 //! `TAUTNODE`.
 
@@ -13,7 +15,7 @@ use taut_oblivious::machine::Store;
 use super::buckets::read_points;
 use super::folder::{Folder, failed, remove, write_whole};
 use crate::Error;
-use crate::outofcore::bytes::Reader;
+use crate::outofcore::bytes::{Reader, WordSum};
 use crate::outofcore::driver::{NodeRecord, Storage, WriteNode};
 use crate::outofcore::front::Front;
 use crate::outofcore::points::NodePoints;
@@ -23,6 +25,8 @@ use crate::outofcore::tree::Tree;
 const MAGIC: &[u8; 8] = b"TAUTNODE";
 /// Four counts and the magic.
 const TRAILER_BYTES: usize = 40;
+/// Bytes of a tile that are read at once.
+const READ_BYTES: usize = 1 << 18;
 
 /// The files of the nodes of a tree.
 pub(super) struct NodeFiles<'a, const D: usize> {
@@ -85,6 +89,32 @@ impl<const D: usize> NodeFiles<'_, D> {
         let file = File::open(self.folder.tile(node)).ok()?;
         Trailer::read(&file).map(|trailer| trailer.tile_bytes)
     }
+
+    /// The trailer of the file of a node and the counts of its tile; `None` if these are of something else.
+    fn counts(&self, file: &File, node: u32) -> Option<(Trailer, TileCounts)> {
+        let trailer = Trailer::read(file)?;
+        let mut bytes = [0; COUNTS_BYTES];
+        file.read_exact_at(&mut bytes, trailer.tile_bytes.checked_sub(COUNTS_BYTES as u64)?)
+            .ok()?;
+        let counts = TileCounts::from_bytes::<D>(&bytes)?;
+        let is_ours = counts.tile == node && counts.bytes(D) == Some(trailer.tile_bytes);
+        is_ours.then_some((trailer, counts))
+    }
+}
+
+/// Tests whether the first `length` bytes of a file end with the sum of those before.
+fn has_its_sum(file: &File, length: u64) -> std::io::Result<bool> {
+    let (mut sum, mut block, mut at) = (WordSum::default(), vec![0; READ_BYTES], 0);
+    let body = length.saturating_sub(8);
+    while at < body {
+        let bytes = block.len().min((body - at) as usize);
+        file.read_exact_at(&mut block[..bytes], at)?;
+        sum.add(&block[..bytes]);
+        at += bytes as u64;
+    }
+    let mut expected = [0; 8];
+    file.read_exact_at(&mut expected, body)?;
+    Ok(u64::from_le_bytes(expected) == sum.finish())
 }
 
 impl<const D: usize> Storage<D> for NodeFiles<'_, D> {
@@ -132,19 +162,18 @@ impl<const D: usize> Storage<D> for NodeFiles<'_, D> {
         })
     }
 
-    fn stored(&self, node: u32) -> Option<NodeRecord> {
-        let file = File::open(self.folder.tile(node)).ok()?;
-        let trailer = Trailer::read(&file)?;
-        let mut bytes = [0; COUNTS_BYTES];
-        file.read_exact_at(&mut bytes, trailer.tile_bytes.checked_sub(COUNTS_BYTES as u64)?)
-            .ok()?;
-        let counts = TileCounts::from_bytes::<D>(&bytes)?;
-        let is_ours = counts.tile == node && counts.bytes(D) == Some(trailer.tile_bytes);
-        is_ours.then_some(NodeRecord {
+    fn stored(&self, node: u32) -> Result<Option<NodeRecord>, Error> {
+        let path = self.folder.tile(node);
+        let Ok(file) = File::open(&path) else { return Ok(None) };
+        let Some((trailer, counts)) = self.counts(&file, node) else { return Ok(None) };
+        if !has_its_sum(&file, trailer.tile_bytes).map_err(failed(&path))? {
+            return Err(Error::DamagedFolder { path: path.display().to_string() });
+        }
+        Ok(Some(NodeRecord {
             counts,
             front_sites: trailer.front_sites,
             front_facets: trailer.front_facets,
-        })
+        }))
     }
 
     fn release(&self, leaf: u32) {

@@ -245,6 +245,38 @@ fn damaged_files_are_refused() {
     }
 }
 
+/// One bit of a tile that an earlier run wrote.
+#[test]
+fn a_tile_that_was_changed_is_not_resumed() {
+    use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+    let source = GeneratedSource::new(Distribution::Uniform, 300_000, 2, 5, ScalarKind::F64);
+    let source = source.unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let (cancel, seen) = (AtomicBool::new(false), AtomicU64::new(0));
+    let count = |points: u64| {
+        // All are read, and half of them are triangulated.
+        if seen.fetch_add(points, Ordering::Relaxed) + points > 450_000 {
+            cancel.store(true, Ordering::Relaxed);
+        }
+    };
+    let monitor = Monitor { on_points: Some(&count), cancel: Some(&cancel), ..Monitor::silent() };
+    let stopped = FolderOptions { monitor, ..options() };
+    assert!(delaunay_to_folder(&source, folder.path(), &stopped).is_err());
+    let entries = fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().path());
+    let tile = entries.filter(|path| path.extension().is_some_and(|e| e == "ttd")).min().unwrap();
+    let whole = fs::read(&tile).unwrap();
+    let mut bytes = whole.clone();
+    bytes[whole.len() / 3] ^= 4;
+    fs::write(&tile, bytes).unwrap();
+    let again = FolderOptions { resume: true, ..options() };
+    let refused = delaunay_to_folder(&source, folder.path(), &again);
+    let name = tile.display().to_string();
+    assert!(matches!(&refused, Err(Error::DamagedFolder { path }) if *path == name), "{refused:?}");
+    fs::write(&tile, whole).unwrap();
+    let found = delaunay_to_folder(&source, folder.path(), &again).unwrap();
+    check_tiles::<2>(folder.path(), &found);
+}
+
 /// A process that is killed before the manifest is there leaves a folder that a resumed run takes, and no other.
 #[test]
 fn a_run_that_ended_before_its_manifest_is_resumed() {

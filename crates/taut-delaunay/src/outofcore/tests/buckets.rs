@@ -43,8 +43,8 @@ impl<const D: usize> Storage<D> for Lists<D> {
         Ok(record)
     }
 
-    fn stored(&self, _: u32) -> Option<NodeRecord> {
-        None
+    fn stored(&self, _: u32) -> Result<Option<NodeRecord>, Error> {
+        Ok(None)
     }
 
     fn release(&self, leaf: u32) {
