@@ -5,7 +5,7 @@ use std::io::Cursor;
 
 use las::point::{Classification, Format as PointFormat};
 use las::{Builder, Color, Point, Transform, Vector, Writer};
-use taut_io::{Bounds, Error, Format, ReadOptions, Thinning, open_bytes};
+use taut_io::{Bounds, Format, ReadOptions, Thinning, open_bytes};
 
 use super::{message, values};
 
