@@ -2,6 +2,7 @@
 
 mod bodies;
 mod circles;
+mod coverage;
 mod occluders;
 mod searches;
 pub(crate) mod shapes;

@@ -5,9 +5,9 @@ use super::*;
 /// Bounds that must be reached and are the aim are those of the issue. The largest volumes are known to four digits behind the point:
 /// the least numbers that round to them.
 const MODELS: [Model; 4] = [
-    model("beethoven", 15, [[0.78, 0.82], [0.69, 0.74], [0.86, 0.90]], 0.041_05),
-    model("porsche", 10, [[0.78, 0.82], [0.71, 0.76], [0.79, 0.84]], 0.024_45),
-    model("bunny_res2", 45, [[0.86, 0.89], [0.76, 0.81], [0.78, 0.83]], 0.092_15),
+    model("beethoven", 15, [[0.78, 0.82], [0.69, 0.74], [0.86, 0.90]], 0.0411),
+    model("porsche", 10, [[0.78, 0.82], [0.71, 0.76], [0.79, 0.84]], 0.0245),
+    model("bunny_res2", 45, [[0.86, 0.89], [0.76, 0.81], [0.78, 0.83]], 0.0922),
     model("horse", 10, [[0.67, 0.72], [0.57, 0.62], [0.0, 0.0]], 0.0),
 ];
 
@@ -50,7 +50,7 @@ fn pack(context: &Context, mesh: &Mesh, options: &BodiesOptions<'_>) -> Result<P
 /// Coverage, times, sizes of certificates, the largest single body, and the lines that ten bodies hide.
 pub(super) fn packing(context: &Context, out: &mut Outcome) -> Result<()> {
     let mut table = Table::new(
-        "model | triangles | what | bodies | covered:% | s:s | check of a body:s | bytes of a body \
+        "model | triangles | what | bodies | covered:% | over the best known:6 | s:s | check of a body:s | bytes of a body \
          | lines | hidden:% | standard error:% | worst view:%",
     );
     for &Model { name, count, overlapping, disjoint, hidden, largest } in &MODELS {
@@ -62,22 +62,26 @@ pub(super) fn packing(context: &Context, out: &mut Outcome) -> Result<()> {
         };
         let packings =
             [("one", 1, None), ("ten", 10, None), ("overlapping", count, Some(overlapping))];
+        let inside = coverage::points(&mesh);
         for (what, count, bounds) in
             packings.into_iter().chain([("disjoint", count, Some(disjoint))])
         {
             let disjoint = what == "disjoint";
-            let options = BodiesOptions { count, disjoint, ..base.clone() };
+            let events = if count == 1 { 2 * base.events } else { base.events };
+            let options = BodiesOptions { count, disjoint, events, ..base.clone() };
             let packed = pack(context, &mesh, &options)?;
             let answer = &packed.found.answer;
+            let covered = coverage::share(&inside, answer);
             let bodies = answer.bodies.len();
             let check = packed.check / bodies as f64;
             let mut row = json!({
-                "model": name, "triangles": mesh.len(), "what": what, "bodies": bodies, "covered": packed.coverage,
+                "model": name, "triangles": mesh.len(), "what": what, "bodies": bodies, "covered": covered,
                 "s": packed.seconds, "check of a body": check, "bytes of a body": packed.found.to_json().len() / bodies,
             });
             let of = |quantity: &str| format!("{name}, {what}: {quantity}");
             if what == "one" && largest > 0.0 {
                 let ratio = answer.bodies[0].volume / largest;
+                row["over the best known"] = json!(ratio);
                 out.at_least(of("volume over the best known"), ratio, [1.0, 1.1], Unit::Times);
                 out.at_most(of("time"), packed.seconds, 1.0, Unit::Seconds);
             }
@@ -92,14 +96,17 @@ pub(super) fn packing(context: &Context, out: &mut Outcome) -> Result<()> {
                 out.at_least(of("lines hidden"), found.share, hidden, Unit::Percent);
             }
             if let Some(bounds) = bounds {
-                out.at_least(of("covered"), packed.coverage, bounds, Unit::Percent);
+                out.at_least(of("covered"), covered, bounds, Unit::Percent);
                 out.at_most(of("time"), packed.seconds, 2.0, Unit::Seconds);
                 out.at_most(of("check of a body"), check, 3e-3, Unit::Seconds);
             }
             table.push(row);
         }
     }
-    out.table("k = 18; coverage by 60,000 points that the search does not see", table);
+    out.table(
+        "k = 18; coverage by 2²⁰ points that the search does not see, on lines of the bench",
+        table,
+    );
     Ok(())
 }
 
