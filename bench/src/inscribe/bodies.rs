@@ -2,8 +2,7 @@
 
 use super::*;
 
-/// Bounds that must be reached and are the aim are those of the issue. The largest volumes are known to four digits behind the point:
-/// the least numbers that round to them.
+/// Shares that must be reached and are the aim; the largest volumes known, to four digits behind the point.
 const MODELS: [Model; 4] = [
     model("beethoven", 15, [[0.78, 0.82], [0.69, 0.74], [0.86, 0.90]], 0.0411),
     model("porsche", 10, [[0.78, 0.82], [0.71, 0.76], [0.79, 0.84]], 0.0245),
@@ -63,10 +62,12 @@ pub(super) fn packing(context: &Context, out: &mut Outcome) -> Result<()> {
         let packings =
             [("one", 1, None), ("ten", 10, None), ("overlapping", count, Some(overlapping))];
         let inside = coverage::points(&mesh);
+        ensure!(!inside.is_empty(), "{name}: no point inside");
         for (what, count, bounds) in
             packings.into_iter().chain([("disjoint", count, Some(disjoint))])
         {
             let disjoint = what == "disjoint";
+            // One body has a second, of which the default takes a half.
             let events = if count == 1 { 2 * base.events } else { base.events };
             let options = BodiesOptions { count, disjoint, events, ..base.clone() };
             let packed = pack(context, &mesh, &options)?;
@@ -104,7 +105,7 @@ pub(super) fn packing(context: &Context, out: &mut Outcome) -> Result<()> {
         }
     }
     out.table(
-        "k = 18; coverage by 2²⁰ points that the search does not see, on lines of the bench",
+        "k = 18; coverage by 2²⁰ points on 65,536 lines that the search does not see",
         table,
     );
     Ok(())

@@ -97,7 +97,7 @@ mod tests {
     }
 
     #[test]
-    fn a_box_is_covered_whole_and_half() {
+    fn a_box_is_covered_whole_and_in_part() {
         let mesh = cuboid([1.0, 0.5, 0.25]);
         let points = points(&mesh);
         assert!(points.len().abs_diff(POINTS) < POINTS / 100, "{}", points.len());
@@ -111,7 +111,12 @@ mod tests {
             bodies: vec![taut_certify::ConvexBody { normals, offsets, volume: 0.0 }],
         };
         assert_eq!(share(&points, &answer(vec![[1, 0, 0]], vec![4])), 1.0);
-        let half = share(&points, &answer(vec![[1, 0, 0]], vec![2]));
-        assert!((half - 0.5).abs() < 2e-3, "{half}");
+        // Between two of the cells, across all lines, and along them.
+        for (normal, offset, part) in
+            [([17, 0, 0], 23, 23.0 / 68.0), ([0, 1, 0], 1, 0.5), ([0, 0, 10], 3, 0.3)]
+        {
+            let found = share(&points, &answer(vec![normal], vec![offset]));
+            assert!((found - part).abs() < 2e-3, "{found} {part}");
+        }
     }
 }

@@ -6,7 +6,7 @@
 //! the feature space. Then c = Σ λᵢφ(xᵢ), and |φ(x) − c|² = Σ λᵢρ(x, xᵢ) − D.
 //! *Idea.* Few λᵢ are not 0. Pairs of multipliers of a working set take steps to their optimum ([`pairs`]); a pass over all points looks
 //! for those outside, most of which one distance to the mean of the support proves to be inside ([`screen`]), or what an earlier pass
-//! found ([`reach`]); these come into the working set, until there are none.
+//! found ([`distance_bounds`]); these come into the working set, until there are none.
 //! *Guarantee.* The objective is at most (1 + ε) times its minimum: D is a lower bound, and a pass measures the objective.
 //! *Cost.* O(nd) for each of three to seven passes where the kernel is wide, O(nkd) with a support of k where it is narrow or no Gaussian;
 //! O(|W|) for each step on a working set W.
@@ -15,10 +15,10 @@
 
 mod cluster;
 mod decay;
+mod distance_bounds;
 mod features;
 mod first;
 mod pairs;
-mod reach;
 mod screen;
 mod solve;
 mod thesis;

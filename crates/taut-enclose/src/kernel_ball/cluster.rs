@@ -1,8 +1,8 @@
 //! Sums of Gaussian terms of a few points, side by side.
 //!
 //! *Idea.* The coordinates of eight points stand next to each other, so that a vector of the processor holds one coordinate of all of them,
-//! and distance and exponential of eight points take no sum across a vector. For groups of 20 points that is three to four times faster
-//! than points row by row.
+//! and distance and exponential of eight points take no sum across a vector. For groups of 16 to 32 points of ten
+//! coordinates the passes of a narrow kernel took 0.7 times as long as with points row by row.
 //! *Order.* Sums are made lane by lane and then in the order of the lanes, whatever the width of the vectors: the same bits everywhere.
 
 use pulp::{Arch, Simd, WithSimd};
@@ -11,14 +11,14 @@ use super::decay::decay;
 
 const LANES: usize = 8;
 
-/// Points x₁, …, xₘ with weights wᵢ and spreads vᵢ, for terms 2(1 − exp(−γ(|x − xᵢ|² + vᵢ))).
+/// Points x₁, …, xₘ with weights wᵢ and variances vᵢ, for terms 2(1 − exp(−γ(|x − xᵢ|² + vᵢ))).
 #[derive(Default)]
 pub(super) struct Cluster {
     dim: usize,
     /// For eight points at a time, coordinate by coordinate; zeros fill the last eight.
     columns: Vec<f64>,
     weights: Vec<f64>,
-    spreads: Vec<f64>,
+    variances: Vec<f64>,
 }
 
 impl Cluster {
@@ -27,21 +27,18 @@ impl Cluster {
     }
 
     /// Adds points after the eights that are there.
-    pub(super) fn extend<'a>(
-        &mut self,
-        points: impl ExactSizeIterator<Item = (&'a [f64], f64, f64)>,
-    ) {
+    pub(super) fn extend(&mut self, points: impl ExactSizeIterator<Item = (Vec<f64>, f64, f64)>) {
         let first = self.weights.len();
         let count = (first + points.len()).next_multiple_of(LANES);
         self.columns.resize(count * self.dim, 0.0);
         self.weights.resize(count, 0.0);
-        self.spreads.resize(count, 0.0);
-        for (i, (point, weight, spread)) in (first..).zip(points) {
+        self.variances.resize(count, 0.0);
+        for (i, (point, weight, variance)) in (first..).zip(points) {
             let start = (i - i % LANES) * self.dim + i % LANES;
             for (j, x) in point.iter().enumerate() {
                 self.columns[start + j * LANES] = *x;
             }
-            (self.weights[i], self.spreads[i]) = (weight, spread);
+            (self.weights[i], self.variances[i]) = (weight, variance);
         }
     }
 
@@ -74,9 +71,9 @@ impl Cluster {
                 *square += (y - x) * (y - x);
             }
         }
-        let spreads = &self.spreads[first..][..LANES];
-        for (square, spread) in squares.iter_mut().zip(spreads) {
-            *square = 2.0 * decay(gamma * (*square + spread));
+        let variances = &self.variances[first..][..LANES];
+        for (square, variance) in squares.iter_mut().zip(variances) {
+            *square = 2.0 * decay(gamma * (*square + variance));
         }
         squares
     }
@@ -134,7 +131,7 @@ mod tests {
         let points: Vec<[f64; 3]> =
             (0..21).map(|i| [i as f64 * 0.3, (i % 5) as f64, -(i as f64)]).collect();
         let mut cluster = Cluster::new(3);
-        let point = |i: usize| (&points[i][..], 1.0 + i as f64, 0.1 * i as f64);
+        let point = |i: usize| (points[i].to_vec(), 1.0 + i as f64, 0.1 * i as f64);
         cluster.extend((0..9).map(point));
         let second = cluster.len();
         assert_eq!(second, 16);

@@ -23,30 +23,30 @@ pub(super) fn first_pass(source: &dyn PointSource, monitor: &Monitor<'_>) -> Res
             let row = number + row as u64;
             return Err(Error::Input(InputError::NonFinite { row, column, value }));
         }
-        let spread = match rows {
+        let extent = match rows {
             Rows::F32(points) => farthest_coordinate(points.values(), &first),
             Rows::F64(points) => farthest_coordinate(points.values(), &first),
         };
-        Ok::<(BlockHash, f64), Error>((hash_block(&rows), spread))
+        Ok::<(BlockHash, f64), Error>((hash_block(&rows), extent))
     })?;
-    let spread = blocks.iter().map(|block| block.1).fold(0.0, f64::max);
+    let extent = blocks.iter().map(|block| block.1).fold(0.0, f64::max);
     // Two rows are at most twice as far apart as one is from the first.
-    if !(4.0 * spread * spread * dim as f64).is_finite() {
+    if !(4.0 * extent * extent * dim as f64).is_finite() {
         return Err(Error::Overflow);
     }
     let hash = PointsHash::of_blocks(source.len(), dim, blocks.iter().map(|block| block.0));
-    Ok(First { hash, is_one_point: spread == 0.0 })
+    Ok(First { hash, is_one_point: extent == 0.0 })
 }
 
 /// The largest |xⱼ − yⱼ| of any row x.
 fn farthest_coordinate<T: Scalar>(values: &[T], y: &[f64]) -> f64 {
     // Coordinate by coordinate, so that the compiler takes several at a time.
-    let mut spreads = vec![0.0; y.len()];
+    let mut extents = vec![0.0; y.len()];
     for row in values.chunks_exact(y.len()) {
-        for ((spread, &x), y) in spreads.iter_mut().zip(row).zip(y) {
+        for ((extent, &x), y) in extents.iter_mut().zip(row).zip(y) {
             let way = (Into::<f64>::into(x) - y).abs();
-            *spread = if way > *spread { way } else { *spread };
+            *extent = if way > *extent { way } else { *extent };
         }
     }
-    spreads.into_iter().fold(0.0, f64::max)
+    extents.into_iter().fold(0.0, f64::max)
 }

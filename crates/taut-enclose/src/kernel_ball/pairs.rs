@@ -5,7 +5,7 @@
 //! i of the largest aᵢ that can grow, and the j that then gains most.
 //! *Guarantee.* D never falls; the steps end when no aᵢ that can grow exceeds one that can shrink by more than the tolerance.
 //! *Cost.* O(|W|) for each step, and the columns of ρ that it has not seen, O(|W|d).
-//! *Trap.* a is brought up to date with each step, and its error grows with them: it is summed up again from time to time.
+//! *Trap.* a and Σλ are brought up to date with each step, and their errors grow with them: they are corrected from time to time.
 //! *Reference.* Fan, Chen and Lin, Working set selection using second order information, JMLR 6, 2005.
 
 use std::collections::VecDeque;
@@ -19,6 +19,8 @@ use super::features::Features;
 const COLUMN_VALUES_MAX: usize = 1 << 25;
 /// Steps between two looks at the monitor.
 const STEPS_BETWEEN_LOOKS: u64 = 256;
+/// What rounding may make of a sum of 1, and far more. Larger differences are those of multipliers that are not free to change.
+const DRIFT_MAX: f64 = 1e-6;
 /// Steps after which a is summed up again.
 const STEPS_BETWEEN_SUMS: u64 = 20_000;
 
@@ -62,8 +64,24 @@ impl Pairs {
         pairs
     }
 
+    /// Scales the multipliers below C so that the sum of all is 1 again: after many steps rounding is in its last digits.
+    fn normalize(&mut self) {
+        let is_free = |lambda: f64| lambda > 0.0 && lambda < self.most;
+        let at_most: f64 = self.lambda.iter().filter(|&&lambda| !is_free(lambda)).sum();
+        let free: f64 = self.lambda.iter().filter(|&&lambda| is_free(lambda)).sum();
+        let factor = (1.0 - at_most) / free;
+        if (factor - 1.0).abs() < DRIFT_MAX {
+            let most = self.most;
+            for lambda in self.lambda.iter_mut().filter(|lambda| **lambda > 0.0 && **lambda < most)
+            {
+                *lambda = (*lambda * factor).min(most);
+            }
+        }
+    }
+
     /// Finds a from λ.
     fn sum_up(&mut self) {
+        self.normalize();
         let mut mean = vec![0.0; self.features.len()];
         for j in 0..self.features.len() {
             let lambda = self.lambda[j];
@@ -195,6 +213,11 @@ impl Pairs {
         let mut next = Pairs::new(self.kernel, self.dim, features, lambda, self.most);
         next.steps = self.steps;
         next
+    }
+
+    /// The number of λ > 0.
+    pub(super) fn support_len(&self) -> usize {
+        self.lambda.iter().filter(|&&lambda| lambda > 0.0).count()
     }
 
     /// Places with λ > 0, by row number.

@@ -5,10 +5,11 @@ use std::collections::BTreeSet;
 use taut_certify::{Kernel, KernelBall, KernelBallCertificate, PassBounds, Solution, Stop, Trace};
 use taut_points::{InputError, PointSource, PointsHash, ReadError};
 
+use super::distance_bounds::{DistanceBounds, PreviousMultipliers};
 use super::features::Features;
 use super::first::{First, first_pass};
 use super::pairs::Pairs;
-use super::reach::{Before, Reaches};
+
 use super::screen::Center;
 use super::{KernelBallMethod, KernelBallOptions};
 use crate::Error;
@@ -47,23 +48,23 @@ pub(super) fn solve(
     let mut pairs = start(source, options, &mut passes)?;
     let mut history = vec![];
     let mut gap = START_GAP;
-    let mut reaches = match options.kernel {
+    let mut bounds = match options.kernel {
         // Distances of the feature space keep the triangle inequality where the kernel is known to be one, and are exact enough.
-        Kernel::Gaussian { .. } | Kernel::Linear => Reaches::new(source.len()),
+        Kernel::Gaussian { .. } | Kernel::Linear => DistanceBounds::new(source.len()),
         _ => None,
     };
     loop {
         // While many points are outside, more digits of the multipliers would be lost with the next of them.
         let least = (SHARE_OF_PAIRS * options.epsilon).max(TOLERANCE_MIN);
         let tolerance = least.max(SHARE_OF_GAP * gap);
-        let before = Before::of(&pairs);
+        let before = PreviousMultipliers::of(&pairs);
         let border = pairs.maximize(tolerance, monitor).map_err(ReadError::from)?;
         let spread = pairs.spread();
         let center = center_of(&pairs, spread);
-        if let Some(reaches) = &mut reaches {
-            reaches.drift_by(before.way(&pairs));
+        if let Some(bounds) = &mut bounds {
+            bounds.move_center(before.displacement(&pairs));
             for (&id, a) in pairs.features.ids.iter().zip(&pairs.mean) {
-                reaches.know(id, a - spread);
+                bounds.set(id, a - spread);
             }
         }
         let mut level = match options.nu {
@@ -74,7 +75,7 @@ pub(super) fn solve(
         passes += 1;
         monitor.pass(passes, source.len());
         let keep = pairs.features.len() + NEW_ROWS + 2 * pairs.support().len();
-        let found = center.pass(source, level, keep, reaches.as_mut(), monitor)?;
+        let found = center.pass(source, level, keep, bounds.as_mut(), monitor)?;
         let upper = match options.nu {
             None => found.largest,
             Some(nu) => {

@@ -154,6 +154,45 @@ fn turned_scaled_and_repeated_points_have_the_same_ball() {
     same(&twice, 0.5, "repeated");
 }
 
+/// A mean of points is rounded in units of the last place of their coordinates, which here is more than the room that the checker leaves.
+#[test]
+fn a_circle_far_from_the_origin_is_proved() {
+    for (x, y) in [(5e5, 5e6), (1e10, -3e9)] {
+        let circle: Vec<f64> = (0..2000)
+            .flat_map(|i| {
+                let (sin, cos) = (i as f64 * 0.618).sin_cos();
+                [x + cos, y + sin]
+            })
+            .collect();
+        for kernel in [
+            Kernel::Linear,
+            Kernel::Gaussian { gamma: 1e-9 },
+            Kernel::Gaussian { gamma: 0.5 },
+            Kernel::Gaussian { gamma: 40.0 },
+        ] {
+            for nu in [None, Some(0.05)] {
+                proved(&circle, 2, &KernelBallOptions { kernel, nu, ..Default::default() });
+            }
+        }
+    }
+}
+
+#[test]
+fn points_of_which_all_but_one_are_the_same_have_a_ball_of_two() {
+    for n in [1025, 2000] {
+        let mut values = vec![3.5; 2 * n];
+        values[2 * n - 1] = 4.0;
+        for kernel in [Kernel::Linear, Kernel::Gaussian { gamma: 2.0 }] {
+            for nu in [None, Some(0.5 / n as f64)] {
+                let options = KernelBallOptions { kernel, nu, ..Default::default() };
+                let found = proved(&values, 2, &options);
+                let rho = if kernel == Kernel::Linear { 0.25 } else { -2.0 * (-0.5f64).exp_m1() };
+                assert!((found.answer.squared_radius / rho - 0.25).abs() < 1e-6, "{found:?}");
+            }
+        }
+    }
+}
+
 #[test]
 fn kernels_so_wide_that_all_points_nearly_coincide_lose_no_digits() {
     for gamma in [1e-12, 1e-100, 1e-200] {

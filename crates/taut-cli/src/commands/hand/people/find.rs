@@ -74,10 +74,11 @@ impl Answer {
         distance: Option<f64>,
         store: &Store,
     ) -> String {
-        if let Some(distance) = distance.filter(|_| self.scores) {
+        if self.scores {
             let threshold = store.matcher().threshold();
-            words +=
-                &format!("  distance  {}; accepted up to {}\n", short(distance), short(threshold));
+            // Nobody is as near as the threshold where no distance is known.
+            let found = distance.map_or("larger".to_owned(), short);
+            words += &format!("  distance  {found}; accepted up to {}\n", short(threshold));
             fields["distance"] = json!(distance);
             fields["threshold"] = json!(threshold);
         }
