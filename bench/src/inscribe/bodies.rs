@@ -104,10 +104,7 @@ pub(super) fn packing(context: &Context, out: &mut Outcome) -> Result<()> {
             table.push(row);
         }
     }
-    out.table(
-        "k = 18; coverage by 2²⁰ points on 65,536 lines that the search does not see",
-        table,
-    );
+    out.table("k = 18; coverage by 2²⁰ points on 65,536 lines that the search does not see", table);
     Ok(())
 }
 
