@@ -2,11 +2,12 @@
 
 use super::*;
 
-/// Shares that must be reached and are the aim; the largest volumes known, to four digits behind the point.
+/// Shares that must be reached and are the aim; the largest volumes are known to four digits behind the point: these are
+/// the least numbers that round to them.
 const MODELS: [Model; 4] = [
-    model("beethoven", 15, [[0.78, 0.82], [0.69, 0.74], [0.86, 0.90]], 0.0411),
-    model("porsche", 10, [[0.78, 0.82], [0.71, 0.76], [0.79, 0.84]], 0.0245),
-    model("bunny_res2", 45, [[0.86, 0.89], [0.76, 0.81], [0.78, 0.83]], 0.0922),
+    model("beethoven", 15, [[0.78, 0.82], [0.69, 0.74], [0.86, 0.90]], 0.041_05),
+    model("porsche", 10, [[0.78, 0.82], [0.71, 0.76], [0.79, 0.84]], 0.024_45),
+    model("bunny_res2", 45, [[0.86, 0.89], [0.76, 0.81], [0.78, 0.83]], 0.092_15),
     model("horse", 10, [[0.67, 0.72], [0.57, 0.62], [0.0, 0.0]], 0.0),
 ];
 
@@ -67,9 +68,7 @@ pub(super) fn packing(context: &Context, out: &mut Outcome) -> Result<()> {
             packings.into_iter().chain([("disjoint", count, Some(disjoint))])
         {
             let disjoint = what == "disjoint";
-            // One body has a second, of which the default takes a half.
-            let events = if count == 1 { 2 * base.events } else { base.events };
-            let options = BodiesOptions { count, disjoint, events, ..base.clone() };
+            let options = BodiesOptions { count, disjoint, ..base.clone() };
             let packed = pack(context, &mesh, &options)?;
             let answer = &packed.found.answer;
             let covered = coverage::share(&inside, answer);
