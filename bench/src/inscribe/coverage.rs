@@ -48,14 +48,14 @@ pub(super) fn points(mesh: &Mesh) -> Vec<[f64; 3]> {
     }
     let length: f64 = inside.iter().map(|(_, [from, to])| to - from).sum();
     let distance = length / POINTS as f64;
-    // One distance after the other along all parts, so that short ones have their share.
-    let (mut points, mut next) = (vec![], distance * random.random::<f64>());
+    let mut points = vec![];
     for ([x, y], [from, to]) in inside {
-        while next < to - from {
-            points.push([x, y, from + next]);
-            next += distance;
+        // A start of its own for each part, so that short ones have their share, and no two are in step.
+        let mut z = from + distance * random.random::<f64>();
+        while z < to {
+            points.push([x, y, z]);
+            z += distance;
         }
-        next -= to - from;
     }
     points
 }
