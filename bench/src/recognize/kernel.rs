@@ -28,7 +28,7 @@ const CASES: [Case; 5] = [
     },
     Case { name: "10⁵ × 30, hard", n: 100_000, ..NORMAL },
     Case { name: "10⁶ × 30, hard", n: 1_000_000, seconds: Some([0.5, 0.13]), ..NORMAL },
-    // So narrow that more than 2,000 points are on the border; until November 24, 2026 γ was 1/4, with 1,631 of them.
+    // So narrow that more than 2,000 points are on the border.
     Case {
         name: "2·10⁴ × 10, narrow, hard",
         n: 20_000,

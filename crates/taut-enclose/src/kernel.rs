@@ -32,7 +32,7 @@ use lanes::{Lanes, eight_rows, one_row, one_short_row};
 const EIGHT_ROWS_MAX: usize = 96;
 
 /// A center as `high`, or as `high + low` where one `f64` per coordinate is too coarse.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Center {
     /// The coordinates, rounded.
     pub(crate) high: Vec<f64>,

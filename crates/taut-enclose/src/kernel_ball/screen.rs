@@ -41,7 +41,6 @@ const MARGIN: f64 = 0.05;
 const NEAR_ORIGIN: f64 = 64.0;
 
 /// A group of the support: its weight, mean and variance.
-#[derive(Default)]
 struct Group {
     weight: f64,
     mean: Mean,
@@ -156,11 +155,11 @@ impl Center {
         }
     }
 
+    /// The group of some places, of which there is at least one.
     fn group(&self, places: &[usize]) -> Group {
         let weight: f64 = places.iter().map(|&i| self.lambda[i]).sum();
-        let Some(&first) = places.first() else { return Group::default() };
         // From one of the points, so that what rounding takes is small beside the distances, and not only beside the coordinates.
-        let origin = self.support.row(first, self.dim);
+        let origin = self.support.row(places[0], self.dim);
         let mut mean = vec![0.0; self.dim];
         for &i in places {
             let row = self.support.row(i, self.dim).iter().zip(origin);

@@ -9,7 +9,6 @@ use super::distance_bounds::{DistanceBounds, PreviousMultipliers};
 use super::features::Features;
 use super::first::{First, first_pass};
 use super::pairs::Pairs;
-
 use super::screen::Center;
 use super::{KernelBallMethod, KernelBallOptions};
 use crate::Error;
