@@ -53,6 +53,8 @@ fn the_enrolled_are_accepted_found_and_deleted() {
         |person| folder.taut(&format!("hand identify {STORE} {} --json", image(person, 3)));
     assert_eq!(identify(1).ends(0).json()["person"], "Grace");
     assert_eq!(identify(2).ends(1).json()["person"], json!(null));
+    let run = folder.taut(&format!("hand identify {STORE} {} --scores", image(2, 3))).ends(1);
+    assert!(run.out.contains("distance  larger; accepted up to "), "{}", run.out);
     let run = folder.taut(&format!("hand identify {STORE} {}", image(0, 3))).ends(0);
     assert!(run.out.starts_with("Ada\n") && run.out.contains("2 people"), "{}", run.out);
     assert!(!run.out.contains("distance"));
