@@ -2,13 +2,16 @@
 
 mic-shapely and mic-polylabel find the largest circle in the ring of the input, to a tolerance of 1e-6: center and radius.
 solid-iris grows one region of drake's Iris, at most 5 iterations, from the inner point that is farthest from the mesh, around all its
-triangles; solid-vhacd makes at most 32 hulls, solid-coacd as many at a threshold of 0.1. Of these goes to CENTER which share of the inside
+triangles; solid-vhacd makes at most 32 hulls, solid-parry3d as many with the program of peers/rust, solid-coacd as many at a threshold of 0.1. Of these goes to CENTER which share of the inside
 they cover, which part of the volume lies outside, as a share of the inside, and the volume of the largest part; of Iris also its seed.
 Inside is the winding number of libigl above one half, at the cells of a grid of 64 along the longest side.
 """
 
 import json
+import pathlib
+import subprocess
 import sys
+import tempfile
 import time
 
 import numpy
@@ -83,6 +86,18 @@ def vhacd(solid):
     return solid.judged([numpy.asarray(hull) for hull, _ in hulls], seconds)
 
 
+def parry3d(solid):
+    build = pathlib.Path(__file__).parent / "build"
+    with tempfile.NamedTemporaryFile() as file:
+        rows = solid.vertices[solid.faces].reshape(-1, 9)
+        numpy.array(rows.shape, dtype="<u8").tofile(file)
+        rows.astype("<f8").tofile(file)
+        file.flush()
+        program = [build / "rust/release/peers", "parry3d", file.name]
+        found = json.loads(subprocess.run(program, check=True, capture_output=True).stdout)
+    return solid.judged([numpy.array(hull) for hull in found["hulls"]], found["seconds"])
+
+
 def coacd(solid):
     import coacd
     coacd.set_log_level("error")
@@ -96,7 +111,7 @@ def main():
     way, input_path, center_path = sys.argv[1:]
     solve = {
         "mic-shapely": shapely_circle, "mic-polylabel": polylabel_circle, "solid-iris": iris, "solid-vhacd": vhacd,
-        "solid-coacd": coacd,
+        "solid-parry3d": parry3d, "solid-coacd": coacd,
     }[way]
     with open(input_path, "rb") as file:
         count, columns = (int(number) for number in numpy.fromfile(file, dtype="<u8", count=2))

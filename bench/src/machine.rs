@@ -4,14 +4,41 @@ use std::process::Command;
 
 use crate::prelude::*;
 
-/// Versions of the peers that `bench/setup` and Cargo.lock name.
-const PEERS: &str = "\
-    cyminiball 2.1.2; miniball (PyPI) 1.2.0; miniball (crate) 0.5.0; extsort 0.5.0; fast_hilbert \
-    2.1.0; indexset 0.16.0; kiddo 6.3.0; numpy (sort) 2.4.6; quickheap 0.2.0; imageproc 0.27.0; \
-    opencv-python-headless 5.0.0.93; rand 0.10.3; rdst 0.20.14; transpose 0.2.3; \
-    voracious_radix_sort 1.2.0; scikit-learn 1.8.0; cvxpy 1.7.5; clarabel 0.11.1; dynesty 3.1.0; \
-    highspy 1.15.1; scikit-learn-extra 0.3.0; concorde_rs 0.1.1; elkai 2.0.1; open3d 0.20.0; \
-    pymeshlab 2025.7.post1";
+/// Versions of the peers that Cargo.lock, that of `peers/rust` and that of `peers/tours` name.
+const CRATES: &str = "\
+    miniball (crate) 0.5.0; extsort 0.5.0; fast_hilbert 2.1.0; indexset 0.16.0; kiddo 6.3.0; quickheap 0.2.0; \
+    imageproc 0.27.0; polylabel 3.3.0; parry3d-f64 0.31.1; rand 0.10.3; rdst 0.20.14; transpose 0.2.3; \
+    voracious_radix_sort 1.2.0; concorde_rs 0.1.1";
+
+/// Packages of PyPI, whose versions are those that are installed.
+const PACKAGES: [&str; 18] = [
+    "cyminiball",
+    "miniball",
+    "numpy",
+    "scipy",
+    "scikit-learn",
+    "scikit-learn-extra",
+    "opencv-python-headless",
+    "cvxpy",
+    "clarabel",
+    "dynesty",
+    "highspy",
+    "elkai",
+    "open3d",
+    "pymeshlab",
+    "shapely",
+    "drake",
+    "vhacdx",
+    "coacd",
+];
+
+/// Prints a line for each package: its name and its version.
+const ASK: &str = "
+import sys, importlib.metadata as m
+for name in sys.argv[1:]:
+    try: print(name, m.version(name))
+    except m.PackageNotFoundError: print(name, 'not-installed')
+";
 
 /// Machine, versions and date, as one JSON object.
 pub(crate) fn describe() -> Value {
@@ -24,7 +51,14 @@ pub(crate) fn describe() -> Value {
             .to_owned()
     };
     let memory = file("/proc/meminfo");
-    let peers = PEERS.split("; ").filter_map(|peer| peer.rsplit_once(' '));
+    let installed = Command::new(peer::folder().join(".venv/bin/python"))
+        .args(["-c", ASK])
+        .args(PACKAGES)
+        .output()
+        .map(|done| String::from_utf8_lossy(&done.stdout).into_owned())
+        .unwrap_or_default();
+    let peers = CRATES.split("; ").chain(installed.lines());
+    let peers = peers.filter_map(|peer| peer.rsplit_once(' '));
     let peers = peers.map(|(name, version)| (name.to_owned(), version.into())).collect();
     let machine = json!({
         "date": output("date", &["-u", "+%Y-%m-%dT%H:%M:%SZ"]),

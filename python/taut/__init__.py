@@ -13,6 +13,7 @@ The names, options and defaults are those of the Rust library and of the command
 
 from typing import TYPE_CHECKING, Any
 
+from . import inscribe
 from ._answers.ball import Ball, BallCertificate, Verdict
 from ._answers.bodies import BodiesCertificate, BodiesVerdict, BodyProof, ConvexBody, InscribedBodies
 from ._answers.centers import Centers, CentersCertificate, CentersVerdict, FarthestFirst, SphereTree
@@ -147,6 +148,7 @@ __all__ = [
     "ellipsoids",
     "farthest_first",
     "generate",
+    "inscribe",
     "inscribed_circle",
     "inscribed_bodies",
     "inscribed_dops",

@@ -8,13 +8,16 @@ from pathlib import Path
 import pytest
 
 import taut
-from taut import _ball, _centers, _classify, _curve, _delaunay, _ellipsoid, _generate, _memory, _robust, _verify
+from taut import _ball, _centers, _classify, _curve, _delaunay, _ellipsoid, _generate, _memory, _robust, _verify, inscribe
 
 
 FLAGS = doctest.ELLIPSIS | doctest.IGNORE_EXCEPTION_DETAIL
 
 
-MODULES = [taut, _ball, _centers, _classify, _curve, _delaunay, _ellipsoid, _generate, _memory, _robust, _verify]
+MODULES = [
+    *[taut, _ball, _centers, _classify, _curve, _delaunay, _ellipsoid, _generate, _memory, _robust, _verify],
+    inscribe,
+]
 
 
 @pytest.mark.parametrize("module", MODULES, ids=lambda m: m.__name__)
@@ -44,6 +47,13 @@ def test_everything_public_is_documented(name):
         for attribute, member in vars(public).items():
             if callable(member) and not attribute.startswith("_"):
                 assert inspect.getdoc(member), attribute
+
+
+def test_short_names_are_those_of_all_inscribed_shapes():
+    long_names = {name.removeprefix("inscribed_") for name in taut.__all__ if name.startswith("inscribed_")}
+    assert {*long_names, "triangle_rows"} == set(inscribe.__all__)
+    for name in long_names:
+        assert getattr(inscribe, name) is getattr(taut, f"inscribed_{name}")
 
 
 NAMES = ["ball", "bodies", "centers", "circle", "classify", "curve", "delaunay", "ellipsoid", "robust"]

@@ -3,7 +3,8 @@
 use super::*;
 
 /// Shares that must be reached and are the aim; the largest volumes are known to four digits behind the point: these are
-/// the least numbers that round to them.
+/// the least numbers that round to them. Of Beethoven 15 of 16 searches with 3·10⁶ events each end at 0.041083 to 0.041094, which is
+/// 0.0411 rounded.
 const MODELS: [Model; 4] = [
     model("beethoven", 15, [[0.78, 0.82], [0.69, 0.74], [0.86, 0.90]], 0.041_05),
     model("porsche", 10, [[0.78, 0.82], [0.71, 0.76], [0.79, 0.84]], 0.024_45),
@@ -23,8 +24,6 @@ struct Packed {
     found: Solution<InscribedBodies>,
     seconds: f64,
     check: f64,
-    /// The share of points inside, which the search did not see, that bodies cover.
-    coverage: f64,
 }
 
 fn pack(context: &Context, mesh: &Mesh, options: &BodiesOptions<'_>) -> Result<Packed> {
@@ -42,9 +41,7 @@ fn pack(context: &Context, mesh: &Mesh, options: &BodiesOptions<'_>) -> Result<P
         checks.push(start.elapsed().as_secs_f64());
     }
     let [seconds, check] = [searches, checks].map(|times| least(times).unwrap_or(f64::NAN));
-    let counter = |name: &str| found.trace.counters.get(name).copied().unwrap_or(0) as f64;
-    let coverage = counter("covered") / counter("sample_points");
-    Ok(Packed { found, seconds, check, coverage })
+    Ok(Packed { found, seconds, check })
 }
 
 /// Coverage, times, sizes of certificates, the largest single body, and the lines that ten bodies hide.
@@ -115,11 +112,13 @@ pub(super) fn peers(context: &Context, out: &mut Outcome) -> Result<()> {
     for model in &MODELS[..3] {
         let Some(mesh) = shapes::read(model.name)? else { return out.left_out() };
         let options = BodiesOptions { count: model.count, ..Default::default() };
-        let Packed { found, seconds, coverage, .. } = pack(context, &mesh, &options)?;
+        let inside = coverage::points(&mesh);
+        let Packed { found, seconds, .. } = pack(context, &mesh, &options)?;
+        let coverage = coverage::share(&inside, &found.answer);
         let bodies = found.answer.bodies;
         let largest = bodies.iter().map(|body| body.volume).fold(0.0, f64::max);
         table.push(json!([model.name, "taut", bodies.len(), seconds, coverage, 0.0, largest]));
-        for peer in ["solid-iris", "solid-vhacd", "solid-coacd"] {
+        for peer in ["solid-iris", "solid-vhacd", "solid-parry3d", "solid-coacd"] {
             let theirs = match peer::ask(context, peer, (mesh.as_flattened().as_flattened(), 9))? {
                 Ok(theirs) => theirs,
                 Err(why) => {
@@ -137,17 +136,11 @@ pub(super) fn peers(context: &Context, out: &mut Outcome) -> Result<()> {
                 // One body around the seed that Iris had, with few events, as Iris has at most five rounds.
                 let (at, events) = ([[x, y, z]], REGION_EVENTS);
                 let options = BodiesOptions { at: &at, events, ..Default::default() };
-                let Packed { found, seconds, coverage, .. } = pack(context, &mesh, &options)?;
+                let Packed { found, seconds, .. } = pack(context, &mesh, &options)?;
                 let volume = found.answer.bodies[0].volume;
-                table.push(json!([
-                    model.name,
-                    "taut, from its seed",
-                    1,
-                    seconds,
-                    coverage,
-                    0.0,
-                    volume
-                ]));
+                let covered = coverage::share(&inside, &found.answer);
+                let program = "taut, from its seed";
+                table.push(json!([model.name, program, 1, seconds, covered, 0.0, volume]));
                 let of =
                     |what: &str| format!("{}: {what} of one free body over drake's", model.name);
                 out.at_least(of("volume"), volume / judged[2], [1.0, 1.1], Unit::Times);
@@ -156,10 +149,11 @@ pub(super) fn peers(context: &Context, out: &mut Outcome) -> Result<()> {
                 if model.name == "bunny_res2" {
                     let shape = BodyShape::Free(BUDGET_FACETS);
                     let options = BodiesOptions { at: &at, shape, ..Default::default() };
-                    let Packed { found, seconds, coverage, .. } = pack(context, &mesh, &options)?;
+                    let Packed { found, seconds, .. } = pack(context, &mesh, &options)?;
                     let volume = found.answer.bodies[0].volume;
+                    let covered = coverage::share(&inside, &found.answer);
                     let program = format!("taut, from its seed, at most {BUDGET_FACETS} facets");
-                    table.push(json!([model.name, program, 1, seconds, coverage, 0.0, volume]));
+                    table.push(json!([model.name, program, 1, seconds, covered, 0.0, volume]));
                     let what = format!("volume of a body with {BUDGET_FACETS} facets over drake's");
                     out.at_least(what, volume / judged[2], [0.8, 0.9], Unit::Times);
                 }
@@ -167,7 +161,7 @@ pub(super) fn peers(context: &Context, out: &mut Outcome) -> Result<()> {
         }
     }
     out.table(
-        "Parts of V-HACD and CoACD reach outside: none of theirs is proved to be inside.",
+        "Parts of V-HACD (its own program and that of parry3d) and CoACD reach outside: none of theirs is proved to be inside.",
         table,
     );
     Ok(())

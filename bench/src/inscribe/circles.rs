@@ -4,10 +4,11 @@ use super::*;
 
 /// Circles beside programs that find them to 1e-6 of the longest side, which is 1.
 pub(super) fn circles(context: &Context, out: &mut Outcome) -> Result<()> {
-    const PEERS: [&str; 2] = ["mic-shapely", "mic-polylabel"];
+    const PEERS: [&str; 3] = ["mic-shapely", "mic-polylabel", "polylabel-crate"];
     let Some(rings) = countries(COUNTRIES_10M)? else { return out.left_out() };
     let mut table = Table::new(
-        "country | vertices | radius:6 | taut:s | mic-shapely:s | mic-polylabel:s | shapely short:e",
+        "country | vertices | radius:6 | taut:s | mic-shapely:s | mic-polylabel:s | polylabel-crate:s \
+         | shapely short:e",
     );
     for (name, ring) in rings {
         let points = Points::new(&ring, 2)?;

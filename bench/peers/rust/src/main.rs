@@ -1,6 +1,6 @@
 //! spade and delaunator as peers: `peers NAME FILE` builds one triangulation in the plane and prints one line of JSON.
 //! quickheap as a peer: `peers quickheap FILE OUTPUT` and `peers quickheap-keys FILE OUTPUT`, see `queue`; `peers imageproc FILE OUTPUT`,
-//! see `images`.
+//! see `images`; `peers polylabel-crate FILE OUTPUT` and `peers parry3d FILE`, see `shapes`.
 //!
 //! The line is described in `bench/peers/delaunay.hpp`; time and memory are taken by the code that takes those of taut.
 #![forbid(unsafe_code)]
@@ -9,6 +9,7 @@ mod images;
 #[path = "../../../src/meter.rs"]
 mod meter;
 mod queue;
+mod shapes;
 
 use std::fs::File;
 use std::io::{BufReader, Read};
@@ -20,8 +21,15 @@ use spade::{DelaunayTriangulation, Point2, Triangulation};
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().collect();
     let (name, path) = match &arguments[..] {
+        [_, name, path] if name == "parry3d" => {
+            println!("{}", shapes::convex_parts(path)?);
+            return Ok(());
+        }
         [_, name, path] => (name, path),
         [_, name, path, output] if name == "imageproc" => return images::serve(path, output),
+        [_, name, path, output] if name == "polylabel-crate" => {
+            return shapes::serve_circle(path, output);
+        }
         [_, name, path, output] => return queue::serve(name, path, output),
         _ => return Err("expected NAME and FILE".into()),
     };
