@@ -2,14 +2,18 @@
 
 use super::*;
 
+/// A share that is shown and not judged.
+const NONE: [f64; 2] = [0.0; 2];
+
 /// Shares that must be reached and are the aim; the largest volumes are known to four digits behind the point: these are
 /// the least numbers that round to them. Of Beethoven 15 of 16 searches with 3·10⁶ events each end at 0.041083 to 0.041094, which is
 /// 0.0411 rounded.
-const MODELS: [Model; 4] = [
-    model("beethoven", 15, [[0.78, 0.82], [0.69, 0.74], [0.86, 0.90]], 0.041_05),
-    model("porsche", 10, [[0.78, 0.82], [0.71, 0.76], [0.79, 0.84]], 0.024_45),
-    model("bunny_res2", 45, [[0.86, 0.89], [0.76, 0.81], [0.78, 0.83]], 0.092_15),
-    model("horse", 10, [[0.67, 0.72], [0.57, 0.62], [0.0, 0.0]], 0.0),
+const MODELS: [Model; 5] = [
+    model("beethoven", 15, [[0.78, 0.82], [0.69, 0.74], [0.88, 0.92], [0.86, 0.90]], 0.041_05),
+    model("porsche", 10, [[0.78, 0.82], [0.71, 0.76], NONE, [0.79, 0.84]], 0.024_45),
+    model("bunny_res2", 45, [[0.86, 0.89], [0.76, 0.81], [0.93, 0.96], [0.78, 0.83]], 0.092_15),
+    model("horse", 10, [[0.67, 0.72], [0.57, 0.62], [0.82, 0.88], NONE], 0.0),
+    model("chinese_dragon_10k", 17, [NONE; 4], 0.048_25),
 ];
 
 /// Events for one body that is compared with a region of drake: some 5 bodies of 50 planes. Four times as many change the volume by
@@ -50,22 +54,27 @@ pub(super) fn packing(context: &Context, out: &mut Outcome) -> Result<()> {
         "model | triangles | what | bodies | covered:% | over the best known:6 | s:s | check of a body:s | bytes of a body \
          | lines | hidden:% | standard error:% | worst view:%",
     );
-    for &Model { name, count, overlapping, disjoint, hidden, largest } in &MODELS {
+    for &Model { name, count, overlapping, disjoint, free, hidden, largest } in &MODELS {
         let Some(mesh) = shapes::read(name)? else { return out.left_out() };
         let base = BodiesOptions {
             shape: BodyShape::Dop(18),
             events: context.size(200_000, 20_000),
             ..Default::default()
         };
-        let packings =
-            [("one", 1, None), ("ten", 10, None), ("overlapping", count, Some(overlapping))];
+        let packings = [
+            ("one", 1, None),
+            ("ten", 10, None),
+            ("overlapping", count, Some(overlapping)),
+            ("disjoint", count, Some(disjoint)),
+            ("free facets", count, Some(free)),
+        ];
         let inside = coverage::points(&mesh);
         ensure!(!inside.is_empty(), "{name}: no point inside");
-        for (what, count, bounds) in
-            packings.into_iter().chain([("disjoint", count, Some(disjoint))])
-        {
+        for (what, count, bounds) in packings {
             let disjoint = what == "disjoint";
-            let options = BodiesOptions { count, disjoint, ..base.clone() };
+            let is_free = what == "free facets";
+            let shape = if is_free { BodiesOptions::default().shape } else { base.shape };
+            let options = BodiesOptions { count, disjoint, shape, ..base.clone() };
             let packed = pack(context, &mesh, &options)?;
             let answer = &packed.found.answer;
             let covered = coverage::share(&inside, answer);
@@ -90,17 +99,20 @@ pub(super) fn packing(context: &Context, out: &mut Outcome) -> Result<()> {
                 row["hidden"] = json!(found.share);
                 row["standard error"] = json!(found.standard_error);
                 row["worst view"] = json!(found.least_view);
-                out.at_least(of("lines hidden"), found.share, hidden, Unit::Percent);
+                if hidden != NONE {
+                    out.at_least(of("lines hidden"), found.share, hidden, Unit::Percent);
+                }
             }
-            if let Some(bounds) = bounds {
+            if let Some(bounds) = bounds.filter(|bounds| *bounds != NONE) {
                 out.at_least(of("covered"), covered, bounds, Unit::Percent);
-                out.at_most(of("time"), packed.seconds, 2.0, Unit::Seconds);
+                let limit = if is_free { 3.0 } else { 2.0 };
+                out.at_most(of("time"), packed.seconds, limit, Unit::Seconds);
                 out.at_most(of("check of a body"), check, 3e-3, Unit::Seconds);
             }
             table.push(row);
         }
     }
-    out.table("k = 18; coverage by 2²⁰ points on 65,536 lines that the search does not see", table);
+    out.table("k = 18 but for free facets; coverage by 2²⁰ points on 65,536 lines that the search does not see", table);
     Ok(())
 }
 

@@ -45,6 +45,8 @@ pub(super) struct Model {
     /// Shares of the inside to cover, which must be reached and which is the aim.
     pub(super) overlapping: [f64; 2],
     pub(super) disjoint: [f64; 2],
+    /// The same of as many bodies with free facets.
+    pub(super) free: [f64; 2],
     /// The same of lines that ten bodies hide.
     pub(super) hidden: [f64; 2],
     /// The volume of the largest 18-dop known, with the longest side 1; 0 where none is.
@@ -54,10 +56,10 @@ pub(super) struct Model {
 pub(super) const fn model(
     name: &'static str,
     count: usize,
-    [overlapping, disjoint, hidden]: [[f64; 2]; 3],
+    [overlapping, disjoint, free, hidden]: [[f64; 2]; 4],
     largest: f64,
 ) -> Model {
-    Model { name, count, overlapping, disjoint, hidden, largest }
+    Model { name, count, overlapping, disjoint, free, hidden, largest }
 }
 
 /// The mesh of a model with the longest side 1 and without holes, each closed by a fan; `None` where it is missing.
