@@ -7,43 +7,56 @@ use crate::BodyProof;
 /// Most facets of an entry: four constraints of space always do.
 const COMBINED_FACETS_MAX: usize = 4;
 
-/// Checks that each triangle is separated from a body, by one facet or by the entry of the proof; by one facet a block of them at once.
+/// The entries of a proof that are not used yet.
+type Entries<'a> = std::iter::Peekable<std::iter::Enumerate<std::slice::Iter<'a, Vec<u64>>>>;
+
+/// Facets that are tried on a group of blocks: more would take longer than they spare where the group is not far from the body.
+const GROUP_FACETS: usize = 8;
+
+/// Checks that each triangle is separated from a body, by one facet or by the entry of the proof; by one facet a group or a block of
+/// them at once.
 pub(super) fn is_empty(
     body: usize,
     found: &ConvexBody,
     proof: &BodyProof,
     boxes: &Boxes,
 ) -> Result<(), BodiesViolation> {
-    let mut entries = proof.combined.iter().enumerate().peekable();
+    let mut entries: Entries<'_> = proof.combined.iter().enumerate().peekable();
     // Neighbors in the list are mostly neighbors in space: the facets that separated last are tried first.
     let mut order: Vec<usize> = (0..found.normals.len()).collect();
-    for (rows, &low, &high) in boxes.blocks() {
-        let of_block =
-            |&facet: &usize| least(found.normals[facet], low, high) >= found.offsets[facet];
-        let has_entry = entries.peek().is_some_and(|(_, entry)| match entry.first() {
-            Some(&row) => row < rows.end as u64,
-            None => true,
-        });
-        if !has_entry && let Some(place) = order.iter().position(of_block) {
-            order[..=place].rotate_right(1);
+    let has_entry = |entries: &mut Entries<'_>, end: usize| {
+        // An entry without a number is refused where the next one is due.
+        let row = entries.peek().map(|(_, entry)| entry.first().copied().unwrap_or(0));
+        row.is_some_and(|row| row < end as u64)
+    };
+    for (of_group, low, high) in boxes.groups() {
+        let tried = GROUP_FACETS.min(order.len());
+        if !has_entry(&mut entries, of_group.end)
+            && is_beyond(found, &mut order[..tried], low, high)
+        {
             continue;
         }
-        for row in rows {
-            let [low, high] = [&boxes.floors[row], &boxes.ceilings[row]];
-            let separates = |&facet: &usize| {
-                let (normal, offset) = (found.normals[facet], found.offsets[facet]);
-                (0..3).all(|corner| least(normal, low[corner], high[corner]) >= offset)
-            };
-            match entries.next_if(|(_, entry)| entry.first() == Some(&(row as u64))) {
-                Some((position, entry)) => combined(body, position, found, entry, low, high)?,
-                None => {
-                    let Some(place) = order.iter().position(separates) else {
-                        return Err(match row.checked_sub(boxes.rows) {
-                            None => BodiesViolation::Reaches { row: row as u64, body },
-                            Some(cap) => BodiesViolation::CapReaches { cap: cap as u64, body },
-                        });
-                    };
-                    order[..=place].rotate_right(1);
+        for (rows, low, high) in boxes.blocks(of_group) {
+            if !has_entry(&mut entries, rows.end) && is_beyond(found, &mut order, low, high) {
+                continue;
+            }
+            for row in rows {
+                let [low, high] = [&boxes.floors[row], &boxes.ceilings[row]];
+                let separates = |&facet: &usize| {
+                    let (normal, offset) = (found.normals[facet], found.offsets[facet]);
+                    (0..3).all(|corner| least(normal, low[corner], high[corner]) >= offset)
+                };
+                match entries.next_if(|(_, entry)| entry.first() == Some(&(row as u64))) {
+                    Some((position, entry)) => combined(body, position, found, entry, low, high)?,
+                    None => {
+                        let Some(place) = order.iter().position(separates) else {
+                            return Err(match row.checked_sub(boxes.rows) {
+                                None => BodiesViolation::Reaches { row: row as u64, body },
+                                Some(cap) => BodiesViolation::CapReaches { cap: cap as u64, body },
+                            });
+                        };
+                        order[..=place].rotate_right(1);
+                    }
                 }
             }
         }
@@ -55,6 +68,14 @@ pub(super) fn is_empty(
             Err(BodiesViolation::Combined { body, entry, problem })
         }
     }
+}
+
+/// Whether a box is beyond one of some facets, which then comes first.
+fn is_beyond(found: &ConvexBody, order: &mut [usize], low: &[i32; 3], high: &[i32; 3]) -> bool {
+    let separates =
+        |&facet: &usize| least(found.normals[facet], *low, *high) >= found.offsets[facet];
+    let place = order.iter().position(separates);
+    place.inspect(|&place| order[..=place].rotate_right(1)).is_some()
 }
 
 /// The least value of a linear function with small coefficients on a box. At most 3·2⁴⁶.

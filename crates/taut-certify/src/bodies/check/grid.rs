@@ -15,6 +15,9 @@ const UNITS_MAX: f64 = (1u64 << 61) as f64;
 /// for all of them: most blocks are looked at once for a body.
 const BLOCK_ROWS: usize = 16;
 
+/// Blocks of a group, which are looked at once where all of them are far from a body.
+const GROUP_BLOCKS: usize = 8;
+
 /// For each corner of each triangle and then of each cap the floors and the ceilings of its coordinates, in units from the origin:
 /// in 32 bits, as much of the time of a check goes into reading them for each body.
 pub(super) struct Boxes {
@@ -24,7 +27,12 @@ pub(super) struct Boxes {
     pub(super) ceilings: Vec<[[i32; 3]; 3]>,
     /// The least floors and the largest ceilings of each block of triangles.
     blocks: Vec<[[i32; 3]; 2]>,
+    /// The same of each group of blocks.
+    groups: Vec<[[i32; 3]; 2]>,
 }
+
+/// Triangles by their numbers, the least of their floors, and the largest of their ceilings.
+pub(super) type Rows<'a> = (std::ops::Range<usize>, &'a [i32; 3], &'a [i32; 3]);
 
 /// 2^exponent, for an exponent of normal numbers.
 pub(super) fn power_of_two(exponent: i32) -> f64 {
@@ -56,21 +64,36 @@ impl Boxes {
         floors: Vec<[[i32; 3]; 3]>,
         ceilings: Vec<[[i32; 3]; 3]>,
     ) -> Self {
-        let extreme = |block: &[[[i32; 3]; 3]], pick: fn(i32, i32) -> i32| {
-            let corners = block.as_flattened().iter().copied();
+        let extreme = |corners: &[[i32; 3]], pick: fn(i32, i32) -> i32| {
+            let corners = corners.iter().copied();
             corners.reduce(|p, q| [0, 1, 2].map(|c| pick(p[c], q[c]))).unwrap_or_default()
         };
         let pairs = floors.chunks(BLOCK_ROWS).zip(ceilings.chunks(BLOCK_ROWS));
-        let blocks =
-            pairs.map(|(low, high)| [extreme(low, i32::min), extreme(high, i32::max)]).collect();
-        Boxes { rows, floors, ceilings, blocks }
+        let of_block = |(low, high): (&[[[i32; 3]; 3]], &[[[i32; 3]; 3]])| {
+            [extreme(low.as_flattened(), i32::min), extreme(high.as_flattened(), i32::max)]
+        };
+        let blocks: Vec<[[i32; 3]; 2]> = pairs.map(of_block).collect();
+        let of_group = |group: &[[[i32; 3]; 2]]| {
+            let ends = group.as_flattened();
+            [extreme(ends, i32::min), extreme(ends, i32::max)]
+        };
+        let groups = blocks.chunks(GROUP_BLOCKS).map(of_group).collect();
+        Boxes { rows, floors, ceilings, blocks, groups }
     }
 
-    /// The blocks: their triangles, the least floors, and the largest ceilings.
-    pub(super) fn blocks(
-        &self,
-    ) -> impl Iterator<Item = (std::ops::Range<usize>, &[i32; 3], &[i32; 3])> {
-        self.blocks.iter().enumerate().map(|(block, [low, high])| {
+    /// The groups of blocks.
+    pub(super) fn groups(&self) -> impl Iterator<Item = Rows<'_>> {
+        let rows = BLOCK_ROWS * GROUP_BLOCKS;
+        self.groups.iter().enumerate().map(move |(group, [low, high])| {
+            let first = group * rows;
+            (first..self.floors.len().min(first + rows), low, high)
+        })
+    }
+
+    /// The blocks of all triangles, or of the triangles of one group.
+    pub(super) fn blocks(&self, of: std::ops::Range<usize>) -> impl Iterator<Item = Rows<'_>> {
+        let blocks = of.start / BLOCK_ROWS..of.end.div_ceil(BLOCK_ROWS);
+        self.blocks[blocks.clone()].iter().zip(blocks).map(|([low, high], block)| {
             let first = block * BLOCK_ROWS;
             (first..self.floors.len().min(first + BLOCK_ROWS), low, high)
         })

@@ -10,7 +10,7 @@ use super::{MESH, WALL};
 pub(super) fn is_inside(point: [i64; 3], boxes: &Boxes, surfaces: &[i32]) -> bool {
     // The surfaces of which an odd number of triangles are crossed.
     let mut odd: Vec<i32> = vec![];
-    for (rows, low, high) in boxes.blocks() {
+    for (rows, low, high) in boxes.blocks(0..boxes.floors.len()) {
         // Blocks beside the moved ray, or behind its start, have no triangle that it crosses.
         let [low, high] = [low, high].map(|corner| corner.map(i64::from));
         let is_beside = |c: usize| low[c] > point[c] || high[c] <= point[c];

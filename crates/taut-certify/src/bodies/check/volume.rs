@@ -110,9 +110,11 @@ fn around(body: &ConvexBody, from: [i64; 3]) -> BTreeMap<Facets, [f64; 3]> {
     let planes = Planes { normals, offsets };
     let facets = planes.normals.len();
     let mut vertices = BTreeMap::new();
+    // Neighbors among the lines are mostly cut off by the same facets, so these come first.
+    let mut order: Vec<usize> = (0..facets).collect();
     for i in 0..facets {
         for j in i + 1..facets {
-            for point in planes.ends(i, j).into_iter().flatten() {
+            for point in planes.ends([i, j], &mut order).into_iter().flatten() {
                 if let Some(on) = planes.holding(&point) {
                     let [x, y, z, divisor] = point.map(|x| x as f64);
                     vertices.insert(on, [x / divisor, y / divisor, z / divisor]);
@@ -139,14 +141,19 @@ impl Planes {
     }
 
     /// The ends of the part that all other half-spaces leave of the line in which two planes meet; none if nothing is left or
-    /// the planes are parallel. Planes parallel to the line are left out.
-    fn ends(&self, i: usize, j: usize) -> [Option<Fraction>; 2] {
+    /// the planes are parallel. Planes parallel to the line are left out. The facets are tried in an order in which the one that left
+    /// nothing then comes first.
+    fn ends(&self, [i, j]: [usize; 2], order: &mut [usize]) -> [Option<Fraction>; 2] {
         let line = cross(self.normals[i], self.normals[j]);
         if line == [0; 3] {
             return [None; 2];
         }
         let mut ends = [None; 2];
-        for k in (0..self.normals.len()).filter(|&k| k != i && k != j) {
+        for place in 0..order.len() {
+            let k = order[place];
+            if k == i || k == j {
+                continue;
+            }
             let slope = dot(line, self.normals[k]);
             let (own, other) = match slope.signum() {
                 0 => continue,
@@ -154,6 +161,7 @@ impl Planes {
                 _ => (0, 1),
             };
             if ends[other].is_some_and(|end| self.beyond(k, &end) > 0) {
+                order[..=place].rotate_right(1);
                 return [None; 2];
             }
             if ends[own].is_none_or(|end| self.beyond(k, &end) > 0) {
