@@ -21,6 +21,7 @@ mod found;
 mod generate;
 mod inscribed;
 mod items;
+mod mosaic;
 mod names;
 mod numbers;
 mod object;
@@ -68,6 +69,8 @@ mod _native {
     use crate::generate::generate;
     #[pymodule_export]
     use crate::inscribed::inscribed_ellipsoid;
+    #[pymodule_export]
+    use crate::mosaic::OpenTiles;
     #[pymodule_export]
     use crate::names::names;
     #[pymodule_export]

@@ -15,7 +15,7 @@ use crate::rows::Rows;
 use crate::work::interruptible;
 
 /// Most numbers that the options for memory take.
-const SIZE: &str = "a number of bytes";
+pub(crate) const SIZE: &str = "a number of bytes";
 
 /// Triangulates the rows of an array to a folder.
 #[pyfunction]

@@ -54,7 +54,7 @@ from ._robust import robust_ellipsoid
 from ._solution import Solution
 from ._surface import surface
 from ._terrain import Contour, Raster, contours, raster
-from ._tiles import Tile, Tiles, delaunay_tiles
+from ._tiles import AlphaPart, Tile, Tiles, VoronoiCell, delaunay_tiles
 from ._triangle import inscribed_triangle
 from ._verify import verify
 
@@ -62,6 +62,7 @@ if TYPE_CHECKING:
     from ._classify import MebClassifier, Svdd
 
 __all__ = [
+    "AlphaPart",
     "Ball",
     "BallCertificate",
     "BodiesCertificate",
@@ -135,6 +136,7 @@ __all__ = [
     "TriangulationVerdict",
     "Verdict",
     "Violation",
+    "VoronoiCell",
     "__version__",
     "ball",
     "ball_of_balls",

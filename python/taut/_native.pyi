@@ -10,6 +10,7 @@ __all__ = [
     "Classifier",
     "Found",
     "FoundFile",
+    "OpenTiles",
     "Violation",
     "__version__",
     "ball",
@@ -80,6 +81,16 @@ class FoundFile:
     def to_json(self) -> str: ...
     @staticmethod
     def from_json(text: str) -> FoundFile: ...
+
+@final
+class OpenTiles:
+    def __init__(self, folder: str, dimension: int, memory: int) -> None: ...
+    def numbers(self) -> list[int]: ...
+    def extent(self) -> list[list[float]] | None: ...
+    def voronoi_cells(
+        self, tile: int, low: list[float], high: list[float]
+    ) -> tuple[NDArray[np.uint64], NDArray[np.uint64], NDArray[np.uint64], NDArray[np.float64]]: ...
+    def alpha_complex(self, tile: int, alpha: float) -> list[NDArray[np.uint64]]: ...
 
 def ball(
     rows: Rows, items: str, epsilon: float, method: str, batch: int | None, max_passes: int, threads: int | None,

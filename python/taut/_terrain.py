@@ -120,16 +120,12 @@ def raster(
 
     Parameters
     ----------
-    points : array_like of shape (n, 3)
-        x, y and the height of each point. Of points with equal x and y the first counts.
+    points, tiles, memory
+        As of `contours`.
     cell : float > 0
         The side of a cell. Cells begin at its multiples, and cover the box of the points.
     interpolation : {"linear", "natural"}, default "linear"
         Linear in each Delaunay triangle, or by Sibson's natural neighbors, which is smooth but at the points.
-    tiles : Tiles, optional
-        The triangulation of ``points[:, :2]``, where it is in a folder already.
-    memory : int, default 512 MiB
-        Most bytes for the facets between tiles.
 
     Returns
     -------

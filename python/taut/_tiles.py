@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Sequence
-from typing import Any, overload
+from typing import Any, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,6 +19,27 @@ HEAD_BYTES = 16
 # Among neighbors.
 HULL = 2**32 - 1
 OTHER_TILE = 2**32 - 2
+
+
+class VoronoiCell(NamedTuple):
+    """All that is nearer to a site than to any other, within a box."""
+
+    row: int
+    """The row of the input, of equal points the smallest."""
+    faces: list[NDArray[np.float64]]
+    """In the plane one polygon, its corners counter-clockwise, of shape (k, 2). In space the faces, each counter-clockwise from
+    outside, of shape (k, 3). Empty if nothing of the cell lies in the box."""
+
+
+class AlphaPart(NamedTuple):
+    """The part of an alpha complex that belongs to one tile, as rows of the input."""
+
+    simplices: NDArray[np.uint64]
+    """The simplices with a circumradius of at most alpha, of shape (k, d + 1)."""
+    boundary: NDArray[np.uint64]
+    """The facets that have such a simplex on one side only, turned outward, of shape (k, d)."""
+    singular: NDArray[np.uint64]
+    """The facets that have none on either side, though an empty ball of radius at most alpha touches them, of shape (k, d)."""
 
 
 class Tile:
@@ -177,6 +198,123 @@ class Tiles(Sequence[Tile]):
         """
         scratch = None if scratch is None else os.fsdecode(scratch)
         return _native.check_tiles(_rows(points), self.folder, memory, scratch)
+
+    def voronoi_cells(
+        self,
+        box: tuple[ArrayLike, ArrayLike] | None = None,
+        *,
+        memory: int = 512 << 20,
+    ) -> Iterator[VoronoiCell]:
+        """Voronoi cells of all sites, each once, with those of one tile in memory at a time.
+
+        Parameters
+        ----------
+        box : pair of array_like of shape (d,), optional
+            The two corners of a box that cells are clipped to. Default: the box of the points and, on each side, a tenth of its
+            longest side more.
+        memory : int, default 512 MiB
+            Most bytes for the facets between tiles, 32 for each.
+
+        Returns
+        -------
+        iterator of VoronoiCell
+            In the order of the tiles, which are read as their cells are asked for.
+
+        Raises
+        ------
+        ValueError
+            When the box has not d finite coordinates in each corner, or is empty.
+        OSError
+            When a tile cannot be read, or is damaged.
+        MemoryError
+            When the facets between tiles take more memory.
+
+        Examples
+        --------
+        >>> import tempfile, taut
+        >>> folder = tempfile.TemporaryDirectory()
+        >>> tiles = taut.delaunay_tiles([[0, 0], [2, 0], [0, 2], [2, 2], [1, 1]], folder.name)
+        >>> cells = {cell.row: cell.faces[0] for cell in tiles.voronoi_cells(([0, 0], [2, 2]))}
+        >>> sorted(cells[4].tolist())
+        [[0.0, 1.0], [1.0, 0.0], [1.0, 2.0], [2.0, 1.0]]
+        >>> folder.cleanup()
+        """
+        opened = _native.OpenTiles(self.folder, self.dimension, memory)
+        frame = self._box(opened) if box is None else box
+        if frame is None:
+            return iter(())
+        low, high = (np.asarray(corner, dtype=np.float64) for corner in frame)
+        if low.shape != (self.dimension,) or high.shape != low.shape:
+            raise ValueError(f"box has corners of shape {low.shape} and {high.shape}: expected ({self.dimension},)")
+        if not (np.isfinite(low).all() and np.isfinite(high).all() and (low < high).all()):
+            raise ValueError(f"box is {low.tolist()}, {high.tolist()}: expected finite corners, the first below the second")
+        return self._cells(opened, low.tolist(), high.tolist())
+
+    def _cells(self, opened: _native.OpenTiles, low: list[float], high: list[float]) -> Iterator[VoronoiCell]:
+        for number in opened.numbers():
+            rows, faces, corners, places = opened.voronoi_cells(number, low, high)
+            polygons = np.split(places.reshape(-1, self.dimension), np.cumsum(corners)[:-1]) if len(corners) else []
+            ends = np.cumsum(faces)
+            for row, count, end in zip(rows.tolist(), faces.tolist(), ends.tolist(), strict=True):
+                yield VoronoiCell(row, polygons[end - count : end])
+
+    def _box(self, opened: _native.OpenTiles) -> tuple[ArrayLike, ArrayLike] | None:
+        """The box of the points and a tenth more, as of ``taut delaunay --voronoi``; none without points."""
+        extent = opened.extent()
+        if extent is None:
+            return None
+        low, high = np.array(extent)
+        with np.errstate(over="ignore"):
+            side = (high - low).max()
+            room = 0.1 * side if side > 0 else 1.0
+            return low - room, high + room
+
+    def alpha_complex(self, alpha: float, *, memory: int = 512 << 20) -> Iterator[AlphaPart]:
+        """Alpha complex down to facets, the part of one tile after the other.
+
+        It has the simplices with a circumradius of at most alpha, their facets, and facets on their own whose smallest sphere is
+        empty and no larger. All parts together are the complex, each simplex and facet once.
+
+        Parameters
+        ----------
+        alpha : float >= 0
+            The radius, a length.
+        memory : int, default 512 MiB
+            Most bytes for the facets between tiles, 32 for each.
+
+        Returns
+        -------
+        iterator of AlphaPart
+            One for each tile, which is read as its part is asked for.
+
+        Raises
+        ------
+        ValueError
+            When alpha is negative or NaN.
+        OSError
+            When a tile cannot be read, or is damaged.
+        MemoryError
+            When the facets between tiles take more memory.
+
+        Examples
+        --------
+        >>> import tempfile, taut
+        >>> folder = tempfile.TemporaryDirectory()
+        >>> tiles = taut.delaunay_tiles([[0, 0], [3, 0], [0, 4], [40, 0]], folder.name)
+        >>> part, = tiles.alpha_complex(2.5)
+        >>> part.simplices.tolist(), len(part.boundary), len(part.singular)
+        ([[0, 1, 2]], 3, 0)
+        >>> folder.cleanup()
+        """
+        if not alpha >= 0:
+            raise ValueError(f"alpha is {alpha}: expected a length, at least 0")
+        return self._parts(_native.OpenTiles(self.folder, self.dimension, memory), float(alpha))
+
+    def _parts(self, opened: _native.OpenTiles, alpha: float) -> Iterator[AlphaPart]:
+        widths = [self.dimension + 1, self.dimension, self.dimension]
+        for number in opened.numbers():
+            parts = opened.alpha_complex(number, alpha)
+            yield AlphaPart(*(rows.reshape(-1, width) for rows, width in zip(parts, widths, strict=True)))
 
 
 def delaunay_tiles(

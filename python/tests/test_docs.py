@@ -8,15 +8,16 @@ from pathlib import Path
 import pytest
 
 import taut
-from taut import _ball, _centers, _classify, _curve, _delaunay, _ellipsoid, _generate, _memory, _robust, _verify, inscribe
+from taut import _ball, _centers, _classify, _curve, _delaunay, _ellipsoid, _generate, _memory, _robust, _terrain, _tiles, _verify
+from taut import inscribe
 
 
 FLAGS = doctest.ELLIPSIS | doctest.IGNORE_EXCEPTION_DETAIL
 
 
 MODULES = [
-    *[taut, _ball, _centers, _classify, _curve, _delaunay, _ellipsoid, _generate, _memory, _robust, _verify],
-    inscribe,
+    *[taut, _ball, _centers, _classify, _curve, _delaunay, _ellipsoid, _generate, _memory, _robust, _terrain, _tiles],
+    *[_verify, inscribe],
 ]
 
 
@@ -27,7 +28,7 @@ def test_examples_run(module):
     assert attempted > 0
 
 
-@pytest.mark.parametrize("public", [taut.Ellipsoid, taut.Solution], ids=lambda c: c.__name__)
+@pytest.mark.parametrize("public", [taut.Ellipsoid, taut.Solution, taut.Tiles], ids=lambda c: c.__name__)
 def test_examples_of_methods_run(public):
     runner = doctest.DocTestRunner(optionflags=FLAGS)
     # Without a module: classes say that they are of `taut`, their methods are of the file they are in.

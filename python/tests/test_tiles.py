@@ -63,6 +63,85 @@ def test_a_file_is_mapped_and_equal_points_are_listed(tmp_path):
         taut.delaunay_tiles(tmp_path / "wide.npy", tmp_path / "other")
 
 
+def area(polygon):
+    x, y = polygon.T
+    return 0.5 * (x @ np.roll(y, -1) - y @ np.roll(x, -1))
+
+
+def volume(faces):
+    fans = [np.cross(face[1:-1], face[2:]) @ face[0] for face in faces]
+    return np.concatenate(fans).sum() / 6
+
+
+def test_cells_fill_the_box_and_are_those_of_their_sites(tmp_path):
+    points = taut.generate("uniform", 250_000, 2, seed=7)
+    tiles = taut.delaunay_tiles(points, tmp_path / "plane", memory=MEMORY)
+    assert len(tiles) > 1
+    cells = list(tiles.voronoi_cells(([0, 0], [1, 1])))
+    assert sorted(cell.row for cell in cells) == list(range(len(points)))
+    assert sum(area(cell.faces[0]) for cell in cells) == pytest.approx(1, abs=1e-12)
+    for cell in cells[::5000]:
+        middle = cell.faces[0].mean(axis=0)
+        assert np.square(points - middle).sum(axis=1).argmin() == cell.row
+    solid = taut.generate("uniform", 2000, 3, seed=8)
+    tiles = taut.delaunay_tiles(solid, tmp_path / "space")
+    cells = list(tiles.voronoi_cells(([0, 0, 0], [2, 1, 1])))
+    assert sorted(cell.row for cell in cells) == list(range(len(solid)))
+    assert sum(volume(cell.faces) for cell in cells) == pytest.approx(2, abs=1e-12)
+
+
+def test_the_box_of_cells_is_that_of_the_points_and_a_tenth_more(tmp_path):
+    points = np.array([[0.0, 0], [10, 0], [0, 4], [10, 4]])
+    tiles = taut.delaunay_tiles(points, tmp_path / "four")
+    corners = np.concatenate([cell.faces[0] for cell in tiles.voronoi_cells()])
+    assert corners.min(axis=0).tolist() == [-1, -1]
+    assert corners.max(axis=0).tolist() == [11, 5]
+    # Out of the box there is nothing of a cell.
+    assert [cell.faces for cell in tiles.voronoi_cells(([0, 0], [1, 1]))].count([]) == 3
+    line = taut.delaunay_tiles([[0.0, 0], [1, 0], [3, 0]], tmp_path / "line")
+    assert [area(cell.faces[0]) for cell in sorted(line.voronoi_cells(([0, 0], [4, 1])))] == [0.5, 1.5, 2]
+    nothing = taut.delaunay_tiles(np.empty((0, 2)), tmp_path / "nothing")
+    assert list(nothing.voronoi_cells()) == []
+
+
+@pytest.mark.parametrize(("n", "d", "alpha"), [(250_000, 2, 0.0015), (3000, 3, 0.06)])
+def test_alpha_complexes_have_the_small_simplices(tmp_path, n, d, alpha):
+    points = taut.generate("uniform", n, d, seed=9)
+    tiles = taut.delaunay_tiles(points, tmp_path, memory=MEMORY)
+    parts = list(tiles.alpha_complex(alpha))
+    assert len(parts) == len(tiles)
+    simplices = np.concatenate([part.simplices for part in parts])
+    every = taut.delaunay(points).simplices
+    corners = points[every]
+    edges = corners[:, 1:] - corners[:, :1]
+    centers = np.linalg.solve(2 * edges, np.square(edges).sum(axis=2)[:, :, None])[:, :, 0]
+    radii = np.linalg.norm(centers, axis=1)
+    # Radii so near to alpha are a matter of rounding.
+    assert np.abs(radii - alpha).min() > 1e-12
+    assert sets(simplices) == sets(every[radii <= alpha])
+    # A facet of one of the simplices is on the boundary, one of two is not.
+    facets = np.sort(np.concatenate([np.delete(simplices, k, axis=1) for k in range(d + 1)]), axis=1)
+    found, counts = np.unique(facets, axis=0, return_counts=True)
+    boundary = np.concatenate([part.boundary for part in parts])
+    assert len(boundary) > 100
+    assert sets(boundary) == sets(found[counts == 1])
+    singular = np.concatenate([part.singular for part in parts])
+    assert singular.shape[1] == d
+    assert not sets(singular) & sets(found)
+
+
+def test_wrong_boxes_and_radii_are_refused(tmp_path):
+    tiles = taut.delaunay_tiles(taut.generate("uniform", 100, 2), tmp_path)
+    for box in [([0, 0, 0], [1, 1, 1]), ([0, 0], [np.nan, 1]), ([1, 0], [0, 1])]:
+        with pytest.raises(ValueError, match="box"):
+            tiles.voronoi_cells(box)
+    for alpha in [-1, np.nan]:
+        with pytest.raises(ValueError, match="alpha"):
+            tiles.alpha_complex(alpha)
+    with pytest.raises(ValueError, match="memory"):
+        tiles.alpha_complex(1, memory=-1)
+
+
 def test_what_is_wrong_is_refused(tmp_path):
     points = taut.generate("uniform", 500, 2, seed=6)
     folder = tmp_path / "tiles"

@@ -139,6 +139,7 @@ pub use triangle::{InscribedTriangle, TriangleCertificate, TriangleVerdict, Tria
 pub use triangulation::{
     Fingerprint, FingerprintFormError, MeshViolation, NO_NEIGHBOR, SiteHash, TilesError,
     TilesOptions, TilesVerdict, TilesViolation, Triangulation, TriangulationCertificate,
-    TriangulationCounts, TriangulationVerdict, check_simplices, check_tiles, fingerprint,
+    TriangulationCounts, TriangulationVerdict, check_simplices, check_tiles, check_tiles_disk,
+    fingerprint,
 };
 pub use verdict::{CheckError, Fault, Verdict, Violation};

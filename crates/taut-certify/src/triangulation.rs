@@ -15,6 +15,7 @@ pub(crate) use check::{
 };
 pub use check::{
     TilesError, TilesOptions, TilesVerdict, TilesViolation, check_simplices, check_tiles,
+    check_tiles_disk,
 };
 pub use fingerprint::{Fingerprint, FingerprintFormError, SiteHash, fingerprint};
 pub use violation::MeshViolation;

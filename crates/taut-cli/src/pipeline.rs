@@ -38,7 +38,7 @@ pub(crate) trait Find {
     }
 
     /// Opens the rows.
-    fn open(&self) -> anyhow::Result<Opened> {
+    fn open(&self, _watch: &Watch) -> anyhow::Result<Opened> {
         let input = self.input();
         match self.samples() {
             Some(samples) => samples.open(input),
@@ -158,7 +158,7 @@ pub(crate) fn run(command: &impl Find) -> anyhow::Result<Outcome> {
     let picture = output.check_files(input.path, &command.side_files())?;
     let watch = input.effort.start()?;
     let mut clock = Clock::start();
-    let points = command.open()?;
+    let points = command.open(&watch)?;
     clock.lap("reading");
     if let Some(outcome) = command.divert(&points, &watch)? {
         return Ok(outcome);

@@ -12,7 +12,7 @@ mod natural;
 mod voronoi;
 
 pub use alpha::AlphaComplex;
-pub(crate) use alpha::{Radii, ascending, turned};
+pub(crate) use alpha::{Radii, ascending, is_singular, turned};
 pub(crate) use convex::Body;
 pub use convex::{Polygon, Polyhedron};
 pub use locator::{Location, Locator};

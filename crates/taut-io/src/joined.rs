@@ -102,7 +102,7 @@ impl Joined {
 }
 
 /// The files of a folder in the order of their names, but those whose name begins with a dot.
-fn files(folder: &Path) -> Result<Vec<PathBuf>, Error> {
+pub(crate) fn files(folder: &Path) -> Result<Vec<PathBuf>, Error> {
     let failed = |source| Error::reading(&shown_path(folder), source);
     let entries = fs::read_dir(folder).map_err(failed)?;
     let mut files = vec![];

@@ -76,7 +76,9 @@ pub(crate) use self::geometry::{Gabriel, Geometry, Lifted, Tetrahedra, cross};
 pub(crate) use self::input::{Input, turn};
 pub(crate) use self::signs::{Signs, UNDERFLOW};
 pub use plain::check_simplices;
-pub use tiles::{TilesError, TilesOptions, TilesVerdict, TilesViolation, check_tiles};
+pub use tiles::{
+    TilesError, TilesOptions, TilesVerdict, TilesViolation, check_tiles, check_tiles_disk,
+};
 
 pub(super) fn check(
     answer: &Triangulation,

@@ -138,12 +138,12 @@ impl Find for Args {
         files.map(|path| &**path).collect()
     }
 
-    fn open(&self) -> anyhow::Result<Opened> {
+    fn open(&self, watch: &Watch) -> anyhow::Result<Opened> {
         self.refuse_within_input()?;
         let is_folder = self.out.as_deref().is_some_and(tiles::is_folder);
         let reading = self.reading.with_height(self.terrain.height());
         let opened = match reading.memory().or(is_folder.then_some(MEMORY_DEFAULT)) {
-            Some(memory) => reading.beside_work(memory).open(&self.points.path),
+            Some(memory) => reading.beside_work(memory).open_told(&self.points.path, watch),
             None => reading.open(&self.points.path),
         }?;
         match self.terrain.height() {

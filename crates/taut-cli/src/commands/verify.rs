@@ -149,7 +149,7 @@ impl Args {
             bail!("--epsilon belongs to answers with a gap, not to triangulations: leave it out");
         }
         let memory = self.reading.memory().unwrap_or(tiles::MEMORY_DEFAULT);
-        let points = self.reading.beside_work(memory).open(self.only_file()?)?;
+        let points = self.reading.beside_work(memory).open_told(self.only_file()?, watch)?;
         let memory = points.memory_left(memory);
         let judged = tiles::judge(&self.answer, &points, memory, self.scratch.as_deref(), watch)?;
         let (outcome, text) = match judged {

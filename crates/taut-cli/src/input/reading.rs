@@ -4,7 +4,7 @@ use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use anyhow::anyhow;
+use anyhow::{anyhow, bail};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use taut::certify::Fault;
 use taut::certify::Violation;
@@ -19,9 +19,10 @@ use taut_io::{
 use crate::input::heights::HeightColumn;
 use crate::input::obstacles::Obstacles;
 use crate::input::size;
-use crate::output::numbers::coordinates;
+use crate::output::numbers::{bytes, coordinates};
 use crate::output::writing;
 use crate::reports::Field;
+use crate::watch::Watch;
 
 #[derive(Clone, Debug, clap::Args)]
 #[command(next_help_heading = "Reading")]
@@ -139,6 +140,38 @@ impl Reading {
             writing::print_error("reading points from the terminal; Ctrl-D ends them");
         }
         Ok(Opened::of(taut_io::open(path, &self.options()?)?))
+    }
+
+    /// The same, but says before how much disk the points of a laser scan take while the work lasts, and refuses what surely does
+    /// not fit.
+    pub(crate) fn open_told(&self, path: &Path, watch: &Watch) -> anyhow::Result<Opened> {
+        let options = self.options()?;
+        let needed = taut_io::spill_bytes(path, &options);
+        if needed > 0 {
+            let folder = std::env::temp_dir();
+            let (name, keeps_all) = (path.display(), self.keeps_all());
+            watch.print(&format!(
+                "{name}: {}{} of disk will be taken in {} by its points, which are decoded once",
+                if keeps_all { "" } else { "up to " },
+                bytes(needed),
+                folder.display()
+            ));
+            let free = taut_io::free_bytes(&folder.join("points"));
+            if let Some(free) = free.filter(|&free| keeps_all && free < needed) {
+                bail!(
+                    "{name}: its points need {} of disk in {}, but {} are free: set TMPDIR to a folder with more room, or allow more memory",
+                    bytes(needed),
+                    folder.display(),
+                    bytes(free)
+                );
+            }
+        }
+        self.open(path)
+    }
+
+    /// Tests whether all points are kept.
+    fn keeps_all(&self) -> bool {
+        self.classes.is_none() && self.bounds.is_none() && self.thin.is_none()
     }
 
     /// Opens the points of `path`, with a column of labels if one is named, and with the columns of these names where the file has

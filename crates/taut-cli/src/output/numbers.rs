@@ -80,6 +80,15 @@ pub(crate) fn abridged(point: &[f64]) -> bool {
     coordinates(point, 0.0).ends_with("…)")
 }
 
+/// An amount of memory or disk in words.
+pub(crate) fn bytes(amount: u64) -> String {
+    let units = [("TiB", 40), ("GiB", 30), ("MiB", 20), ("KiB", 10)];
+    match units.into_iter().find(|(_, power)| amount >> power > 0) {
+        Some((unit, power)) => format!("{:.1} {unit}", amount as f64 / (1u64 << power) as f64),
+        None => format!("{amount} bytes"),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

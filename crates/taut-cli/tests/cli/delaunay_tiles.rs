@@ -256,3 +256,103 @@ fn a_folder_of_files_is_read_as_one_set() {
         refused.err
     );
 }
+
+/// The amount of disk that is told before the work, in KiB.
+fn told(err: &str, before: &str) -> f64 {
+    let at = err.find(before).unwrap_or_else(|| panic!("no `{before}` in {err}"));
+    let mut words = err[at + before.len()..].split_whitespace();
+    let amount: f64 = words.next().unwrap().parse().unwrap();
+    match words.next() {
+        Some("KiB") => amount,
+        Some("MiB") => amount * 1024.0,
+        other => panic!("{other:?} in {err}"),
+    }
+}
+
+#[test]
+fn the_disk_that_is_told_has_that_of_the_check() {
+    let folder = TestFolder::new();
+    folder.taut("generate uniform -n 300000 -d 2 -o points.npy").ends(0);
+    let line = "delaunay points.npy --memory 64M -o tiles/ --progress always";
+    let run = folder.taut(line).ends(0);
+    let (all, check) = (told(&run.err, "tiles/: "), told(&run.err, " and checked, "));
+    // 20 bytes a site and a tenth more, and sides of facets between tiles, which memory has room for.
+    assert!((6000.0..9000.0).contains(&check), "{check} KiB");
+    fs::remove_dir_all(folder.path("tiles")).unwrap();
+    let run = folder.taut(&format!("{line} --no-verify")).ends(0);
+    let tiles = told(&run.err, "tiles/: ");
+    assert!(!run.err.contains("by the check"), "{}", run.err);
+    assert!((all - tiles - check).abs() < 300.0, "{all}, {tiles}, {check}");
+}
+
+/// A laser scan of version 1.2 with points of format 0.
+fn scan(points: u32) -> Vec<u8> {
+    let mut bytes = vec![0; 227];
+    bytes[..4].copy_from_slice(b"LASF");
+    bytes[24..26].copy_from_slice(&[1, 2]);
+    bytes[94..96].copy_from_slice(&227u16.to_le_bytes());
+    bytes[96..100].copy_from_slice(&227u32.to_le_bytes());
+    bytes[105..107].copy_from_slice(&20u16.to_le_bytes());
+    bytes[107..111].copy_from_slice(&points.to_le_bytes());
+    for scale in bytes[131..155].chunks_exact_mut(8) {
+        scale.copy_from_slice(&0.001f64.to_le_bytes());
+    }
+    for i in 0..points {
+        let hash = i.wrapping_mul(0x9E37_79B9);
+        for x in [hash >> 12, hash & 0xf_ffff, i % 1000] {
+            bytes.extend(x.to_le_bytes());
+        }
+        bytes.extend([0; 8]);
+    }
+    bytes
+}
+
+#[test]
+fn the_disk_of_decoded_points_is_told_before() {
+    let folder = TestFolder::new();
+    folder.put("scan.las", scan(400_000));
+    let line = "scan.las --memory 64M --progress always";
+    let some = "--bounds 0,0,100,100";
+    let run = folder.taut(&format!("delaunay {line} -o tiles/ {some} --no-verify")).ends(0);
+    let said = "scan.las: up to 9.2 MiB of disk will be taken in ";
+    assert!(run.err.starts_with(said), "{}", run.err);
+    let run = folder.taut(&format!("verify tiles {line} {some}")).ends(0);
+    assert!(run.err.starts_with(said), "{}", run.err);
+    // The folder is taken, which shows once the points are read.
+    let run = folder.taut(&format!("delaunay {line} -o tiles/")).ends(2);
+    assert!(run.err.starts_with("scan.las: 9.2 MiB of disk"), "{}", run.err);
+    // 400,000 points of 16 bytes are less than 8 MiB.
+    let run = folder.taut(&format!("delaunay {line} -o tiles/ --columns x,y")).ends(2);
+    assert!(!run.err.contains("by its points"), "{}", run.err);
+}
+
+/// More threads than the memory has buffers for do not take more. The pages of the program, which the system reads from its
+/// file and may drop, do not count.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_check_with_many_threads_stays_within_its_memory() {
+    use std::process::{Command, Stdio};
+
+    let folder = TestFolder::new();
+    folder.taut("generate uniform -n 300000 -d 2 -o points.npy").ends(0);
+    folder.taut("delaunay points.npy --memory 64M -o tiles/ --no-verify").ends(0);
+    let mut child = Command::new(assert_cmd::cargo::cargo_bin!("taut"))
+        .current_dir(folder.path(""))
+        .args("verify tiles points.npy --memory 16M --threads 24 -q".split(' '))
+        .stdout(Stdio::null())
+        .spawn()
+        .unwrap();
+    let mut most = 0;
+    let status = loop {
+        let status = fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap_or_default();
+        let line = status.lines().find_map(|line| line.strip_prefix("RssAnon:"));
+        let held = line.and_then(|line| line.split_whitespace().next()?.parse::<u64>().ok());
+        most = most.max(held.unwrap_or(0));
+        if let Some(status) = child.try_wait().unwrap() {
+            break status;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(2));
+    };
+    assert!(status.success());
+    assert!((4 << 10..16 << 10).contains(&most), "{most} KiB");
+}

@@ -6,6 +6,8 @@
 //! *Guarantee.* Which nodes are triangulated, and what they write, depends on the points and on the tree alone, not on the
 //! number of threads or on which of them was first. Nodes run at the same time only while the bytes they need stay within
 //! the budget together; a node that needs more by itself is refused before it runs.
+//! *Resume.* A thread asks the storage for a node without the lock, before the node may take memory: a storage reads all of a
+//! file to compare its sum, and does so on all threads.
 //! *Trap.* Each thread has a pool of its own: on a common one, a thread that waits for a part of its node would begin
 //! another node in the meantime, and hold the memory of both.
 
@@ -157,6 +159,8 @@ impl Walk {
 /// The state of one node of the walk.
 enum Progress {
     Waiting,
+    /// It is not stored, and waits for memory.
+    Missing(Task),
     Running,
     /// Stored nodes whose fronts side by side are what goes up, and the sites in them.
     Done {
@@ -176,6 +180,7 @@ struct Board {
 }
 
 /// What one thread does next.
+#[derive(Clone)]
 struct Task {
     place: usize,
     bytes: u64,
@@ -244,7 +249,10 @@ struct Drive<'a, const D: usize> {
 
 /// What the board says to a thread that asks for work.
 enum Offer {
-    Task(Task),
+    /// Ask whether a node is stored.
+    Look(Task),
+    /// Triangulate a node.
+    Solve(Task),
     Wait,
     End,
 }
@@ -266,18 +274,23 @@ where
                 Offer::Wait => {
                     board = self.changed.wait(board).unwrap_or_else(PoisonError::into_inner);
                 }
-                Offer::Task(task) => {
-                    board.in_use += task.bytes;
-                    board.running += 1;
-                    board.progress[task.place] = Progress::Running;
-                    drop(board);
-                    let result = self.perform(&task);
-                    board = self.lock();
-                    board.in_use -= task.bytes;
-                    board.running -= 1;
-                    match result {
-                        Ok(record) => self.note(&mut board, &task, &record),
-                        Err(error) => board.failed = Some(board.failed.take().unwrap_or(error)),
+                Offer::Look(task) => {
+                    let place = task.place;
+                    let found;
+                    (board, found) = self.unlocked(board, place, 0, || self.look(&task));
+                    match found {
+                        Some(Some(record)) => self.note(&mut board, &task, &record),
+                        Some(None) => board.progress[place] = Progress::Missing(task),
+                        None => {}
+                    }
+                    self.changed.notify_all();
+                }
+                Offer::Solve(task) => {
+                    let Task { place, bytes, .. } = task;
+                    let record;
+                    (board, record) = self.unlocked(board, place, bytes, || self.perform(&task));
+                    if let Some(record) = record {
+                        self.note(&mut board, &task, &record);
                     }
                     self.changed.notify_all();
                 }
@@ -286,7 +299,33 @@ where
         self.changed.notify_all();
     }
 
-    /// The first node that is ready and fits into the budget. Nodes that need no work are done on the way.
+    /// Acts on a node with so many bytes of memory, without the lock. Notes an error, and returns what there is otherwise.
+    fn unlocked<'b, R>(
+        &'b self,
+        mut board: MutexGuard<'b, Board>,
+        place: usize,
+        bytes: u64,
+        act: impl FnOnce() -> Result<R, Error>,
+    ) -> (MutexGuard<'b, Board>, Option<R>) {
+        board.in_use += bytes;
+        board.running += 1;
+        board.progress[place] = Progress::Running;
+        drop(board);
+        let result = act();
+        let mut board = self.lock();
+        board.in_use -= bytes;
+        board.running -= 1;
+        match result {
+            Ok(result) => (board, Some(result)),
+            Err(error) => {
+                board.failed.get_or_insert(error);
+                (board, None)
+            }
+        }
+    }
+
+    /// The first node that is ready, and fits into the budget if it is known to be missing. Nodes that need no work are done on
+    /// the way.
     fn offer(&self, board: &mut Board) -> Offer {
         if board.failed.is_some() {
             return Offer::End;
@@ -301,8 +340,13 @@ where
             return Offer::End;
         }
         for place in board.first_open..places {
-            if !matches!(board.progress[place], Progress::Waiting) {
-                continue;
+            match &board.progress[place] {
+                Progress::Waiting => {}
+                Progress::Missing(task) => {
+                    let task = task.clone();
+                    return self.offer_missing(board, task);
+                }
+                Progress::Running | Progress::Done { .. } => continue,
             }
             let Some((sites, fronts)) = self.input(board, place) else { continue };
             let is_root = place + 1 == places;
@@ -313,30 +357,20 @@ where
                 continue;
             }
             let bytes = sites.saturating_mul(self.course.site_bytes);
-            let task = Task { place, bytes, fronts, sites };
-            match self.storage.stored(self.walk.nodes[place]) {
-                Ok(None) => {}
-                Ok(Some(record)) => {
-                    self.release(&task);
-                    self.note(board, &task, &record);
-                    continue;
-                }
-                Err(error) => {
-                    board.failed = Some(error);
-                    return Offer::End;
-                }
-            }
-            if bytes > self.course.budget {
-                let needed = bytes;
-                board.failed = Some(Error::Memory { sites, needed, budget: self.course.budget });
-                return Offer::End;
-            }
-            if board.running > 0 && board.in_use + bytes > self.course.budget {
-                return Offer::Wait;
-            }
-            return Offer::Task(task);
+            return Offer::Look(Task { place, bytes, fronts, sites });
         }
         if board.running > 0 { Offer::Wait } else { self.offer(board) }
+    }
+
+    /// Offers a node that is not stored, if it fits into the budget.
+    fn offer_missing(&self, board: &mut Board, task: Task) -> Offer {
+        let (sites, needed, budget) = (task.sites, task.bytes, self.course.budget);
+        if needed > budget {
+            board.failed = Some(Error::Memory { sites, needed, budget });
+            return Offer::End;
+        }
+        let is_full = board.running > 0 && board.in_use + needed > budget;
+        if is_full { Offer::Wait } else { Offer::Solve(task) }
     }
 
     /// How many sites a node has to triangulate and whose fronts they are; `None` if it is not ready.
@@ -365,6 +399,16 @@ where
         let fronts =
             if record.front_sites > 0 { vec![self.walk.nodes[task.place]] } else { vec![] };
         board.progress[task.place] = Progress::Done { fronts, sites: record.front_sites };
+    }
+
+    /// What an earlier run has stored of a node.
+    fn look(&self, task: &Task) -> Result<Option<NodeRecord>, Error> {
+        self.monitor.check()?;
+        let found = self.storage.stored(self.walk.nodes[task.place])?;
+        if found.is_some() {
+            self.release(task);
+        }
+        Ok(found)
     }
 
     fn perform(&self, task: &Task) -> Result<NodeRecord, Error> {

@@ -6,6 +6,7 @@ mod canonical;
 mod checked;
 mod contract;
 mod folders;
+mod lookups;
 mod mosaics;
 mod properties;
 pub(super) mod sets;

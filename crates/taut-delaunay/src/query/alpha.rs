@@ -129,16 +129,12 @@ fn alpha_complex<R: Radii<D, V>, const D: usize, const V: usize>(
                 // Seen from the simplex that stays, the ghost in place of vertex i lies within: turn it out.
                 (true, false) => complex.boundary.push(turned(hull_facet(with_ghost))),
                 (false, false) if t < other || slots[other as usize].is_ghost() => {
-                    let corners =
-                        hull_facet::<D, V>(with_ghost).map(|v| of.sites.coordinates[v as usize]);
+                    let sites = turned(hull_facet::<D, V>(with_ghost));
+                    let at = |v: u32| of.sites.coordinates[v as usize];
                     let opposite = [vertices[i], slots[other as usize].vertices[facet]];
-                    let hit = opposite
-                        .iter()
-                        .filter(|&&v| v != GHOST)
-                        .any(|&v| R::in_facet_sphere(corners, of.sites.coordinates[v as usize]));
-                    let sites = hull_facet::<D, V>(with_ghost);
-                    if !hit && R::facet_radius(ascending(corners)) <= limit {
-                        complex.singular.push(turned(sites));
+                    let opposite = opposite.into_iter().filter(|&v| v != GHOST).map(at);
+                    if is_singular::<R, D, V>(sites.map(at), opposite, limit) {
+                        complex.singular.push(sites);
                     }
                 }
                 _ => {}
@@ -146,6 +142,17 @@ fn alpha_complex<R: Radii<D, V>, const D: usize, const V: usize>(
         }
     }
     complex
+}
+
+/// Tests whether a facet of no simplex of the complex belongs to it by itself: whether its smallest sphere has at most the
+/// radius `limit`, and none of the vertices opposite inside.
+pub(crate) fn is_singular<R: Radii<D, V>, const D: usize, const V: usize>(
+    facet: [[f64; D]; D],
+    opposite: impl IntoIterator<Item = [f64; D]>,
+    limit: f64,
+) -> bool {
+    let is_hit = opposite.into_iter().any(|q| R::in_facet_sphere(facet, q));
+    !is_hit && R::facet_radius(ascending(facet)) <= limit
 }
 
 /// A facet seen from the other side.

@@ -5,7 +5,7 @@ use std::io::Cursor;
 
 use las::point::{Classification, Format as PointFormat};
 use las::{Builder, Color, Point, Transform, Vector, Writer};
-use taut_io::{Bounds, Format, ReadOptions, Thinning, open_bytes};
+use taut_io::{Bounds, Format, ReadOptions, Thinning, open_bytes, spill_bytes};
 
 use super::{message, values};
 
@@ -146,6 +146,37 @@ fn points_are_kept_within_bounds_and_one_in_each_cell() {
     let options = ReadOptions { bounds: "0,0,1,1".parse().ok(), ..Default::default() };
     let refused = open_bytes(bytes, "scan.laz", &options);
     assert!(message(refused).contains("no point is within the bounds"));
+}
+
+#[test]
+fn the_bytes_of_points_that_wait_on_the_disk_are_known_before() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    let of = |memory: u64| ReadOptions { memory: Some(memory), ..Default::default() };
+    for is_compressed in [false, true] {
+        let file = path("scan.laz");
+        std::fs::write(&file, file_of(40_000, is_compressed)).unwrap();
+        assert_eq!(spill_bytes(&file, &of(1 << 10)), 960_000);
+        assert_eq!(spill_bytes(&file, &of(960_000)), 0);
+        assert_eq!(spill_bytes(&file, &ReadOptions::default()), 0);
+        let columns = ReadOptions { columns: Some("x,y".parse().unwrap()), ..of(1 << 10) };
+        assert_eq!(spill_bytes(&file, &columns), 640_000);
+    }
+    // Each file of a folder has its share of the memory.
+    std::fs::write(path("more.las"), file_of(1000, false)).unwrap();
+    std::fs::write(path("other.csv"), "1,2,3\n").unwrap();
+    assert_eq!(spill_bytes(folder.path(), &of(60_000)), 984_000);
+    assert_eq!(spill_bytes(folder.path(), &of(90_000)), 960_000);
+    assert_eq!(spill_bytes(&path("other.csv"), &of(1)), 0);
+    assert_eq!(spill_bytes(&path("none.las"), &of(1)), 0);
+    let cut = file_of(1000, false)[..400].to_vec();
+    std::fs::write(path("cut.las"), cut).unwrap();
+    assert_eq!(spill_bytes(&path("cut.las"), &of(1)), 0);
+}
+
+/// A file of point format 1.
+fn file_of(points: i32, is_compressed: bool) -> Vec<u8> {
+    file(points, 1, is_compressed)
 }
 
 #[test]

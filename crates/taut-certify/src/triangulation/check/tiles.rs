@@ -24,6 +24,7 @@
 //! *Cost.* Two passes over the points, and a third over the blocks with duplicates; one over the tiles. On the disk each site
 //! with its row, 4 + 8d bytes, and each facet between chunks twice, 112 bytes in the plane and 176 in space. The memory
 //! of a tile is what its sites take; simplices pass in chunks.
+//! Threads beyond those whose buffers fit into an eighth of the memory stay idle: the shares of all else are seven eighths.
 //! *Trap.* Numbers that a tile gives are not those of the input before the last step has compared them. Until then they only
 //! have to be finite: an arithmetic that relies on more may err, and the folder is refused in the end.
 //! *Reference.* M. Isenburg, Y. Liu, J. Shewchuk, J. Snoeyink: Streaming computation of Delaunay triangulations, 2006, write
@@ -44,7 +45,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use taut_points::{Monitor, PointSource, PointsHash};
+use taut_points::{Monitor, PointSource, PointsHash, thread_pool};
 
 use self::hull::{Ends, Polygon, Surface};
 use self::inside::{Chain, Full, Job};
@@ -59,10 +60,15 @@ pub use violation::{TilesError, TilesViolation};
 /// Least memory for a check.
 const MEMORY_MIN: u64 = 16 << 20;
 
+/// Bytes of the buffers of one thread, or more: a block of points, and lists for a batch of simplices. (Measured, 2·10⁶ uniform
+/// points of the plane on 1 and 8 threads: 0.45 MiB.)
+const THREAD_BYTES: u64 = 1 << 20;
+
 /// How a folder of tiles is verified; [`Default`] is what most people want.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TilesOptions<'a> {
-    /// Bytes of memory that the check may take, at least 16 MiB. Default 512 MiB. No verdict depends on it.
+    /// Bytes of memory that the check may take, at least 16 MiB. Default 512 MiB. No verdict depends on it. With less than 8 MiB
+    /// for each thread of the current rayon pool, some of them stay idle.
     pub memory: u64,
     /// Folder for temporary files, which have no name and go with the process. Default: that of the system.
     pub temporary: Option<&'a Path>,
@@ -121,14 +127,48 @@ pub fn check_tiles(
     let manifest = Manifest::read(folder)?;
     count("dimensions", u64::from(manifest.dimension), source.dim() as u64)?;
     count("points", manifest.points, source.len())?;
-    match source.dim() {
+    let check = || match source.dim() {
         2 => plane(folder, &manifest, source, options),
         3 => space(folder, &manifest, source, options),
         dim => {
             let problem = format!("speaks of points of dimension {dim}: expected 2 or 3");
             Err(TilesViolation::Manifest { problem }.into())
         }
+    };
+    let threads = threads_within(options.memory);
+    if threads >= rayon::current_num_threads() {
+        return check();
     }
+    match thread_pool(threads) {
+        Ok(pool) => pool.install(check),
+        // The threads that are there take a little more memory; without any there would be no verdict.
+        Err(_) => check(),
+    }
+}
+
+/// Most threads whose buffers fit into the memory that [`Shares`] leave, at least 1.
+fn threads_within(memory: u64) -> usize {
+    usize::try_from(memory / 8 / THREAD_BYTES).unwrap_or(usize::MAX).max(1)
+}
+
+/// Bytes of temporary files that [`check_tiles`] takes, for a triangulation of uniform points of the plane or of space in `tiles`
+/// tiles of about the same size. Points on lines, curves or surfaces have more facets between tiles and take more.
+pub fn check_tiles_disk(points: u64, dimension: usize, tiles: u64, memory: u64) -> u64 {
+    let chunk = Shares::of(memory).chunk / (8 * (dimension as u64 + 1));
+    let simplices = points.saturating_mul(if dimension == 2 { 200 } else { 677 }) / 100;
+    let in_tile = simplices.div_ceil(tiles.max(1));
+    let chunks = tiles.saturating_mul(in_tile.div_ceil(chunk.max(1)));
+    let size = simplices as f64 / chunks.max(1) as f64;
+    let border = if dimension == 2 { size.sqrt() } else { size.cbrt().powi(2) };
+    // Sides of facets between chunks, measured: 6.0 to 6.4·√m for chunks of m triangles and 5.5 to 6.0·m^⅔ for tetrahedra, in
+    // tiles of up to 10⁵ simplices. One chunk has no other.
+    let sides = if chunks > 1 { (6.4 * border * chunks as f64) as u64 } else { 0 };
+    let sorted = sides.saturating_mul(if dimension == 2 { 8 * 14 } else { 8 * 22 });
+    // Fewer sides than memory has room for never leave it.
+    let sorted = if sorted > Shares::of(memory).between / 3 * 2 { sorted } else { 0 };
+    // A tenth more for sites that two tiles have.
+    let rows = points.saturating_mul(4 + 8 * dimension as u64) / 10 * 11;
+    rows.saturating_add(sorted)
 }
 
 fn plane(
@@ -259,6 +299,21 @@ fn count(what: &'static str, claimed: u64, found: u64) -> Result<(), TilesViolat
         true => Ok(()),
         false => {
             Err(TilesViolation::Count { place: "manifest.txt".to_owned(), what, claimed, found })
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_and_threads_stay_within_the_memory() {
+        for memory in [MEMORY_MIN, 17 << 20, 64 << 20, 1 << 30, 1 << 36] {
+            let Shares { sites, chunk, between, hull, rows } = Shares::of(memory);
+            let threads = threads_within(memory) as u64;
+            let all = 2 * sites + 3 * chunk + between + hull + rows + threads * THREAD_BYTES;
+            assert!(threads >= 2 && all <= memory, "{all} of {memory}");
         }
     }
 }

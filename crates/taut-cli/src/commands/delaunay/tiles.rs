@@ -4,7 +4,7 @@ use std::path::Path;
 
 use anyhow::{anyhow, bail};
 use serde_json::json;
-use taut::certify::TilesVerdict;
+use taut::certify::{TilesVerdict, check_tiles_disk};
 use taut::delaunay::Error as DelaunayError;
 use taut::delaunay::outofcore::{
     DiskPlan, FolderOptions, Mosaic, TiledTriangulation, delaunay_to_folder, plan_folder,
@@ -17,7 +17,7 @@ use crate::clock::Clock;
 use crate::commands::verify::tiles::{MEMORY_DEFAULT, judge};
 use crate::exit::Outcome;
 use crate::input::reading::Opened;
-use crate::output::numbers::{count, counted};
+use crate::output::numbers::{bytes, count, counted};
 use crate::output::writing::{self, Outputs};
 use crate::pipeline::Find as _;
 use crate::reports::{self, Field};
@@ -125,8 +125,8 @@ impl Args {
         }
     }
 
-    /// Bytes of a mesh of all simplices, and of files that wait for it, beside the tiles.
-    fn export_bytes(&self, plan: &DiskPlan, points: &Opened) -> u64 {
+    /// Bytes of a mesh of all simplices, and of files that wait for it.
+    fn export_bytes(&self, points: &Opened) -> u64 {
         let dim = points.source().dim() as u64;
         let n = points.source().len();
         // In PLY: three coordinates, and a list of ids for each of the simplices of uniform points.
@@ -136,7 +136,7 @@ impl Args {
             self.out.as_deref().is_some_and(|out| !is_folder(out) && out.extension().is_some());
         // Both parts of an alpha complex wait in a file, and are then written.
         let alpha = if self.alpha.radius().is_some() { mesh.saturating_mul(2) } else { 0 };
-        plan.disk_bytes().saturating_add(if is_mesh { mesh } else { 0 }).saturating_add(alpha)
+        alpha.saturating_add(if is_mesh { mesh } else { 0 })
     }
 
     /// Triangulates to tiles, checks, writes what is computed from them, and reports.
@@ -210,7 +210,7 @@ impl Args {
     }
 
     /// Says about how much disk will be taken, and refuses what does not fit. Nobody knows how large fronts will be before the
-    /// work is done: on circles, lines and surfaces all sites may go up, and the check sorts the facets between tiles.
+    /// work is done: on circles, lines and surfaces all sites may go up, and the check sorts more facets between tiles.
     fn tell_disk(
         &self,
         plan: &DiskPlan,
@@ -219,16 +219,27 @@ impl Args {
         memory: u64,
         watch: &Watch,
     ) -> anyhow::Result<()> {
-        let needed = self.export_bytes(plan, points);
+        let source = points.source();
+        let check = match self.no_verify {
+            true => 0,
+            false => check_tiles_disk(source.len(), source.dim(), 1 << plan.levels, memory),
+        };
+        // The files of the check are gone when the first output is written; tiles are there for both.
+        let beside = check.max(self.export_bytes(points));
+        let needed = plan.disk_bytes().saturating_add(beside);
         watch.print(&format!(
-            "{}: {} of disk will be taken while {} triangulated within {} of memory, if they lie as evenly as uniform ones; more by points on lines, curves or surfaces and by the check of these",
+            "{}: {} of disk will be taken while {} triangulated within {} of memory{}, if they lie as evenly as uniform ones; more by points on lines, curves or surfaces",
             output.display(),
             bytes(needed),
             match points.source().len() {
                 1 => "1 point is".to_owned(),
                 n => format!("{} points are", count(n)),
             },
-            bytes(memory)
+            bytes(memory),
+            match check {
+                0 => String::new(),
+                check => format!(" and checked, {} by the check", bytes(check)),
+            }
         ));
         match taut_io::free_bytes(output).filter(|&free| free < needed && !self.resume) {
             Some(free) => bail!(
@@ -288,15 +299,6 @@ fn explain(points: &Opened, error: DelaunayError) -> anyhow::Error {
         ),
         DelaunayError::File { .. } => anyhow!("{error}; go on with --resume once that is repaired"),
         other => other.into(),
-    }
-}
-
-/// An amount of memory or disk in words.
-fn bytes(amount: u64) -> String {
-    let units = [("TiB", 40), ("GiB", 30), ("MiB", 20), ("KiB", 10)];
-    match units.into_iter().find(|(_, power)| amount >> power > 0) {
-        Some((unit, power)) => format!("{:.1} {unit}", amount as f64 / (1u64 << power) as f64),
-        None => format!("{amount} bytes"),
     }
 }
 

@@ -244,7 +244,7 @@ impl Find for Bodies {
         self.search.check_options()
     }
 
-    fn open(&self) -> anyhow::Result<Opened> {
+    fn open(&self, _: &Watch) -> anyhow::Result<Opened> {
         self.search.open()
     }
 

@@ -96,7 +96,7 @@ impl Find for Dops {
         self.search.check_options()
     }
 
-    fn open(&self) -> anyhow::Result<Opened> {
+    fn open(&self, _: &Watch) -> anyhow::Result<Opened> {
         self.search.open()
     }
 

@@ -296,3 +296,32 @@ fn a_run_that_ended_before_its_manifest_is_resumed() {
     let found = delaunay_to_folder(&source, folder.path(), &again).unwrap();
     check_tiles::<2>(folder.path(), &found);
 }
+
+/// The disk that a check takes, of uniform points, is known before to a fourth.
+#[test]
+fn the_disk_of_the_check_is_estimated() {
+    use std::sync::atomic::{AtomicU64, Ordering};
+
+    for (n, dim, side_bytes) in [(250_000, 2, 112), (80_000, 3, 176)] {
+        let source =
+            GeneratedSource::new(Distribution::Uniform, n, dim, 5, ScalarKind::F64).unwrap();
+        let folder = tempfile::tempdir().unwrap();
+        let found = delaunay_to_folder(&source, folder.path(), &options()).unwrap();
+        let plan = plan_folder(&source, options().memory, 2).unwrap();
+        let sides = AtomicU64::new(0);
+        // Pass 3 goes through the sides of facets that wait on the disk.
+        let on_pass = |pass: u64, items: u64| {
+            if pass == 3 {
+                sides.store(items, Ordering::Relaxed);
+            }
+        };
+        let monitor = Monitor { on_pass: Some(&on_pass), ..Monitor::silent() };
+        let memory = 16 << 20;
+        let options = taut_certify::TilesOptions { memory, monitor, ..Default::default() };
+        taut_certify::check_tiles(folder.path(), &source, &options).unwrap();
+        let sites = found.totals.sites + found.totals.front_sites;
+        let taken = sides.into_inner() * side_bytes + sites * (4 + 8 * dim as u64);
+        let told = taut_certify::check_tiles_disk(n, dim, 1 << plan.levels, memory);
+        assert!(taken.abs_diff(told) < taken / 4, "{dim}: {told} told, {taken} taken");
+    }
+}

@@ -7,7 +7,7 @@
 use taut_points::Monitor;
 
 use super::{Mosaic, View};
-use crate::query::{Radii, ascending, turned};
+use crate::query::{Radii, ascending, is_singular, turned};
 use crate::simplex::GHOST;
 use crate::triangulation::hull_facet;
 use crate::{Error, Plane, Space};
@@ -23,24 +23,22 @@ pub enum AlphaPart<'a> {
     Singular(&'a [u64]),
 }
 
-fn parts<R: Radii<D, V>, const D: usize, const V: usize>(
+fn of_tile<R: Radii<D, V>, const D: usize, const V: usize>(
     mosaic: &Mosaic<D>,
+    tile: u32,
     alpha: f64,
     monitor: &Monitor<'_>,
     put: &mut dyn FnMut(AlphaPart<'_>) -> Result<(), Error>,
 ) -> Result<(), Error> {
-    monitor.pass(1, mosaic.simplices());
-    for &number in mosaic.tiles() {
-        monitor.check()?;
-        let tile = mosaic.tile(number)?;
-        if tile.counts.vertices_per_simplex as usize == V {
-            let view = View::new(mosaic, &tile);
-            for simplex in 0..tile.counts.simplices as u32 {
-                of_simplex::<R, D, V>(&view, simplex, alpha, put)?;
-            }
+    monitor.check()?;
+    let tile = mosaic.tile(tile)?;
+    if tile.counts.vertices_per_simplex as usize == V {
+        let view = View::new(mosaic, &tile);
+        for simplex in 0..tile.counts.simplices as u32 {
+            of_simplex::<R, D, V>(&view, simplex, alpha, put)?;
         }
-        monitor.points(tile.counts.simplices);
     }
+    monitor.points(tile.counts.simplices);
     Ok(())
 }
 
@@ -74,9 +72,8 @@ fn of_simplex<R: Radii<D, V>, const D: usize, const V: usize>(
             let far = there.and_then(|there| {
                 there.rows.iter().position(|row| !rows.contains(row)).map(|k| there.at[k])
             });
-            let is_hit =
-                [Some(corners.at[i]), far].into_iter().flatten().any(|q| R::in_facet_sphere(at, q));
-            if !is_hit && R::facet_radius(ascending(at)) <= alpha {
+            let opposite = [Some(corners.at[i]), far].into_iter().flatten();
+            if is_singular::<R, D, V>(at, opposite, alpha) {
                 let mut rows = rows;
                 rows.sort_unstable();
                 put(AlphaPart::Singular(&rows))?;
@@ -86,32 +83,44 @@ fn of_simplex<R: Radii<D, V>, const D: usize, const V: usize>(
     Ok(())
 }
 
-impl Mosaic<2> {
-    /// The alpha complex, as [`Plane::alpha_complex`]: its parts go to `put`, tile by tile. O(triangles).
-    ///
-    /// # Errors
-    /// Those of `put`, of reading, and of the monitor.
-    pub fn alpha_complex(
-        &self,
-        alpha: f64,
-        monitor: &Monitor<'_>,
-        put: &mut dyn FnMut(AlphaPart<'_>) -> Result<(), Error>,
-    ) -> Result<(), Error> {
-        parts::<Plane, 2, 3>(self, alpha, monitor, put)
-    }
-}
+/// The same in the plane and in space.
+macro_rules! alpha_complex {
+    ($d:literal, $v:literal, $of:ident) => {
+        impl Mosaic<$d> {
+            #[doc = concat!("The alpha complex, as [`", stringify!($of), "::alpha_complex`]: its parts go to `put`,")]
+            /// tile by tile. O(simplices).
+            ///
+            /// # Errors
+            /// Those of `put`, of reading, and of the monitor.
+            pub fn alpha_complex(
+                &self,
+                alpha: f64,
+                monitor: &Monitor<'_>,
+                put: &mut dyn FnMut(AlphaPart<'_>) -> Result<(), Error>,
+            ) -> Result<(), Error> {
+                monitor.pass(1, self.simplices());
+                let mut parts = |&tile| self.alpha_complex_of(tile, alpha, monitor, put);
+                self.tiles().iter().try_for_each(&mut parts)
+            }
 
-impl Mosaic<3> {
-    /// The alpha complex, as [`Space::alpha_complex`]: its parts go to `put`, tile by tile. O(tetrahedra).
-    ///
-    /// # Errors
-    /// Those of `put`, of reading, and of the monitor.
-    pub fn alpha_complex(
-        &self,
-        alpha: f64,
-        monitor: &Monitor<'_>,
-        put: &mut dyn FnMut(AlphaPart<'_>) -> Result<(), Error>,
-    ) -> Result<(), Error> {
-        parts::<Space, 3, 4>(self, alpha, monitor, put)
-    }
+            /// The part of the alpha complex that belongs to one tile, as the whole.
+            ///
+            /// # Errors
+            /// Those of `put`, of reading, and of the monitor.
+            ///
+            /// # Panics
+            /// If there is no such tile.
+            pub fn alpha_complex_of(
+                &self,
+                tile: u32,
+                alpha: f64,
+                monitor: &Monitor<'_>,
+                put: &mut dyn FnMut(AlphaPart<'_>) -> Result<(), Error>,
+            ) -> Result<(), Error> {
+                of_tile::<$of, $d, $v>(self, tile, alpha, monitor, put)
+            }
+        }
+    };
 }
+alpha_complex!(2, 3, Plane);
+alpha_complex!(3, 4, Space);

@@ -11,7 +11,7 @@ use std::collections::HashSet;
 use rayon::prelude::*;
 use taut_points::Monitor;
 
-use super::{Mosaic, Place, View};
+use super::{Mosaic, Place, Tile, View};
 use crate::query::{Body, clipped};
 use crate::{Error, Polygon, Polyhedron};
 
@@ -25,44 +25,39 @@ const TASKS_AT_ONCE: usize = 64;
 const UNUSED: u32 = u32::MAX;
 
 impl<const D: usize> Mosaic<D> {
-    /// The cells of all sites, each with its row, to `put`. `W` is the number of vertices of a simplex.
+    /// The cells of the sites of a tile, each with its row, to `put`. `W` is the number of vertices of a simplex.
     fn cells<const W: usize, B: Body<D> + Send>(
         &self,
+        tile: &Tile<D>,
         frame: [[f64; D]; 2],
         monitor: &Monitor<'_>,
         put: &mut dyn FnMut(u64, &B) -> Result<(), Error>,
     ) -> Result<(), Error> {
-        for &number in &self.numbers {
-            let tile = self.tile(number)?;
-            if tile.counts.vertices_per_simplex as usize != W {
-                continue;
-            }
-            let view = View::new(self, &tile);
-            let mut at_site = vec![UNUSED; tile.rows.len()];
-            for (simplex, sites) in (0..).zip(tile.simplex_rows()) {
-                sites.iter().for_each(|&v| at_site[v as usize] = simplex);
-            }
-            for (round, sites) in at_site.chunks(TASK * TASKS_AT_ONCE).enumerate() {
-                monitor.check()?;
-                let first = round * TASK * TASKS_AT_ONCE;
-                let cells: Vec<Vec<(u64, B)>> = sites
-                    .par_chunks(TASK)
-                    .enumerate()
-                    .map(|(task, sites)| {
-                        let numbers = (first + task * TASK..).zip(sites);
-                        let used = numbers.filter(|&(_, &simplex)| simplex != UNUSED);
-                        let cells = used.map(|(site, &simplex)| {
-                            let (row, here) = (tile.rows[site], tile.coordinates[site]);
-                            let others = star::<D, W>(&view, simplex, row)?;
-                            Ok(others.map(|mut others| (row, clipped(here, &mut others, frame))))
-                        });
-                        cells.filter_map(Result::transpose).collect()
-                    })
-                    .collect::<Result<_, Error>>()?;
-                cells.iter().flatten().try_for_each(|(row, cell)| put(*row, cell))?;
-            }
-            monitor.points(tile.counts.simplices);
+        let view = View::new(self, tile);
+        let mut at_site = vec![UNUSED; tile.rows.len()];
+        for (simplex, sites) in (0..).zip(tile.simplex_rows()) {
+            sites.iter().for_each(|&v| at_site[v as usize] = simplex);
         }
+        for (round, sites) in at_site.chunks(TASK * TASKS_AT_ONCE).enumerate() {
+            monitor.check()?;
+            let first = round * TASK * TASKS_AT_ONCE;
+            let cells: Vec<Vec<(u64, B)>> = sites
+                .par_chunks(TASK)
+                .enumerate()
+                .map(|(task, sites)| {
+                    let numbers = (first + task * TASK..).zip(sites);
+                    let used = numbers.filter(|&(_, &simplex)| simplex != UNUSED);
+                    let cells = used.map(|(site, &simplex)| {
+                        let (row, here) = (tile.rows[site], tile.coordinates[site]);
+                        let others = star::<D, W>(&view, simplex, row)?;
+                        Ok(others.map(|mut others| (row, clipped(here, &mut others, frame))))
+                    });
+                    cells.filter_map(Result::transpose).collect()
+                })
+                .collect::<Result<_, Error>>()?;
+            cells.iter().flatten().try_for_each(|(row, cell)| put(*row, cell))?;
+        }
+        monitor.points(tile.counts.simplices);
         Ok(())
     }
 }
@@ -99,40 +94,48 @@ fn star<const D: usize, const W: usize>(
     Ok(Some(others.into_iter().map(|(_, at)| at).collect()))
 }
 
-impl Mosaic<2> {
-    /// The Voronoi cells of all sites, clipped to the box between two corners, each with the smallest row of its site, tile by
-    /// tile. Sites on a line have cells, too; a single site has all of the box.
-    ///
-    /// # Errors
-    /// Those of `put`, of reading, and of the monitor.
-    pub fn voronoi_cells(
-        &self,
-        frame: [[f64; 2]; 2],
-        monitor: &Monitor<'_>,
-        put: &mut dyn FnMut(u64, &Polygon) -> Result<(), Error>,
-    ) -> Result<(), Error> {
-        monitor.pass(1, self.simplices);
-        self.cells::<1, _>(frame, monitor, put)?;
-        self.cells::<2, _>(frame, monitor, put)?;
-        self.cells::<3, _>(frame, monitor, put)
-    }
-}
+/// The same in the plane and in space.
+macro_rules! voronoi_cells {
+    ($d:literal, $cell:ident, $($w:literal)*) => {
+        impl Mosaic<$d> {
+            /// The Voronoi cells of all sites, clipped to the box between two corners, each with the smallest row of its site, tile
+            /// by tile. Sites that do not span all dimensions have cells, too; a single site has all of the box.
+            ///
+            /// # Errors
+            /// Those of `put`, of reading, and of the monitor.
+            pub fn voronoi_cells(
+                &self,
+                frame: [[f64; $d]; 2],
+                monitor: &Monitor<'_>,
+                put: &mut dyn FnMut(u64, &$cell) -> Result<(), Error>,
+            ) -> Result<(), Error> {
+                monitor.pass(1, self.simplices);
+                let mut cells = |&tile| self.voronoi_cells_of(tile, frame, monitor, put);
+                self.numbers.iter().try_for_each(&mut cells)
+            }
 
-impl Mosaic<3> {
-    /// The Voronoi cells of all sites, as [`Mosaic::<2>::voronoi_cells`].
-    ///
-    /// # Errors
-    /// Those of `put`, of reading, and of the monitor.
-    pub fn voronoi_cells(
-        &self,
-        frame: [[f64; 3]; 2],
-        monitor: &Monitor<'_>,
-        put: &mut dyn FnMut(u64, &Polyhedron) -> Result<(), Error>,
-    ) -> Result<(), Error> {
-        monitor.pass(1, self.simplices);
-        self.cells::<1, _>(frame, monitor, put)?;
-        self.cells::<2, _>(frame, monitor, put)?;
-        self.cells::<3, _>(frame, monitor, put)?;
-        self.cells::<4, _>(frame, monitor, put)
-    }
+            /// The Voronoi cells that belong to one tile, as those of all.
+            ///
+            /// # Errors
+            /// Those of `put`, of reading, and of the monitor.
+            ///
+            /// # Panics
+            /// If there is no such tile.
+            pub fn voronoi_cells_of(
+                &self,
+                tile: u32,
+                frame: [[f64; $d]; 2],
+                monitor: &Monitor<'_>,
+                put: &mut dyn FnMut(u64, &$cell) -> Result<(), Error>,
+            ) -> Result<(), Error> {
+                let tile = self.tile(tile)?;
+                match tile.counts.vertices_per_simplex {
+                    $($w => self.cells::<$w, _>(&tile, frame, monitor, put),)*
+                    _ => Ok(()),
+                }
+            }
+        }
+    };
 }
+voronoi_cells!(2, Polygon, 1 2 3);
+voronoi_cells!(3, Polyhedron, 1 2 3 4);
