@@ -23,7 +23,7 @@
 //! | the Delaunay triangulation of points in the plane or in space | [`delaunay()`] | exact, a function of the point set alone, proved | [mod@delaunay] |
 //! | the same, to walk around in; Voronoi cells, alpha complexes, nearest points | [`delaunay::Plane`], [`delaunay::Space`] | the same | [mod@delaunay] |
 //! | contour lines and rasters of heights | [`delaunay::terrain`] | exact neighbors, the same bits in memory and by tiles | [mod@delaunay] |
-//! | the triangulation of more points than memory holds | [`delaunay_of_source()`] | the same simplices, as tiles in a folder, proved by [`certify::check_tiles`] | [`delaunay::outofcore`] |
+//! | the triangulation of more points than memory holds | [`delaunay_to_folder()`] | the same simplices, as tiles in a folder, proved by [`certify::check_tiles`] | [`delaunay::outofcore`] |
 //! | constrained edges | [`delaunay::Plane::constrained`] | exact, Delaunay as far as they let it be | [mod@delaunay] |
 //! | rows in an order where neighbors are near each other | [`spatial_order()`] | a function of the point set alone, proved | [mod@delaunay] |
 //! | files sorted or transposed that memory does not hold, samples, orders, nearest points | [mod@oblivious] | each with its own | [mod@oblivious], [`files`] |
@@ -107,8 +107,8 @@
 //! use taut::points::{Distribution, GeneratedSource, ScalarKind};
 //!
 //! let source = GeneratedSource::new(Distribution::Uniform, 10_000, 2, 7, ScalarKind::F64)?;
-//! let options = taut::FolderOptions { memory: 64 << 20, ..Default::default() };
-//! let found = taut::delaunay_of_source(&source, folder, &options)?;
+//! let options = taut::delaunay::FolderOptions { memory: 64 << 20, ..Default::default() };
+//! let found = taut::delaunay_to_folder(&source, folder, &options)?;
 //! let proved = taut::certify::check_tiles(folder, &source, &Default::default())?;
 //! assert_eq!(proved.counts.simplices, found.totals.simplices);
 //! assert_eq!(proved.fingerprint, found.totals.fingerprint);              // that of the triangulation in memory
@@ -159,10 +159,9 @@ pub use taut_recognize as recognize;
 pub use taut_reconstruct as reconstruct;
 
 pub use taut_certify::{AnySolution, Items, RobustMethod, Solution};
-/// Named as what it returns and what it reads, beside [`delaunay()`], which holds the points in memory.
-#[doc(inline)]
-pub use taut_delaunay::delaunay_to_folder as delaunay_of_source;
-pub use taut_delaunay::{DelaunayOptions, FolderOptions, OrderOptions, delaunay, spatial_order};
+pub use taut_delaunay::{
+    DelaunayOptions, OrderOptions, delaunay, delaunay_to_folder, spatial_order,
+};
 pub use taut_enclose::{
     BallMethod, BallOptions, CentersMethod, CentersOptions, EllipsoidMethod, EllipsoidOptions,
     FarthestFirstOptions, RobustOptions, SphereTreeOptions, ball, centers, ellipsoid, ellipsoids,

@@ -68,7 +68,7 @@ const BARE_WORDS: [&str; 109] = [
 const FACADE_FUNCTIONS_MAX: usize = 14;
 
 /// Names at the root of the façade, at most; all others are in the modules.
-const FACADE_NAMES_MAX: usize = 46;
+const FACADE_NAMES_MAX: usize = 47;
 
 /// Lines a source file may have before it must be two.
 const LINES_MAX: usize = 700;
