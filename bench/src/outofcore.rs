@@ -57,11 +57,18 @@ impl Set {
 
 const TIME: Quantity =
     Quantity::new("time of two threads, at the points of the section", Unit::Seconds);
-const TEMPORARY: Quantity = Quantity::new("working files over the points, in bytes", Unit::Times);
+const TEMPORARY: Quantity = Quantity::new(
+    "working files over the records of points with their rows, in bytes",
+    Unit::Times,
+);
 const CHECK: Quantity =
     Quantity::new("time of the check over that of the triangulation", Unit::Times);
-const OF_MEMORY: Quantity =
-    Quantity::new("processor time of one thread over that of the build in memory", Unit::Times);
+const OF_MEMORY: Quantity = Quantity::new(
+    "processor time of one thread over that of the build in memory, at 10⁷ points",
+    Unit::Times,
+);
+/// The points that it is stated for.
+const OF_MEMORY_POINTS: u64 = 10_000_000;
 const FRONT: Quantity = Quantity::new("sites that leaves pass up", Unit::Percent);
 const SPEEDUP: Quantity = Quantity::new("time of one thread over that of two", Unit::Times);
 const OF_LIMIT: Quantity = Quantity::new("peak memory over the limit", Unit::Times);
@@ -71,21 +78,21 @@ const PLANE_MUST: &[Goal] = &[
     OF_LIMIT.at_most(1.0),
     TEMPORARY.at_most(1.3),
     CHECK.at_most(0.6),
-    OF_MEMORY.at_most(1.8),
     FRONT.at_most(0.015),
     SPEEDUP.at_least(1.6),
 ];
-const PLANE_AIM: &[Goal] = &[TIME.at_most(40.0), OF_MEMORY.at_most(1.4)];
+const PLANE_AIM: &[Goal] = &[TIME.at_most(40.0)];
 const SPACE_MUST: &[Goal] = &[
     TIME.at_most(75.0),
     OF_LIMIT.at_most(1.0),
     TEMPORARY.at_most(1.3),
     CHECK.at_most(0.6),
-    OF_MEMORY.at_most(1.8),
     FRONT.at_most(0.1),
     SPEEDUP.at_least(1.6),
 ];
-const SPACE_AIM: &[Goal] = &[TIME.at_most(25.0), OF_MEMORY.at_most(1.4)];
+const SPACE_AIM: &[Goal] = &[TIME.at_most(25.0)];
+const WIDE_MUST: &[Goal] = &[OF_LIMIT.at_most(1.0), OF_MEMORY.at_most(1.8), FRONT.at_most(0.1)];
+const WIDE_AIM: &[Goal] = &[OF_MEMORY.at_most(1.4)];
 
 const fn set(distribution: &'static str, dim: usize, points: u64, memory: u64) -> Kind {
     Kind::Set(Set { distribution, dim, points, memory })
@@ -110,6 +117,14 @@ pub(crate) const AREA: Area<Kind> = Area {
             .about("Uniform points of space within 1 GiB.")
             .must(SPACE_MUST)
             .aim(SPACE_AIM),
+        section("space-wide", set("uniform", 3, OF_MEMORY_POINTS, 2048))
+            .about("The same within 2 GiB, where leaves are twice as large and half of the sites go up.")
+            .must(WIDE_MUST)
+            .aim(WIDE_AIM),
+        section("plane-10", set("uniform", 2, OF_MEMORY_POINTS, 512))
+            .about("10⁷ uniform points of the plane within 512 MiB.")
+            .must(WIDE_MUST)
+            .aim(WIDE_AIM),
         section("diamonds", Kind::Run(dealt::run)).about(
             "The method of the thesis: how often diamonds copy a point, and the misses of the k-distributor that deals the copies.",
         ),
@@ -161,12 +176,15 @@ impl Arguments {
             row("on the disk", threads, &done);
             walls[threads - 1] = done.wall;
             found.add(OF_LIMIT, done.peak.map(|peak| peak as f64 / memory as f64));
-            let bytes = (points * 8 * set.dim as u64) as f64;
-            found.add(TEMPORARY, done.working as f64 / bytes);
+            let record = 8 * set.dim as u64 + 4;
+            found.add(TEMPORARY, done.working as f64 / (points * record) as f64);
             found.add(FRONT, done.front as f64 / points as f64);
             if threads == 1 {
                 of_one = done.cpu;
             } else {
+                // Else the check would wait for the disk to take what the triangulation has written.
+                let synced = std::process::Command::new("sync").status()?;
+                ensure!(synced.success(), "sync failed");
                 let checked = task(2, Way::Check { memory, folder: tiles.clone() });
                 let checked = run(checked, Some(memory))?;
                 row("its check", 2, &checked);
@@ -178,7 +196,7 @@ impl Arguments {
         }
         found.add(SPEEDUP, walls[0] / walls[1]);
         // Beyond that the build in memory may not fit, and its time for each point does not change much.
-        let few = points.min(10_000_000);
+        let few = points.min(OF_MEMORY_POINTS);
         let in_memory = Task { points: few, ..task(1, Way::Memory) };
         let in_memory = if few < points {
             let part = folder.path().join("part.f64");
@@ -188,7 +206,9 @@ impl Arguments {
             run(in_memory, None)?
         };
         row(&format!("the build in memory, {few} points"), 1, &in_memory);
-        found.add(OF_MEMORY, of_one / points as f64 / (in_memory.cpu / few as f64));
+        if points <= OF_MEMORY_POINTS {
+            found.add(OF_MEMORY, of_one / in_memory.cpu);
+        }
         out.table(&format!("{} × {}, {} MiB", points, set.dim, memory >> 20), table);
         out.judge(&found);
         Ok(())

@@ -69,10 +69,11 @@ impl Boxes {
             corners.reduce(|p, q| [0, 1, 2].map(|c| pick(p[c], q[c]))).unwrap_or_default()
         };
         let pairs = floors.chunks(BLOCK_ROWS).zip(ceilings.chunks(BLOCK_ROWS));
-        let of_block = |(low, high): (&[[[i32; 3]; 3]], &[[[i32; 3]; 3]])| {
-            [extreme(low.as_flattened(), i32::min), extreme(high.as_flattened(), i32::max)]
-        };
-        let blocks: Vec<[[i32; 3]; 2]> = pairs.map(of_block).collect();
+        let blocks: Vec<[[i32; 3]; 2]> = pairs
+            .map(|(low, high)| {
+                [extreme(low.as_flattened(), i32::min), extreme(high.as_flattened(), i32::max)]
+            })
+            .collect();
         let of_group = |group: &[[[i32; 3]; 2]]| {
             let ends = group.as_flattened();
             [extreme(ends, i32::min), extreme(ends, i32::max)]
