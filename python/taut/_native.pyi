@@ -1,5 +1,5 @@
 from os import PathLike
-from typing import Any, final
+from typing import Any, Self, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -84,7 +84,7 @@ class FoundFile:
 
 @final
 class OpenTiles:
-    def __init__(self, folder: str, dimension: int, memory: int) -> None: ...
+    def __new__(cls, folder: str, dimension: int, memory: int) -> Self: ...
     def numbers(self) -> list[int]: ...
     def extent(self) -> list[list[float]] | None: ...
     def voronoi_cells(
