@@ -234,7 +234,7 @@ class Tiles(Sequence[Tile]):
         >>> import tempfile, taut
         >>> folder = tempfile.TemporaryDirectory()
         >>> tiles = taut.delaunay_tiles([[0, 0], [2, 0], [0, 2], [2, 2], [1, 1]], folder.name)
-        >>> cells = {cell.row: cell.faces[0] for cell in tiles.voronoi_cells(([0, 0], [2, 2]))}
+        >>> cells = {cell.row: cell.faces[0] for cell in tiles.voronoi_cells(([-1, -1], [3, 3]))}
         >>> sorted(cells[4].tolist())
         [[0.0, 1.0], [1.0, 0.0], [1.0, 2.0], [2.0, 1.0]]
         >>> folder.cleanup()
