@@ -7,8 +7,11 @@ they cover, which part of the volume lies outside, as a share of the inside, and
 Inside is the winding number of libigl above one half, at the cells of a grid of 64 along the longest side.
 """
 
+import ctypes
+import functools
 import json
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
@@ -94,7 +97,9 @@ def parry3d(solid):
         rows.astype("<f8").tofile(file)
         file.flush()
         program = [build / "rust/release/peers", "parry3d", file.name]
-        found = json.loads(subprocess.run(program, check=True, capture_output=True).stdout)
+        # It ends with this process, which is stopped where it takes too long.
+        ends_too = functools.partial(ctypes.CDLL(None).prctl, 1, signal.SIGKILL)
+        found = json.loads(subprocess.run(program, check=True, capture_output=True, preexec_fn=ends_too).stdout)
     return solid.judged([numpy.array(hull) for hull in found["hulls"]], found["seconds"])
 
 

@@ -4,14 +4,14 @@ use std::process::Command;
 
 use crate::prelude::*;
 
-/// Versions of the peers that Cargo.lock, that of `peers/rust` and that of `peers/tours` name.
+/// Versions of the peers that Cargo.lock, that of `peers/rust`, that of `peers/tours` and `bench/setup` name.
 const CRATES: &str = "\
     miniball (crate) 0.5.0; extsort 0.5.0; fast_hilbert 2.1.0; indexset 0.16.0; kiddo 6.3.0; quickheap 0.2.0; \
     imageproc 0.27.0; polylabel 3.3.0; parry3d-f64 0.31.1; rand 0.10.3; rdst 0.20.14; transpose 0.2.3; \
-    voracious_radix_sort 1.2.0; concorde_rs 0.1.1";
+    voracious_radix_sort 1.2.0; concorde_rs 0.1.1; numpy (sort) 2.4.6";
 
 /// Packages of PyPI, whose versions are those that are installed.
-const PACKAGES: [&str; 18] = [
+const PACKAGES: [&str; 20] = [
     "cyminiball",
     "miniball",
     "numpy",
@@ -27,6 +27,8 @@ const PACKAGES: [&str; 18] = [
     "open3d",
     "pymeshlab",
     "shapely",
+    "python-polylabel",
+    "libigl",
     "drake",
     "vhacdx",
     "coacd",
@@ -57,6 +59,11 @@ pub(crate) fn describe() -> Value {
         .output()
         .map(|done| String::from_utf8_lossy(&done.stdout).into_owned())
         .unwrap_or_default();
+    let installed = if installed.is_empty() {
+        PACKAGES.map(|name| format!("{name} not-installed")).join("\n")
+    } else {
+        installed
+    };
     let peers = CRATES.split("; ").chain(installed.lines());
     let peers = peers.filter_map(|peer| peer.rsplit_once(' '));
     let peers = peers.map(|(name, version)| (name.to_owned(), version.into())).collect();
