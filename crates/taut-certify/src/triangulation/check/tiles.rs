@@ -159,10 +159,13 @@ pub fn check_tiles_disk(points: u64, dimension: usize, tiles: u64, memory: u64) 
     let in_tile = simplices.div_ceil(tiles.max(1));
     let chunks = tiles.saturating_mul(in_tile.div_ceil(chunk.max(1)));
     let size = simplices as f64 / chunks.max(1) as f64;
-    let border = if dimension == 2 { size.sqrt() } else { size.cbrt().powi(2) };
-    // Sides of facets between chunks, measured: 6.0 to 6.4·√m for chunks of m triangles and 5.5 to 6.0·m^⅔ for tetrahedra, in
-    // tiles of up to 10⁵ simplices. One chunk has no other.
-    let sides = if chunks > 1 { (6.4 * border * chunks as f64) as u64 } else { 0 };
+    // Sides of facets between chunks, measured in 1 to 32 tiles of 10⁵ to 3·10⁵ simplices: of chunks of m triangles 4.8 to 6.2·√m,
+    // of tetrahedra 5.8 to 7.2·m^⅔, without the share on the outside of all, which is the larger the fewer chunks there are.
+    let (border, outside) = match dimension {
+        2 => (6.4 * size.sqrt(), (chunks.max(1) as f64).powf(-1.0 / 2.0)),
+        _ => (7.2 * size.cbrt().powi(2), (chunks.max(1) as f64).powf(-1.0 / 3.0)),
+    };
+    let sides = (border * (1.0 - outside) * chunks as f64) as u64;
     let sorted = sides.saturating_mul(if dimension == 2 { 8 * 14 } else { 8 * 22 });
     // Fewer sides than memory has room for never leave it.
     let sorted = if sorted > Shares::of(memory).between / 3 * 2 { sorted } else { 0 };

@@ -1,13 +1,14 @@
 //! How many leaves, from the memory that is allowed, and the bytes that will be needed.
 //!
-//! *Idea.* A part of the memory is set aside for what does not grow with a leaf. A third of the rest is the largest leaf,
-//! whatever the number of threads, so that the tree, and with it every byte of the output, does not depend on it; threads
-//! beyond those that leaves have room for wait. Leaves are no larger than fronts ask for, so that much memory means many
-//! leaves at once. They are planned at four fifths of the largest size, as a sample cuts unevenly, and what is larger yet is
-//! cut again.
+//! *Idea.* A part of the memory is set aside for what does not grow with a leaf. A third of the rest, and half of it in space, is
+//! the largest leaf, whatever the number of threads, so that the tree, and with it every byte of the output, does not depend
+//! on it; threads beyond those that leaves have room for wait. Leaves are no larger than fronts ask for, so that much memory
+//! means many leaves at once. As a sample cuts unevenly they are planned smaller, by three standard deviations of the count of
+//! a leaf, and what is larger yet is cut again.
 //! *Measured.* Bytes a site: peak memory beside two leaves of uniform points at a time, example `outofcore`: 109 in the
 //! plane (3·10⁷ points in 128 leaves), less than 330 in space.
 
+use super::sample::SAMPLE_POINTS;
 use crate::Error;
 use crate::outofcore::tree::{FINE_LEVELS, LEVELS_MAX};
 use taut_points::InputError;
@@ -18,8 +19,13 @@ const BASE_BYTES: u64 = 16 << 20;
 /// Least memory, beyond which there is no room for leaves.
 pub(in crate::outofcore) const MEMORY_MIN: u64 = 64 << 20;
 
-/// Leaves of the largest size that fit into memory at the same time, or more.
-const LEAVES_AT_ONCE: u64 = 3;
+/// Leaves of the largest size that fit into memory at the same time, or more. (Measured in space, 10⁷ uniform points within 1 GiB:
+/// 8 leaves, two at once, take 1.25 times the processor time of the build in memory.)
+const fn leaves_at_once(d: usize) -> u64 {
+    if d == 2 { LEAVES_AT_ONCE_MAX } else { 2 }
+}
+
+const LEAVES_AT_ONCE_MAX: u64 = 3;
 
 /// Most points of a leaf where memory has room for more: fronts are then 1.1 % of the points in the plane and 5 % in space.
 /// (Measured in the plane, 3·10⁶ uniform points: leaves of a fourth of the size take 6 % less processor time, as their arrays
@@ -45,6 +51,18 @@ pub(in crate::outofcore) const fn site_bytes(d: usize) -> u64 {
 /// Simplices for each site, times 100: those of uniform points.
 const fn simplices_percent(d: usize) -> u64 {
     if d == 2 { 200 } else { 677 }
+}
+
+/// Least levels of a tree whose leaves hold at most so many points in all likelihood, with the medians of the sample as cuts: the
+/// share of a leaf among 2^levels then has a standard deviation of √(2^levels/m) of itself for a sample of m points.
+fn levels(points: u64, leaf_points: u64) -> u32 {
+    let fits = |levels: u32| {
+        let margin = 3.0 * ((1u64 << levels) as f64 / SAMPLE_POINTS as f64).sqrt();
+        (points >> levels) as f64 <= leaf_points as f64 * (1.0 - margin.min(0.2))
+    };
+    (0..u64::BITS)
+        .find(|&levels| levels == 0 && points <= leaf_points || fits(levels))
+        .unwrap_or(u64::BITS)
 }
 
 /// What is done with so many points in so much memory.
@@ -85,9 +103,8 @@ impl DiskPlan {
         }
         let node_budget = memory - memory / 8 - BASE_BYTES;
         let wanted = leaf_points_max(d).max((points / BUCKETS_WANTED).saturating_mul(5) / 4);
-        let leaf_points = (node_budget / LEAVES_AT_ONCE / site_bytes(d)).min(wanted);
-        let planned = leaf_points * 4 / 5;
-        let levels = points.div_ceil(planned).max(1).next_power_of_two().ilog2();
+        let leaf_points = (node_budget / leaves_at_once(d) / site_bytes(d)).min(wanted);
+        let levels = levels(points, leaf_points);
         // All threads' buffers take at most a quarter of the memory; no node runs while points are distributed.
         let buffers = (threads as u64) << levels.min(LEVELS_MAX);
         let buffer_bytes = (memory / 4 / buffers).min(BUFFER_BYTES[1]);
@@ -124,7 +141,8 @@ impl DiskPlan {
     /// is the peak, but for the buckets of the last leaves.
     pub fn disk_bytes(&self) -> u64 {
         let leaf = self.bucket_bytes >> self.levels;
-        self.bucket_bytes.max(self.output_bytes.saturating_add(leaf.saturating_mul(LEAVES_AT_ONCE)))
+        let open = leaf.saturating_mul(LEAVES_AT_ONCE_MAX);
+        self.bucket_bytes.max(self.output_bytes.saturating_add(open))
     }
 }
 
@@ -142,10 +160,10 @@ mod tests {
         ] {
             let plan = DiskPlan::new(points, d, memory, 2).unwrap();
             assert!(
-                LEAVES_AT_ONCE * plan.leaf_points * site_bytes(d) <= memory - memory / 8,
+                leaves_at_once(d) * plan.leaf_points * site_bytes(d) <= memory - memory / 8,
                 "{plan:?}"
             );
-            assert!((points >> plan.levels) * 5 <= plan.leaf_points * 4 + 5, "{plan:?}");
+            assert!(points >> plan.levels < plan.leaf_points, "{plan:?}");
             let other = DiskPlan::new(points, d, memory, 8).unwrap();
             assert_eq!(
                 (plan.levels, plan.merge_above, plan.leaf_points),
@@ -155,6 +173,11 @@ mod tests {
         assert!(DiskPlan::new(10, 2, MEMORY_MIN - 1, 1).is_err());
         assert!(DiskPlan::new(u64::MAX, 3, 1 << 30, 1).is_err());
         assert_eq!(DiskPlan::new(0, 2, 1 << 30, 1).unwrap().levels, 0);
+        let whole = DiskPlan::new(10, 2, 1 << 30, 1).unwrap().leaf_points;
+        assert_eq!(DiskPlan::new(whole, 2, 1 << 30, 1).unwrap().levels, 0);
+        assert_eq!(DiskPlan::new(whole + 1, 2, 1 << 30, 1).unwrap().levels, 1);
+        // 2^9 leaves of 2^8 points of the sample each vary by 19 % at three standard deviations.
+        assert_eq!((levels(400 << 10, 1 << 10), levels(430 << 10, 1 << 10)), (9, 10));
         assert_eq!(DiskPlan::new(1 << 33, 2, 1 << 36, 1).unwrap().row_bytes, 8);
     }
 }

@@ -6,7 +6,7 @@
 use taut_points::{PointSource, ReadError, Scratch};
 
 /// Points of a sample: cells of 2¹³ then have 16 each, and those of a bucket of 2⁷ are counted to 3 %.
-const SAMPLE_POINTS: u64 = 1 << 17;
+pub(super) const SAMPLE_POINTS: u64 = 1 << 17;
 /// Rows that are read at once: a page of the disk and more.
 const RUN_ROWS: u64 = 32;
 
