@@ -1,7 +1,7 @@
 //! k centers: proven optima of cities and of space, centers among the points, traversals, outliers and streams.
 
 mod case;
-mod cities;
+pub(crate) mod cities;
 mod discrete;
 mod free;
 mod judgement;

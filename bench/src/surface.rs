@@ -37,8 +37,8 @@ use found::{FRONT, PEERS, SCALES, ours, theirs};
 use judged::Judged;
 use models::{ANCHOR, BLOB5, BUNNY, DC, HORSE, Model, SEVEN, cactus};
 use samples::{
-    Point, band, chances, ellipsoids, fist, hemisphere, noisy, on_triangles, pear, rings, saddles,
-    sheets, spiral, thinned, wedge,
+    Point, band, cap, chances, ellipsoids, fist, hemisphere, noisy, on_triangles, pear, rings,
+    saddles, sheets, spiral, staircase, thinned, towers, wedge,
 };
 use solids::{Place, Solid, handles};
 use timed::Timed;

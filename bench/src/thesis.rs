@@ -1,17 +1,19 @@
 //! Figures and the table of the thesis, rerun: CSV for those who compute, SVG for those who look.
 //!
-//! *What is rerun.* Core-sets and times of balls (figures 5 to 15) and of ellipsoids (figure 18), curves through noisy
+//! *What is rerun.* k centers (figures 1, 16 and 17), core-sets and times of balls (figures 5 to 15) and of ellipsoids (figure 18), curves through noisy
 //! points (figures 2, 21 and 22), surfaces (table 1), diamonds and times of triangulations (figures 52 and 53), classifiers (tables 2 and 3), the ellipse in a projected model (figure 62), and k-dops in meshes (tables 4 to 6, figures 76 and
 //! 77). taut's default methods are drawn beside those of the thesis.
 //! *What differs.* The machine (the thesis had a 2.66 GHz Xeon for chapter 2, and for figures 14 and 15 a 1 GHz Pentium III; other
 //! chapters name others), the conic solver, and the random points. Sizes can be compared; times only within one figure.
 
 mod ball;
+mod centers;
 mod curve;
 mod dops;
 mod ellipse;
 mod ellipsoid;
 mod figure;
+mod memory;
 mod outofcore;
 mod recognize;
 mod surface;
@@ -95,6 +97,9 @@ impl Plan {
 type Rerun = (&'static [&'static str], &'static str, fn(&Plan) -> Result<()>);
 
 const RERUNS: &[Rerun] = &[
+    (&["1", "16", "17"], "k centers of cities and in space, by Algorithm 2.", centers::figures),
+    (&["2.4-delta"], "Balls: the accuracy δ of the conic solver.", ball::by_delta),
+    (&["2.4-largest"], "Balls: 10⁵ points in dimension 1500.", ball::largest),
     (&["2"], "A curve through noisy points.", |plan| curve::write(plan, "02")),
     (&["5", "6"], "Balls: the pure and the fast variant, by dimension.", ball::pure_and_fast),
     (&["7", "8"], "Balls: two numbers of points.", ball::two_numbers_of_points),
@@ -106,6 +111,12 @@ const RERUNS: &[Rerun] = &[
     (&["18"], "Ellipsoids: sizes of core-sets, by dimension and by ε.", ellipsoid::figures),
     (&["21"], "Curves: the crude method and its jagged result.", |plan| curve::write(plan, "21")),
     (&["22"], "Curves: the crude method at sharp turns.", |plan| curve::write(plan, "22")),
+    (&["5.2.2"], "2¹⁵ of 2³⁰ numbers at random, in order.", memory::subset),
+    (
+        &["49", "50"],
+        "Distribution sort with one and two levels over a library's sort.",
+        memory::sorts,
+    ),
     (&["52"], "Diamonds over cities of the USA.", outofcore::figure_52),
     (&["53"], "Triangulations larger than memory: times.", outofcore::figure_53),
     (&["62"], "The largest ellipse in a projection of the bunny.", ellipse::write),

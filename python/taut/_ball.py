@@ -21,6 +21,7 @@ def ball(
     epsilon: float = 1e-9,
     method: BallMethod = "core-set",
     batch: int | None = None,
+    delta: float | None = None,
     max_passes: int = 1_000_000,
     threads: int | None = None,
     seed: int = 0,
@@ -45,6 +46,9 @@ def ball(
         the literature it grew from, kept so that their tables can be rerun.
     batch : int >= 1, optional
         Far points taken to the core-set per pass, by "core-set"; by default chosen by dimension.
+    delta : float in (0, 1), optional
+        Relative accuracy to which the ball of a core-set is solved, by "thesis-pure" and "thesis-fast"; by default
+        epsilon squared. Other methods take none.
     max_passes : int >= 3, default 1,000,000
         Reads of all points before the best ball so far is returned with its gap; at least 4 for the methods of the
         literature.
@@ -94,7 +98,7 @@ def ball(
     """
     items = "points" if shapes is None else "ellipsoids"
     rows = as_rows(points, shapes=shapes)
-    return Solution(_native.ball(rows, items, epsilon, method, batch, max_passes, threads, seed), rows)
+    return Solution(_native.ball(rows, items, epsilon, method, batch, delta, max_passes, threads, seed), rows)
 
 
 def kernel_ball(
@@ -178,6 +182,7 @@ def ball_of_balls(
     epsilon: float = 1e-9,
     method: BallMethod = "core-set",
     batch: int | None = None,
+    delta: float | None = None,
     max_passes: int = 1_000_000,
     threads: int | None = None,
     seed: int = 0,
@@ -190,7 +195,7 @@ def ball_of_balls(
         Finite real numbers. Centers and radii are copied to one array, float32 if both are, else float64.
     radii : array_like of shape (n,)
         Finite real numbers, at least 0.
-    epsilon, method, batch, max_passes, threads, seed
+    epsilon, method, batch, delta, max_passes, threads, seed
         As in `ball`.
 
     Returns
@@ -217,4 +222,4 @@ def ball_of_balls(
     if radii is None:
         raise TypeError("radii are None: expected one for each center; points have `taut.ball`")
     rows = as_rows(centers, radii)
-    return Solution(_native.ball(rows, "balls", epsilon, method, batch, max_passes, threads, seed), rows)
+    return Solution(_native.ball(rows, "balls", epsilon, method, batch, delta, max_passes, threads, seed), rows)

@@ -93,8 +93,8 @@ class OpenTiles:
     def alpha_complex(self, tile: int, alpha: float) -> list[NDArray[np.uint64]]: ...
 
 def ball(
-    rows: Rows, items: str, epsilon: float, method: str, batch: int | None, max_passes: int, threads: int | None,
-    seed: int,
+    rows: Rows, items: str, epsilon: float, method: str, batch: int | None, delta: float | None, max_passes: int,
+    threads: int | None, seed: int,
 ) -> Found: ...
 def body_mesh(
     exponent: int, origin: list[int], normals: list[list[int]], offsets: list[int],

@@ -120,6 +120,8 @@ def test_non_finite_coordinates_are_named(dtype, value, row):
         ({"batch": -1}, "`batch` is -1"),
         ({"max_passes": 2}, "`max_passes` is 2: expected at least 3"),
         ({"max_passes": 3, "method": "thesis-pure"}, "`max_passes` is 3: expected at least 4"),
+        ({"delta": 1e-3}, "`delta` is 0.001: expected none but for the methods thesis-pure and thesis-fast"),
+        ({"delta": 2.0, "method": "thesis-fast"}, "`delta` is 2: expected a number in"),
         ({"max_passes": -1}, "`max_passes` is -1: expected at least 3, and 4 for the methods of the thesis"),
         ({"max_passes": 2**70}, "`max_passes` is 1180591620717411303424"),
         ({"threads": 0}, "`threads` is 0"),

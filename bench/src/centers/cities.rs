@@ -3,7 +3,7 @@
 use super::*;
 
 /// The places of a file of `$TAUT_DATA/ball`, two numbers each; `None`, after saying so, where it is missing.
-pub(super) fn read(name: &str) -> Result<Option<Vec<f64>>> {
+pub(crate) fn read(name: &str) -> Result<Option<Vec<f64>>> {
     Ok(data::read_xz(&format!("ball/{name}"))?.map(|text| places(&text)))
 }
 

@@ -170,9 +170,78 @@ pub(super) fn fist(each: usize) -> Vec<Point> {
     (0..4).flat_map(finger).collect()
 }
 
+/// A corner and two sides.
+type Plate = [[i32; 3]; 3];
+
+/// The lattice of `per_unit` squares a unit length on plates, with their edges, each point once.
+fn plated(plates: &[Plate], per_unit: i32) -> Vec<Point> {
+    let mut places = vec![];
+    for [corner, u, v] in plates {
+        let squares = |side: &[i32; 3]| per_unit * side.iter().map(|x| x.abs()).sum::<i32>();
+        let ([along, across], unit) =
+            ([squares(u), squares(v)], |side: &[i32; 3]| side.map(i32::signum));
+        for i in 0..=along {
+            for j in 0..=across {
+                let (u, v) = (unit(u), unit(v));
+                places.push([0, 1, 2].map(|k| per_unit * corner[k] + i * u[k] + j * v[k]));
+            }
+        }
+    }
+    places.sort_unstable();
+    places.dedup();
+    places.into_iter().map(|place| place.map(|x| f64::from(x) / f64::from(per_unit))).collect()
+}
+
+/// Five square towers on a sheet with one border: sharp edges, concave ones among them.
+pub(super) fn towers(per_unit: i32) -> Vec<Point> {
+    const HEIGHTS: [i32; 5] = [2, 3, 3, 3, 2];
+    let (x, y) = ([1, 0, 0], [0, 1, 0]);
+    let mut plates: Vec<Plate> = vec![];
+    for i in 0..11 {
+        for j in 0..3 {
+            let height = if j == 1 && i % 2 == 1 { HEIGHTS[i as usize / 2] } else { 0 };
+            plates.push([[i, j, height], x, y]);
+            if height > 0 {
+                let up = [0, 0, height];
+                plates.extend([
+                    [[i, j, 0], x, up],
+                    [[i, j + 1, 0], x, up],
+                    [[i, j, 0], y, up],
+                    [[i + 1, j, 0], y, up],
+                ]);
+            }
+        }
+    }
+    plated(&plates, per_unit)
+}
+
+/// Six stairs of width 6: a sheet with one border and sharp edges of both kinds.
+pub(super) fn staircase(per_unit: i32) -> Vec<Point> {
+    let stair = |i: i32| [[[i, 0, i], [0, 0, 1], [0, 6, 0]], [[i, 0, i + 1], [1, 0, 0], [0, 6, 0]]];
+    let plates: Vec<Plate> = (0..6).flat_map(stair).collect();
+    plated(&plates, per_unit)
+}
+
+/// Points of a sphere above a plane that cuts a fourth off: a surface with one border.
+pub(super) fn cap(count: usize) -> Vec<Point> {
+    let mut points = spiral(count * 4 / 3);
+    points.truncate(count);
+    points
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn lattices_of_plates_have_each_point_once() {
+        // Twelve plates of 6 × 1 that share eleven edges.
+        assert_eq!(staircase(2).len(), 13 * (12 * 2 + 1));
+        let found = towers(1);
+        // The sheet has 12 × 4 corners, and each tower 4 more on each level above.
+        assert_eq!(found.len(), 12 * 4 + 4 * (2 + 3 + 3 + 3 + 2));
+        assert_eq!(cap(100).len(), 100);
+    }
 
     #[test]
     fn points_of_triangles_are_on_them_by_area() {

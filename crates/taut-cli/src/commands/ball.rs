@@ -42,6 +42,9 @@ pub(crate) struct Args {
     /// Far points taken to the core-set per pass, by core-set; at least 1 [default: by dimension]
     #[arg(long, value_name = "N")]
     batch: Option<usize>,
+    /// Relative accuracy of the ball of a core-set, in (0, 1), by thesis-pure and thesis-fast [default: the square of epsilon]
+    #[arg(long, value_name = "REAL", allow_negative_numbers = true)]
+    delta: Option<f64>,
     /// Most reads of all points, then the best ball so far is given with its gap: at least 3, 4 for the thesis'
     /// methods; a read or two more settle the scale of extreme coordinates. With --kernel at least 1 and at most 10000
     #[arg(long, value_name = "N", default_value_t = BallOptions::default().max_passes)]
@@ -98,6 +101,7 @@ impl Args {
             epsilon: self.epsilon.unwrap_or(BallOptions::default().epsilon),
             method: self.method,
             batch: self.batch,
+            delta: self.delta,
             max_passes: self.max_passes,
             threads: None, // those of the pool, which reading and checking use as well
             seed: self.seed,

@@ -207,6 +207,23 @@ fn every_method_ends_in_the_same_ball() {
 }
 
 #[test]
+fn the_accuracy_of_core_sets_is_an_option_of_the_methods_that_have_one() {
+    let folder = TestFolder::new();
+    folder.put("points.csv", TRIANGLE);
+    for method in ["thesis-pure", "thesis-fast"] {
+        folder
+            .taut(&format!("ball points.csv --method {method} --delta 1e-4 --epsilon 0.01"))
+            .ends(0);
+    }
+    for words in
+        ["--delta 1e-4", "--method badoiu-clarkson --delta 1e-4", "--method thesis-pure --delta 0"]
+    {
+        let run = folder.taut(&format!("ball points.csv {words} --epsilon 0.01")).ends(2);
+        assert!(run.err.contains("delta"), "{}", run.err);
+    }
+}
+
+#[test]
 fn memory_bounds_what_is_held_and_changes_no_byte() {
     let folder = TestFolder::new();
     folder.taut("generate normal -n 3000 -d 4 -o points.csv").ends(0);

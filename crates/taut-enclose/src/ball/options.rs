@@ -38,6 +38,10 @@ pub struct BallOptions<'a> {
     pub method: BallMethod,
     /// Far points taken to the core-set per pass, by [`BallMethod::CoreSet`]; `None` chooses by dimension. At least 1.
     pub batch: Option<usize>,
+    /// Relative accuracy δ to which the conic solver is asked for the ball of a core-set, by [`BallMethod::ThesisPure`] and
+    /// [`BallMethod::ThesisFast`], which take a finer one where it turns out to be too coarse; with other methods it is an error.
+    /// Range (0, 1); `None` is ε², as in the experiments of the thesis (2.4).
+    pub delta: Option<f64>,
     /// Most reads of all points; then the best ball so far is returned with its gap. At least 3, and 4 for the methods
     /// of the thesis, which read thrice before their first ball. Default 1,000,000.
     /// A read or two more are made where nothing could be said of the radius otherwise.
@@ -57,6 +61,7 @@ impl Default for BallOptions<'_> {
             epsilon: 1e-9,
             method: BallMethod::default(),
             batch: None,
+            delta: None,
             max_passes: 1_000_000,
             threads: None,
             seed: 0,
@@ -82,6 +87,15 @@ impl BallOptions<'_> {
         }
         if self.batch == Some(0) {
             return wrong("batch", "0".into(), "at least 1");
+        }
+        if let Some(delta) = self.delta {
+            if !(delta > 0.0 && delta < 1.0) {
+                return wrong("delta", shown_number(delta), "a number in (0, 1)");
+            }
+            if !matches!(self.method, BallMethod::ThesisPure | BallMethod::ThesisFast) {
+                let expected = "none but for the methods thesis-pure and thesis-fast";
+                return wrong("delta", shown_number(delta), expected);
+            }
         }
         if self.max_passes < 3 {
             return wrong(

@@ -7,8 +7,8 @@
 //! of Algorithm 10 ([`super::badoiu_clarkson`]) and starts from the far points these met, many of them more than once.
 //! *Guarantee.* R ≤ (1 + ε)·R*, proved; |X| = O(1/ε). An item at distance D > r raises the radius r of X to at least
 //! (D² + r²)/(2D), more than the 1 + ε²/33 of Lemma 2.3.2.
-//! *Departures.* δ = ε², as in the experiments of the thesis; the analysis asks for ε²/163 ([`delta_of_the_lemma`]),
-//! which is what a core-set is solved to when δ = ε² turns out to be too coarse. The test of step 5 is made from
+//! *Departures.* δ is an option, by default ε², as in the experiments of the thesis; the analysis asks for ε²/163 ([`delta_of_the_lemma`]),
+//! which is what a core-set is solved to when δ turns out to be too coarse. The test of step 5 is made from
 //! c = Σ λᵢcᵢ, with as radius what holds X from there, and the stop asks for the proved gap, too. For balls the
 //! farthest is the one with the largest |c − cᵢ| + rᵢ. Clarabel stands in for SDPT3.
 //! *Trap.* A conic solver ends some way above rounding, here at gaps of 1e-13 to 1e-11. What it cannot tell apart must
@@ -86,7 +86,8 @@ fn delta_of_the_lemma(epsilon: f64) -> f64 {
 /// The loop of Algorithm 1.
 fn algorithm_1(mut run: Run<'_, '_>, mut set: WorkingSet) -> Result<Outcome, Error> {
     let epsilon = run.options.epsilon;
-    let finer = [epsilon * epsilon, delta_of_the_lemma(epsilon), 0.0].map(|d| d.max(ACCURACY_MIN));
+    let first = run.options.delta.unwrap_or(epsilon * epsilon);
+    let finer = [first, delta_of_the_lemma(epsilon), 0.0].map(|d| d.max(ACCURACY_MIN));
     let mut deltas = finer.into_iter();
     let mut delta = deltas.next().expect("there are three");
     let mut hull = Hull::default();

@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use common::families::Random;
 use common::judge;
 use taut_certify::{Items, Stop};
-use taut_enclose::{BallOptions, Error, ball};
+use taut_enclose::{BallMethod, BallOptions, Error, ball};
 use taut_points::{
     Distribution, FileSource, GeneratedSource, InputError, MappedSource, Monitor, PointSource,
     Points, ReadError, Rows, ScalarKind, Scratch, generate,
@@ -102,12 +102,20 @@ fn the_first_negative_radius_is_named() {
 #[test]
 fn options_out_of_range_are_named() {
     let points = Points::new(&[0.0, 1.0], 1).unwrap();
+    let conic = |delta| {
+        let method = BallMethod::ThesisPure;
+        BallOptions { method, delta: Some(delta), ..Default::default() }
+    };
     let bad = [
         ("epsilon", options(f64::NAN)),
         ("epsilon", options(-1e-9)),
         ("epsilon", options(1.0)),
         ("epsilon", options(f64::INFINITY)),
         ("batch", BallOptions { batch: Some(0), ..Default::default() }),
+        ("delta", BallOptions { delta: Some(1e-6), ..Default::default() }),
+        ("delta", conic(0.0)),
+        ("delta", conic(1.0)),
+        ("delta", conic(f64::NAN)),
         ("threads", BallOptions { threads: Some(0), ..Default::default() }),
         ("max_passes", BallOptions { max_passes: 0, ..Default::default() }),
         ("max_passes", BallOptions { max_passes: 2, ..Default::default() }),

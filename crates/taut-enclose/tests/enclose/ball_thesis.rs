@@ -116,6 +116,30 @@ fn the_four_distributions_are_solved_to_epsilon() {
     }
 }
 
+/// The experiment of 2.4 in small: any accuracy of the conic solver leads to ε; the size of the core-set hardly depends on it.
+#[test]
+fn any_accuracy_of_the_core_sets_leads_to_epsilon() {
+    let (dim, epsilon) = (50, 1e-3);
+    let values: Vec<f64> = generate(Distribution::Normal, 500, dim, 11).unwrap();
+    let mut sizes = vec![];
+    for delta in [0.9, 1e-3, 1e-6, 1e-9, 1e-300] {
+        for method in CONIC {
+            let options = BallOptions { delta: Some(delta), ..options(method, epsilon) };
+            judge(&format!("δ = {delta:e}"), &values, dim, Items::Points, &options);
+            sizes.push(solve(&values, dim, Items::Points, &options).trace.core_set);
+        }
+    }
+    let (least, most) = (sizes.iter().min().unwrap(), sizes.iter().max().unwrap());
+    assert!(most - least <= least / 4, "{sizes:?}");
+    // It reaches the solver: a coarser one takes fewer of its steps.
+    let steps = |delta| {
+        let options =
+            BallOptions { delta: Some(delta), ..options(BallMethod::ThesisPure, epsilon) };
+        solve(&values, dim, Items::Points, &options).trace.counters["interior_point_steps"]
+    };
+    assert!(steps(1e-3) < steps(1e-9));
+}
+
 #[test]
 fn balls_are_solved_to_epsilon() {
     for (seed, spread) in [1e-3, 0.1, 1.0, 10.0].into_iter().enumerate() {

@@ -34,6 +34,12 @@ pub fn distribution_sort<T: Copy + Ord>(array: &mut [T], seed: u64) {
     distribution_sort_instrumented(array, seed, &mut NoProbe);
 }
 
+/// [`distribution_sort()`] whose recursion ends after `levels`, where the standard library sorts: the form that the thesis timed, with
+/// one level in figure 49 and with two in figure 50. With 0 it is the library's sort.
+pub fn distribution_sort_over_library<T: Copy + Ord>(array: &mut [T], seed: u64, levels: u32) {
+    sort_alone(array, Depth::Levels(levels), &mut Random::new(seed), &mut NoProbe);
+}
+
 /// [`distribution_sort()`] under a probe.
 pub fn distribution_sort_instrumented<T: Copy + Ord, P: Probe>(
     array: &mut [T],
@@ -41,13 +47,41 @@ pub fn distribution_sort_instrumented<T: Copy + Ord, P: Probe>(
     probe: &mut P,
 ) {
     probe.place(array);
-    sort_alone(array, &mut Random::new(seed), probe);
+    sort_alone(array, Depth::Bottom, &mut Random::new(seed), probe);
 }
 
-fn sort_alone<T: Copy + Ord, P: Probe>(array: &mut [T], random: &mut Random, probe: &mut P) {
+/// How far the recursion goes.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Depth {
+    /// To arrays that insertion sorts.
+    Bottom,
+    /// So many levels more; below them the standard library sorts.
+    Levels(u32),
+}
+
+impl Depth {
+    /// One level further down.
+    fn below(self) -> Self {
+        match self {
+            Depth::Bottom => Depth::Bottom,
+            Depth::Levels(levels) => Depth::Levels(levels.saturating_sub(1)),
+        }
+    }
+}
+
+fn sort_alone<T: Copy + Ord, P: Probe>(
+    array: &mut [T],
+    depth: Depth,
+    random: &mut Random,
+    probe: &mut P,
+) {
+    if depth == Depth::Levels(0) {
+        array.sort_unstable();
+        return;
+    }
     let mut scratch = array.to_vec();
     probe.place(&scratch);
-    sort(array, &mut scratch, true, random, probe);
+    sort(array, &mut scratch, true, depth, random, probe);
     probe.lift(&scratch);
 }
 
@@ -56,12 +90,18 @@ fn sort<T: Copy + Ord, P: Probe>(
     array: &mut [T],
     other: &mut [T],
     stay: bool,
+    depth: Depth,
     random: &mut Random,
     probe: &mut P,
 ) {
     let n = array.len();
-    if n <= INSERTION_SORT_MAX {
-        insertion_sort(array, probe);
+    let is_end = depth == Depth::Levels(0);
+    if is_end || n <= INSERTION_SORT_MAX {
+        if is_end {
+            array.sort_unstable();
+        } else {
+            insertion_sort(array, probe);
+        }
         if !stay {
             copy(array, other, probe);
         }
@@ -73,7 +113,7 @@ fn sort<T: Copy + Ord, P: Probe>(
     probe.place(&sample);
     let mut drawn = sample.chunks_mut(beta);
     for (part, other) in array.chunks_mut(run).zip(other.chunks_mut(run)) {
-        sort(part, other, true, random, probe);
+        sort(part, other, true, depth.below(), random, probe);
         // A last run that is shorter is left out: it has less than 1/√n of the elements.
         if part.len() == run
             && let Some(drawn) = drawn.next()
@@ -81,7 +121,7 @@ fn sort<T: Copy + Ord, P: Probe>(
             draw(part, drawn, random, probe);
         }
     }
-    sort_alone(&mut sample, random, probe);
+    sort_alone(&mut sample, depth.below(), random, probe);
     let mut buckets: Vec<Bucket<T>> = bounds(&sample, run, probe)
         .into_iter()
         .chain([array[0]]) // Of the last bucket, where nobody asks.
@@ -105,7 +145,7 @@ fn sort<T: Copy + Ord, P: Probe>(
                 copy(bucket, home, probe);
             }
         } else {
-            sort(bucket, home, !stay, random, probe);
+            sort(bucket, home, !stay, depth.below(), random, probe);
         }
     }
 }

@@ -45,7 +45,9 @@ use std::slice::from_ref;
 
 pub use buckets::Buckets;
 pub use columnsort::{columnsort, columnsort_instrumented};
-pub use distribution_sort::{distribution_sort, distribution_sort_instrumented};
+pub use distribution_sort::{
+    distribution_sort, distribution_sort_instrumented, distribution_sort_over_library,
+};
 pub use distributor::{Distributor, DistributorForm};
 pub use distributor_sort::{distributor_sort, distributor_sort_instrumented};
 pub use fft::{Direction, fft, fft_instrumented};

@@ -3,8 +3,8 @@
 use proptest::prelude::*;
 use taut_reference::algorithms::{
     Distributor, DistributorForm, LIST_END, MatrixSizes, columnsort, distribution_sort,
-    distributor_sort, funnelsort, list_ranks, mergesort, multiply, quicksort, reverse, select,
-    strassen, transpose,
+    distribution_sort_over_library, distributor_sort, funnelsort, list_ranks, mergesort, multiply,
+    quicksort, reverse, select, strassen, transpose,
 };
 
 /// Many lengths, many ties.
@@ -58,6 +58,10 @@ fn sorts_agree(array: &[u32], seed: u64) {
     assert_eq!(sorted(array.clone(), |a| quicksort(a, seed)), expected, "quicksort");
     assert_eq!(sorted(array.clone(), funnelsort), expected, "funnelsort");
     assert_eq!(sorted(array.clone(), |a| distribution_sort(a, seed)), expected, "distribution");
+    for levels in 0..3 {
+        let found = sorted(array.clone(), |a| distribution_sort_over_library(a, seed, levels));
+        assert_eq!(found, expected, "distribution, {levels} levels over the library's sort");
+    }
     for form in FORMS {
         let found = sorted(array.clone(), |a| distributor_sort(a, form, seed));
         assert_eq!(found, expected, "distributor, {form:?}");

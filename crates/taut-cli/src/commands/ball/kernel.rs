@@ -30,7 +30,7 @@ enum KernelName {
 #[command(next_help_heading = "Kernels")]
 pub(super) struct KernelArgs {
     /// Find the ball in the feature space of a kernel
-    #[arg(long, value_name = "NAME", conflicts_with_all = ["balls", "ellipsoids", "batch"])]
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["balls", "ellipsoids", "batch", "delta"])]
     kernel: Option<KernelName>,
     /// γ of a Gaussian or polynomial kernel, above 0 [default: 1]
     #[arg(long, value_name = "REAL", requires = "kernel", allow_negative_numbers = true)]
