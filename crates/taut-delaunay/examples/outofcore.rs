@@ -1,11 +1,12 @@
 //! Time, processor time and peak memory of one triangulation, in memory or to a folder:
 //! `cargo run --release -p taut-delaunay --example outofcore -- uniform 2 10000000 512 2 /tmp/folder`, or `memory` in the
 //! place of the folder. The first call writes the points to a file of the temporary folder; a folder that was begun is
-//! resumed.
+//! resumed. After a folder comes its check.
 
 use std::path::Path;
 use std::time::Instant;
 
+use taut_certify::{TilesOptions, check_tiles};
 use taut_delaunay::outofcore::{FolderOptions, delaunay_to_folder};
 use taut_delaunay::{DelaunayOptions, Plane, Space};
 use taut_points::{Distribution, FileSource, GeneratedSource, Points, Rows, Scratch};
@@ -61,12 +62,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     let source = FileSource::open(&raw, 0, n, dim, ScalarKind::F64)?;
     let begun = Instant::now();
-    let passes = std::sync::Mutex::new((String::new(), used().0));
     let note = |pass: u64, _: u64| {
-        let mut passes = passes.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
         let (wall, cpu) = (begun.elapsed().as_secs_f64(), used().0);
-        passes.0 += &format!("pass {pass} begins at {wall:.2} s wall, {cpu:.2} s processor; ");
-        passes.1 = cpu;
+        println!("pass {pass} begins at {wall:.2} s wall, {cpu:.2} s processor");
     };
     let monitor = Monitor { on_pass: Some(&note), ..Monitor::silent() };
     if target == "memory" {
@@ -90,6 +88,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     let memory = memory.parse::<u64>()? << 20;
     let resume = Path::new(target).join("manifest.txt").exists();
+    let pool = taut_points::thread_pool(threads)?;
     let threads = Some(threads);
     let options = FolderOptions { memory, threads, resume, monitor, ..FolderOptions::default() };
     let found = delaunay_to_folder(&source, Path::new(target), &options)?;
@@ -97,7 +96,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (cpu, peak) = used();
     let share = found.totals.front_sites as f64 * 100.0 / n as f64;
     let cpu = cpu * 1e9 / n as f64;
-    println!("{}", passes.into_inner()?.0);
     println!(
         "folder {set} {dim}d {n}: {} simplices, {wall:.2} s wall, {cpu:.0} ns/pt processor, {peak} MiB, front {share:.2} %, root {} sites, {} tiles, {} merged",
         found.totals.simplices,
@@ -105,5 +103,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         found.totals.tiles,
         found.totals.merged_sites
     );
+    let begun = Instant::now();
+    let options = TilesOptions { memory, monitor, ..TilesOptions::default() };
+    let verdict = pool.install(|| check_tiles(Path::new(target), &source, &options))?;
+    let wall = begun.elapsed().as_secs_f64();
+    println!("check: {} points, {wall:.2} s wall", verdict.points);
     Ok(())
 }

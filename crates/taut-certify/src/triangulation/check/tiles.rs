@@ -35,6 +35,7 @@ mod hull;
 mod inside;
 mod manifest;
 mod overview;
+mod reading;
 mod rows;
 mod sort;
 mod sum;
@@ -250,9 +251,9 @@ fn begin<'a, const D: usize>(
 /// The parts of the memory for what is held at the same time.
 #[derive(Clone, Copy, Debug)]
 struct Shares {
-    /// The sites of a tile; two are held.
+    /// The sites of a tile; two are held, or three of two thirds.
     sites: u64,
-    /// A chunk of simplices; three are held.
+    /// A chunk of simplices; three are held, or five of half.
     chunk: u64,
     /// Sides of facets.
     between: u64,

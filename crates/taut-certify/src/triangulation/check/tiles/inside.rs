@@ -1,9 +1,8 @@
-//! The course of the check: tiles are read by one thread, and judged chunk by chunk by all others.
+//! The course of the check: tiles are [read](super::reading) beside, and judged chunk by chunk by all threads.
 
 use std::marker::PhantomData;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 
 use taut_points::{Monitor, PointSource, Points, Rows};
 
@@ -17,8 +16,9 @@ use super::between::{Across, Between, Side};
 use super::hull::Hull;
 use super::manifest::Manifest;
 use super::overview::Overview;
-use super::rows::{Coverage, Site};
-use super::tile::{Counts, Expected, OTHER_TILE, TileFile, TileSites, file_name};
+use super::reading::{Part, Readers};
+use super::rows::Coverage;
+use super::tile::{Counts, OTHER_TILE, TileSites, file_name};
 use super::{Shares, TilesError, TilesVerdict, TilesViolation, TriangulationCounts, count};
 
 /// All that is known before the first tile.
@@ -191,13 +191,6 @@ impl<const D: usize> Kind<D, 1, 0> for Chain {
     }
 }
 
-/// What the thread that reads hands on, in the order of the file.
-enum Part<const D: usize, const V: usize> {
-    Tile(Arc<TileSites<D>>),
-    Simplices(Vec<[u32; V]>, Vec<[u32; V]>),
-    End(Counts),
-}
-
 impl<const D: usize> Job<'_, D> {
     /// Judges all tiles. `W` = F + 3 + V + V·D.
     pub(super) fn run<K, H, const V: usize, const F: usize, const W: usize>(
@@ -213,15 +206,7 @@ impl<const D: usize> Job<'_, D> {
         let coverage = Coverage::<D>::new(self.manifest.points, &self.temporary, self.shares.rows)?;
         let between = Between::<D, V, F, W>::new(&self.temporary, self.shares.between);
         let mut judge = Judge { job: &self, kind, hull, between, all: Totals::default() };
-        let (coverage, judge) = std::thread::scope(|scope| {
-            let (send, receive) = sync_channel(1);
-            let reader = scope.spawn(|| self.read_tiles::<V>(coverage, send));
-            let judged = judge.tiles(receive);
-            // The receiver is gone by now, so the reader ends.
-            let read = reader.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-            judged?;
-            Ok::<_, TilesError>((read?, judge))
-        })?;
+        let coverage = Readers::new(&self, coverage).read(|parts| judge.tile(parts))?;
         let Judge { kind, mut hull, between, mut all, .. } = judge;
         self.monitor.pass(3, between.count());
         all.ties += between.check(
@@ -280,74 +265,6 @@ impl<const D: usize> Job<'_, D> {
         let p = self.overview.scaled(p);
         self.axes.map(|k| p[k])
     }
-
-    /// Reads all tiles in order: sites and duplicates go to `coverage`, the rest is sent.
-    fn read_tiles<const V: usize>(
-        &self,
-        mut coverage: Coverage<D>,
-        send: SyncSender<Part<D, V>>,
-    ) -> Result<Coverage<D>, TilesError> {
-        let expected = Expected {
-            points: self.manifest.points,
-            row_bytes: self.manifest.row_bytes,
-            vertices: self.vertices,
-            memory: self.shares.sites,
-        };
-        // An error of the one who judges, which is told there.
-        let is_over = |part| send.send(part).is_err();
-        let chunk = (self.shares.chunk / (8 * V as u64)).max(1);
-        for &tile in &self.manifest.tiles {
-            let mut file = TileFile::<D>::open(self.folder, tile, &expected)?;
-            let sites = file.sites(&expected)?;
-            if is_over(Part::Tile(Arc::clone(&sites))) {
-                break;
-            }
-            file.duplicates(|[row, first]| self.duplicate(&mut coverage, row, first))?;
-            let mut is_vertex = vec![false; sites.rows.len()];
-            let mut done = 0;
-            while done < file.counts.simplices {
-                let count = chunk.min(file.counts.simplices - done);
-                let (simplices, neighbors) = file.simplices::<V>(count as usize, done)?;
-                for &v in simplices.as_flattened() {
-                    is_vertex[v as usize] = true;
-                }
-                done += count;
-                if is_over(Part::Simplices(simplices, neighbors)) {
-                    return Ok(coverage);
-                }
-            }
-            let counts = file.counts;
-            let mut copies = file.finish()?.into_iter().peekable();
-            for (number, (&row, &coordinates)) in
-                sites.rows.iter().zip(&sites.coordinates).enumerate()
-            {
-                if self.overview.smallest.is_some_and(|(v, p)| p == coordinates && row != v) {
-                    let problem = "is a site, but equals an earlier point";
-                    return Err(TilesViolation::Site { row, problem }.into());
-                }
-                let is_owned = copies.next_if_eq(&(number as u32)).is_none();
-                let is_vertex = is_vertex[number];
-                coverage.add(&Site { row, coordinates, is_owned, is_vertex })?;
-            }
-            if is_over(Part::End(counts)) {
-                break;
-            }
-        }
-        Ok(coverage)
-    }
-
-    fn duplicate(
-        &self,
-        coverage: &mut Coverage<D>,
-        row: u64,
-        first: u64,
-    ) -> Result<(), TilesError> {
-        if row.max(first) >= self.manifest.points {
-            let problem = "there are not so many points";
-            return Err(TilesViolation::Duplicate { row, first, problem }.into());
-        }
-        coverage.add_duplicate(row, first)
-    }
 }
 
 /// What all chunks add up to.
@@ -384,7 +301,7 @@ where
     K: Kind<D, V, F>,
     H: Hull<D, V, F>,
 {
-    fn tiles(&mut self, parts: Receiver<Part<D, V>>) -> Result<(), TilesError> {
+    fn tile(&mut self, parts: impl Iterator<Item = Part<D, V>>) -> Result<(), TilesError> {
         let mut begun: Option<Begun<D>> = None;
         for part in parts {
             self.job.monitor.check()?;

@@ -362,7 +362,7 @@ impl Counts {
     }
 
     /// Bytes of memory that stay while the tile is read: its sites with two marks and the copies, and the links.
-    fn memory<const D: usize>(&self) -> u64 {
+    pub(super) fn memory<const D: usize>(&self) -> u64 {
         self.sites * (8 * D as u64 + 8 + 2) + 4 * self.copies + 12 * self.links
     }
 }

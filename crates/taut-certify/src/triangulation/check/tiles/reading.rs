@@ -1,0 +1,226 @@
+//! Tiles are read by two threads, every other one by each, and handed on in order.
+//!
+//! *Idea.* Reading, its sum and the distribution of the sites by row take longer than the judging of the simplices, which all
+//! threads share. So two threads read where the tiles that wait for each other fit into the memory. The sites of a tile are
+//! distributed when those of the tile before have been, and after the tile has been handed on, so that one tile is judged
+//! while the one before is distributed.
+//! *Guarantee.* What is handed on, the order of the sites and the violation that is told are those of one thread: of all that is
+//! wrong the first tile counts, and in a tile what is judged before what is read. For a tile is judged only after all tiles
+//! before have been handed on whole, and what is left of these, the distribution, is not broken off.
+
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread;
+
+use super::inside::Job;
+use super::rows::{Coverage, Site};
+use super::tile::{Counts, Expected, TileFile, TileSites};
+use super::{TilesError, TilesViolation};
+
+/// Threads that read where memory and the threads of the check allow.
+const READERS_MAX: usize = 2;
+
+/// What a thread that reads hands on, in the order of the file.
+pub(super) enum Part<const D: usize, const V: usize> {
+    Tile(Arc<TileSites<D>>),
+    Simplices(Vec<[u32; V]>, Vec<[u32; V]>),
+    End(Counts),
+}
+
+/// An error, and the place of its tile among all.
+type Misplaced = (usize, TilesError);
+
+/// The threads that read.
+pub(super) struct Readers<'a, 'j, const D: usize> {
+    job: &'a Job<'j, D>,
+    expected: Expected,
+    count: usize,
+    turn: Mutex<Turn<D>>,
+    is_next: Condvar,
+}
+
+/// The distribution of sites, and the place of the tile that it waits for.
+struct Turn<const D: usize> {
+    coverage: Coverage<D>,
+    place: usize,
+    /// A thread has ended before its last tile.
+    is_over: bool,
+}
+
+impl<'a, 'j, const D: usize> Readers<'a, 'j, D> {
+    /// Sites and duplicates go to `coverage`.
+    pub(super) fn new(job: &'a Job<'j, D>, coverage: Coverage<D>) -> Self {
+        let expected = Expected {
+            points: job.manifest.points,
+            row_bytes: job.manifest.row_bytes,
+            vertices: job.vertices,
+            memory: job.shares.sites,
+        };
+        // Two threads hold the sites of three tiles, where one and the judge hold two. A tile that cannot be opened is told in its turn.
+        let fits = |&tile: &(u32, u64)| {
+            TileFile::<D>::open(job.folder, tile, &expected)
+                .is_ok_and(|file| file.counts.memory::<D>() <= job.shares.sites / 3 * 2)
+        };
+        let is_shared = rayon::current_num_threads() > 1 && job.manifest.tiles.iter().all(fits);
+        let count = if is_shared { READERS_MAX } else { 1 };
+        let turn = Mutex::new(Turn { coverage, place: 0, is_over: false });
+        Readers { job, expected, count, turn, is_next: Condvar::new() }
+    }
+
+    /// Reads all tiles; `judge` is given the parts of each in turn.
+    pub(super) fn read<const V: usize>(
+        self,
+        mut judge: impl FnMut(&mut dyn Iterator<Item = Part<D, V>>) -> Result<(), TilesError>,
+    ) -> Result<Coverage<D>, TilesError> {
+        let mut failed = thread::scope(|scope| {
+            let mut receivers = vec![];
+            let mut readers = vec![];
+            for first in 0..self.count {
+                let (send, receive) = sync_channel(1);
+                receivers.push(receive);
+                let this = &self;
+                readers.push(scope.spawn(move || this.read_from::<V>(first, &send)));
+            }
+            let judged = self.judge_in_order(&receivers, &mut judge);
+            // A thread that still reads has nobody to hand on to, and ends.
+            drop(receivers);
+            let read = readers.into_iter().map(|reader| {
+                reader.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+            });
+            [judged].into_iter().chain(read).filter_map(Result::err).collect::<Vec<Misplaced>>()
+        });
+        // The sort is stable: what was judged comes first.
+        failed.sort_by_key(|failed| failed.0);
+        match failed.into_iter().next() {
+            Some((_, error)) => Err(error),
+            None => Ok(self.turn.into_inner().unwrap_or_else(PoisonError::into_inner).coverage),
+        }
+    }
+
+    fn judge_in_order<const V: usize>(
+        &self,
+        receivers: &[Receiver<Part<D, V>>],
+        judge: &mut impl FnMut(&mut dyn Iterator<Item = Part<D, V>>) -> Result<(), TilesError>,
+    ) -> Result<(), Misplaced> {
+        for place in 0..self.job.manifest.tiles.len() {
+            let receiver = &receivers[place % receivers.len()];
+            let mut is_whole = false;
+            let mut parts = std::iter::from_fn(|| {
+                let part = if is_whole { None } else { receiver.recv().ok() };
+                is_whole |= matches!(part, Some(Part::End(_)));
+                part
+            });
+            judge(&mut parts).map_err(|error| (place, error))?;
+            if !is_whole {
+                // The thread that reads it tells why.
+                return Ok(());
+            }
+        }
+        Ok(())
+    }
+
+    /// Reads one tile in `count` from the first on.
+    fn read_from<const V: usize>(
+        &self,
+        first: usize,
+        send: &SyncSender<Part<D, V>>,
+    ) -> Result<(), Misplaced> {
+        for place in (first..self.job.manifest.tiles.len()).step_by(self.count) {
+            let read = self.read_tile(place, send);
+            if !matches!(read, Ok(Some(()))) {
+                self.lock().is_over = true;
+                self.is_next.notify_all();
+                return read.map(|_| ()).map_err(|error| (place, error));
+            }
+        }
+        Ok(())
+    }
+
+    /// Reads a tile and hands it on; `None` if nobody wants it any more.
+    fn read_tile<const V: usize>(
+        &self,
+        place: usize,
+        send: &SyncSender<Part<D, V>>,
+    ) -> Result<Option<()>, TilesError> {
+        let job = self.job;
+        let mut file = TileFile::<D>::open(job.folder, job.manifest.tiles[place], &self.expected)?;
+        let sites = file.sites(&self.expected)?;
+        if send.send(Part::Tile(Arc::clone(&sites))).is_err() {
+            return Ok(None);
+        }
+        if file.counts.duplicates > 0 {
+            let Some(mut turn) = self.turn_of(place) else { return Ok(None) };
+            file.duplicates(|[row, first]| self.duplicate(&mut turn.coverage, row, first))?;
+        }
+        // Five chunks are held where two threads read, three where one does.
+        let chunk = (job.shares.chunk / (8 * V * self.count) as u64).max(1);
+        let mut is_vertex = vec![false; sites.rows.len()];
+        let mut done = 0;
+        while done < file.counts.simplices {
+            let count = chunk.min(file.counts.simplices - done);
+            let (simplices, neighbors) = file.simplices::<V>(count as usize, done)?;
+            for &v in simplices.as_flattened() {
+                is_vertex[v as usize] = true;
+            }
+            done += count;
+            if send.send(Part::Simplices(simplices, neighbors)).is_err() {
+                return Ok(None);
+            }
+        }
+        let counts = file.counts;
+        let copies = file.finish()?;
+        if send.send(Part::End(counts)).is_err() {
+            return Ok(None);
+        }
+        let Some(mut turn) = self.turn_of(place) else { return Ok(None) };
+        self.distribute(&mut turn.coverage, &sites, &is_vertex, &copies)?;
+        turn.place += 1;
+        self.is_next.notify_all();
+        Ok(Some(()))
+    }
+
+    fn distribute(
+        &self,
+        coverage: &mut Coverage<D>,
+        sites: &TileSites<D>,
+        is_vertex: &[bool],
+        copies: &[u32],
+    ) -> Result<(), TilesError> {
+        let smallest = self.job.overview.smallest;
+        let mut copies = copies.iter().peekable();
+        for (number, (&row, &coordinates)) in sites.rows.iter().zip(&sites.coordinates).enumerate()
+        {
+            if smallest.is_some_and(|(v, p)| p == coordinates && row != v) {
+                let problem = "is a site, but equals an earlier point";
+                return Err(TilesViolation::Site { row, problem }.into());
+            }
+            let is_owned = copies.next_if_eq(&&(number as u32)).is_none();
+            coverage.add(&Site { row, coordinates, is_owned, is_vertex: is_vertex[number] })?;
+        }
+        Ok(())
+    }
+
+    fn duplicate(
+        &self,
+        coverage: &mut Coverage<D>,
+        row: u64,
+        first: u64,
+    ) -> Result<(), TilesError> {
+        if row.max(first) >= self.job.manifest.points {
+            let problem = "there are not so many points";
+            return Err(TilesViolation::Duplicate { row, first, problem }.into());
+        }
+        coverage.add_duplicate(row, first)
+    }
+
+    /// Waits until all tiles before have been distributed; `None` if that will not be.
+    fn turn_of(&self, place: usize) -> Option<MutexGuard<'_, Turn<D>>> {
+        let waits = |turn: &mut Turn<D>| turn.place != place && !turn.is_over;
+        let turn = self.is_next.wait_while(self.lock(), waits);
+        Some(turn.unwrap_or_else(PoisonError::into_inner)).filter(|turn| turn.place == place)
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Turn<D>> {
+        self.turn.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
