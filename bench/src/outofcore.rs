@@ -97,8 +97,7 @@ const SPACE_MUST: &[Goal] = &[
 ];
 const SPACE_AIM: &[Goal] = &[TIME.at_most(25.0), OF_MEMORY.at_most(1.4)];
 const FEW_MUST: &[Goal] = &[OF_LIMIT.at_most(1.0), OF_MEMORY.at_most(1.8), FRONT.at_most(0.015)];
-const WIDE_MUST: &[Goal] = &[OF_LIMIT.at_most(1.0), OF_MEMORY.at_most(1.8), FRONT.at_most(0.1)];
-const WIDE_AIM: &[Goal] = &[OF_MEMORY.at_most(1.4)];
+const FEW_AIM: &[Goal] = &[OF_MEMORY.at_most(1.4)];
 
 const fn set(distribution: &'static str, dim: usize, points: u64, memory: u64) -> Kind {
     Kind::Set(Set { distribution, dim, points, memory })
@@ -123,14 +122,10 @@ pub(crate) const AREA: Area<Kind> = Area {
             .about("Uniform points of space within 1 GiB.")
             .must(SPACE_MUST)
             .aim(SPACE_AIM),
-        section("space-wide", set("uniform", 3, OF_MEMORY_POINTS, 2048))
-            .about("The same within 2 GiB, where leaves are twice as large and half of the sites go up.")
-            .must(WIDE_MUST)
-            .aim(WIDE_AIM),
         section("plane-10", set("uniform", 2, OF_MEMORY_POINTS, 512))
             .about("10⁷ uniform points of the plane within 512 MiB.")
             .must(FEW_MUST)
-            .aim(WIDE_AIM),
+            .aim(FEW_AIM),
         section("diamonds", Kind::Run(dealt::run)).about(
             "The method of the thesis: how often diamonds copy a point, and the misses of the k-distributor that deals the copies.",
         ),
