@@ -72,7 +72,7 @@ fn through(
     let has_ends = half.curves.iter().any(|one| !one.closed) || !half.outliers.is_empty();
     match !has_ends || mean_turn(&half) > RUGGED_TURN_MIN {
         true => Ok(half),
-        false => clean::solve(cloud, CurveMethod::Corners, options.ends, monitor),
+        false => clean::solve_rugged(cloud, options.ends, monitor),
     }
 }
 
