@@ -7,7 +7,7 @@
 //! many there are in the window, those in the band are binomial, wherever outliers are denser than elsewhere; the Chernoff bound says how
 //! seldom so many are, and must outweigh the number of circles that are tried.
 //! *Guarantee.* Outliers that are independent and, within each window, even are called an arc with a probability below e⁻[`ARC_RARITY`]
-//! (union bound). None for curves: what bends by more than a window's radius, or has fewer samples than its band has other outliers, is
+//! (union bound). None for curves: what is no arc for as long as chance would fill, or has fewer samples than its band has other outliers, is
 //! missed. The result does not depend on the order of the rows. At most [`CENTERS_MAX`] windows of each size are looked at:
 //! O(n) for n outliers.
 //! *Reference.* Arias-Castro, Donoho and Huo, Adaptive multiscale detection of filamentary structures in a background of uniform random
@@ -28,9 +28,6 @@ const CIRCLES: usize = 192;
 
 /// −ln of how seldom chance may put as many outliers into the band of any circle.
 const ARC_RARITY: f64 = 8.0;
-
-/// The band of a circle in a window of radius R is no longer than this times R, if the radius of the circle is R at the least: 4 asin ½ = 2.095.
-const LENGTH_RATIO: f64 = 2.1;
 
 /// Bands with a larger share of the window tell nothing.
 const SHARE_MAX: f64 = 0.5;
@@ -63,8 +60,15 @@ impl Circle {
     }
 }
 
-/// The first window in which more outliers than chance puts there lie within `width` of one circle.
-pub(super) fn arc(outliers: &[(usize, [f64; 2])], width: f64) -> Option<CurveDoubt> {
+/// The first window in which more outliers than chance puts there lie within `width` of one circle; a share of the room around all outliers is
+/// `free` for them.
+pub(super) fn arc(outliers: &[(usize, [f64; 2])], free: f64, width: f64) -> Option<CurveDoubt> {
+    let range = |k: usize| {
+        let ends =
+            |(low, high): (f64, f64), p: &(usize, [f64; 2])| (low.min(p.1[k]), high.max(p.1[k]));
+        outliers.iter().fold((f64::INFINITY, f64::NEG_INFINITY), ends)
+    };
+    let room = [range(0), range(1)];
     let mut order: Vec<&(usize, [f64; 2])> = outliers.iter().collect();
     order.sort_by(|a, b| a.1[0].total_cmp(&b.1[0]).then(a.1[1].total_cmp(&b.1[1])));
     let sizes: Vec<usize> = WINDOWS.into_iter().filter(|&size| size < order.len()).collect();
@@ -92,9 +96,14 @@ pub(super) fn arc(outliers: &[(usize, [f64; 2])], width: f64) -> Option<CurveDou
             // The first is the middle itself.
             let window = &near[1..=size];
             let reach = near[size].0.sqrt();
-            let share = LENGTH_RATIO * 2.0 * width / (PI * reach);
+            // What of the disk may hold outliers, at most: beyond the outermost there are none.
+            let side =
+                |k: usize| (center[k] + reach).min(room[k].1) - (center[k] - reach).max(room[k].0);
+            let area = free * (side(0) * side(1)).min(PI * reach * reach);
+            // No circle through the middle of a disk of radius R runs more than πR within it.
+            let share = 2.0 * width * PI * reach / area;
             if share < SHARE_MAX
-                && let Some((found, evidence)) = fullest(window, reach, width, share)
+                && let Some((found, evidence)) = fullest(window, width, share)
                 && evidence > most
             {
                 let expected = share * size as f64;
@@ -106,13 +115,12 @@ pub(super) fn arc(outliers: &[(usize, [f64; 2])], width: f64) -> Option<CurveDou
 }
 
 /// The most outliers of a window in the band of one circle, and the evidence that they are more than chance puts there.
-fn fullest(window: &[(f64, [f64; 2])], reach: f64, width: f64, share: f64) -> Option<(usize, f64)> {
+fn fullest(window: &[(f64, [f64; 2])], width: f64, share: f64) -> Option<(usize, f64)> {
     let mut most = 0;
     let mut draw = Draw(0x9e37_79b9_7f4a_7c15);
     for _ in 0..CIRCLES {
         let [q, r] = [window[draw.below(window.len())].1, window[draw.below(window.len())].1];
-        let circle = Circle::through(q, r).filter(|circle| circle.curvature * reach <= 1.0);
-        if let Some(circle) = circle {
+        if let Some(circle) = Circle::through(q, r) {
             let found = window.iter().filter(|(_, p)| circle.distance(*p) <= width).count();
             most = most.max(found);
         }
@@ -179,13 +187,13 @@ mod tests {
     #[test]
     fn a_sparse_circle_among_outliers_is_an_arc_and_chance_makes_none() {
         for seed in 0..20 {
-            assert_eq!(arc(&places(seed, 150, 0), 0.02), None, "{seed}");
-            let found = arc(&places(seed, 150, 40), 0.02);
+            assert_eq!(arc(&places(seed, 150, 0), 1.0, 0.02), None, "{seed}");
+            let found = arc(&places(seed, 150, 40), 1.0, 0.02);
             assert!(matches!(found, Some(CurveDoubt::Arc { .. })), "{seed}: {found:?}");
         }
-        assert_eq!(arc(&places(1, 9, 0), 0.02), None);
-        assert_eq!(arc(&[], 0.02), None);
-        assert_eq!(arc(&vec![(0, [1.0, 2.0]); 200], 0.02), None);
+        assert_eq!(arc(&places(1, 9, 0), 1.0, 0.02), None);
+        assert_eq!(arc(&[], 1.0, 0.02), None);
+        assert_eq!(arc(&vec![(0, [1.0, 2.0]); 200], 1.0, 0.02), None);
     }
 
     /// Of four coins all fall on one side with a probability of 1/16.

@@ -101,7 +101,8 @@ pub(super) fn doubt(
     let by_chance = (CHANCE_NEIGHBORS_MAX * room.far / (PI * far.len().max(1) as f64)).sqrt();
     cluster(&far, link.min(by_chance)).or_else(|| gathered(&room, &far)).or_else(|| {
         let usual = usual_offset(placed)?;
-        near_one_stretch(edges, placed, usual).or_else(|| arcs::arc(&far, ARC_WIDTH_RATIO * usual))
+        near_one_stretch(edges, placed, usual)
+            .or_else(|| arcs::arc(&far, room.free, ARC_WIDTH_RATIO * usual))
     })
 }
 
@@ -156,6 +157,8 @@ struct Room {
     low: [f64; 2],
     /// The area that no curve's own outliers take up.
     far: f64,
+    /// That over the area of the box.
+    free: f64,
     /// That of those beyond the band.
     beside: f64,
     /// That of the band.
@@ -175,7 +178,7 @@ impl Room {
         let all = (high[0] - low[0]) * (high[1] - low[1]);
         let far = (all - 2.0 * OWN_BAND_RATIO * band * length).max(all / 4.0);
         let inside = 2.0 * band * length;
-        Self { low, far, beside: (OWN_BAND_RATIO - 1.0) * inside, inside }
+        Self { low, far, free: far / all, beside: (OWN_BAND_RATIO - 1.0) * inside, inside }
     }
 }
 
