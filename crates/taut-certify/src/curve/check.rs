@@ -12,6 +12,7 @@
 //! of it, as φ is told up to a 64th.
 //! *Cost.* O(n log n) for curves whose edges crowd nowhere; E² pairs in the worst case, of edges that are long and side by side.
 
+mod arcs;
 mod band;
 mod edges;
 pub(super) mod evidence;

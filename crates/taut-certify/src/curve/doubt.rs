@@ -173,6 +173,18 @@ pub enum CurveDoubt {
         /// Their mean distance from the next, over what chance makes it.
         near: f64,
     },
+    /// Outliers lie along one arc, as the samples of a sparse curve among them would.
+    #[error(
+        "{rows} outliers around row {row} lie along one arc, where chance puts {expected:.1} of them"
+    )]
+    Arc {
+        /// The one in the middle.
+        row: u64,
+        /// How many.
+        rows: usize,
+        /// How many chance puts there, of those around that one.
+        expected: f64,
+    },
     /// The answer is a tour: it passes all points, from whatever curves they are.
     #[error("a tour passes all points, of whatever curves they are")]
     Tour,

@@ -2,8 +2,9 @@
 //!
 //! *Idea.* [`kind`](super::kind) tells points that are plainly vertices. Of the others a fit is made, and kept where what it leaves
 //! is noise ([`Fitted`](super::fit::Fitted)). Through vertices the curve is that of NN-Crust where samples are so dense that it
-//! can be certified, however uneven they are; else that of HNN-Crust where it leaves no ends, as it does of smooth samples up to ε of 0.47,
-//! or where the line is rugged, as coasts are; else that of `corners`.
+//! can be certified, however uneven they are; else that of HNN-Crust where it leaves no ends, as it does of smooth samples up to ε of 0.47;
+//! else that of `corners`, to which the edges of HNN-Crust are more probable than others: where lines are rugged, as coasts are, either of
+//! both methods finds edges that the other misses.
 //! *Guarantee.* None beyond those of the methods; rates on drawn inputs are in `docs/curve.md`.
 
 use taut_certify::{Curve, Solution};
@@ -18,10 +19,6 @@ use crate::Error;
 
 /// Fewest points of a region that is judged for itself: ten runs of residuals. Others count as vertices beside vertices.
 const REGION_POINTS_MIN: usize = 240;
-
-/// Curves through vertices turn more than this on average where the line itself is rugged. Unit: degrees. Measured on 24 drawn maps: with
-/// more, HNN-Crust finds about one edge in a hundred more than `corners`, with less it is the other way around.
-const RUGGED_TURN_MIN: f64 = 43.5;
 
 /// The curves by the methods that points ask for.
 pub(super) fn auto(
@@ -70,25 +67,10 @@ fn through(
 ) -> Result<Outcome, Error> {
     let half = clean::solve(cloud, CurveMethod::HnnCrust, options.ends, monitor)?;
     let has_ends = half.curves.iter().any(|one| !one.closed) || !half.outliers.is_empty();
-    match !has_ends || mean_turn(&half) > RUGGED_TURN_MIN {
-        true => Ok(half),
-        false => clean::solve(cloud, CurveMethod::Corners, options.ends, monitor),
+    match has_ends {
+        true => clean::solve_rugged(cloud, options.ends, monitor),
+        false => Ok(half),
     }
-}
-
-/// How far curves turn at their vertices on average, in degrees.
-fn mean_turn(found: &Outcome) -> f64 {
-    let (mut sum, mut count) = (0.0, 0usize);
-    for one in &found.curves {
-        let (all, places) = (one.vertices.len(), &one.vertices);
-        for k in 0..if one.closed { all } else { all.saturating_sub(2) } {
-            let [a, b, c] = [0, 1, 2].map(|step| places[(k + step) % all]);
-            let (u, v) = ([b[0] - a[0], b[1] - a[1]], [c[0] - b[0], c[1] - b[1]]);
-            let degrees = (u[0] * v[1] - u[1] * v[0]).abs().atan2(u[0] * v[0] + u[1] * v[1]);
-            (sum, count) = (sum + degrees.to_degrees(), count + 1);
-        }
-    }
-    sum / count.max(1) as f64
 }
 
 /// Fits of the regions that are noisy beside curves through the vertices of the others; none where no region is noisy, or where such

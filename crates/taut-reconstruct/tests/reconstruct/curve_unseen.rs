@@ -129,6 +129,30 @@ fn bands_four_half_widths_apart_are_two() {
     }
 }
 
+/// Two strands of few points, and strands of which one is four times denser than the other, fall apart; seeds of neither are lost beside the other.
+#[test]
+fn sparse_bands_beside_each_other_are_two() {
+    for (per, ratio, r) in [(500.0, 1.0, 5.0), (1500.0, 4.0, 8.0)] {
+        let right = |seed: &u64| {
+            let draw = bands::concentric(*seed, per, ratio, r, Noise::Uniform);
+            draw.is_right(&solved(&draw.values(), CurveMethod::Fit).answer)
+        };
+        let count = (0..8).filter(right).count();
+        assert!(count >= 7, "{per} {ratio} {r}: {count} of 8");
+    }
+}
+
+/// Seeds at hairpins run along their parabola, not across the strands beside them.
+#[test]
+fn folds_ten_half_widths_apart_are_followed() {
+    let right = |seed: &u64| {
+        let draw = bands::fold(*seed, 2000, 10.0);
+        draw.is_right(&solved(&draw.values(), CurveMethod::Fit).answer)
+    };
+    let count = (0..8).filter(right).count();
+    assert!(count >= 7, "{count} of 8");
+}
+
 /// A point so far away that no square tells the others apart beside it.
 #[test]
 fn one_far_point_is_an_outlier() {

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 use super::super::CurveDoubt;
+use super::arcs;
 use super::band::{Placed, nearest};
 use super::edges::Edges;
 
@@ -39,6 +40,10 @@ const HANDFUL: std::ops::Range<usize> = 4..24;
 /// gather as many in one stretch.
 const NEAR_BAND_RATIO: f64 = 6.0;
 const NEAR_RARITY: f64 = 8.0;
+
+/// Half the width of the band along an arc of outliers, over what nine of ten rows are off their curve: the noise of uniform bands has its
+/// edge at 10/9 of that.
+const ARC_WIDTH_RATIO: f64 = 1.15;
 
 /// Chance links outliers, too: not where each has this many others within reach on average.
 const CHANCE_NEIGHBORS_MAX: f64 = 0.15;
@@ -94,19 +99,23 @@ pub(super) fn doubt(
         return Some(CurveDoubt::Handful { outliers: far.len() as u64 });
     }
     let by_chance = (CHANCE_NEIGHBORS_MAX * room.far / (PI * far.len().max(1) as f64)).sqrt();
-    cluster(&far, link.min(by_chance))
-        .or_else(|| gathered(&room, &far))
-        .or_else(|| near_one_stretch(edges, placed))
+    cluster(&far, link.min(by_chance)).or_else(|| gathered(&room, &far)).or_else(|| {
+        let usual = usual_offset(placed)?;
+        near_one_stretch(edges, placed, usual)
+            .or_else(|| arcs::arc(&far, room.free, ARC_WIDTH_RATIO * usual))
+    })
+}
+
+/// The distance from the curves that nine of ten rows do not exceed, under noise.
+fn usual_offset(placed: &Placed) -> Option<f64> {
+    let mut offsets: Vec<f64> = placed.inliers.iter().map(|foot| foot.offset.abs()).collect();
+    let at = offsets.len() * 9 / 10;
+    (!placed.is_exact && at < offsets.len())
+        .then(|| *offsets.select_nth_unstable_by(at, f64::total_cmp).1)
 }
 
 /// Whether outliers near a curve gather in one stretch of it, as they do beside a strand that was left out.
-fn near_one_stretch(edges: &Edges, placed: &Placed) -> Option<CurveDoubt> {
-    let mut offsets: Vec<f64> = placed.inliers.iter().map(|foot| foot.offset.abs()).collect();
-    let at = offsets.len() * 9 / 10;
-    if placed.is_exact || at >= offsets.len() {
-        return None;
-    }
-    let (_, &mut usual, _) = offsets.select_nth_unstable_by(at, f64::total_cmp);
+fn near_one_stretch(edges: &Edges, placed: &Placed, usual: f64) -> Option<CurveDoubt> {
     let mut ways = vec![0.0];
     for edge in 0..edges.ends.len() {
         let [a, b] = edges.segment(edge);
@@ -148,6 +157,8 @@ struct Room {
     low: [f64; 2],
     /// The area that no curve's own outliers take up.
     far: f64,
+    /// That over the area of the box.
+    free: f64,
     /// That of those beyond the band.
     beside: f64,
     /// That of the band.
@@ -167,7 +178,7 @@ impl Room {
         let all = (high[0] - low[0]) * (high[1] - low[1]);
         let far = (all - 2.0 * OWN_BAND_RATIO * band * length).max(all / 4.0);
         let inside = 2.0 * band * length;
-        Self { low, far, beside: (OWN_BAND_RATIO - 1.0) * inside, inside }
+        Self { low, far, free: far / all, beside: (OWN_BAND_RATIO - 1.0) * inside, inside }
     }
 }
 

@@ -26,6 +26,10 @@ use crate::Error;
 /// What a missing edge costs, where an edge of probability p costs 1 − p.
 const MISSING_EDGE_COST: f64 = 0.9;
 
+/// Odds of an edge that another method found too, over those of the same edge without. No unit. Measured on 30 drawn maps, full and
+/// thinned: with 2, 8 or 16 fewer are as near to the best method.
+const FAVORED_ODDS_RATIO: f64 = 4.0;
+
 /// Edges longer than this many spacings at their ends are left out from the start: of densely sampled curves they are
 /// most of the triangulation, and were three quarters of the memory. A million places by chance have gaps of up to
 /// fourteen times the mean, which is more times the spacing where points around happen to be near each other.
@@ -101,8 +105,13 @@ impl Graph {
         &self.neighbors[self.first(site)..self.first(site + 1)]
     }
 
-    /// The same, with 1 − p for lengths; likely ones first.
-    fn doubts(mut self, sites: &[[f64; 2]], monitor: &Monitor<'_>) -> Result<Self, Error> {
+    /// The same, with 1 − p for lengths; likely ones first. `favored` edges have [`FAVORED_ODDS_RATIO`] times the odds.
+    fn doubts(
+        mut self,
+        sites: &[[f64; 2]],
+        favored: &[[u32; 2]],
+        monitor: &Monitor<'_>,
+    ) -> Result<Self, Error> {
         let spacings = belief::spacings(&self);
         self.retain(|length, a, b| {
             length <= LENGTH_RATIO_MAX * (spacings[a as usize] * spacings[b as usize]).sqrt()
@@ -111,6 +120,14 @@ impl Graph {
         drop(spacings);
         for (near, probability) in self.neighbors.iter_mut().zip(probabilities) {
             near.0 = 1.0 - probability;
+        }
+        for site in self.sites() {
+            for place in self.first(site)..self.first(site + 1) {
+                let (doubt, to) = self.neighbors[place];
+                if favored.binary_search(&[site.min(to), site.max(to)]).is_ok() {
+                    self.neighbors[place].0 = doubt / (doubt + FAVORED_ODDS_RATIO * (1.0 - doubt));
+                }
+            }
         }
         self.sort();
         Ok(self)
@@ -138,12 +155,14 @@ struct Exchange {
     edges: usize,
 }
 
+/// The edges of the loops; `favored`, ascending pairs of ascending ends, are more probable than others.
 pub(super) fn edges(
     sites: &[[f64; 2]],
     graph: Vec<Edge>,
+    favored: &[[u32; 2]],
     monitor: &Monitor<'_>,
 ) -> Result<Vec<[u32; 2]>, Error> {
-    let mut search = Search::new(Graph::new(sites, graph).doubts(sites, monitor)?);
+    let mut search = Search::new(Graph::new(sites, graph).doubts(sites, favored, monitor)?);
     monitor.check()?;
     search.greedy();
     monitor.check()?;

@@ -36,9 +36,36 @@ pub(super) fn solve(
 ) -> Result<Outcome, Error> {
     let sites = normalized(&cloud.sites);
     let edges = edges(&sites, method, monitor)?;
+    outcome(cloud, &sites, edges, method.name(), ends, monitor)
+}
+
+/// The curves by the method for corners, to which edges of HNN-Crust are more probable than others.
+pub(super) fn solve_rugged(
+    cloud: &Cloud,
+    ends: Ends,
+    monitor: &Monitor<'_>,
+) -> Result<Outcome, Error> {
+    let sites = normalized(&cloud.sites);
+    let mut favored = hnn_crust::edges(&Near::new(&sites), monitor)?;
+    favored.sort_unstable();
+    let graph = graph::edges(&graph::triangulate(&sites, monitor)?);
+    let edges = corners::edges(&sites, graph, &favored, monitor)?;
+    outcome(cloud, &sites, edges, CurveMethod::Corners.name(), ends, monitor)
+}
+
+/// The curves of the edges that a method chose.
+fn outcome(
+    cloud: &Cloud,
+    sites: &[[f64; 2]],
+    edges: Vec<[u32; 2]>,
+    method: &'static str,
+    ends: Ends,
+    monitor: &Monitor<'_>,
+) -> Result<Outcome, Error> {
     monitor.check()?;
-    let (mut edges, mut repairs) = repair(&sites, edges, ends, monitor)?;
-    if let Cow::Owned(_) = sites {
+    let (mut edges, mut repairs) = repair(sites, edges, ends, monitor)?;
+    // What is exact of scaled copies need not be so of the sites themselves.
+    if !std::ptr::eq(sites, cloud.sites.as_slice()) {
         repairs.crossed += remove_crossings(&cloud.sites, &mut edges);
     }
     let mut lonely = vec![true; sites.len()];
@@ -54,7 +81,7 @@ pub(super) fn solve(
         ("ends_joined", repairs.joined),
     ];
     Ok(Outcome {
-        method: method.name(),
+        method,
         curves: curves.collect(),
         outliers: (0u32..).zip(&lonely).filter(|(_, l)| **l).map(|(site, _)| site).collect(),
         counters: counters.map(|(name, count)| (name.to_owned(), count)).into(),
@@ -76,7 +103,7 @@ fn edges(
         CurveMethod::Corners => {
             // The triangulation is gone before the search, which needs as much memory again.
             let edges = graph::edges(&graph::triangulate(sites, monitor)?);
-            corners::edges(sites, edges, monitor)
+            corners::edges(sites, edges, &[], monitor)
         }
         CurveMethod::ConservativeCrust => conservative_crust::edges(sites, monitor),
         CurveMethod::HnnCrust => hnn_crust::edges(&Near::new(sites), monitor),

@@ -8,7 +8,8 @@
 use taut_oblivious::hilbert_order;
 
 use super::parameters::{
-    ACROSS_FACTOR, ALONG_COS_MIN, CHAIN_SEEDS_MIN, END_DISTANCE_MAX, SEED_DISTANCE_MAX,
+    ACROSS_FACTOR, ALONG_COS_MIN, APART_FACTOR, APART_FACTOR_MAX, CHAIN_SEEDS_MIN,
+    END_DISTANCE_MAX, SEED_DISTANCE_MAX,
 };
 use super::seeds::Seed;
 use crate::curve::Ends;
@@ -32,7 +33,7 @@ impl Chain {
         if self.closed {
             self.seeds.rotate_right(1);
         }
-        self.seeds.iter_mut().for_each(|seed| seed.tangent = seed.tangent.map(|x| -x));
+        self.seeds.iter_mut().for_each(|seed| *seed = seed.reversed());
     }
 }
 
@@ -65,12 +66,23 @@ impl Sides<'_> {
     }
 
     /// How far it is from one seed to another, the way across the tangents counted more often.
+    ///
+    /// On one arc of a circle both tangents are off the way between by the same angle to opposite sides (Parent and Zucker 1989). What is
+    /// left of both ways across when they are added is how far the strands of the seeds are apart, which counts by how long windows are
+    /// beside the noise.
     fn way(&self, i: usize, j: usize) -> f64 {
         let (a, b) = (&self.seeds[i], &self.seeds[j]);
         let (dx, dy) = (b.at[0] - a.at[0], b.at[1] - a.at[1]);
-        let across = |t: Point| (dx * t[1] - dy * t[0]).abs();
-        let across = 0.5 * (across(a.tangent) + across(b.tangent));
-        (dx * dx + dy * dy + (ACROSS_FACTOR * ACROSS_FACTOR - 1.0) * across * across).sqrt()
+        let across = |t: Point| dx * t[1] - dy * t[0];
+        let along = |t: Point| dx * t[0] + dy * t[1];
+        let sign = if along(a.tangent) * along(b.tangent) < 0.0 { -1.0 } else { 1.0 };
+        let (from, to) = (across(a.tangent), sign * across(b.tangent));
+        let (apart, bent) = (0.5 * (from + to), 0.5 * (from - to));
+        let flatness = |s: &Seed| s.reach / s.deviation.max(f64::MIN_POSITIVE);
+        let factor =
+            (APART_FACTOR * flatness(a).min(flatness(b))).clamp(ACROSS_FACTOR, APART_FACTOR_MAX);
+        let square = |factor: f64, length: f64| (factor * factor - 1.0) * length * length;
+        (dx * dx + dy * dy + square(factor, apart) + square(ACROSS_FACTOR, bent)).sqrt()
     }
 
     /// The side of `to` that faces a seed.
@@ -191,9 +203,7 @@ fn trace(sides: &Sides<'_>, rank: &[u32]) -> Vec<Chain> {
         loop {
             let seed = sides.seeds[entry / 2];
             seen[entry / 2] = true;
-            let [tx, ty] = seed.tangent;
-            let tangent = if entry % 2 == 0 { [tx, ty] } else { [-tx, -ty] };
-            seeds.push(Seed { tangent, ..seed });
+            seeds.push(if entry % 2 == 0 { seed } else { seed.reversed() });
             match sides.partner[entry ^ 1] {
                 Some(next) if next / 2 != start || !closed => entry = next,
                 _ => break,

@@ -39,6 +39,12 @@ impl Parabola {
         [(tx - b * ty) / norm, (ty + b * tx) / norm]
     }
 
+    /// Half the curvature there, above 0 where it bends to the left.
+    pub(super) fn bend(&self) -> f64 {
+        let [_, b, c] = self.coefficients;
+        c / b.hypot(1.0).powi(3)
+    }
+
     /// The place on the parabola at u.
     pub(super) fn place(&self, u: f64) -> Point {
         let ([tx, ty], [a, b, c]) = (self.tangent, self.coefficients);

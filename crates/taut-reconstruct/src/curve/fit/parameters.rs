@@ -91,6 +91,10 @@ pub(super) const POINTS_PER_CURVE_POINT_MAX: usize = 8;
 /// Largest ratio of the density along the curve to that of a seed: a seed beside the curve has few points. No unit. Chosen: with 8, seeds
 /// among outliers stay.
 pub(super) const DENSITY_RATIO_MAX: f64 = 4.0;
+/// The same for that of all curves around, where a seed has others of its own curve: a curve may be sparser than one beside it. No unit. Chosen.
+pub(super) const BESIDE_DENSITY_RATIO_MAX: f64 = 8.0;
+/// Fewest seeds of one curve, the seed itself among them. Chosen.
+pub(super) const ALIGNED_SEEDS_MIN: usize = 3;
 /// Most tangents within this distance of a seed are along its own, else it runs across the band. Unit: windows. Chosen.
 pub(super) const ALONG_WINDOWS: f64 = 1.5;
 /// Least ratio of the length of a window to that of one within it that is flat by chance. In length alone they differ where points are sparse,
@@ -106,6 +110,11 @@ pub(super) const SEED_DISTANCE_MAX: f64 = 2.5;
 /// How often the way across a tangent counts beside that along it: the next seed lies on the same strand. No unit. Measured: 3 for strands
 /// 4 half-widths apart.
 pub(super) const ACROSS_FACTOR: f64 = 3.0;
+/// How often the distance of strands counts beside the way along them, over the length of windows in deviations of the noise: half, so that
+/// two deviations count as the length of a window. No unit. Chosen.
+pub(super) const APART_FACTOR: f64 = 0.5;
+/// Most times that it counts. No unit. Chosen.
+pub(super) const APART_FACTOR_MAX: f64 = 12.0;
 /// Largest distance of ends that face each other. Unit: windows. Chosen.
 pub(super) const END_DISTANCE_MAX: f64 = 4.0;
 /// Fewest seeds of a chain. Chosen.

@@ -21,12 +21,13 @@ use taut_points::Monitor;
 
 use super::local::{Parabola, Window};
 use super::parameters::{
-    ALONG_COS_MIN, ALONG_WINDOWS, BARREN_RATIO, BEST_FLATNESS_MIN, COARSE_RATIO_MIN,
-    CONFIRMED_FLATNESS_RATIO, CONFIRMING_RATIO, DENSITY_NEIGHBORS, DENSITY_RATIO_MAX, FLATNESS_MIN,
-    LENGTH_RATIO_MIN, LENGTHS_TRIED, NEUMANN_RATIO_MIN, POINTS_PER_CURVE_POINT_MAX,
-    SAMPLE_FLATNESS_RATIO, SAMPLE_POINTS, SEED_WINDOW_GROWTH, SLAB_DEVIATIONS_MAX,
-    SLAB_LENGTH_RATIO, SPACING_RATIO_MAX, SPLIT_SLAB_DEVIATIONS_MAX, SPLITS_MAX, SURE_POINTS_MIN,
-    VAIN_POINTS_RATIO_MAX, WIDTH_RATIO_MIN, WINDOW_RATIO_MAX,
+    ALIGNED_SEEDS_MIN, ALONG_COS_MIN, ALONG_WINDOWS, BARREN_RATIO, BESIDE_DENSITY_RATIO_MAX,
+    BEST_FLATNESS_MIN, COARSE_RATIO_MIN, CONFIRMED_FLATNESS_RATIO, CONFIRMING_RATIO,
+    DENSITY_NEIGHBORS, DENSITY_RATIO_MAX, FLATNESS_MIN, LENGTH_RATIO_MIN, LENGTHS_TRIED,
+    NEUMANN_RATIO_MIN, POINTS_PER_CURVE_POINT_MAX, SAMPLE_FLATNESS_RATIO, SAMPLE_POINTS,
+    SEED_WINDOW_GROWTH, SLAB_DEVIATIONS_MAX, SLAB_LENGTH_RATIO, SPACING_RATIO_MAX,
+    SPLIT_SLAB_DEVIATIONS_MAX, SPLITS_MAX, SURE_POINTS_MIN, VAIN_POINTS_RATIO_MAX, WIDTH_RATIO_MIN,
+    WINDOW_RATIO_MAX,
 };
 use super::split::{SPLIT_POINTS_MIN, split};
 use crate::Error;
@@ -46,6 +47,8 @@ pub(super) struct Seed {
     pub(super) at: Point,
     /// The unit tangent, either way.
     pub(super) tangent: Point,
+    /// How the curve bends to the left of the tangent: u along it, the curve is at bend·u².
+    pub(super) bend: f64,
     /// Radius of its window.
     pub(super) reach: f64,
     /// Standard deviation of the residuals.
@@ -55,6 +58,32 @@ pub(super) struct Seed {
 }
 
 impl Seed {
+    /// Returns the seed with its tangent the other way.
+    pub(super) fn reversed(&self) -> Self {
+        Self { tangent: self.tangent.map(|x| -x), bend: -self.bend, ..*self }
+    }
+
+    /// The place of a point in the frame of the seed: along the tangent, and to its left.
+    fn local(&self, at: Point) -> Point {
+        let ([x, y], [tx, ty]) = ([at[0] - self.at[0], at[1] - self.at[1]], self.tangent);
+        [x * tx + y * ty, y * tx - x * ty]
+    }
+
+    /// The direction of its parabola where it is next to a point, no farther along than its window goes.
+    fn direction_beside(&self, at: Point) -> Point {
+        let slope = 2.0 * self.bend * self.local(at)[0].clamp(-self.reach, self.reach);
+        let ([tx, ty], norm) = (self.tangent, slope.hypot(1.0));
+        [(tx - slope * ty) / norm, (ty + slope * tx) / norm]
+    }
+
+    /// Whether a place is on its strand, as far as its parabola can tell: beyond the window it goes on straight.
+    fn is_beside(&self, at: Point) -> bool {
+        let [u, v] = self.local(at);
+        let near = u.clamp(-self.reach, self.reach);
+        let off = v - self.bend * near * (2.0 * u - near);
+        off.abs() <= SLAB_DEVIATIONS_MAX * self.deviation
+    }
+
     /// Whether its window shows that another one is flat by chance.
     fn is_longer(&self, other: &Seed) -> bool {
         self.reach > LENGTH_RATIO_MIN * other.reach
@@ -104,7 +133,10 @@ fn apart(seeds: Vec<Seed>) -> Vec<Seed> {
     for (i, seed) in seeds.iter().enumerate() {
         if !beside[number[i]] {
             let apart = 0.5 * SLAB_LENGTH_RATIO * seed.reach;
-            index.within(seed.at, apart * apart, &mut |place| beside[place as usize] = true);
+            // A long window reaches the seeds of another strand, which stay.
+            index.within(seed.at, apart * apart, &mut |place| {
+                beside[place as usize] |= seed.is_beside(places[place as usize]);
+            });
             beside[number[i]] = false;
         }
     }
@@ -121,7 +153,7 @@ fn apart(seeds: Vec<Seed>) -> Vec<Seed> {
             }
         });
     }
-    let mut around: Vec<u32> = Vec::new();
+    let (mut around, mut aligned): (Vec<u32>, Vec<u32>) = (Vec::new(), Vec::new());
     let middle = |around: &[u32], of: &dyn Fn(&Seed) -> f64| {
         let mut values: Vec<f64> =
             around.iter().map(|&p| of(&seeds[order[p as usize] as usize])).collect();
@@ -132,16 +164,24 @@ fn apart(seeds: Vec<Seed>) -> Vec<Seed> {
         around.clear();
         let far = LENGTH_RATIO_MIN * seed.reach;
         index.within(seed.at, far * far, &mut |place| around.push(place));
-        let density = middle(&around, &|s| s.density);
+        // A curve beside a denser one has its own seeds, one after the other; a seed beside the band has none.
+        aligned.clear();
+        aligned.extend(around.iter().copied().filter(|&p| seed.is_beside(places[p as usize])));
+        let own = if aligned.len() >= ALIGNED_SEEDS_MIN { &aligned } else { &around };
+        let own = middle(own, &|s| s.density);
+        let all = middle(&around, &|s| s.density);
         around.retain(|&p| {
             distance2(places[p as usize], seed.at) <= (ALONG_WINDOWS * seed.reach).powi(2)
         });
+        // At a hairpin the strands beside a seed run across its tangent, but along its parabola.
         let along = middle(&around, &|s| {
-            (s.tangent[0] * seed.tangent[0] + s.tangent[1] * seed.tangent[1]).abs()
+            let [x, y] = seed.direction_beside(s.at);
+            (s.tangent[0] * x + s.tangent[1] * y).abs()
         });
         let [slabs, longer] = slabs[number[i]];
         if 2 * longer >= slabs
-            || seed.density * DENSITY_RATIO_MAX < density
+            || seed.density * DENSITY_RATIO_MAX < own
+            || seed.density * BESIDE_DENSITY_RATIO_MAX < all
             || along < ALONG_COS_MIN
         {
             beside[number[i]] = true;
@@ -249,6 +289,7 @@ impl<'a> Search<'a> {
             self.seeds.push(Some(Seed {
                 at: parabola.projection(),
                 tangent: parabola.direction(),
+                bend: parabola.bend(),
                 reach,
                 deviation: parabola.variance.sqrt(),
                 density: parabola.kept as f64 / reach,
