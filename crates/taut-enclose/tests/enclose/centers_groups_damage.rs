@@ -217,7 +217,10 @@ fn lists_are_judged() {
                 with(&|items| items.push(items[at])).is_refused("a branch added");
                 with(&|items| items[at] = u32::MAX).is_refused("no such item");
                 with(&|items| items[at] = (items[at] + 1) % core as u32).is_judged("another item");
-                with(&|items| drop(items.remove(at))).is_judged("a branch dropped");
+                with(&|items| {
+                    items.remove(at);
+                })
+                .is_judged("a branch dropped");
             }
             let mut damaged = sound.clone();
             damaged.found.certificate.proof = LowerBound::Separated;
