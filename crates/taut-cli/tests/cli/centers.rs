@@ -94,7 +94,7 @@ fn groups_are_held_whole() {
     assert!(without["certificate"].get("group").is_none());
     let run = folder.taut("centers ends.csv -k 1 --group house --outliers 1 --json").ends(0).json();
     assert_eq!(run["answer"]["outliers"].as_array().unwrap().len(), 2);
-    folder.put("other.csv", &ENDS.replace("0,7,6", "0,8,6"));
+    folder.put("other.csv", ENDS.replace("0,7,6", "0,8,6"));
     folder.taut("verify found.json other.csv").ends(1);
     folder.taut("centers ends.csv --elbow 1..3 --group house").ends(0);
 }
