@@ -4,7 +4,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use taut::certify::Placement;
 use taut::enclose::Error;
-use taut::points::InputError;
+use taut::points::{InputError, shown_number};
 use taut::{CentersMethod, CentersOptions};
 
 use crate::found::{Found, solve};
@@ -19,6 +19,7 @@ pub(crate) fn centers(
     k: &Bound<'_, PyAny>,
     items: &str,
     weights: bool,
+    groups: bool,
     epsilon: f64,
     method: &str,
     discrete: bool,
@@ -46,15 +47,24 @@ pub(crate) fn centers(
         py,
         rows,
         |source, monitor| {
-            taut::centers(source, k, &CentersOptions { monitor: *monitor, ..options })
+            let group = groups.then(|| source.dim().saturating_sub(1));
+            taut::centers(source, k, &CentersOptions { monitor: *monitor, group, ..options })
         },
         |error, columns| match error {
             Error::Input(InputError::NonFinite { row, column, value })
-                if weights && column + 1 == columns =>
+                if groups && column + 1 == columns =>
+            {
+                let value = shown_number(value);
+                let words =
+                    format!("the group of point {row} is {value}: all groups must be finite");
+                PyValueError::new_err(words)
+            }
+            Error::Input(InputError::NonFinite { row, column, value })
+                if weights && column + 1 + usize::from(groups) == columns =>
             {
                 PyValueError::new_err(weight(row, value))
             }
-            error => raise(error, items, columns),
+            error => raise(error, items, columns - usize::from(groups)),
         },
     )
 }

@@ -20,6 +20,7 @@ def as_rows(
     shapes: ArrayLike | None = None,
     offsets: ArrayLike | None = None,
     weights: ArrayLike | None = None,
+    groups: ArrayLike | None = None,
 ) -> Rows:
     """Rows of float32 or float64 in C order; a fitting array is returned as it is.
 
@@ -35,15 +36,19 @@ def as_rows(
         Offsets of half-spaces: they become the last column, in a new array.
     weights : array_like of shape (n,), optional
         Weights of points: they become the last column, in a new array.
+    groups : array_like of shape (n,), optional
+        The groups of points or balls: they become the last column, after any other, in a new array.
 
     Returns
     -------
-    ndarray of shape (n, d), (n, d + 1) or (n, d (d + 3) / 2)
+    ndarray of shape (n, d), (n, d + 1) or (n, d (d + 3) / 2), with groups of one column more
         float32 where all that is given is, else float64.
     """
     given = [values is not None for values in (radii, shapes, offsets, weights)]
     if sum(given) > 1:
         raise ValueError("only one of radii, shapes, offsets and weights can be given")
+    if groups is not None:
+        return with_groups(as_rows(points, radii, shapes, offsets, weights), groups)
     if radii is not None:
         return _with_column("centers", points, "radii", radii)
     if offsets is not None:
@@ -53,6 +58,17 @@ def as_rows(
     if shapes is not None:
         return _with_shapes(points, shapes)
     return _real("points", points, 2)
+
+
+def with_groups(rows: Rows, groups: ArrayLike, column: int | None = None) -> Rows:
+    """Rows with one more column, by default the last, that holds their groups."""
+    numbers = _real("groups", groups, 1)
+    if len(numbers) != len(rows):
+        raise ValueError(f"there are {len(rows)} rows, but {len(numbers)} groups")
+    at = rows.shape[1] if column is None else column
+    if at > rows.shape[1]:
+        raise ValueError(f"rows have {rows.shape[1]} columns, but their groups are said to be column {at}")
+    return _real("rows", np.column_stack([rows[:, :at], numbers, rows[:, at:]]), 2)
 
 
 def as_sets(sets: ArrayLike | Iterable[ArrayLike]) -> list[Rows]:
@@ -173,6 +189,8 @@ def _place(name: str, index: tuple[int, ...]) -> str:
             return f"the radius of ball {index[0]}"
         case "weights":
             return f"the weight of point {index[0]}"
+        case "groups":
+            return f"the group of point {index[0]}"
         case "offsets":
             return f"offset {index[0]}"
         case "shapes":

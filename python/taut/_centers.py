@@ -20,6 +20,7 @@ def centers(
     *,
     radii: ArrayLike | None = None,
     weights: ArrayLike | None = None,
+    groups: ArrayLike | None = None,
     epsilon: float = 0.01,
     method: CentersMethod = "tree",
     discrete: bool = False,
@@ -41,20 +42,23 @@ def centers(
         radii as well.
     weights : array_like of shape (n,), optional
         Numbers above 0: a point counts with its weight times its distance. ``check`` takes the weights as well.
+    groups : array_like of shape (n,), optional
+        Finite numbers: rows of one number are a group, such as the vertices of a polytope, and one ball is to hold all of
+        them. ``outliers`` then counts groups. ``check`` takes the groups as well.
     epsilon : float in [0, 1), default 0.01
         Relative gap to prove, radius <= (1 + epsilon) lower_bound; 0 asks for the least radius, to rounding. Has no
         influence on "farthest-first" and "stream".
     method : {"tree", "thesis", "farthest-first", "stream"}, default "tree"
         The way to find them; all end in the same kind of certificate. "tree" proves any gap in time exponential in k;
-        "thesis" is the method of the literature it grew from, for free centers without weights and outliers;
+        "thesis" is the method of the literature it grew from, for free centers without weights, outliers and groups;
         "farthest-first" takes any k and proves a radius of at most twice the least,
         but for weights and outliers, with which it proves what it can; "stream" goes through the points twice, holds
-        some 8 k of them, and proves a radius of at most 2.96 times the least, for points without weights and outliers,
-        and without ``assignment``.
+        some 8 k of them, and proves a radius of at most 2.96 times the least, for points without weights, outliers
+        and groups, and without ``assignment``.
     discrete : bool, default False
         Whether centers have to be points of the input.
     outliers : int >= 0, default 0
-        Most points that may be left out.
+        Most points that may be left out, or groups of them.
     max_nodes : int, default 10,000,000
         Nodes of the search before the best centers so far are returned with their gap; large ones count as several. The proof
         has a budget of its own, some twenty times what the search took; ``stop`` is then "proof-budget".
@@ -101,16 +105,26 @@ def centers(
 
     >>> taut.centers([[0], [1], [2], [50]], 1, epsilon=1e-6, outliers=1).answer.outliers
     array([3])
+
+    Two segments, each given by its ends and held whole by one ball:
+
+    >>> ends = [[0, 0], [0, 6], [9, 0], [9, 2]]
+    >>> found = taut.centers(ends, 2, groups=[0, 0, 1, 1], epsilon=1e-6)
+    >>> found.answer.radius
+    3.0
+    >>> found.check(ends, groups=[0, 0, 1, 1]).upper
+    3.0
     """
     if radii is not None and weights is not None:
         raise ValueError("only one of radii and weights can be given: points alone can have weights")
-    rows = as_rows(points, radii, weights=weights)
+    rows = as_rows(points, radii, weights=weights, groups=groups)
     items = "points" if radii is None else "balls"
     found = _native.centers(
         rows,
         k,
         items,
         weights is not None,
+        groups is not None,
         epsilon,
         method,
         discrete,

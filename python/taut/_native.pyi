@@ -101,8 +101,8 @@ def body_mesh(
 ) -> tuple[NDArray[np.float64], NDArray[np.uint32]]: ...
 def bounding_dop(rows: Rows, directions: int) -> Found: ...
 def centers(
-    rows: Rows, k: int, items: str, weights: bool, epsilon: float, method: str, discrete: bool, outliers: int,
-    max_nodes: int, assignment: bool, threads: int | None,
+    rows: Rows, k: int, items: str, weights: bool, groups: bool, epsilon: float, method: str, discrete: bool,
+    outliers: int, max_nodes: int, assignment: bool, threads: int | None,
 ) -> Found: ...
 def curve(
     rows: Rows, method: str, open: bool, rho: float, omega: float, feature: float | None, places: bool,

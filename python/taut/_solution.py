@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _native
 from ._answers.kinds import ARRAYS, KINDS
 from ._answers.trace import Trace
-from ._arrays import Rows, as_rows
+from ._arrays import Rows, as_rows, with_groups
 from ._notebook import page
 from ._record import brief
 
@@ -124,6 +124,7 @@ class Solution:
         shapes: ArrayLike | None = None,
         offsets: ArrayLike | None = None,
         weights: ArrayLike | None = None,
+        groups: ArrayLike | None = None,
     ) -> Any:
         """A second opinion: judges the answer over the points, with code that shares nothing with the solver.
 
@@ -140,6 +141,8 @@ class Solution:
             The offsets of the half-spaces, when the answer is inscribed.
         weights : array_like of shape (n,), optional
             The weights of the points, when the answer is about points that have some.
+        groups : array_like of shape (n,), optional
+            The groups of the rows, when the answer is about rows in groups.
 
         Returns
         -------
@@ -164,7 +167,10 @@ class Solution:
         taut.Violation: ...
         """
         self._match_arrays({"radii": radii, "shapes": shapes, "offsets": offsets, "weights": weights})
+        self._match_groups(groups)
         rows = as_rows(points, radii, shapes, offsets, weights)
+        if groups is not None:
+            rows = with_groups(rows, groups, self.certificate.group)
         items = getattr(self.certificate, "items", "points")
         return KINDS[self.kind].verdict._of(self._found.check(rows, items))
 
@@ -180,6 +186,14 @@ class Solution:
                 raise ValueError(f"the answer {kind.does} {items}: give their {name}")
             if array is not None and name != wanted:
                 raise ValueError(f"the answer {kind.does} {items}, which have no {name}")
+
+    def _match_groups(self, groups: ArrayLike | None) -> None:
+        """Refuses groups where the answer is about rows without, and asks for them where it is about rows in groups."""
+        has_groups = getattr(self.certificate, "group", None) is not None
+        if has_groups and groups is None:
+            raise ValueError("the answer is about rows in groups: give the groups")
+        if groups is not None and not has_groups:
+            raise ValueError("the answer is not about rows in groups: leave out groups")
 
     def to_json(self) -> str:
         """The solution as a JSON document, as the command line writes it; numbers read back to the same bits.

@@ -16,6 +16,7 @@ def verify(
     shapes: ArrayLike | None = None,
     offsets: ArrayLike | None = None,
     weights: ArrayLike | None = None,
+    groups: ArrayLike | None = None,
 ) -> AnyVerdict:
     """Check an answer over the points it was found for.
 
@@ -33,6 +34,8 @@ def verify(
         The offsets of the half-spaces, when the answer is inscribed.
     weights : array_like of shape (n,), optional
         The weights of the points, when the answer is about points that have some.
+    groups : array_like of shape (n,), optional
+        The groups of the rows, when the answer is about rows in groups.
 
     Returns
     -------
@@ -63,5 +66,7 @@ def verify(
         solution = Solution.from_json(solution)
     elif not isinstance(solution, Solution):
         raise TypeError(f"expected a Solution or its JSON text as str, not {type(solution).__name__}")
-    verdict: AnyVerdict = solution.check(points, radii, shapes=shapes, offsets=offsets, weights=weights)
+    verdict: AnyVerdict = solution.check(
+        points, radii, shapes=shapes, offsets=offsets, weights=weights, groups=groups
+    )
     return verdict

@@ -2,6 +2,7 @@
 
 import itertools
 import json
+import math
 import pickle
 
 import numpy as np
@@ -278,3 +279,45 @@ def test_a_tree_of_balls_holds_every_point_in_every_node(points, dtype):
 def test_wrong_input_of_a_tree_is_named(rows, options, message):
     with pytest.raises(ValueError, match=message):
         taut.sphere_tree(rows, **options)
+
+
+def test_groups_are_held_whole():
+    ends = np.array([[0.0, 0.0], [0.0, 6.0], [9.0, 0.0], [9.0, 2.0], [1.0, 1.0], [1.0, 2.0]])
+    groups = [7, 7, 8, 8, 9, 9]
+    found = taut.centers(ends, 2, groups=groups, epsilon=1e-6, assignment=True)
+    assert found.answer.radius == pytest.approx(3.0, rel=1e-6)
+    assert found.certificate.group == 2
+    assert found.answer.assignment[0] == found.answer.assignment[1] != found.answer.assignment[2]
+    assert found.check(ends, groups=groups).upper == found.answer.radius
+    assert taut.verify(found.to_json(), ends, groups=groups).upper == found.answer.radius
+    with pytest.raises(taut.Violation):
+        found.check(ends, groups=[7, 7, 8, 8, 9, 8])
+    without = taut.centers(ends, 1, groups=groups, outliers=1)
+    assert len(without.answer.outliers) == 2
+    # Groups of one row each are the rows.
+    single = taut.centers(ends, 2, groups=range(6), epsilon=1e-6)
+    assert single.answer == taut.centers(ends, 2, epsilon=1e-6).answer
+    # The column of groups can be any, as in rows that the command read.
+    document = json.loads(found.to_json())
+    document["certificate"]["group"] = 0
+    other = taut.Solution.from_json(json.dumps(document))
+    with pytest.raises(taut.Violation, match="hash"):
+        other.check(ends, groups=groups)
+    assert taut.centers(ends, 2).certificate.group is None
+
+
+def test_wrong_groups_are_named():
+    ends = [[0.0, 0.0], [0.0, 6.0]]
+    with pytest.raises(ValueError, match="2 rows, but 3 groups"):
+        taut.centers(ends, 1, groups=[1, 1, 2])
+    with pytest.raises(ValueError, match="the group of point 1 is NaN"):
+        taut.centers(ends, 1, groups=[1, math.nan])
+    with pytest.raises(TypeError, match="groups have dtype"):
+        taut.centers(ends, 1, groups=["red", "red"])
+    with pytest.raises(ValueError, match="group"):
+        taut.centers(ends, 1, groups=[1, 1], method="stream")
+    found = taut.centers(ends, 1, groups=[1, 1])
+    with pytest.raises(ValueError, match="rows in groups"):
+        found.check(ends)
+    with pytest.raises(ValueError, match="leave out groups"):
+        taut.centers(ends, 1).check(ends, groups=[1, 1])

@@ -32,23 +32,27 @@ pub struct Centers {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub rows: Vec<u64>,
     /// The largest distance of an item to the center next to it, as evaluated in `f64` or a little more: |p − c|, |m − c| + r for a ball,
-    /// w·|p − c| for a point of weight w.
+    /// w·|p − c| for a point of weight w, and the largest of these for a group of rows.
     pub radius: f64,
     /// No k centers have a smaller radius.
     pub lower_bound: f64,
-    /// The rows that are left out, ascending; they count for nothing.
+    /// The rows that are left out, ascending; they count for nothing. A group is left out with all its rows.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub outliers: Vec<u64>,
     /// On request, for each row the number of the center next to it, the first of several; also for rows that are left out.
     ///
     /// The checker asks that no other center is nearer by more than what a sum in `f64` may be off by: which of centers that
-    /// are equally near but for rounding is the first, depends on the order of the sum.
+    /// are equally near but for rounding is the first, depends on the order of the sum. All rows of a group have the center from which
+    /// the group reaches least far.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub assignment: Vec<u32>,
 }
 
 /// The way in which the lower bound is to be confirmed: that no k balls of a radius less than it hold all of a core-set except z of
 /// its items.
+///
+/// Rows of one group are to be in one ball. Those of them that are in the core-set stand for the group: a ball that does not
+/// hold these does not hold it.
 ///
 /// A ball of a radius less than ρ holds items just when its center is less than ρᵢ from each of them, with ρᵢ = ρ for points,
 /// ρ − r for balls and ρ/w for points of weight w. That no such ball holds some items is shown by λ ≥ 0 with
@@ -58,7 +62,8 @@ pub struct Centers {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", tag = "by", try_from = "LowerBoundFields")]
 pub enum LowerBound {
-    /// No two items of the core-set fit in one ball, and there are more than k and the outliers together. O(|X|²d).
+    /// No two items of the core-set fit in one ball, and there are more than k and the outliers together. O(|X|²d). With groups, no
+    /// two groups do, and there are so many groups.
     #[serde(rename = "apart")]
     Separated,
     /// By the branches of a search, in the order in which they were taken (preorder), over at most 16384 items. For
@@ -67,7 +72,8 @@ pub enum LowerBound {
         /// At each node that is not refuted at once, which item of the core-set is given to the balls in turn: to each that has
         /// items already, in the order in which they got their first, then to the next empty one, if there is one, and
         /// then to the outliers, if there may be more. A child is refuted at once when no ball of a radius less than
-        /// the bound holds the items of the one that got the item.
+        /// the bound holds the items of the one that got the item. Where an item above it is of the same group, it is given
+        /// to the ball of that item alone; where that is among the outliers, so is this one, and it has no node.
         items: Vec<u32>,
     },
 }
@@ -112,11 +118,15 @@ pub struct CentersCertificate {
     /// True if the last column holds the weights w > 0 of points.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub weights: bool,
+    /// The column, from 0, whose value says to which group a row belongs: rows of the same value are to lie in one ball. It is
+    /// none of the columns that say where a row lies. None where each row stands for itself.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub group: Option<u64>,
     /// Where centers may be.
     pub placement: Placement,
     /// Most centers.
     pub k: u64,
-    /// Most rows that may be left out.
+    /// Most rows that may be left out; most groups, where rows are in groups.
     #[serde(default)]
     pub outliers: u64,
     /// The gap claimed: radius ≤ (1 + gap)·lower_bound. Accepted when the gap found is at most gap·(1 + 1e-9) + 4e-16; where

@@ -442,10 +442,12 @@ impl Violation {
             Violation::Centers(ref violation) => match *violation {
                 CentersViolation::Outside { row, .. }
                 | CentersViolation::NoSuchCenter { row, .. }
+                | CentersViolation::GroupOutside { row, .. }
+                | CentersViolation::GroupSplit { row, .. }
                 | CentersViolation::Assignment { row, .. } => Fault::Row(row),
-                CentersViolation::Dimension { .. } | CentersViolation::NoWeight { .. } => {
-                    Fault::Points
-                }
+                CentersViolation::Dimension { .. }
+                | CentersViolation::NoWeight { .. }
+                | CentersViolation::GroupColumn { .. } => Fault::Points,
                 CentersViolation::CoreSet { row, .. } | CentersViolation::Row { row, .. } => {
                     of_list(row)
                 }

@@ -57,6 +57,7 @@ impl SeparatedSet {
         let certificate = CentersCertificate {
             items: Items::Points,
             weights: false,
+            group: None,
             placement,
             k,
             outliers: 0,

@@ -44,12 +44,14 @@ class CentersCertificate(Record):
         ``"points"`` or ``"balls"``.
     weights : bool
         Whether the points have weights.
+    group : int or None
+        The column, from 0, whose value is the group of a row; None where each row stands for itself.
     discrete : bool
         Whether centers are points of the input.
     k : int
         Most centers.
     outliers : int
-        Most rows that may be left out.
+        Most rows that may be left out; groups of them, where rows are in groups.
     gap : float
         The gap claimed: radius <= (1 + gap) lower_bound.
     core_set : ndarray of int64, shape (m,)
@@ -63,6 +65,7 @@ class CentersCertificate(Record):
 
     items: str
     weights: bool = value(by=bool)
+    group: int | None
     discrete: bool = value("placement", by=lambda placement: placement == "rows")
     k: int
     outliers: int

@@ -2,7 +2,8 @@
 //!
 //! *Problem.* Given rows, at most k centers, a radius R, rows left out, a core-set X and a bound L, prove L ≤ R* ≤ R, where R*
 //! is the least radius of k equal balls, with their centers anywhere or at rows, that hold all rows except z.
-//! *Upper bound.* Each row that counts is at most R from a center, decided exactly: [`enclosure`].
+//! *Upper bound.* Each row that counts is at most R from a center, decided exactly: [`enclosure`]. Where rows are in groups, one
+//! center serves all rows of a group: [`group_enclosure`].
 //! *Lower bound.* No k balls of a radius less than L hold all of X except z of its rows. Balls that held all rows but z
 //! would; so R* ≥ L. There are two proofs: a separated set, more than k + z rows no two of which fit in one ball, and the
 //! log of a branch and bound search, which is replayed ([`replay`]). An [`oracle`] refutes balls: with bounds on all that is
@@ -18,6 +19,7 @@ mod core;
 mod distance;
 mod enclosure;
 mod free;
+mod group_enclosure;
 mod item;
 mod meter;
 mod oracle;
@@ -30,8 +32,10 @@ use taut_points::{Cancelled, Monitor, PointSource};
 use self::core::{Core, Pairs};
 use self::enclosure::Enclosure;
 use self::free::Free;
-use self::item::Kind;
+use self::group_enclosure::GroupEnclosure;
+use self::item::Layout;
 use self::meter::Meter;
+use self::oracle::Oracle;
 use self::replay::Log;
 use self::rows::Places;
 use super::{Centers, CentersCertificate, CentersVerdict, CentersViolation, LowerBound, Placement};
@@ -44,25 +48,33 @@ pub(super) fn check(
     source: &dyn PointSource,
     monitor: &Monitor<'_>,
 ) -> Result<CentersVerdict, CheckError> {
-    let (kind, gap) = structure::check(answer, certificate, source)?;
+    let (layout, gap) = structure::check(answer, certificate, source)?;
     monitor.pass(1, source.len());
-    let kept = Enclosure::of(answer, kind).check(source, certificate, monitor)?;
-    are_rows(answer, kind, &kept)?;
+    let kept = match layout.group {
+        None => Enclosure::of(answer, layout.kind).check(source, certificate, monitor)?,
+        Some(_) => GroupEnclosure::of(answer, layout).check(source, certificate, monitor)?,
+    };
+    are_rows(answer, layout, &kept)?;
     let (lower, upper) = (answer.lower_bound, answer.radius);
     let mut verdict = CentersVerdict { lower, upper, gap, branches: 0 };
     if lower > 0.0 {
-        let rows: Vec<f64> =
-            certificate.core_set.iter().flat_map(|&id| kept.row(id)).copied().collect();
-        let core = Core::of(&rows, source.dim(), kind, lower);
-        verdict.branches = prove(&core, kind, certificate, source, monitor)?;
+        let rows = || certificate.core_set.iter().map(|&id| kept.row(id));
+        let items: Vec<f64> = rows().flat_map(|row| layout.of_item(row)).collect();
+        let columns = source.dim() - usize::from(layout.group.is_some());
+        let mut core = Core::of(&items, columns, layout.kind, lower);
+        if layout.group.is_some() {
+            let groups: Vec<f64> = rows().filter_map(|row| layout.group_of(row)).collect();
+            core = core.with_groups(&groups);
+        }
+        verdict.branches = prove(&core, layout, certificate, source, monitor)?;
     }
     Ok(verdict)
 }
 
 /// Centers among the rows are the rows they are said to be, to the last bit.
-fn are_rows(answer: &Centers, kind: Kind, kept: &KeptRows) -> Result<(), CheckError> {
+fn are_rows(answer: &Centers, layout: Layout, kept: &KeptRows) -> Result<(), CheckError> {
     for (center, (&row, place)) in answer.rows.iter().zip(&answer.centers).enumerate() {
-        if kind.item(kept.row(row)).position != place {
+        if layout.kind.item(&layout.of_item(kept.row(row))).position != place {
             let problem = "which has other coordinates";
             return Err(CentersViolation::Row { center, row, problem }.into());
         }
@@ -73,19 +85,19 @@ fn are_rows(answer: &Centers, kind: Kind, kept: &KeptRows) -> Result<(), CheckEr
 /// Proves the lower bound; returns the number of branches that were replayed.
 fn prove(
     core: &Core,
-    kind: Kind,
+    layout: Layout,
     certificate: &CentersCertificate,
     source: &dyn PointSource,
     monitor: &Monitor<'_>,
 ) -> Result<u64, CheckError> {
-    let (rows, outliers) = (core.len(), certificate.outliers);
-    // All rows left out, or a ball for each, prove nothing about balls of any radius above 0.
-    if rows as u64 <= outliers {
-        return refused(CentersViolation::TooFew { rows, outliers });
+    let (rows, groups, outliers) = (core.len(), core.group_count(), certificate.outliers);
+    // All groups left out, or a ball for each, prove nothing about balls of any radius above 0.
+    if groups as u64 <= outliers {
+        return refused(CentersViolation::TooFew { rows: groups, outliers });
     }
     let places = || {
         monitor.pass(2, source.len());
-        Places::of(core, kind, certificate.points_hash, source, monitor)
+        Places::of(core, layout, certificate.points_hash, source, monitor)
     };
     let limited = |proof| match rows > replay::ITEMS {
         true => refused(CentersViolation::CoreSetSize { rows, most: replay::ITEMS, proof }),
@@ -94,8 +106,22 @@ fn prove(
     let mut meter = Meter::of(monitor);
     match &certificate.proof {
         LowerBound::Separated => {
-            if rows as u64 <= certificate.k.saturating_add(outliers) {
-                return refused(CentersViolation::TooFew { rows, outliers });
+            if groups as u64 <= certificate.k.saturating_add(outliers) {
+                return refused(CentersViolation::TooFew { rows: groups, outliers });
+            }
+            if layout.group.is_some() {
+                limited("groups apart")?;
+                let close = match certificate.placement {
+                    Placement::Free => {
+                        let pairs = Pairs::of(core, &mut meter)?;
+                        close_groups(core, &mut Free::of(core, &pairs), &mut meter)?
+                    }
+                    Placement::Rows => close_groups(core, &mut &places()?, &mut meter)?,
+                };
+                return match close.map(|pair| pair.map(|item| certificate.core_set[item])) {
+                    Some([first, second]) => refused(CentersViolation::NotApart { first, second }),
+                    None => Ok(0),
+                };
             }
             let mut close = first_pair(rows, |i, j| core.are_apart(i, j, &mut meter))?;
             if close.is_some() && certificate.placement == Placement::Rows {
@@ -115,7 +141,8 @@ fn prove(
             limited("branches")?;
             // More balls than fit in memory are as good as any number.
             let k = usize::try_from(certificate.k).unwrap_or(usize::MAX);
-            let log = Log { k, outliers, items, undo_bytes: replay::UNDO_BYTES_MAX };
+            let (groups, undo_bytes) = (core.groups(), replay::UNDO_BYTES_MAX);
+            let log = Log { k, outliers, items, groups, undo_bytes };
             match certificate.placement {
                 Placement::Free => {
                     let pairs = Pairs::of(core, &mut meter)?;
@@ -126,6 +153,43 @@ fn prove(
             Ok(items.len() as u64)
         }
     }
+}
+
+/// The first items of the first two groups that are not shown to be apart: no ball of a radius less than the bound holds the
+/// items of both.
+fn close_groups<R: Oracle>(
+    core: &Core,
+    oracle: &mut R,
+    meter: &mut Meter<'_>,
+) -> Result<Option<[usize; 2]>, Cancelled> {
+    let mut members = vec![vec![]; core.group_count()];
+    for (item, &group) in core.groups().iter().enumerate() {
+        members[group].push(item);
+    }
+    for (at, group) in members.iter().enumerate() {
+        for other in &members[..at] {
+            if !is_refuted(oracle, other.iter().chain(group).copied(), meter)? {
+                return Ok(Some([other[0], group[0]]));
+            }
+        }
+    }
+    Ok(None)
+}
+
+/// Returns true if no ball of a radius less than the bound holds these items.
+fn is_refuted<R: Oracle>(
+    oracle: &mut R,
+    mut items: impl Iterator<Item = usize>,
+    meter: &mut Meter<'_>,
+) -> Result<bool, Cancelled> {
+    let Some(first) = items.next() else { return Ok(false) };
+    let Some(mut cluster) = oracle.open(first) else { return Ok(true) };
+    for item in items {
+        if oracle.grow(&mut cluster, item, meter)?.is_none() {
+            return Ok(true);
+        }
+    }
+    Ok(false)
 }
 
 fn refused<T>(violation: CentersViolation) -> Result<T, CheckError> {

@@ -13,6 +13,38 @@ pub enum CentersViolation {
     /// The certificate speaks of balls with weights.
     #[error("the items are said to be balls with weights: points alone can have weights")]
     WeightsOfBalls,
+    /// The certificate speaks of groups, but the rows have no room for them.
+    #[error(
+        "column {column} is said to hold the group of a row, but rows have {columns}, of which one at least is a coordinate"
+    )]
+    GroupColumn {
+        /// The column named, from 0.
+        column: u64,
+        /// Columns there are.
+        columns: usize,
+    },
+    /// Rows of one group are treated in different ways.
+    #[error("point {row} is of the same group as point {first}, {problem}")]
+    GroupSplit {
+        /// The row, from 0.
+        row: u64,
+        /// The first row of its group.
+        first: u64,
+        /// The reason for the refusal.
+        problem: &'static str,
+    },
+    /// A group that counts lies in none of the balls.
+    #[error(
+        "no ball of radius {radius:?} holds all points of group {group:?}, that of point {row}"
+    )]
+    GroupOutside {
+        /// The first row of the group, from 0.
+        row: u64,
+        /// Its value in the column of groups.
+        group: f64,
+        /// The claimed radius.
+        radius: f64,
+    },
     /// The certificate speaks of weights, but the rows have no room for them.
     #[error("a point with a weight needs two columns or more, but rows have {columns}")]
     NoWeight {
@@ -56,9 +88,9 @@ pub enum CentersViolation {
         problem: &'static str,
     },
     /// More rows are left out than may be.
-    #[error("{found} rows are left out, but at most {most} may be")]
+    #[error("{found} are left out, but at most {most} may be")]
     Outliers {
-        /// Rows left out.
+        /// Rows left out, or groups of them.
         found: usize,
         /// Most that may be.
         most: u64,

@@ -34,6 +34,7 @@ fn by_hand(
         certificate: CentersCertificate {
             items: Items::Points,
             weights: false,
+            group: None,
             placement: Placement::Free,
             k: centers.len() as u64,
             outliers: 0,
@@ -319,6 +320,7 @@ fn any_solution() -> impl Strategy<Value = Solution<Centers>> {
             certificate: CentersCertificate {
                 items: if balls == 1 { Items::Balls } else { Items::Points },
                 weights: placed && balls == 0,
+                group: None,
                 placement: if placed { Placement::Rows } else { Placement::Free },
                 k,
                 outliers: z,

@@ -24,7 +24,8 @@ Exit: 0 reached · 1 the check failed · 2 bad input or usage, nothing written �
         hides the gap that was asked for; the gap reached is reported
 Example: taut centers points.csv -k 5 -o centers.json --draw centers.svg &&
          taut verify centers.json points.csv
-         taut centers points.csv --elbow 1..10 --draw elbow.svg")]
+         taut centers points.csv --elbow 1..10 --draw elbow.svg
+         taut centers corners.csv -k 3 --group house")]
 pub(crate) struct Args {
     #[command(flatten)]
     points: Points,
@@ -58,6 +59,10 @@ pub(crate) struct Args {
     /// Rows are balls: the coordinates of a center, then the radius; each is to lie in one of the k
     #[arg(long)]
     balls: bool,
+    /// The column, by name or number from 0, that holds a number for the group of each row: one ball is to hold all rows of a group,
+    /// such as the vertices of a polytope. --outliers then counts groups
+    #[arg(long, value_name = "COLUMN")]
+    group: Option<String>,
     /// Most nodes of the search, then the best centers so far are given with their gap
     #[arg(long, value_name = "N", default_value_t = CentersOptions::default().max_nodes)]
     max_nodes: u64,
@@ -94,8 +99,9 @@ impl Find for Args {
 
     fn solve(&self, points: &Opened, watch: &Watch) -> anyhow::Result<(Solution<Centers>, ())> {
         let k = self.k.expect("one of -k and --elbow is required");
+        let options = self.options_for(points)?;
         let solve = |monitor: &Monitor<'_>| {
-            centers(points.source(), k, &CentersOptions { monitor: *monitor, ..self.options() })
+            centers(points.source(), k, &CentersOptions { monitor: *monitor, ..options })
         };
         let found = watch.during("solving", solve).map_err(|error| points.explain(error))?;
         Ok((found, ()))
@@ -111,10 +117,16 @@ impl Args {
         match &self.elbow {
             Some(range) => {
                 self.check_options()?;
-                elbow::run(range, &self.options(), self.input(), self.output())
+                elbow::run(range, &|points| self.options_for(points), self.input(), self.output())
             }
             None => pipeline::run(self),
         }
+    }
+
+    /// The options with the column of groups, which only the file can tell.
+    fn options_for(&self, points: &Opened) -> anyhow::Result<CentersOptions<'static>> {
+        let column = |name: &String| points.column("--group", name);
+        Ok(CentersOptions { group: self.group.as_ref().map(column).transpose()?, ..self.options() })
     }
 
     fn options(&self) -> CentersOptions<'static> {
@@ -140,13 +152,15 @@ impl Args {
             ("--weights", self.weights),
             ("--outliers", self.outliers > 0),
             ("--assignment", self.assignment),
+            ("--group", self.group.is_some()),
         ];
         let (names, knows) = match self.method {
-            CentersMethod::Thesis => {
-                (&["--discrete", "--weights", "--outliers"][..], "free centers of points and balls")
-            }
+            CentersMethod::Thesis => (
+                &["--discrete", "--weights", "--outliers", "--group"][..],
+                "free centers of points and balls",
+            ),
             CentersMethod::Stream(_) => (
-                &["--balls", "--weights", "--outliers", "--assignment"][..],
+                &["--balls", "--weights", "--outliers", "--assignment", "--group"][..],
                 "centers of points alone, which it does not look at again",
             ),
             _ => return Ok(()),

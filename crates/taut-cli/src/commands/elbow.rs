@@ -95,7 +95,7 @@ fn carry_over(rows: &mut [Row]) {
 /// Opens, solves and checks for each k, writes and says.
 pub(crate) fn run(
     range: &Range,
-    options: &CentersOptions<'_>,
+    options_for: &dyn Fn(&Opened) -> anyhow::Result<CentersOptions<'static>>,
     input: Input<'_>,
     output: Output<'_>,
 ) -> anyhow::Result<Outcome> {
@@ -111,12 +111,13 @@ pub(crate) fn run(
     let watch = input.effort.start()?;
     let mut clock = Clock::start();
     let points = input.reading.open(input.path)?;
+    let options = options_for(&points)?;
     clock.lap("reading");
     let mut rows = Vec::new();
     for k in range.first..=range.last {
         let found = watch
             .during(&format!("solving k = {k}"), |monitor| {
-                centers(points.source(), k, &CentersOptions { monitor: *monitor, ..*options })
+                centers(points.source(), k, &CentersOptions { monitor: *monitor, ..options })
             })
             .map_err(|error| points.explain(error))?;
         if check(&found, &points, &watch, output, &format!(" for k = {k}"))?.is_err() {

@@ -23,6 +23,27 @@ pub(crate) struct HeightColumn {
 }
 
 impl Opened {
+    /// The column that an option names, by its name or its number from 0 among those that were read.
+    pub(crate) fn column(&self, option: &str, name: &str) -> anyhow::Result<usize> {
+        let dim = self.source().dim();
+        let names = self.names(dim);
+        names
+            .iter()
+            .position(|known| known == name)
+            .or_else(|| name.parse().ok().filter(|&number: &usize| number < dim))
+            .ok_or_else(|| {
+                let known = match dim {
+                    _ if !names.is_empty() => names.join(", "),
+                    1 => "0".to_owned(),
+                    _ => format!("0 to {}", dim - 1),
+                };
+                anyhow!(
+                    "{}: {option} {name} is no column that was read: expected {known}",
+                    self.name()
+                )
+            })
+    }
+
     /// The places of the plane that all columns but `name` are; one pass checks the heights.
     pub(crate) fn with_height(self, name: &str) -> anyhow::Result<Self> {
         let dim = self.source().dim();
@@ -33,19 +54,7 @@ impl Opened {
                 if dim == 1 { "" } else { "s" }
             );
         }
-        let names = self.names(dim);
-        let column = names
-            .iter()
-            .position(|known| known == name)
-            .or_else(|| name.parse().ok().filter(|&number: &usize| number < dim))
-            .ok_or_else(|| {
-                let known =
-                    if names.is_empty() { "0, 1 or 2".to_owned() } else { names.join(", ") };
-                anyhow!(
-                    "{}: --height {name} is no column that was read: expected {known}",
-                    self.name()
-                )
-            })?;
+        let column = self.column("--height", name)?;
         let mut range = [f64::INFINITY, f64::NEG_INFINITY];
         let (blocks, mut scratch) = (Blocks::of(self.source()), Scratch::new());
         let mut point = [0.0; 3];

@@ -30,9 +30,11 @@ impl Summary for Centers {
         let mut fields = report.centers();
         let [radius, lower] = [answer.radius, answer.lower_bound].map(exact);
         let counts = if answer.outliers.is_empty() { "" } else { " that counts" };
+        let together = if certificate.group.is_some() { ", all of a group of one" } else { "" };
         fields.extend([
-            Field::new("radius", radius)
-                .remark(format!("no {noun}{counts} is farther from the center next to it")),
+            Field::new("radius", radius).remark(format!(
+                "no {noun}{counts} is farther from the center next to it{together}"
+            )),
             Field::new("lower bound", &*lower)
                 .remark(format!("no {} have a smaller radius", counted(certificate.k, "center"))),
         ]);
@@ -41,8 +43,9 @@ impl Summary for Centers {
             None => gap_of(answer, certificate.gap).remark("as the solver says"),
         });
         fields.push(match &report.verdict {
-            Some(_) => Field::new("verified", "yes")
-                .remark(format!("every {noun}{counts} is in a ball, and the gap is proved")),
+            Some(_) => Field::new("verified", "yes").remark(format!(
+                "every {noun}{counts} is in a ball{together}, and the gap is proved"
+            )),
             None => Field::new("verified", "not checked"),
         });
         if certificate.outliers > 0 {
@@ -50,7 +53,10 @@ impl Summary for Centers {
         }
         fields.push(Field::new("method", &*trace.method).remark(stopped(trace.stop)));
         let proof = match certificate.proof {
-            LowerBound::Separated => "no two of which fit in one ball".to_owned(),
+            LowerBound::Separated => match certificate.group {
+                None => "no two of which fit in one ball".to_owned(),
+                Some(_) => "no two of whose groups fit in one ball".to_owned(),
+            },
             LowerBound::Branches { ref items } => {
                 format!("with {} of a search", counted_branches(items.len() as u64))
             }
@@ -84,7 +90,8 @@ impl Summary for Centers {
             most => {
                 let left_out = found.answer.outliers.len() as u64;
                 let field = Field::proved("left out", share(left_out, source.len()));
-                let field = field.remark(format!("of at most {}", counted(most, noun)));
+                let thing = if certificate.group.is_some() { "group" } else { noun };
+                let field = field.remark(format!("of at most {}", counted(most, thing)));
                 (field, format!(", all but at most {}", count(most)))
             }
         };
@@ -169,11 +176,16 @@ fn counted_branches(branches: u64) -> String {
 fn items_of(certificate: &CentersCertificate, rows: u64, dim: usize) -> String {
     let items = counted(rows, noun(certificate.items));
     let weights = if certificate.weights { " with weights" } else { "" };
-    format!("{items}{weights} in {}", counted(dim as u64, "dimension"))
+    let groups = match certificate.group {
+        Some(column) => format!(", grouped by column {column},"),
+        None => String::new(),
+    };
+    format!("{items}{weights}{groups} in {}", counted(dim as u64, "dimension"))
 }
 
 /// The dimension of rows of so many columns.
 fn dim_of(certificate: &CentersCertificate, columns: usize) -> usize {
+    let columns = columns.saturating_sub(usize::from(certificate.group.is_some()));
     match certificate.weights {
         true => columns.saturating_sub(1),
         false => certificate.items.dim(columns),

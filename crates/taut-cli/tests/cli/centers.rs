@@ -64,6 +64,63 @@ fn the_json_is_one_document_with_the_names_at_the_door() {
     assert!(run.out.contains("not checked") && !run.out.contains("yes"), "{}", run.out);
 }
 
+/// Three segments, each given by its ends; the column in the middle names them.
+const ENDS: &str = "x,house,y\n0,7,0\n9,8,0\n0,7,6\n9,8,2\n1,9,1\n1,9,2\n";
+
+#[test]
+fn groups_are_held_whole() {
+    let folder = TestFolder::new();
+    folder.put("ends.csv", ENDS);
+    let line = "centers ends.csv -k 2 --epsilon 1e-6";
+    for column in ["house", "1"] {
+        folder
+            .taut(&format!("{line} --group {column} --assignment -o found.json --draw found.svg"))
+            .ends(0)
+            .stdout_has(&[
+                "6 points, grouped by column 1, in 2 dimensions: 2 centers\n",
+                "radius      3",
+                "yes; every point is in a ball, all of a group of one, and the gap is proved\n",
+            ]);
+        let document: serde_json::Value = serde_json::from_str(&folder.text("found.json")).unwrap();
+        assert_eq!(document["certificate"]["group"], 1);
+        assert!(document["certificate"]["core_set"].as_array().unwrap().len() > 1);
+        let next = &document["answer"]["assignment"];
+        assert!(next[0] == next[2] && next[1] == next[3] && next[4] == next[5], "{next}");
+        folder.taut("verify found.json ends.csv").ends(0);
+        let picture = folder.text("found.svg");
+        assert!(picture.contains("of center "));
+    }
+    let without = folder.taut(&format!("{line} --columns x,y --json")).ends(0).json();
+    assert!(without["certificate"].get("group").is_none());
+    let run = folder.taut("centers ends.csv -k 1 --group house --outliers 1 --json").ends(0).json();
+    assert_eq!(run["answer"]["outliers"].as_array().unwrap().len(), 2);
+    folder.put("other.csv", ENDS.replace("0,7,6", "0,8,6"));
+    folder.taut("verify found.json other.csv").ends(1);
+    folder.taut("centers ends.csv --elbow 1..3 --group house").ends(0);
+}
+
+#[test]
+fn groups_that_are_not_there_are_named() {
+    let folder = TestFolder::new();
+    folder.put("ends.csv", ENDS);
+    folder.put("words.csv", "x,y,house\n0,1,red\n");
+    folder.put("gaps.csv", "x,y,house\n0,1,1\n2,3,\n");
+    folder.put("nan.csv", "x,y,house\n0,1,1\n2,3,NaN\n");
+    let refused = |line: &str, words: &[&str]| {
+        let run = folder.taut(line).ends(2);
+        words.iter().for_each(|word| assert!(run.err.contains(word), "{line}: {}", run.err));
+    };
+    refused("centers ends.csv -k 2 --group color", &["--group color", "x, house, y"]);
+    refused("centers ends.csv -k 2 --group 3", &["--group 3", "x, house, y"]);
+    refused("centers ends.csv -k 2 --columns x,y --group house", &["--group house", "x, y"]);
+    refused("centers words.csv -k 1 --group house", &["red"]);
+    refused("centers gaps.csv -k 1 --group house", &["gaps.csv", "3"]);
+    refused("centers nan.csv -k 1 --group house", &["nan.csv", "NaN"]);
+    refused("centers ends.csv -k 1 --group house --outliers 3", &["outliers"]);
+    refused("centers ends.csv -k 1 --group house --method stream", &["--group"]);
+    refused("centers ends.csv -k 1 --group house --method thesis", &["--group"]);
+}
+
 #[test]
 fn answers_are_verified_and_lies_rejected() {
     let folder = folder();

@@ -8,11 +8,13 @@
 //! *Trap.* With weights no ball holds the points of a center: how far a point may be depends on its weight. None is drawn.
 
 mod elbow;
+mod groups;
 mod nearest;
 
 use taut_certify::{Centers, CentersCertificate, Solution};
 use taut_points::PointSource;
 
+use self::groups::WithoutColumn;
 use self::nearest::Nearest;
 use crate::item_pass::{Measure, PassQuery};
 use crate::marks::{agree, all_finite, all_there, support_size};
@@ -27,6 +29,9 @@ pub use elbow::{ElbowStep, elbow_figure};
 const PROJECTION_ITEM_WEIGHT: f64 = 1e-4;
 /// About this many items of each group are looked at for that; more would take long in high dimensions and change little.
 const PROJECTION_ITEM_COUNT: usize = 64;
+
+/// The tones of the items of groups, by the number of their center.
+const CLUSTER_TONES: [Tone; 4] = [Tone::Point, Tone::Second, Tone::Fourth, Tone::Muted];
 
 /// The noun for the steps between two pairs of bounds.
 const STEP_WORDS: Words =
@@ -45,6 +50,12 @@ pub fn centers_figures(
 ) -> Result<Vec<Figure>, Error> {
     options.check()?;
     let (answer, certificate) = (&solution.answer, &solution.certificate);
+    let column = group_column(certificate, source)?;
+    let without = column.map(|column| WithoutColumn::new(source, column));
+    let (rows, source): (_, &dyn PointSource) = match &without {
+        Some(without) => (source, without),
+        None => (source, source),
+    };
     let dim = check(answer, certificate, source)?;
     let nearest = Nearest::new(answer, certificate, dim);
     let always = [&certificate.core_set[..], &answer.outliers].concat();
@@ -55,7 +66,14 @@ pub fn centers_figures(
         most: options.max_points,
     };
     let input = Input::read(&nearest, &question, source, options)?;
-    let picture = Picture { answer, certificate, nearest, input };
+    let clusters = match column {
+        None => vec![],
+        Some(column) => {
+            let ids = &input.item_pass.ids;
+            groups::centers_of(ids, answer, certificate, &nearest, rows, column)?
+        }
+    };
+    let picture = Picture { answer, certificate, nearest, input, clusters };
     let layers = picture.layers()?;
     let mut figures = match dim {
         1..=3 => vec![picture.scene(layers).figure()],
@@ -69,6 +87,20 @@ pub fn centers_figures(
     let steps = passes(&solution.trace.history, &STEP_WORDS, options);
     figures.extend(steps.into_iter().map(Figure::Plot));
     Ok(figures)
+}
+
+/// The column of groups, where the certificate names one.
+fn group_column(
+    certificate: &CentersCertificate,
+    source: &dyn PointSource,
+) -> Result<Option<usize>, Error> {
+    let Some(group) = certificate.group else { return Ok(None) };
+    let columns = source.dim();
+    match usize::try_from(group).ok().filter(|&group| group < columns && columns > 1) {
+        Some(group) => Ok(Some(group)),
+        None => agree("number of columns", (group as usize).saturating_add(1).max(2), columns)
+            .map(|()| None),
+    }
 }
 
 /// Checks what the answer and its items must agree in before anything is drawn; the dimension.
@@ -105,6 +137,8 @@ struct Picture<'a> {
     certificate: &'a CentersCertificate,
     nearest: Nearest,
     input: Input<'a>,
+    /// For each item drawn the center of its group; none where each item stands for itself.
+    clusters: Vec<usize>,
 }
 
 impl<'a> Picture<'a> {
@@ -191,13 +225,16 @@ impl<'a> Picture<'a> {
         core.retain(|id| outliers.binary_search(id).is_err());
         let is_other =
             |id: &u64| core.binary_search(id).is_err() && outliers.binary_search(id).is_err();
-        let others = self.input.item_pass.ids.iter().copied().filter(is_other).collect();
+        let others: Vec<u64> = self.input.item_pass.ids.iter().copied().filter(is_other).collect();
         let balls = |radius: &f64| Marks::Balls { centers, radius: *radius };
         let mut layers = Vec::new();
         if self.has_balls() {
             layers.push(Layer::answer(self.balls_name(), balls(radius)));
         }
-        layers.push(self.input.others(others)?);
+        match self.clusters.is_empty() {
+            true => layers.push(self.input.others(others)?),
+            false => layers.extend(self.clustered(&others)?),
+        }
         if self.lower_is_visible() {
             layers.push(Layer::lower_bound(balls(lower_bound)));
         }
@@ -211,6 +248,23 @@ impl<'a> Picture<'a> {
         layers.push(self.input.left_out(name, "left out", outliers.clone())?);
         layers.push(Layer::centers(centers));
         Ok(layers)
+    }
+
+    /// The items of which nothing else is said, in a tone by the center of their group; tones come again after some centers.
+    fn clustered(&self, others: &[u64]) -> Result<Vec<Layer<'static>>, Error> {
+        let tones = CLUSTER_TONES.len().min(self.answer.centers.len());
+        (0..tones)
+            .map(|at| {
+                let of_tone = |(id, center): (&u64, &usize)| {
+                    (center % tones == at && others.binary_search(id).is_ok()).then_some(*id)
+                };
+                let drawn = self.input.item_pass.ids.iter().zip(&self.clusters);
+                let ids: Vec<u64> = drawn.filter_map(of_tone).collect();
+                let more = if at + tones < self.answer.centers.len() { ", …" } else { "" };
+                let name = format!("{}s of center {}{more}", self.input.thing(), at + 1);
+                self.input.group(name, CLUSTER_TONES[at], "", ids)
+            })
+            .collect()
     }
 
     fn scene(&self, layers: Vec<Layer<'a>>) -> Scene<'a> {

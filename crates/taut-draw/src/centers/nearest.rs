@@ -42,6 +42,17 @@ impl Nearest {
         }
     }
 
+    /// Returns how far an item reaches from one of the centers, in units.
+    pub(super) fn reach_from(&self, center: usize, row: &[f64], items: Items) -> f64 {
+        let center = &self.centers[center * self.dim..][..self.dim];
+        let square: f64 = center.iter().zip(row).map(|(c, x)| (x / self.unit - c).powi(2)).sum();
+        match items {
+            _ if self.weights => row[self.dim] * square.sqrt(),
+            Items::Balls => square.sqrt() + row[self.dim] / self.unit,
+            Items::Points | Items::Ellipsoids => square.sqrt(),
+        }
+    }
+
     /// The centers from the middle of all, in units.
     pub(super) fn offsets(&self) -> impl Iterator<Item = Vec<f64>> + '_ {
         self.centers

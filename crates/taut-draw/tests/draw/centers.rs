@@ -29,6 +29,7 @@ fn case(dim: usize, most: usize) -> (Vec<f64>, Solution<Centers>) {
     let certificate = CentersCertificate {
         items: Items::Points,
         weights: false,
+        group: None,
         placement: Placement::Free,
         k: 2,
         outliers: 1,

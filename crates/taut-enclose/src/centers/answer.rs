@@ -2,7 +2,8 @@
 //! returned.
 
 use super::cloud::{Cloud, Far};
-use super::items::{Position, Shape, distance};
+use super::grouping::{Grouping, Served};
+use super::items::{ItemSet, Position, Shape, distance};
 use super::nearest::{EXACT_DISTANCES, length};
 use super::read::Table;
 use crate::Error;
@@ -49,6 +50,9 @@ pub(super) fn answer<P: Position>(
             inside
         })
         .collect();
+    if let Some(grouping) = &cloud.grouping {
+        return of_groups(table, cloud, grouping, &inside, outside, z, assignment);
+    }
     let exact = |item: u32| reach(table, cloud, &inside, &outside, item);
 
     let far = cloud.farthest(&inside, z.saturating_add(MEASURED_ITEMS_MAX));
@@ -86,6 +90,81 @@ pub(super) fn answer<P: Position>(
     Ok(ItemReport { centers: outside, radius, outliers, assignment: numbers })
 }
 
+/// Measures groups: each of its items from the center from which the group reaches least far.
+fn of_groups<P: Position>(
+    table: &Table,
+    cloud: &Cloud<P>,
+    grouping: &Grouping<P>,
+    inside: &[P],
+    outside: Vec<Vec<f64>>,
+    z: usize,
+    assignment: bool,
+) -> Result<ItemReport, Error> {
+    let served: Vec<Served> = (0..grouping.len())
+        .map(|group| serve(&cloud.items, &grouping.members[group], inside))
+        .collect();
+    let mut order: Vec<usize> = (0..served.len()).collect();
+    order.sort_by(|&a, &b| served[b].reach.total_cmp(&served[a].reach).then(a.cmp(&b)));
+    let (left_out, kept) = order.split_at(z.min(order.len()));
+    let farthest = kept.first().map_or(0.0, |&group| served[group].reach);
+    let doubt = 4.0 * relative_error(table.rows.dim);
+    let exact =
+        |group: usize, item: u32| reach_from(table, cloud, &outside[served[group].center], item);
+    let mut radius = 0.0f64;
+    for &group in kept {
+        let center = &inside[served[group].center];
+        for &item in &grouping.members[group] {
+            let distance = length(cloud.items.at(item as usize), center.as_ref());
+            let reach = cloud.items.reach_at(item as usize, distance);
+            // Short distances have digits of other sizes than all others: each of these is measured.
+            if reach >= farthest * (1.0 - doubt) || farthest < SQUARE_MIN {
+                radius = radius.max(exact(group, item));
+            }
+        }
+    }
+    if !radius.is_finite() {
+        return Err(Error::Overflow);
+    }
+    let is_out = |group: &&usize| {
+        grouping.members[**group].iter().any(|&item| exact(**group, item) > radius)
+    };
+    let items = left_out.iter().filter(is_out).flat_map(|&group| &grouping.members[group]);
+    let mut outliers: Vec<u64> = items.map(|&item| cloud.rows[item as usize]).collect();
+    outliers.sort_unstable();
+    let mut numbers = vec![];
+    if assignment {
+        numbers.resize(cloud.len(), 0);
+        for (served, members) in served.iter().zip(&grouping.members) {
+            for &item in members {
+                numbers[cloud.rows[item as usize] as usize] = served.center as u32;
+            }
+        }
+    }
+    Ok(ItemReport { centers: outside, radius, outliers, assignment: numbers })
+}
+
+/// How items are served together, by distances that have their digits whatever their size.
+fn serve<P: Position>(items: &ItemSet<P>, members: &[u32], centers: &[P]) -> Served {
+    let mut served = Served { center: 0, item: members[0], reach: f64::INFINITY };
+    for (number, center) in centers.iter().enumerate() {
+        let mut farthest = (members[0], f64::NEG_INFINITY);
+        for &item in members {
+            let distance = length(items.at(item as usize), center.as_ref());
+            let reach = items.reach_at(item as usize, distance);
+            if reach > farthest.1 {
+                farthest = (item, reach);
+            }
+            if reach >= served.reach {
+                break;
+            }
+        }
+        if farthest.1 < served.reach {
+            served = Served { center: number, item: farthest.0, reach: farthest.1 };
+        }
+    }
+    served
+}
+
 /// Returns how far an item reaches from the nearest center, in the units of the rows: the larger of what is exact, rounded up, and what
 /// plain `f64` says.
 fn reach<P: Position>(
@@ -102,6 +181,11 @@ fn reach<P: Position>(
             reach(a).total_cmp(&reach(b))
         })
         .expect("there is a center");
+    reach_from(table, cloud, &outside[nearest], item)
+}
+
+/// The same from one center.
+fn reach_from<P: Position>(table: &Table, cloud: &Cloud<P>, center: &[f64], item: u32) -> f64 {
     let row = table.rows.row(cloud.rows[item as usize] as usize);
     let (place, extra) = row.split_at(table.rows.dim);
     let (weight, radius) = match table.rows.shape {
@@ -109,7 +193,7 @@ fn reach<P: Position>(
         Shape::Weighted => (extra[0], 0.0),
         Shape::Balls => (1.0, extra[0]),
     };
-    reach_of(place, &outside[nearest], weight, radius)
+    reach_of(place, center, weight, radius)
 }
 
 /// w·|p − c| + r, one of w = 1 and r = 0 being so: the larger of what is exact, rounded up, and what plain `f64` says.

@@ -5,6 +5,8 @@
 //! what was found: some ten of hundreds of cells. Nearest centers are sought among those that can be nearest for a cell.
 //! *Guarantee.* What is found is what a look at all items would find; of equals, the one of the lower row. Nothing depends on
 //! threads.
+//! *Groups.* Where one ball is to hold all items of a group, the farthest group is sought in place of the farthest item, and all items of
+//! a group have one center ([`super::grouping`]). Cells are not used then: each look is at all items.
 //! *Trap.* In many dimensions every bound is weak and every cell is opened: as much work as without cells, and little more.
 
 use std::cmp::Ordering;
@@ -12,7 +14,10 @@ use std::ops::Range;
 
 use taut_points::{Monitor, ReadError};
 
+use super::grouping::Grouping;
 use super::items::{ItemSet, Position, Shape, distance, square};
+use super::links::Links;
+use super::small_ball::{Ball, Workspace};
 use crate::Error;
 
 /// A cell has at most this many items. 16 to 64 serve equally well on 15,112 cities.
@@ -27,6 +32,8 @@ pub(super) struct Cloud<P> {
     pub(super) items: ItemSet<P>,
     pub(super) rows: Vec<u64>,
     cells: Vec<Cell<P>>,
+    /// None where each item stands for itself.
+    pub(super) grouping: Option<Grouping<P>>,
 }
 
 struct Cell<P> {
@@ -52,8 +59,8 @@ pub(super) struct Traversal {
 }
 
 impl<P: Position> Cloud<P> {
-    /// `given` in the order of rows.
-    pub(super) fn new(given: ItemSet<P>) -> Self {
+    /// `given` in the order of rows, with the number of the group of each, if they are in groups.
+    pub(super) fn new(given: ItemSet<P>, groups: &[u32]) -> Self {
         let mut order: Vec<u32> = (0..given.len() as u32).collect();
         let mut ranges = vec![];
         let mut open: Vec<Range<usize>> = Vec::new();
@@ -80,7 +87,74 @@ impl<P: Position> Cloud<P> {
             items.push(given.at(row as usize), given.extra(row as usize));
         }
         let cells = ranges.into_iter().map(|range| Cell::new(&items, range)).collect();
-        Cloud { items, rows: order.into_iter().map(u64::from).collect(), cells }
+        let grouping = (!groups.is_empty()).then(|| {
+            let of = order.iter().map(|&row| groups[row as usize]).collect();
+            Grouping::new(&items, of)
+        });
+        Cloud { items, rows: order.into_iter().map(u64::from).collect(), cells, grouping }
+    }
+
+    /// Number of groups; of items where each stands for itself.
+    pub(super) fn group_count(&self) -> usize {
+        self.grouping.as_ref().map_or(self.len(), Grouping::len)
+    }
+
+    /// The group of an item, if items are in groups.
+    pub(super) fn group_of(&self, item: u32) -> Option<u32> {
+        self.grouping.as_ref().map(|grouping| grouping.of[item as usize])
+    }
+
+    /// The groups of items, if items are in groups.
+    pub(super) fn links(&self, items: &[u32]) -> Option<Links> {
+        let grouping = self.grouping.as_ref()?;
+        let mut links = Links::default();
+        items.iter().for_each(|&item| links.add(grouping.of[item as usize]));
+        Some(links)
+    }
+
+    /// The items that go where an item goes, itself among them.
+    pub(super) fn linked(&self, item: u32) -> Vec<u32> {
+        match &self.grouping {
+            None => vec![item],
+            Some(grouping) => grouping.members[grouping.of[item as usize] as usize].clone(),
+        }
+    }
+
+    /// The place of an item, or that of its group.
+    pub(super) fn place_of(&self, item: u32) -> P {
+        match &self.grouping {
+            None => self.items.position(item as usize),
+            Some(grouping) => grouping.balls[grouping.of[item as usize] as usize].center.clone(),
+        }
+    }
+
+    /// Items that stand for an item or its group in a core-set: those on the border of its own ball.
+    pub(super) fn witnesses(&self, item: u32) -> Vec<u32> {
+        match &self.grouping {
+            None => vec![item],
+            Some(grouping) => grouping.balls[grouping.of[item as usize] as usize].support.clone(),
+        }
+    }
+
+    /// The smallest ball of the groups of two items.
+    pub(super) fn ball_of_pair(&self, a: u32, b: u32) -> Ball<P> {
+        let mut work = Workspace::new(self.items.dim());
+        let members = match &self.grouping {
+            None => vec![a, b],
+            Some(grouping) => {
+                let group = |item: u32| grouping.of[item as usize] as usize;
+                grouping.union(group(a), group(b))
+            }
+        };
+        Ball::of_all(&self.items, &members, &mut work)
+    }
+
+    /// A radius that no smaller ball of both items, or of their groups, has; but for rounding.
+    pub(super) fn pair_radius(&self, a: u32, b: u32) -> f64 {
+        match &self.grouping {
+            None => self.items.pair_radius(a as usize, b as usize),
+            Some(_) => self.ball_of_pair(a, b).lower_bound(&self.items),
+        }
     }
 
     pub(super) fn len(&self) -> usize {
@@ -93,16 +167,22 @@ impl<P: Position> Cloud<P> {
         b.reach.total_cmp(&a.reach).then(rows)
     }
 
-    /// The `count` items that reach farthest from the nearest center, farthest first; from no center, all reach infinitely far.
+    /// The `count` items, each of another group, that reach farthest from the nearest center, farthest first; from no center, all reach infinitely far.
     pub(super) fn farthest(&self, centers: &[P], count: usize) -> Vec<Far> {
         if count == 0 {
             return vec![];
         }
-        if count > SHORT_LIST {
-            let mut all: Vec<Far> = Vec::with_capacity(self.len());
-            self.assign(centers, |item, _, distance| {
-                all.push(Far { item: item as u32, reach: self.items.reach_at(item, distance) });
-            });
+        if count > SHORT_LIST || self.grouping.is_some() {
+            let mut all: Vec<Far> = Vec::with_capacity(self.group_count());
+            match &self.grouping {
+                None => self.assign(centers, |item, _, distance| {
+                    all.push(Far { item: item as u32, reach: self.items.reach_at(item, distance) });
+                }),
+                Some(grouping) => all.extend((0..grouping.len()).map(|group| {
+                    let served = grouping.served(&self.items, group, centers);
+                    Far { item: served.item, reach: served.reach }
+                })),
+            }
             let count = count.min(all.len());
             if count < all.len() {
                 all.select_nth_unstable_by(count, |a, b| self.order(*a, *b));
@@ -144,8 +224,20 @@ impl<P: Position> Cloud<P> {
     }
 
     /// Calls `visit(item, nearest center, its distance)` for each item; of equally near centers, the first. Without any center,
-    /// that numbered 0 is infinitely far.
+    /// that numbered 0 is infinitely far. Items of a group have the center from which the group reaches least far.
     pub(super) fn assign(&self, centers: &[P], mut visit: impl FnMut(usize, usize, f64)) {
+        if let Some(grouping) = &self.grouping {
+            for (group, members) in grouping.members.iter().enumerate() {
+                let center = grouping.served(&self.items, group, centers).center;
+                for &item in members {
+                    let distance = centers.get(center).map_or(f64::INFINITY, |center| {
+                        distance(self.items.at(item as usize), center.as_ref())
+                    });
+                    visit(item as usize, center, distance);
+                }
+            }
+            return;
+        }
         let mut near = Near::default();
         for cell in &self.cells {
             near.find(cell, centers);
@@ -164,6 +256,9 @@ impl<P: Position> Cloud<P> {
         count: usize,
         monitor: &Monitor<'_>,
     ) -> Result<Traversal, Error> {
+        if let Some(grouping) = &self.grouping {
+            return self.traverse_groups(grouping, first, count, monitor);
+        }
         let mut reaches = vec![f64::INFINITY; self.len()];
         let mut tops: Vec<Far> = self
             .cells
@@ -208,6 +303,43 @@ impl<P: Position> Cloud<P> {
                 break;
             }
             next = farthest.item;
+        }
+        Ok(traversal)
+    }
+
+    /// The same of groups, seen from the centers of their balls, each by the item that reached farthest.
+    fn traverse_groups(
+        &self,
+        grouping: &Grouping<P>,
+        first: u32,
+        count: usize,
+        monitor: &Monitor<'_>,
+    ) -> Result<Traversal, Error> {
+        let mut reaches: Vec<Far> = grouping
+            .members
+            .iter()
+            .map(|members| Far { item: members[0], reach: f64::INFINITY })
+            .collect();
+        let mut traversal = Traversal { items: vec![] };
+        let mut next = first;
+        while traversal.items.len() < count.min(grouping.len()) {
+            monitor.check().map_err(ReadError::from)?;
+            traversal.items.push(next);
+            let taken = grouping.of[next as usize] as usize;
+            // It is not to come again, though it reaches beyond its own center.
+            reaches[taken].reach = f64::NEG_INFINITY;
+            let center = &grouping.balls[taken].center;
+            for (group, far) in reaches.iter_mut().enumerate() {
+                let (item, reach) = grouping.farthest_in(&self.items, group, center, far.reach);
+                if reach < far.reach {
+                    *far = Far { item, reach };
+                }
+            }
+            let farthest = reaches.iter().copied().min_by(|a, b| self.order(*a, *b));
+            match farthest.filter(|far| far.reach > f64::NEG_INFINITY) {
+                Some(far) => next = far.item,
+                None => break,
+            }
         }
         Ok(traversal)
     }
@@ -313,7 +445,7 @@ mod tests {
                     let position: Vec<f64> = row[..dim].iter().map(|x| (4.0 * x).round()).collect();
                     items.push(&position, row[dim].abs() + 0.1);
                 }
-                judge(&Cloud::new(items), &format!("{shape:?} {n} × {dim}"));
+                judge(&Cloud::new(items, &[]), &format!("{shape:?} {n} × {dim}"));
             }
         }
     }

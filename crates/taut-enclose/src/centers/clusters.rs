@@ -5,14 +5,18 @@
 //! *Feasible items, cheapest first.* An item inside leaves the radius as it is. One too far from the new item, or for which
 //! (D² + r²)/2D, a lower bound on the radius of a ball that holds the old one's points and one at distance D > r, is too large,
 //! is pruned: it is infeasible for the cluster and for any larger one. For the others the ball is made.
+//! *Groups.* Items of one group go where the first of them was put ([`super::links`]). Before that, a group fits into a cluster if each
+//! of its items does.
 //! *Choice.* The item that fits in the fewest clusters; of equals, the one that makes them grow most. Items that fit in none
 //! need an empty cluster each, if no two of them fit in one: a clique.
 
 use std::sync::Arc;
 
+use super::cloud::Cloud;
 use super::conflict::Levels;
 use super::depth_first::{Place, State};
 use super::items::{ItemSet, Position, Shape, distance};
+use super::links::{Home, Links, cluster_of};
 use super::proof_tree::{ProofLog, Proving};
 use super::small_ball::{Ball, Workspace};
 
@@ -73,6 +77,8 @@ pub(super) struct Clusters<P> {
     /// The core-set, which states share until one of them adds to it.
     pub(super) items: Arc<ItemSet<P>>,
     pub(super) clusters: Vec<Cluster<P>>,
+    /// None where each item stands for itself.
+    pub(super) links: Option<Links>,
     /// Balls must stay below this radius.
     pub(super) threshold: f64,
     k: usize,
@@ -88,6 +94,9 @@ pub(super) struct Clusters<P> {
     /// In a dead end: items that need more empty clusters than there are, if any.
     conflicting: Vec<u32>,
     fits: Vec<Fit>,
+    /// The fits of groups, and for each the number of items that the cluster at hand has room for and holds.
+    group_fits: Vec<Fit>,
+    counts: Vec<[u32; 2]>,
     /// Lists that are not in use.
     lists: Vec<Vec<FeasibleItem>>,
 }
@@ -95,6 +104,7 @@ pub(super) struct Clusters<P> {
 impl<P: Position> Clusters<P> {
     pub(super) fn new(
         items: Arc<ItemSet<P>>,
+        links: Option<Links>,
         k: usize,
         outliers_left: u64,
         threshold: f64,
@@ -104,6 +114,7 @@ impl<P: Position> Clusters<P> {
         Clusters {
             items,
             clusters: vec![],
+            links,
             threshold,
             k,
             outliers_left,
@@ -114,13 +125,18 @@ impl<P: Position> Clusters<P> {
             clique: vec![],
             conflicting: vec![],
             fits: vec![],
+            group_fits: vec![],
+            counts: vec![],
             lists: vec![],
         }
     }
 
-    /// Adds an item to the core-set.
-    pub(super) fn add(&mut self, position: &[f64], extra: f64) {
+    /// Adds an item to the core-set, of this group if items are in groups.
+    pub(super) fn add(&mut self, position: &[f64], extra: f64, group: Option<u32>) {
         Arc::make_mut(&mut self.items).push(position, extra);
+        if let (Some(links), Some(group)) = (&mut self.links, group) {
+            links.add(group);
+        }
         self.left_out.push(false);
         self.levels.push(0);
     }
@@ -142,6 +158,10 @@ impl<P: Position> Clusters<P> {
     /// Puts an item where it may go, as the decision of this level.
     pub(super) fn put_at(&mut self, item: u32, place: Place, level: u32) -> Undo<P> {
         self.levels[item as usize] = level;
+        let cluster = cluster_of(place, self.clusters.len());
+        if let Some(links) = &mut self.links {
+            links.decide(item, cluster, level);
+        }
         match place {
             Place::Open => {
                 let ball = Ball::of_one(&self.items, item);
@@ -197,13 +217,18 @@ impl<P: Position> Clusters<P> {
         }
     }
 
-    /// Determines how each item fits into the clusters.
+    /// Determines how each item fits into the clusters; one whose group has a cluster, into that alone.
     fn update_fits(&mut self) {
         self.fits.clear();
         self.fits.resize(self.items.len(), Fit::default());
-        for cluster in &self.clusters {
+        for (at, cluster) in self.clusters.iter().enumerate() {
             let radius = cluster.ball.radius;
             for candidate in &cluster.feasible {
+                if let Some(links) = &self.links
+                    && links.home(candidate.item).is_some_and(|home| home.cluster != Some(at))
+                {
+                    continue;
+                }
                 let fit = &mut self.fits[candidate.item as usize];
                 if candidate.radius <= radius {
                     fit.is_covered = true;
@@ -213,6 +238,79 @@ impl<P: Position> Clusters<P> {
                 }
             }
         }
+        self.update_group_fits();
+    }
+
+    /// Determines how groups without a cluster fit: where all of their items do.
+    fn update_group_fits(&mut self) {
+        let Some(links) = &self.links else { return };
+        self.group_fits.clear();
+        self.group_fits.resize(links.len(), Fit::default());
+        for cluster in &self.clusters {
+            self.counts.clear();
+            self.counts.resize(links.len(), [0, 0]);
+            let radius = cluster.ball.radius;
+            for candidate in cluster.feasible.iter().filter(|c| c.radius < self.threshold) {
+                let group = links.group(candidate.item);
+                let [fitting, covered] = &mut self.counts[group];
+                *fitting += 1;
+                *covered += u32::from(candidate.radius <= radius);
+                let count = links.members(group).len() as u32;
+                let fit = &mut self.group_fits[group];
+                if *covered == count {
+                    fit.is_covered = true;
+                } else if *fitting == count {
+                    fit.places += 1;
+                    fit.rise += candidate.radius - radius;
+                }
+            }
+        }
+    }
+
+    /// How an item fits; `None` if its group has another item that stands for it: of a group without a cluster, the item that fits
+    /// in the fewest clusters does.
+    fn fit(&self, item: u32) -> Option<Fit> {
+        let alone = self.fits[item as usize];
+        let Some(links) = self.links.as_ref().filter(|links| links.home(item).is_none()) else {
+            return Some(alone);
+        };
+        let linked = links.linked(item);
+        let first = linked.iter().copied().min_by_key(|&other| self.fits[other as usize].places);
+        (first == Some(item)).then(|| self.group_fits[links.group(item)])
+    }
+
+    /// For an item of the cloud that reaches too far, the one to be added to the core-set: itself, or where its group has items in the
+    /// core-set that are all in one of the balls, the item of the group that is farthest from the center of that, which is not among
+    /// them. None if the group is left out.
+    pub(super) fn witness(&self, cloud: &Cloud<P>, far: u32) -> Option<u32> {
+        let (Some(links), Some(grouping)) = (&self.links, &cloud.grouping) else {
+            return Some(far);
+        };
+        let group = grouping.of[far as usize];
+        let known = links.known(group);
+        let Some(&first) = known.first() else { return Some(far) };
+        if self.is_left_out(first) {
+            return None;
+        }
+        let holds = |at: &usize| {
+            let ball = &self.clusters[*at].ball;
+            known.iter().all(|&item| ball.holds(&self.items, item))
+        };
+        let home = links.home(first).and_then(|home| home.cluster);
+        let holding = home.or_else(|| (0..self.clusters.len()).find(holds));
+        let Some(at) = holding else { return Some(far) };
+        let center = &self.clusters[at].ball.center;
+        Some(grouping.farthest_in(&cloud.items, group as usize, center, f64::INFINITY).0)
+    }
+
+    /// Returns true if it is decided that an item is in no cluster.
+    fn is_left_out(&self, item: u32) -> bool {
+        self.left_out[item as usize] || self.home(item).is_some_and(|home| home.cluster.is_none())
+    }
+
+    /// Where the group of an item is, if it has one and that is decided.
+    fn home(&self, item: u32) -> Option<Home> {
+        self.links.as_ref().and_then(|links| links.home(item))
     }
 
     /// Returns what is to be done next. With `chains` dead ends are not reported at once but left to be branched on, as a proof must show them.
@@ -227,20 +325,24 @@ impl<P: Position> Clusters<P> {
         self.unplaced.clear();
         let mut best: Option<(u32, f64, u32)> = None;
         for item in 0..self.items.len() {
-            if self.left_out[item] {
+            if self.is_left_out(item as u32) {
                 continue;
             }
+            let is_settled = self.home(item as u32).is_some();
             if self.items.radius(item) >= self.threshold {
                 // A ball too large by itself can only be left out.
-                let is_stuck = self.outliers_left == 0 && !chains;
+                if is_settled {
+                    self.conflicting.push(item as u32);
+                }
+                let is_stuck = (self.outliers_left == 0 || is_settled) && !chains;
                 return if is_stuck { NodeState::Stuck } else { NodeState::Branch(item as u32) };
             }
-            let Fit { places, is_covered, rise } = self.fits[item];
+            let Some(Fit { places, is_covered, rise }) = self.fit(item as u32) else { continue };
             if is_covered {
                 continue;
             }
             if places == 0 {
-                if capacity == 0 {
+                if capacity == 0 || is_settled {
                     self.conflicting.push(item as u32);
                     return if chains { NodeState::Branch(item as u32) } else { NodeState::Stuck };
                 }
@@ -282,7 +384,7 @@ impl<P: Position> Clusters<P> {
         clique.clear();
         let mut trial = vec![];
         for &start in self.unplaced.iter().take(CLIQUE_STARTS) {
-            greedy_clique(&self.items, start, &self.unplaced, self.threshold, capacity, &mut trial);
+            self.greedy_clique(start, &self.unplaced, capacity, &mut trial);
             if trial.len() > clique.len() {
                 std::mem::swap(&mut clique, &mut trial);
             }
@@ -293,11 +395,59 @@ impl<P: Position> Clusters<P> {
         self.clique = clique;
     }
 
+    /// The largest of greedy cliques from all items in turn; the search ends with one of more than `enough`.
+    pub(super) fn large_clique(&self, enough: usize) -> Vec<u32> {
+        let candidates: Vec<u32> = (0..self.items.len() as u32).collect();
+        let pairs = candidates.len().saturating_mul(enough.min(candidates.len()));
+        let starts = (CLIQUE_PAIRS / pairs.max(1)).max(1);
+        let (mut clique, mut trial) = (vec![], vec![]);
+        for &start in candidates.iter().take(starts) {
+            self.greedy_clique(start, &candidates, enough, &mut trial);
+            if trial.len() > clique.len() {
+                std::mem::swap(&mut clique, &mut trial);
+            }
+            if clique.len() > enough {
+                break;
+            }
+        }
+        clique
+    }
+
+    /// Items no two of which fit in one ball below the threshold, taken in order after `start`; ends with more than `enough`. Of a
+    /// group there is one.
+    fn greedy_clique(&self, start: u32, candidates: &[u32], enough: usize, clique: &mut Vec<u32>) {
+        clique.clear();
+        clique.push(start);
+        for &candidate in candidates {
+            if clique.len() > enough {
+                return;
+            }
+            let is_apart = |&member: &u32| self.are_apart(member, candidate);
+            if candidate != start && clique.iter().all(is_apart) {
+                clique.push(candidate);
+            }
+        }
+    }
+
+    /// Returns true if some items of two groups fit in no ball below the threshold; of two items, where each stands for itself.
+    fn are_apart(&self, a: u32, b: u32) -> bool {
+        let far = |a: u32, b: u32| self.items.pair_radius(a as usize, b as usize) >= self.threshold;
+        let Some(links) = &self.links else { return far(a, b) };
+        links.group(a) != links.group(b)
+            && links.linked(a).iter().any(|&a| links.linked(b).iter().any(|&b| far(a, b)))
+    }
+
     /// Where no ball below the threshold holds all items that fit in no cluster, adds some of which that is true to the conflict.
     fn refute_last_cluster(&mut self) {
-        let mut ball = Ball::of_one(&self.items, self.unplaced[0]);
-        for at in 1..self.unplaced.len() {
-            let (known, more) = (&self.unplaced[..at], self.unplaced[at]);
+        let together: Vec<u32> = match &self.links {
+            None => self.unplaced.clone(),
+            Some(links) => {
+                self.unplaced.iter().flat_map(|&item| links.linked(item)).copied().collect()
+            }
+        };
+        let mut ball = Ball::of_one(&self.items, together[0]);
+        for at in 1..together.len() {
+            let (known, more) = (&together[..at], together[at]);
             if !ball.holds(&self.items, more) {
                 ball.grow(&self.items, known, more, self.threshold, &mut self.work);
             }
@@ -319,9 +469,7 @@ impl<P: Position> Clusters<P> {
         }
         let conflicting = std::mem::take(&mut self.conflicting);
         for &item in &conflicting {
-            for at in 0..self.clusters.len() {
-                self.add_conflict(item, at, &mut levels);
-            }
+            self.add_conflicts(item, &[], &mut levels);
         }
         self.conflicting = conflicting;
         self.add_left_out(&mut levels);
@@ -337,9 +485,43 @@ impl<P: Position> Clusters<P> {
         levels
     }
 
+    /// Adds the levels on which it rests that an item, or its group, fits in none of the clusters but perhaps those of a list.
+    pub(super) fn add_conflicts(&mut self, item: u32, but: &[usize], levels: &mut Levels) {
+        let clusters = 0..self.clusters.len();
+        match self.home(item) {
+            Some(home) => {
+                levels.insert(home.level);
+                if let Some(at) = home.cluster.filter(|at| !but.contains(at)) {
+                    self.add_conflict(item, at, levels);
+                }
+            }
+            None => {
+                clusters.filter(|at| !but.contains(at)).for_each(|at| match self.misfit(item, at) {
+                    Some(misfit) => self.add_conflict(misfit, at, levels),
+                    None => {
+                        let members = &self.clusters[at].members;
+                        members.iter().for_each(|&m| levels.insert(self.levels[m as usize]));
+                    }
+                })
+            }
+        }
+    }
+
+    /// An item of the group of this one that does not fit into a cluster, if that is known; itself where it stands for itself.
+    fn misfit(&self, item: u32, cluster: usize) -> Option<u32> {
+        let Some(links) = &self.links else { return Some(item) };
+        let Cluster { feasible, asked, .. } = &self.clusters[cluster];
+        links.linked(item).iter().copied().filter(|&other| (other as usize) < *asked).find(
+            |other| {
+                let found = feasible.binary_search_by_key(other, |candidate| candidate.item);
+                found.map_or(true, |at| feasible[at].radius >= self.threshold)
+            },
+        )
+    }
+
     /// Adds the levels of members of a cluster with which an item fits in no ball: of one, if there is such a one, and of those the
     /// one that was put there first; else of the support of a ball.
-    pub(super) fn add_conflict(&mut self, item: u32, cluster: usize, levels: &mut Levels) {
+    fn add_conflict(&mut self, item: u32, cluster: usize, levels: &mut Levels) {
         let (items, cluster) = (&self.items, &self.clusters[cluster]);
         let far = cluster
             .members
@@ -370,7 +552,14 @@ impl<P: Position> Clusters<P> {
     /// Where an item may go, by growing radius; empty clusters and outliers last.
     pub(super) fn places(&self, item: u32) -> Vec<(f64, Place)> {
         let mut places: Vec<(f64, Place)> = vec![];
+        let home = self.home(item);
         for (at, cluster) in self.clusters.iter().enumerate() {
+            if home.is_some_and(|home| home.cluster != Some(at)) {
+                continue;
+            }
+            if home.is_none() && self.links.is_some() && self.misfit(item, at).is_some() {
+                continue;
+            }
             let found = cluster.feasible.binary_search_by_key(&item, |candidate| candidate.item);
             if let Ok(found) = found
                 && cluster.feasible[found].radius < self.threshold
@@ -379,6 +568,9 @@ impl<P: Position> Clusters<P> {
             }
         }
         places.sort_by(|a, b| a.0.total_cmp(&b.0));
+        if home.is_some() {
+            return places;
+        }
         if self.empty() > 0 && self.items.radius(item as usize) < self.threshold {
             places.push((0.0, Place::Open));
         }
@@ -397,6 +589,9 @@ impl<P: Position> State for Clusters<P> {
     }
 
     fn undo(&mut self, undo: Undo<P>) {
+        if let Some(links) = &mut self.links {
+            links.undo();
+        }
         match undo {
             Undo::Open => {
                 let cluster = self.clusters.pop().expect("it was opened");
@@ -435,10 +630,17 @@ impl<P: Position> Proving for Clusters<P> {
                 places.push(place);
             }
         };
+        let home = self.links.as_ref().and_then(|links| links.home(item));
         for (at, cluster) in self.clusters.iter().enumerate() {
+            if home.is_some_and(|home| home.cluster != Some(at)) {
+                continue;
+            }
             let mut ball = cluster.ball.clone();
             ball.grow(&self.items, &cluster.members, item, f64::INFINITY, &mut self.work);
             child(ball.radius, &|| ball.lower_bound(&self.items), Place::Into(at));
+        }
+        if home.is_some() {
+            return places;
         }
         if self.clusters.len() < self.k {
             let alone = self.items.radius(item as usize);
@@ -480,51 +682,6 @@ impl<P: Position> Cluster<P> {
         match self.members[..] {
             [only] => items.pair_radius(only as usize, at),
             _ => work.radius_with(items, &self.ball, &self.members, item, threshold),
-        }
-    }
-}
-
-/// The largest of greedy cliques from all candidates in turn; the search ends with one of more than `enough`.
-pub(super) fn large_clique<P: Position>(
-    items: &ItemSet<P>,
-    candidates: &[u32],
-    threshold: f64,
-    enough: usize,
-) -> Vec<u32> {
-    let pairs = candidates.len().saturating_mul(enough.min(candidates.len()));
-    let starts = (CLIQUE_PAIRS / pairs.max(1)).max(1);
-    let (mut clique, mut trial) = (vec![], vec![]);
-    for &start in candidates.iter().take(starts) {
-        greedy_clique(items, start, candidates, threshold, enough, &mut trial);
-        if trial.len() > clique.len() {
-            std::mem::swap(&mut clique, &mut trial);
-        }
-        if clique.len() > enough {
-            break;
-        }
-    }
-    clique
-}
-
-/// Items no two of which fit in one ball below the threshold, taken in order after `start`; ends with more than `enough`.
-fn greedy_clique<P: Position>(
-    items: &ItemSet<P>,
-    start: u32,
-    candidates: &[u32],
-    threshold: f64,
-    enough: usize,
-    clique: &mut Vec<u32>,
-) {
-    clique.clear();
-    clique.push(start);
-    for &candidate in candidates {
-        if clique.len() > enough {
-            return;
-        }
-        let is_apart =
-            |&member: &u32| items.pair_radius(member as usize, candidate as usize) >= threshold;
-        if candidate != start && clique.iter().all(is_apart) {
-            clique.push(candidate);
         }
     }
 }

@@ -46,10 +46,14 @@ pub struct CentersOptions<'a> {
     pub method: CentersMethod,
     /// Where centers may be. Default [`Placement::Free`].
     pub placement: Placement,
-    /// Most items that may be left out. Default 0.
+    /// Most items that may be left out, or groups of them. Default 0.
     pub outliers: u64,
     /// True if the last column holds weights w > 0: a point then counts with w times its distance. Default no.
     pub weights: bool,
+    /// The column, from 0, whose value says to which group a row belongs: one ball is to hold all rows of a group, as it has to hold a
+    /// polytope that is given by its vertices. The column is not a coordinate, radius or weight, and [`Self::outliers`] counts groups.
+    /// Default `None`: each row stands for itself. Not for [`CentersMethod::Thesis`] and [`CentersMethod::Stream`].
+    pub group: Option<usize>,
     /// Most nodes of the search; then the best centers so far are returned with their gap. A node with k clusters beside a
     /// core-set of m items in d dimensions counts once more for each 20,000 of kmd; a search ends up to some hundred nodes
     /// before the last. Writing down the proof may take trees of twenty times the nodes of the search, and 10,000; where it
@@ -72,6 +76,7 @@ impl Default for CentersOptions<'_> {
             placement: Placement::Free,
             outliers: 0,
             weights: false,
+            group: None,
             max_nodes: 10_000_000,
             assignment: false,
             threads: None,
@@ -109,6 +114,9 @@ impl CentersOptions<'_> {
             if self.weights {
                 return wrong("weights", "true".into(), "false for the method thesis");
             }
+            if let Some(group) = self.group {
+                return wrong("group", group.to_string(), "none for the method thesis");
+            }
         }
         if let CentersMethod::Stream(_) = self.method {
             if self.inputs != Items::Points {
@@ -119,6 +127,9 @@ impl CentersOptions<'_> {
             }
             if self.weights {
                 return wrong("weights", "true".into(), "false for the method stream");
+            }
+            if let Some(group) = self.group {
+                return wrong("group", group.to_string(), "none for the method stream");
             }
             if self.assignment {
                 return wrong("assignment", "true".into(), "false for the method stream");

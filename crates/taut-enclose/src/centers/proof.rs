@@ -9,13 +9,14 @@
 //! *Trap.* A plain tree may be larger than the search that found it. It is given up after a number of nodes, and the bound of a
 //! step before is tried.
 
+use std::collections::HashSet;
 use std::sync::Arc;
 
 use taut_certify::{LowerBound, Stop};
-use taut_points::Monitor;
+use taut_points::{Monitor, ReadError};
 
 use super::cloud::Cloud;
-use super::clusters::{Clusters, large_clique};
+use super::clusters::Clusters;
 use super::items::Position;
 use super::proof_tree::{CORE_SET_MAX, ProofLog, ProofTree};
 use super::start::least_pair_radius;
@@ -52,8 +53,34 @@ impl Proof {
         core_set: Vec<u32>,
         monitor: &Monitor<'_>,
     ) -> Result<Self, Error> {
+        if cloud.grouping.is_some() {
+            return Self::separated_groups(cloud, &core_set, monitor);
+        }
         let rounding = PAIR_ROUNDING + cloud.items.dim() as f64 * f64::EPSILON;
         let lower = least_pair_radius(cloud, &core_set, monitor)? * (1.0 - rounding);
+        Ok(Proof { lower, core_set, kind: LowerBound::Separated, nodes: 0 })
+    }
+
+    /// The same for the groups of these items: those of their items that hold the smallest ball of one and another.
+    fn separated_groups<P: Position>(
+        cloud: &Cloud<P>,
+        separated: &[u32],
+        monitor: &Monitor<'_>,
+    ) -> Result<Self, Error> {
+        let (mut lower, mut core_set) = (f64::INFINITY, vec![]);
+        for (at, &a) in separated.iter().enumerate() {
+            monitor.check().map_err(ReadError::from)?;
+            for &b in &separated[..at] {
+                let ball = cloud.ball_of_pair(a, b);
+                lower = lower.min(ball.lower_bound(&cloud.items));
+                core_set.extend(ball.support);
+            }
+            // A group of which no ball needs an item is one of those that are told apart.
+            core_set.push(a);
+        }
+        let mut known = HashSet::new();
+        core_set.retain(|&item| known.insert(item));
+        let lower = if lower.is_finite() { lower * (1.0 - ROUNDING) } else { 0.0 };
         Ok(Proof { lower, core_set, kind: LowerBound::Separated, nodes: 0 })
     }
 
@@ -71,17 +98,21 @@ impl Proof {
         monitor: &Monitor<'_>,
     ) -> Result<Result<Self, Stop>, Error> {
         let capacity = k.saturating_add(z);
-        let separated = large_clique(&cloud.items, core_set, threshold, capacity);
+        let root = |core_set: &[u32], threshold| {
+            let items = Arc::new(cloud.items.some(core_set));
+            let links = cloud.links(core_set);
+            Clusters::new(items, links, k, z as u64, threshold)
+        };
+        let separated = root(core_set, threshold).large_clique(capacity);
         if separated.len() > capacity {
+            let separated = separated.into_iter().map(|item| core_set[item as usize]).collect();
             return Ok(Ok(Self::separated(cloud, separated, monitor)?));
         }
         let mut best: Option<(Vec<u32>, ProofLog)> = None;
         let (mut budget, mut threshold) = (budget, threshold);
         for _ in 0..ROUNDS_MAX {
             let core_set = best.as_ref().map_or(core_set, |(core_set, _)| core_set);
-            let items = Arc::new(cloud.items.some(core_set));
-            let root = Clusters::new(items, k, z as u64, threshold);
-            let log = match ProofTree::new(root, budget, monitor).log()? {
+            let log = match ProofTree::new(root(core_set, threshold), budget, monitor).log()? {
                 Ok(log) => log,
                 Err(why) if best.is_none() => return Ok(Err(why)),
                 Err(_) => break,

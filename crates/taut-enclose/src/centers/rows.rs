@@ -10,6 +10,8 @@
 //! relative 1e-12, which is more than rounding. When the nodes are used up, the best centers and the best bound so far.
 //! *Cost.* O(nd) for each item of X and each radius, O(nkd) for each cover that is measured; nodes exponential in k and z.
 //! Memory: all rows, and n|X|/8 bytes.
+//! *Groups.* A group reaches as far from a row as the farthest of its rows. X has rows of groups, which go where the first of them
+//! was put; a group fits into a cluster if each of its rows in X does.
 //! *Trap.* "Less than the radius", everywhere: at the optimum itself there is a cover.
 
 mod core_set;
@@ -87,6 +89,7 @@ pub(super) fn solve(
     let certificate = CentersCertificate {
         items,
         weights: options.weights,
+        group: options.group.map(|column| column as u64),
         placement: Placement::Rows,
         k: k as u64,
         outliers: options.outliers,
@@ -278,16 +281,20 @@ fn answer(
     centers.sort_unstable_by_key(|&site| sites.row(site));
     centers.dedup();
     let (reaches, nearest) = sites.nearest(&centers);
-    let mut left_out: Vec<u64> = (0..sites.len())
-        .filter(|&site| reaches[site] > incumbent.radius)
-        .map(|site| sites.row(site))
-        .collect();
+    let mut is_out = vec![false; sites.len()];
+    let mut count = 0;
+    for site in (0..sites.len()).filter(|&site| reaches[site] > incumbent.radius) {
+        count += usize::from(!is_out[site]);
+        sites.linked(site).into_iter().for_each(|linked| is_out[linked] = true);
+    }
+    debug_assert!(count <= outliers, "the radius leaves out more than may be");
+    let mut left_out: Vec<u64> =
+        (0..sites.len()).filter(|&site| is_out[site]).map(|site| sites.row(site)).collect();
     left_out.sort_unstable();
-    debug_assert!(left_out.len() <= outliers, "the radius leaves out more than may be");
     let close = incumbent.radius * (1.0 - rounding(sites));
     // Of distances that have lost digits, each may be the largest.
     let may_be_largest = |&site: &usize| {
-        reaches[site] <= incumbent.radius
+        !is_out[site]
             && (reaches[site] >= close || !sites.is_even(site, centers[nearest[site] as usize]))
     };
     let radius = (0..sites.len())

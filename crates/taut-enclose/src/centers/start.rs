@@ -33,7 +33,7 @@ pub(super) struct Start<P> {
     pub(super) lower: f64,
     /// k + z + 1 items; none where there are not so many different ones.
     pub(super) separated: Vec<u32>,
-    /// The traversal that `separated` begins.
+    /// The items of the traversal that `separated` begins; of groups some items each, and of the largest group, too.
     pub(super) traversal: Vec<u32>,
 }
 
@@ -62,6 +62,7 @@ pub(super) fn start<P: Position>(
             traversal.iter().copied().take(k.saturating_add(z).saturating_add(1)).collect();
         let separated = if separated.len() > k.saturating_add(z) { separated } else { vec![] };
         let lower = least_pair_radius(cloud, &separated, monitor)?;
+        let traversal = with_largest(cloud, traversal);
         let Some(best) = &mut best else {
             best = Some(Start { incumbent, plain, lower, separated, traversal });
             continue;
@@ -74,6 +75,24 @@ pub(super) fn start<P: Position>(
         }
     }
     Ok(best.expect("there is a first item"))
+}
+
+/// Of groups in a traversal, the items that stand for them, and those of the group whose own ball is largest: that is a lower bound.
+fn with_largest<P: Position>(cloud: &Cloud<P>, traversal: Vec<u32>) -> Vec<u32> {
+    let Some(grouping) = &cloud.grouping else { return traversal };
+    let largest = (0..grouping.len()).max_by(|&a, &b| {
+        grouping.balls[a].radius.total_cmp(&grouping.balls[b].radius).then(b.cmp(&a))
+    });
+    let largest = largest.map(|group| grouping.members[group][0]);
+    let mut all: Vec<u32> = vec![];
+    for item in traversal.into_iter().chain(largest) {
+        for witness in cloud.witnesses(item) {
+            if !all.contains(&witness) {
+                all.push(witness);
+            }
+        }
+    }
+    all
 }
 
 /// The items farthest from and nearest to the mean position.
@@ -104,7 +123,7 @@ pub(super) fn least_pair_radius<P: Position>(
     for (at, &a) in items.iter().enumerate() {
         monitor.check().map_err(ReadError::from)?;
         for &b in &items[..at] {
-            least = least.min(cloud.items.pair_radius(a as usize, b as usize));
+            least = least.min(cloud.pair_radius(a, b));
         }
     }
     Ok(if least.is_finite() { least } else { 0.0 })
@@ -112,11 +131,8 @@ pub(super) fn least_pair_radius<P: Position>(
 
 /// The first k + z of a traversal, but for the z to which the fewest items are nearest.
 fn heaviest<P: Position>(cloud: &Cloud<P>, traversal: &[u32], k: usize, z: usize) -> Incumbent<P> {
-    let first: Vec<P> = traversal
-        .iter()
-        .take(k.saturating_add(z))
-        .map(|&item| cloud.items.position(item as usize))
-        .collect();
+    let first: Vec<P> =
+        traversal.iter().take(k.saturating_add(z)).map(|&item| cloud.place_of(item)).collect();
     let centers = if first.len() <= k {
         first
     } else {
@@ -153,12 +169,12 @@ pub(super) fn improve<P: Position>(
         monitor.check().map_err(ReadError::from)?;
         left_out.iter_mut().for_each(|is_out| *is_out = false);
         for far in cloud.farthest(&best.centers, z) {
-            left_out[far.item as usize] = true;
+            cloud.linked(far.item).into_iter().for_each(|item| left_out[item as usize] = true);
         }
         let mut centers = best.centers.clone();
         // A center that is still free goes where it helps most.
         if let Some(Far { item, .. }) = outliers_left(cloud, &best, k, z) {
-            centers.push(cloud.items.position(item as usize));
+            centers.push(cloud.place_of(item));
         }
         clusters.iter_mut().for_each(Vec::clear);
         clusters.resize(centers.len(), vec![]);

@@ -14,7 +14,7 @@ use std::sync::Arc;
 use taut_points::{Monitor, ReadError};
 
 use super::cloud::Cloud;
-use super::clusters::{Clusters, NodeState, Undo, large_clique};
+use super::clusters::{Clusters, NodeState, Undo};
 use super::conflict::Levels;
 use super::depth_first::{Place, State};
 use super::items::Position;
@@ -92,10 +92,10 @@ impl<'c, P: Position> Subsearch<'c, P> {
     ) -> Result<Option<Self>, Error> {
         let items = Arc::new(task.cloud.items.some(core_set));
         let threshold = best.radius / (1.0 + gap);
-        let mut state = Clusters::new(items, task.k, task.z as u64, threshold);
+        let links = task.cloud.links(core_set);
+        let mut state = Clusters::new(items, links, task.k, task.z as u64, threshold);
         let capacity = task.k.saturating_add(task.z);
-        let all: Vec<u32> = (0..core_set.len() as u32).collect();
-        let clique = large_clique(&state.items, &all, state.threshold, capacity);
+        let clique = state.large_clique(capacity);
         if clique.len() > capacity {
             return Ok(None);
         }
@@ -201,9 +201,7 @@ impl<'c, P: Position> Subsearch<'c, P> {
     /// Returns what a node rests on whose children are all refuted: also why its item fits in none of the clusters that were not tried.
     fn add_untried(&mut self, frame: Frame<P>) -> Levels {
         let Frame { item, tried, mut conflict, .. } = frame;
-        for at in (0..self.state.clusters.len()).filter(|at| !tried.contains(at)) {
-            self.state.add_conflict(item, at, &mut conflict);
-        }
+        self.state.add_conflicts(item, &tried, &mut conflict);
         self.state.add_left_out(&mut conflict);
         conflict
     }
@@ -242,7 +240,7 @@ impl<'c, P: Position> Subsearch<'c, P> {
             return Ok(true);
         }
         let wanted = self.state.outliers_left().saturating_add(1) as usize;
-        let far = far.iter().map(|far| far.item);
+        let far = far.iter().filter_map(|far| self.state.witness(cloud, far.item));
         let new: Vec<u32> = far.filter(|item| !self.is_known.contains(item)).take(wanted).collect();
         self.learn(&new);
         // Where there is none, the balls hold everything to rounding, and are as small as the threshold asks.
@@ -254,7 +252,9 @@ impl<'c, P: Position> Subsearch<'c, P> {
         for &item in items {
             if self.is_known.insert(item) {
                 let at = item as usize;
-                self.state.add(self.task.cloud.items.at(at), self.task.cloud.items.extra(at));
+                let cloud = self.task.cloud;
+                let (position, extra) = (cloud.items.at(at), cloud.items.extra(at));
+                self.state.add(position, extra, cloud.group_of(item));
                 self.core_set.push(item);
             }
         }

@@ -23,14 +23,16 @@ pub(super) struct TrivialCenters {
 }
 
 impl TrivialCenters {
-    /// Of points; none where k centers leave more than z of them out.
+    /// Of points; none where k centers leave more than z of them out, or z groups, or where a group is at two places.
     pub(super) fn of(points: &ItemRows, k: usize, z: usize) -> Option<Self> {
         if !points.are_points() {
             return None;
         }
         let (n, position) = (points.len(), |row| points.place(row));
         let mut numbers: HashMap<Vec<u64>, usize> = HashMap::new();
-        // The first row of each place, and how many there are.
+        let mut is_seen = vec![false; points.group_count()];
+        let mut place_of_group = vec![usize::MAX; points.group_count()];
+        // The first row of each place, and how many rows or groups there are.
         let mut places: Vec<(usize, usize)> = vec![];
         let mut place_of = Vec::new();
         for row in 0..n {
@@ -39,12 +41,18 @@ impl TrivialCenters {
             let place = *numbers.entry(bits).or_insert(places.len());
             if place == places.len() {
                 places.push((row, 0));
-                // Each place beyond k is left out with a row at least.
+                // Each place beyond k is left out with a row or group at least.
                 if places.len() > k.saturating_add(z) {
                     return None;
                 }
             }
-            places[place].1 += 1;
+            let group = points.groups.get(row).map_or(row, |&group| group as usize);
+            if !std::mem::replace(&mut is_seen[group], true) {
+                places[place].1 += 1;
+                place_of_group[group] = place;
+            } else if place_of_group[group] != place {
+                return None;
+            }
             place_of.push(place);
         }
         let mut order: Vec<usize> = (0..places.len()).collect();
@@ -55,7 +63,8 @@ impl TrivialCenters {
         (0..).zip(&*kept).for_each(|(center, &place)| center_of[place] = Some(center));
         let is_out = |row: &usize| center_of[place_of[*row]].is_none();
         let outliers: Vec<u64> = (0..n).filter(is_out).map(|row| row as u64).collect();
-        if outliers.len() > z {
+        let without_center = center_of.iter().zip(&places).filter(|(center, _)| center.is_none());
+        if without_center.map(|(_, place)| place.1).sum::<usize>() > z {
             return None;
         }
         let first = |&place: &usize| places[place].0;
@@ -93,6 +102,7 @@ impl TrivialCenters {
             certificate: CentersCertificate {
                 items,
                 weights: options.weights,
+                group: options.group.map(|column| column as u64),
                 placement,
                 k: k as u64,
                 outliers: options.outliers,

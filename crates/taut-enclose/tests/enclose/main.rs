@@ -14,6 +14,8 @@ mod centers;
 mod centers_bytes;
 mod centers_damage;
 mod centers_exact;
+mod centers_groups;
+mod centers_groups_damage;
 mod centers_laws;
 mod centers_numbers;
 mod centers_outliers;

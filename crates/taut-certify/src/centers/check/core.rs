@@ -7,6 +7,7 @@
 //! *Rounding.* ρᵢ is rounded up, so that what has no common point had none before. Two items are told apart exactly.
 
 use std::cmp::Ordering;
+use std::collections::HashMap;
 
 use taut_points::Cancelled;
 
@@ -26,12 +27,14 @@ pub(super) struct Core {
     places: Vec<f64>,
     /// r of balls, w of points with weights.
     extras: Vec<f64>,
+    /// For each item the number of its group, by first appearance.
+    groups: Vec<usize>,
     /// ρᵢ, scaled and rounded up; where it is not above 0, nothing holds the item.
     reaches: Vec<f64>,
 }
 
 impl Core {
-    /// The items of these rows of so many columns.
+    /// The items of these rows of so many columns, each a group of its own.
     pub(super) fn of(rows: &[f64], columns: usize, kind: Kind, bound: f64) -> Self {
         let dim = kind.dim(columns);
         let items = || rows.chunks_exact(columns).map(|row| kind.item(row));
@@ -54,8 +57,32 @@ impl Core {
             _ => bound,
         };
         let scale = Scale::of(of_scale);
-        let reaches = lengths.iter().map(|&length| length * scale.up).collect();
-        Core { dim, scale, kind, bound, places, extras, reaches }
+        let reaches: Vec<f64> = lengths.iter().map(|&length| length * scale.up).collect();
+        let groups = (0..reaches.len()).collect();
+        Core { dim, scale, kind, bound, places, extras, groups, reaches }
+    }
+
+    /// The same items, those of one value in one group.
+    pub(super) fn with_groups(mut self, values: &[f64]) -> Self {
+        let mut numbers: HashMap<u64, usize> = HashMap::new();
+        self.groups = values
+            .iter()
+            .map(|value| {
+                let next = numbers.len();
+                *numbers.entry((value + 0.0).to_bits()).or_insert(next)
+            })
+            .collect();
+        self
+    }
+
+    /// For each item the number of its group, from 0 by first appearance.
+    pub(super) fn groups(&self) -> &[usize] {
+        &self.groups
+    }
+
+    /// Number of groups.
+    pub(super) fn group_count(&self) -> usize {
+        self.groups.iter().max().map_or(0, |last| last + 1)
     }
 
     pub(super) fn len(&self) -> usize {

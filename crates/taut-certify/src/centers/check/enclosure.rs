@@ -217,7 +217,7 @@ impl<'a> Enclosure<'a> {
 }
 
 /// |p − c| to a few units in the last place, whatever its size.
-fn distance<T: Scalar>(position: &[T], center: &[f64]) -> f64 {
+pub(super) fn distance<T: Scalar>(position: &[T], center: &[f64]) -> f64 {
     let differences = || position.iter().zip(center).map(|(&x, &c)| x.into() - c);
     let plain: f64 = differences().map(|d| d * d).sum();
     if (1e-280..1e280).contains(&plain) {
@@ -260,6 +260,7 @@ mod tests {
         let certificate = CentersCertificate {
             items: Items::Points,
             weights: false,
+            group: None,
             placement: Placement::Free,
             k: answer.centers.len() as u64,
             outliers: 0,

@@ -1,11 +1,11 @@
 //! Balls with their centers anywhere: the center that is deepest within all balls in which it must lie, and the proof that
 //! there is none.
 //!
-//! *Problem.* Items i of a group ask for a center c with |pᵢ − c| < ρᵢ. Is there one?
+//! *Problem.* Items i of a cluster ask for a center c with |pᵢ − c| < ρᵢ. Is there one?
 //! *Idea.* Let gᵢ(c) = |pᵢ − c|² − ρᵢ² and v = min over c of max over i of gᵢ(c): a center exists just when v < 0. For λ ≥ 0
 //! with Σλᵢ = W and p̄ = Σλᵢpᵢ/W, Σλᵢgᵢ(c) = Σλᵢgᵢ(p̄) + W|c − p̄|² for every c, so that Σλᵢgᵢ(p̄) ≥ 0 proves v ≥ 0. For
 //! equal ρᵢ this is the smallest enclosing ball and the proof that it is too large.
-//! *Method.* v and λ grow item by item. At the optimum of a group, gᵢ(c) = v on a support S of affinely independent
+//! *Method.* v and λ grow item by item. At the optimum of a cluster, gᵢ(c) = v on a support S of affinely independent
 //! items with λᵢ > 0, and c = Σλᵢpᵢ. A new item x with gₓ(c) > v gets weight t: with its projection Σαᵢpᵢ (Σαᵢ = 1) on the
 //! affine hull of S and the rest n, c moves to c + tn, λ on S to λ − tα. As n is orthogonal to the hull, all gᵢ of S stay
 //! equal to each other, and gₓ comes nearer to them by 2t|n|²: so t = (gₓ − gₛ)/2|n|², or as far as λ stays positive; then
@@ -25,14 +25,14 @@ use crate::arithmetic::U;
 /// Items in one ball with its center anywhere.
 ///
 /// Places are measured from the first member, yᵢ = (pᵢ − p₀)·scale, rounded once; they are formed again wherever they are
-/// needed, as there may be many groups.
+/// needed, as there may be many clusters.
 #[derive(Debug, Default)]
-pub(super) struct Group {
+pub(super) struct Cluster {
     members: Vec<usize>,
     fit: Fit,
 }
 
-/// The center that is deepest within the balls of a group, its depth, and multipliers; about p₀ and scaled.
+/// The center that is deepest within the balls of a cluster, its depth, and multipliers; about p₀ and scaled.
 #[derive(Debug, Default)]
 pub(super) struct Fit {
     center: Vec<f64>,
@@ -59,42 +59,43 @@ impl Clone for Fit {
 pub(super) struct Free<'a> {
     core: &'a Core,
     pairs: &'a Pairs,
-    scratch: Group,
+    scratch: Cluster,
     hull: Hull,
 }
 
-/// The result for a group with one item more.
+/// The result for a cluster with one item more.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Tried {
     Refuted,
     /// The item lies where the deepest center is as deep as before.
     Unchanged,
-    /// The scratch space holds the group.
+    /// The scratch space holds the cluster.
     Changed,
 }
 
 impl<'a> Free<'a> {
     pub(super) fn of(core: &'a Core, pairs: &'a Pairs) -> Self {
-        Free { core, pairs, scratch: Group::default(), hull: Hull::default() }
+        Free { core, pairs, scratch: Cluster::default(), hull: Hull::default() }
     }
 
     fn tried(
         &mut self,
-        group: &Group,
+        cluster: &Cluster,
         item: usize,
         meter: &mut Meter<'_>,
     ) -> Result<Tried, Cancelled> {
-        meter.spend(group.members.len() + self.core.dim)?;
-        if !self.core.is_free(item) || group.members.iter().any(|&m| self.pairs.are_apart(item, m))
+        meter.spend(cluster.members.len() + self.core.dim)?;
+        if !self.core.is_free(item)
+            || cluster.members.iter().any(|&m| self.pairs.are_apart(item, m))
         {
             return Ok(Tried::Refuted);
         }
-        if excess(self.core, group, item) <= group.fit.value {
+        if excess(self.core, cluster, item) <= cluster.fit.value {
             return Ok(Tried::Unchanged);
         }
         let scratch = &mut self.scratch;
-        scratch.members.clone_from(&group.members);
-        scratch.fit.clone_from(&group.fit);
+        scratch.members.clone_from(&cluster.members);
+        scratch.fit.clone_from(&cluster.fit);
         scratch.members.push(item);
         fit(self.core, scratch, &mut self.hull, meter)?;
         Ok(match scratch.fit.value >= -1e-9 && is_refuted(self.core, scratch) {
@@ -105,7 +106,7 @@ impl<'a> Free<'a> {
 }
 
 impl Oracle for Free<'_> {
-    type Group = Group;
+    type Cluster = Cluster;
     /// The fit before, where it changed.
     type Undo = Option<Fit>;
 
@@ -113,34 +114,34 @@ impl Oracle for Free<'_> {
         self.core.len()
     }
 
-    fn open(&mut self, item: usize) -> Option<Group> {
+    fn open(&mut self, item: usize) -> Option<Cluster> {
         let fit = Fit {
             center: vec![0.0; self.core.dim],
             value: -square(self.core.reach(item)),
             support: vec![(0, 1.0)],
         };
-        self.core.is_free(item).then_some(Group { members: vec![item], fit })
+        self.core.is_free(item).then_some(Cluster { members: vec![item], fit })
     }
 
     fn grow(
         &mut self,
-        group: &mut Group,
+        cluster: &mut Cluster,
         item: usize,
         meter: &mut Meter<'_>,
     ) -> Result<Option<Option<Fit>>, Cancelled> {
-        let before = match self.tried(group, item, meter)? {
+        let before = match self.tried(cluster, item, meter)? {
             Tried::Refuted => return Ok(None),
             Tried::Unchanged => None,
-            Tried::Changed => Some(std::mem::replace(&mut group.fit, self.scratch.fit.clone())),
+            Tried::Changed => Some(std::mem::replace(&mut cluster.fit, self.scratch.fit.clone())),
         };
-        group.members.push(item);
+        cluster.members.push(item);
         Ok(Some(before))
     }
 
-    fn undo(&self, group: &mut Group, before: Option<Fit>) {
-        group.members.pop();
+    fn undo(&self, cluster: &mut Cluster, before: Option<Fit>) {
+        cluster.members.pop();
         if let Some(fit) = before {
-            group.fit = fit;
+            cluster.fit = fit;
         }
     }
 
@@ -165,42 +166,42 @@ fn relative(core: &Core, origin: usize, item: usize) -> impl Iterator<Item = f64
 }
 
 /// yᵢ of a member.
-fn place(core: &Core, group: &Group, member: usize) -> impl Iterator<Item = f64> {
-    relative(core, group.members[0], group.members[member])
+fn place(core: &Core, cluster: &Cluster, member: usize) -> impl Iterator<Item = f64> {
+    relative(core, cluster.members[0], cluster.members[member])
 }
 
 /// gᵢ(c) of any item.
-fn excess(core: &Core, group: &Group, item: usize) -> f64 {
-    let places = relative(core, group.members[0], item).zip(&group.fit.center);
+fn excess(core: &Core, cluster: &Cluster, item: usize) -> f64 {
+    let places = relative(core, cluster.members[0], item).zip(&cluster.fit.center);
     let distance: f64 = places.map(|(y, c)| square(y - c)).sum();
     distance - square(core.reach(item))
 }
 
-/// Brings the fit of a group to its optimum, when all but the last member are at theirs, and that one is farther.
+/// Brings the fit of a cluster to its optimum, when all but the last member are at theirs, and that one is farther.
 fn fit(
     core: &Core,
-    group: &mut Group,
+    cluster: &mut Cluster,
     hull: &mut Hull,
     meter: &mut Meter<'_>,
 ) -> Result<(), Cancelled> {
     // The depth counts in units of ρ², which is 1 or more.
     const DEPTH_TOLERANCE: f64 = 1e-15;
-    let mut member = group.members.len() - 1;
+    let mut member = cluster.members.len() - 1;
     // Each round raises v, so no support occurs twice; rounding alone needs an end set.
-    for _ in 0..8 + 4 * group.members.len() {
-        admit(core, group, member, hull, meter)?;
-        meter.spend(group.members.len() * core.dim)?;
+    for _ in 0..8 + 4 * cluster.members.len() {
+        admit(core, cluster, member, hull, meter)?;
+        meter.spend(cluster.members.len() * core.dim)?;
         let mut least = f64::NEG_INFINITY;
         member = 0;
-        for (other, &item) in group.members.iter().enumerate() {
-            let excess = excess(core, group, item);
+        for (other, &item) in cluster.members.iter().enumerate() {
+            let excess = excess(core, cluster, item);
             if excess > least {
                 (member, least) = (other, excess);
             }
         }
-        let scale = least.abs().max(square(core.reach(group.members[member])));
-        let is_in_support = group.fit.support.iter().any(|&(other, _)| other == member);
-        if is_in_support || least <= group.fit.value + DEPTH_TOLERANCE * scale {
+        let scale = least.abs().max(square(core.reach(cluster.members[member])));
+        let is_in_support = cluster.fit.support.iter().any(|&(other, _)| other == member);
+        if is_in_support || least <= cluster.fit.value + DEPTH_TOLERANCE * scale {
             break;
         }
     }
@@ -210,24 +211,24 @@ fn fit(
 /// Gives weight to one member that is farther than the support.
 fn admit(
     core: &Core,
-    group: &mut Group,
+    cluster: &mut Cluster,
     member: usize,
     hull: &mut Hull,
     meter: &mut Meter<'_>,
 ) -> Result<(), Cancelled> {
-    let item = group.members[member];
+    let item = cluster.members[member];
     let mut weight = 0.0;
-    while !group.fit.support.is_empty() {
-        hull.project(core, group, member, meter)?;
-        let first = group.members[group.fit.support[0].0];
-        let wanted = excess(core, group, item) - excess(core, group, first);
+    while !cluster.fit.support.is_empty() {
+        hull.project(core, cluster, member, meter)?;
+        let first = cluster.members[cluster.fit.support[0].0];
+        let wanted = excess(core, cluster, item) - excess(core, cluster, first);
         let full = match hull.is_flat {
             true => f64::INFINITY,
             false => (wanted / (2.0 * hull.rest_square)).max(0.0),
         };
         let (mut step, mut leaves) = (full, None);
         for (position, (&alpha, &(_, lambda))) in
-            hull.alpha.iter().zip(&group.fit.support).enumerate()
+            hull.alpha.iter().zip(&cluster.fit.support).enumerate()
         {
             if alpha > 0.0 && lambda / alpha < step {
                 (step, leaves) = (lambda / alpha, Some(position));
@@ -237,24 +238,24 @@ fn admit(
             break;
         }
         weight += step;
-        for (c, n) in group.fit.center.iter_mut().zip(&hull.rest) {
+        for (c, n) in cluster.fit.center.iter_mut().zip(&hull.rest) {
             *c += step * n;
         }
-        for ((_, lambda), alpha) in group.fit.support.iter_mut().zip(&hull.alpha) {
+        for ((_, lambda), alpha) in cluster.fit.support.iter_mut().zip(&hull.alpha) {
             *lambda = (*lambda - step * alpha).max(0.0);
         }
         match leaves {
-            Some(position) => drop(group.fit.support.swap_remove(position)),
+            Some(position) => drop(cluster.fit.support.swap_remove(position)),
             None => break,
         }
     }
-    if group.fit.support.is_empty() {
-        group.fit.center.clear();
-        group.fit.center.extend(relative(core, group.members[0], item));
+    if cluster.fit.support.is_empty() {
+        cluster.fit.center.clear();
+        cluster.fit.center.extend(relative(core, cluster.members[0], item));
         weight = 1.0;
     }
-    group.fit.support.push((member, weight));
-    group.fit.value = excess(core, group, item);
+    cluster.fit.support.push((member, weight));
+    cluster.fit.value = excess(core, cluster, item);
     Ok(())
 }
 
@@ -279,18 +280,18 @@ impl Hull {
     fn project(
         &mut self,
         core: &Core,
-        group: &Group,
+        cluster: &Cluster,
         member: usize,
         meter: &mut Meter<'_>,
     ) -> Result<(), Cancelled> {
-        let (support, dim) = (&group.fit.support, core.dim);
+        let (support, dim) = (&cluster.fit.support, core.dim);
         let (origin, edges) = (support[0].0, support.len() - 1);
         meter.spend(2 * dim * (edges + 1) * (edges + 2))?;
         self.basis.clear();
         self.triangle.clear();
         self.triangle.resize(edges * edges, 0.0);
         for edge in 0..edges {
-            self.take(core, group, origin, support[edge + 1].0);
+            self.take(core, cluster, origin, support[edge + 1].0);
             let before = self.coefficients.len();
             let length = self.rest_square.sqrt();
             for (column, &coefficient) in self.coefficients.iter().enumerate() {
@@ -301,7 +302,7 @@ impl Hull {
             let inverse = if length > 0.0 { 1.0 / length } else { 0.0 };
             self.basis.extend(self.rest.iter().map(|n| n * inverse));
         }
-        let size = self.take(core, group, origin, member);
+        let size = self.take(core, cluster, origin, member);
         self.is_flat = edges >= dim || self.rest_square <= 1e-24 * size;
         // Σ βₑ·edgeₑ = Σ coefficients·basis, from the last edge to the first.
         self.alpha.clear();
@@ -323,10 +324,10 @@ impl Hull {
     }
 
     /// Splits the edge from `origin` to `member` into its part within the basis and the rest; the square of its length.
-    fn take(&mut self, core: &Core, group: &Group, origin: usize, member: usize) -> f64 {
+    fn take(&mut self, core: &Core, cluster: &Cluster, origin: usize, member: usize) -> f64 {
         let dim = core.dim;
         self.rest.clear();
-        let ends = place(core, group, member).zip(place(core, group, origin));
+        let ends = place(core, cluster, member).zip(place(core, cluster, origin));
         self.rest.extend(ends.map(|(p, o)| p - o));
         let size = dot(&self.rest, &self.rest);
         self.coefficients.clear();
@@ -356,31 +357,31 @@ impl Hull {
 /// λᵢgᵢ(c) by less than u(d/8 + m + 24)S; M by less than u(d + m + 8)·Σλᵢ(|tᵢ| + |yᵢ|), so that |M|²/W is at most twice
 /// the square of what was computed over W, and less than uS. Multipliers below 2⁻⁶⁰ are not looked at, and 2⁻⁹⁰⁰ is
 /// more than what can underflow.
-fn is_refuted(core: &Core, group: &Group) -> bool {
+fn is_refuted(core: &Core, cluster: &Cluster) -> bool {
     const MULTIPLIER_MIN: f64 = f64::from_bits((1023 - 60) << 52);
-    let (dim, center) = (core.dim, &group.fit.center);
-    let used = || group.fit.support.iter().filter(|&&(_, lambda)| lambda >= MULTIPLIER_MIN);
+    let (dim, center) = (core.dim, &cluster.fit.center);
+    let used = || cluster.fit.support.iter().filter(|&&(_, lambda)| lambda >= MULTIPLIER_MIN);
     let (mut sum, mut size, mut weight) = (0.0, 0.0, 0.0);
     for &(member, lambda) in used() {
         let (mut square_of, mut from_origin) = ([0.0; 8], [0.0; 8]);
-        for (column, (y, c)) in place(core, group, member).zip(center).enumerate() {
+        for (column, (y, c)) in place(core, cluster, member).zip(center).enumerate() {
             square_of[column % 8] += square(y - c);
             from_origin[column % 8] += square(y);
         }
         let [distance, from_origin]: [f64; 2] = [square_of, from_origin].map(|s| s.iter().sum());
-        let reach = square(core.reach(group.members[member]));
+        let reach = square(core.reach(cluster.members[member]));
         sum += lambda * (distance - reach);
         size += lambda * (distance + from_origin + reach);
         weight += lambda;
     }
     let mut along = vec![0.0; dim];
     for &(member, lambda) in used() {
-        for (along, (y, c)) in along.iter_mut().zip(place(core, group, member).zip(center)) {
+        for (along, (y, c)) in along.iter_mut().zip(place(core, cluster, member).zip(center)) {
             *along += lambda * (y - c);
         }
     }
     let moment: f64 = along.iter().map(|&along| square(along)).sum();
-    let count = group.fit.support.len();
+    let count = cluster.fit.support.len();
     let lost = ((dim / 8 + count + 32) as f64 * U * size + 4.0 * moment / weight) * (1.0 + 1e-9);
     sum - lost >= f64::from_bits((1023 - 900) << 52)
 }
@@ -398,8 +399,8 @@ mod tests {
         let mut meter = Meter::of(&Monitor::silent());
         let pairs = Pairs::of(&core, &mut meter).unwrap();
         let mut free = Free::of(&core, &pairs);
-        let Some(mut group) = free.open(0) else { return true };
-        (1..core.len()).any(|item| free.grow(&mut group, item, &mut meter).unwrap().is_none())
+        let Some(mut cluster) = free.open(0) else { return true };
+        (1..core.len()).any(|item| free.grow(&mut cluster, item, &mut meter).unwrap().is_none())
     }
 
     fn is_radius(rows: &[f64], columns: usize, kind: Kind, radius: f64) {

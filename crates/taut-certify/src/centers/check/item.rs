@@ -1,4 +1,4 @@
-//! The kinds of rows: a point, a ball, or a point with a weight.
+//! The kinds of rows: a point, a ball, or a point with a weight, and the column that names their group.
 
 use taut_points::Scalar;
 
@@ -11,6 +11,45 @@ pub(super) enum Kind {
     Points,
     Balls,
     Weighted,
+}
+
+/// The columns of a row.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Layout {
+    pub(super) kind: Kind,
+    /// The column of the group, which is none of the item's.
+    pub(super) group: Option<usize>,
+    /// d.
+    pub(super) dim: usize,
+}
+
+impl Layout {
+    /// Returns what the certificate says rows are, if rows of so many columns can be that.
+    pub(super) fn of(certificate: &CentersCertificate, columns: usize) -> Result<Self, Violation> {
+        let Some(group) = certificate.group else {
+            let kind = Kind::of(certificate, columns)?;
+            return Ok(Layout { kind, group: None, dim: kind.dim(columns) });
+        };
+        let at = usize::try_from(group).ok().filter(|&group| group < columns && columns > 1);
+        let Some(at) = at else {
+            return Err(CentersViolation::GroupColumn { column: group, columns }.into());
+        };
+        let kind = Kind::of(certificate, columns - 1)?;
+        Ok(Layout { kind, group: Some(at), dim: kind.dim(columns - 1) })
+    }
+
+    /// The numbers of a row that are its item's.
+    pub(super) fn of_item<T: Scalar>(self, row: &[T]) -> Vec<T> {
+        match self.group {
+            None => row.to_vec(),
+            Some(at) => [&row[..at], &row[at + 1..]].concat(),
+        }
+    }
+
+    /// The group of a row, −0 as 0; none where each row stands for itself.
+    pub(super) fn group_of<T: Scalar>(self, row: &[T]) -> Option<f64> {
+        self.group.map(|at| row[at].into() + 0.0)
+    }
 }
 
 /// Position p, radius r and weight w: the item reaches w·|p − c| + r from c. One of r = 0 and w = 1 always holds.

@@ -1,10 +1,11 @@
 //! The replay of the log of a branch and bound search.
 //!
-//! *Idea.* Each branch gives an item to each group in turn, to a new one if there may be more, and to those left out. A
-//! case whose group no ball holds is refuted there and then; of every other the log says how it goes on.
+//! *Idea.* Each branch gives an item to each cluster in turn, to a new one if there may be more, and to those left out. A
+//! case whose cluster no ball holds is refuted there and then; of every other the log says how it goes on. Items of one group go
+//! where the first of them is: those after it have one case.
 //! *Guarantee.* All cases are gone through, or the log is refused. No recursion: the depth is what the log makes it.
-//! *Cost.* For each branch, a test for each group, and the item added to each group that takes it. An item that the deepest
-//! center of its group has room for leaves nothing to be kept, another the center and the multipliers before it: a number
+//! *Cost.* For each branch, a test for each cluster, and the item added to each cluster that takes it. An item that the deepest
+//! center of its cluster has room for leaves nothing to be kept, another the center and the multipliers before it: a number
 //! for each coordinate and two for each multiplier, of which there are at most d + 1. [`UNDO_BYTES_MAX`] bytes are granted.
 
 use super::super::CentersViolation;
@@ -19,20 +20,33 @@ pub(super) const ITEMS: usize = 1 << 14;
 /// At most this many bytes are kept to undo the cases that are gone through.
 pub(super) const UNDO_BYTES_MAX: u64 = 1 << 29;
 
+/// A case beyond all.
+const PAST_ALL: usize = usize::MAX;
+
 /// One branch whose cases are gone through.
 struct Branch<U> {
     item: usize,
-    /// The case to be looked at next: a group by its number, then a new one, then those left out.
+    /// The case to be looked at next: a cluster by its number, then a new one, then those left out.
     next: usize,
+    /// The only case, where an item of the same group was given before: its cluster.
+    only: Option<usize>,
     /// The way to undo the case that is being gone through.
     undo: Undo<U>,
 }
 
 enum Undo<U> {
     Nothing,
-    /// This group got the item.
+    /// This cluster got the item.
     Grown(usize, U),
     Opened,
+    LeftOut,
+}
+
+/// Where the first given item of a group is.
+#[derive(Clone, Copy)]
+enum Home {
+    Nowhere,
+    Cluster(usize),
     LeftOut,
 }
 
@@ -42,6 +56,8 @@ pub(super) struct Log<'a> {
     pub(super) outliers: u64,
     /// The item of each branch, in preorder.
     pub(super) items: &'a [u32],
+    /// For each item of the core-set the number of its group.
+    pub(super) groups: &'a [usize],
     /// At most this many bytes are kept to undo cases.
     pub(super) undo_bytes: u64,
 }
@@ -53,12 +69,15 @@ impl Log<'_> {
         oracle: &mut R,
         meter: &mut Meter<'_>,
     ) -> Result<(), CheckError> {
-        let Log { k, outliers, items: log, undo_bytes: most } = *self;
-        let mut groups: Vec<R::Group> = vec![];
+        let Log { k, outliers, items: log, groups, undo_bytes: most } = *self;
+        let mut clusters: Vec<R::Cluster> = vec![];
         let mut given = vec![0; oracle.len().div_ceil(64)];
         let mut left = outliers;
+        // Groups are numbered from 0, and there are no more than items.
+        let mut homes = vec![Home::Nowhere; oracle.len()];
         let mut entries = log.iter().copied().enumerate();
-        let mut open = vec![taken(&mut entries, &mut given, oracle.len(), log)?];
+        let first = taken(&mut entries, &mut given, oracle.len(), log)?;
+        let mut open = vec![first.to_branch(groups, &homes)?];
         let mut undo_bytes = 0;
         while let Some(branch) = open.last_mut() {
             meter.spend(16)?;
@@ -66,25 +85,33 @@ impl Log<'_> {
                 Undo::Nothing => {}
                 Undo::Grown(number, undo) => {
                     undo_bytes -= R::undo_bytes(&undo) as u64;
-                    oracle.undo(&mut groups[number], undo);
+                    oracle.undo(&mut clusters[number], undo);
                 }
-                Undo::Opened => drop(groups.pop()),
+                Undo::Opened => drop(clusters.pop()),
                 Undo::LeftOut => left += 1,
             }
-            let (case, item) = (branch.next, branch.item);
+            let (item, home) = (branch.item, &mut homes[groups[branch.item]]);
+            let case = match branch.only {
+                None => {
+                    *home = Home::Nowhere;
+                    branch.next
+                }
+                Some(only) if branch.next == 0 => only,
+                Some(_) => PAST_ALL,
+            };
             branch.next += 1;
-            let goes_on = if case < groups.len() {
-                oracle.grow(&mut groups[case], item, meter)?.map(|undo| {
+            let goes_on = if case < clusters.len() {
+                oracle.grow(&mut clusters[case], item, meter)?.map(|undo| {
                     undo_bytes += R::undo_bytes(&undo) as u64;
                     Undo::Grown(case, undo)
                 })
-            } else if case == groups.len() && groups.len() < k {
-                oracle.open(item).map(|group| {
-                    groups.push(group);
+            } else if case == clusters.len() && clusters.len() < k {
+                oracle.open(item).map(|cluster| {
+                    clusters.push(cluster);
                     Undo::Opened
                 })
-            } else if case <= groups.len() + 1 && left > 0 {
-                branch.next = groups.len() + 2;
+            } else if case <= clusters.len() + 1 && left > 0 {
+                branch.next = clusters.len() + 2;
                 left -= 1;
                 Some(Undo::LeftOut)
             } else {
@@ -93,12 +120,18 @@ impl Log<'_> {
                 continue;
             };
             if let Some(undo) = goes_on {
+                if branch.only.is_none() {
+                    *home = match undo {
+                        Undo::LeftOut => Home::LeftOut,
+                        _ => Home::Cluster(case),
+                    };
+                }
                 branch.undo = undo;
                 if undo_bytes > most {
                     return Err(CentersViolation::Kept { branches: open.len(), most }.into());
                 }
                 let entry = taken(&mut entries, &mut given, oracle.len(), log)?;
-                open.push(entry);
+                open.push(entry.to_branch(groups, &homes)?);
             }
         }
         match entries.next() {
@@ -110,13 +143,35 @@ impl Log<'_> {
     }
 }
 
-/// The next branch of the log.
-fn taken<U>(
+/// An item of the log that was not given before.
+#[derive(Clone, Copy)]
+struct Taken {
+    entry: usize,
+    item: u32,
+}
+
+impl Taken {
+    fn to_branch<U>(self, groups: &[usize], homes: &[Home]) -> Result<Branch<U>, Violation> {
+        let (Taken { entry, item }, number) = (self, self.item as usize);
+        let only = match homes[groups[number]] {
+            Home::Nowhere => None,
+            Home::Cluster(cluster) => Some(cluster),
+            Home::LeftOut => {
+                let problem = "whose group is left out";
+                return Err(CentersViolation::Branch { entry, item, problem }.into());
+            }
+        };
+        Ok(Branch { item: number, next: 0, only, undo: Undo::Nothing })
+    }
+}
+
+/// The next entry of the log.
+fn taken(
     entries: &mut impl Iterator<Item = (usize, u32)>,
     given: &mut [u64],
     items: usize,
     log: &[u32],
-) -> Result<Branch<U>, Violation> {
+) -> Result<Taken, Violation> {
     let Some((entry, item)) = entries.next() else {
         return Err(CentersViolation::LogEnds { branches: log.len() }.into());
     };
@@ -129,7 +184,7 @@ fn taken<U>(
         return Err(refused("which was given before").into());
     }
     set(given, number);
-    Ok(Branch { item: number, next: 0, undo: Undo::Nothing })
+    Ok(Taken { entry, item })
 }
 
 #[cfg(test)]
@@ -141,7 +196,7 @@ mod tests {
     use super::super::item::Kind;
     use super::*;
 
-    /// Points that go out from the origin, each a little farther, so that the ball of a group changes with each; the log
+    /// Points that go out from the origin, each a little farther, so that the ball of a cluster changes with each; the log
     /// puts them all into one.
     fn refusal(most: u64) -> CentersViolation {
         let (rows, dim) = (ROWS, DIM);
@@ -162,7 +217,8 @@ mod tests {
         let core = Core::of(&values, dim, Kind::Points, 1e3);
         let pairs = Pairs::of(&core, &mut meter).unwrap();
         let log: Vec<u32> = (0..rows as u32).collect();
-        let log = Log { k: 2, outliers: 0, items: &log, undo_bytes: most };
+        let groups: Vec<usize> = (0..rows).collect();
+        let log = Log { k: 2, outliers: 0, items: &log, groups: &groups, undo_bytes: most };
         match log.replay(&mut Free::of(&core, &pairs), &mut meter) {
             Err(CheckError::Rejected(Violation::Centers(violation))) => violation,
             other => panic!("{other:?}"),
@@ -172,7 +228,7 @@ mod tests {
     const ROWS: usize = 600;
     const DIM: usize = 20;
 
-    /// Copies of the group at each branch would take 29 MB here, and grow by the square of the rows.
+    /// Copies of the cluster at each branch would take 29 MB here, and grow by the square of the rows.
     #[test]
     fn what_is_kept_grows_by_a_fit_for_each_branch() {
         let fit = 8 * DIM + 16 * (DIM + 1);

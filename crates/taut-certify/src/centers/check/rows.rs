@@ -1,7 +1,7 @@
 //! Balls with their centers at rows of the input: which items each row is near enough to.
 //!
 //! *Idea.* A row is as good a center as the set of items less than ρ from it. One more pass over the rows finds these
-//! sets; rows with the same set are one place. A group of items is held by a ball just when some place is near to all of
+//! sets; rows with the same set are one place. A cluster of items is held by a ball just when some place is near to all of
 //! them, which is the intersection of sets of places, one for each item.
 //! *Guarantee.* Whether an item is less than ρ from a row is decided exactly.
 //! *Cost.* O(n·|X|·d) for n rows and |X| items, and |X| bits for each place, of which there are at most n: [`SET_BYTES_MAX`] bytes
@@ -14,7 +14,7 @@ use taut_points::{Cancelled, Monitor, PointSource, PointsHash};
 
 use super::super::CentersViolation;
 use super::core::{Bits, Core, items, set};
-use super::item::Kind;
+use super::item::Layout;
 use super::meter::Meter;
 use super::oracle::Oracle;
 use crate::CheckError;
@@ -23,8 +23,8 @@ use crate::hashed_pass::{WantedRows, hashed_pass};
 /// The sets of all places take at most this many bytes.
 const SET_BYTES_MAX: u64 = 1 << 30;
 
-/// The number of bits kept for each pair of a place and an item: by place, by item, and in the groups and what is kept to undo them, as
-/// each item begins a group or narrows one.
+/// The number of bits kept for each pair of a place and an item: by place, by item, and in the clusters and what is kept to undo them, as
+/// each item begins a cluster or narrows one.
 const SETS_PER_PLACE: u64 = 3;
 
 /// A place takes this many bytes beside its bits.
@@ -40,7 +40,7 @@ impl Places {
     /// Reads all rows once.
     pub(super) fn of(
         core: &Core,
-        kind: Kind,
+        layout: Layout,
         claimed: PointsHash,
         source: &dyn PointSource,
         monitor: &Monitor<'_>,
@@ -52,7 +52,8 @@ impl Places {
             let (mut row, mut meter) = (vec![0.0; source.dim()], Meter::of(monitor));
             for number in 0..rows.len() {
                 rows.copy_row(number, &mut row);
-                let center = kind.item(&row).position;
+                let item = layout.of_item(&row);
+                let center = layout.kind.item(&item).position;
                 let mut near = vec![0; words];
                 for item in 0..core.len() {
                     if !core.is_out_of_reach(item, center, &mut meter)? {
@@ -93,9 +94,9 @@ impl Places {
     }
 }
 
-/// The places that are near to all items of a group.
+/// The places that are near to all items of a cluster.
 impl Oracle for &Places {
-    type Group = Bits;
+    type Cluster = Bits;
     type Undo = Bits;
 
     fn len(&self) -> usize {
@@ -108,18 +109,18 @@ impl Oracle for &Places {
 
     fn grow(
         &mut self,
-        group: &mut Bits,
+        cluster: &mut Bits,
         item: usize,
         meter: &mut Meter<'_>,
     ) -> Result<Option<Bits>, Cancelled> {
-        meter.spend(2 * group.len())?;
-        let both: Bits = group.iter().zip(&self.near[item]).map(|(a, b)| a & b).collect();
+        meter.spend(2 * cluster.len())?;
+        let both: Bits = cluster.iter().zip(&self.near[item]).map(|(a, b)| a & b).collect();
         let is_held = both.iter().any(|&word| word != 0);
-        Ok(is_held.then(|| std::mem::replace(group, both)))
+        Ok(is_held.then(|| std::mem::replace(cluster, both)))
     }
 
-    fn undo(&self, group: &mut Bits, before: Bits) {
-        *group = before;
+    fn undo(&self, cluster: &mut Bits, before: Bits) {
+        *cluster = before;
     }
 
     fn undo_bytes(before: &Bits) -> usize {

@@ -280,6 +280,7 @@ impl Case {
             certificate: CentersCertificate {
                 items: task.items,
                 weights: task.weights,
+                group: None,
                 placement: task.placement,
                 k: k as u64,
                 outliers: z as u64,

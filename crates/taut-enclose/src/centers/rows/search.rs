@@ -73,12 +73,15 @@ impl Search<'_, '_> {
     fn measure(&mut self) -> Option<usize> {
         let (state, core) = (&*self.state, &*self.state.core);
         let mut counts = vec![true; core.sites.len()];
-        state.left_out.iter().for_each(|&item| counts[core.members[item]] = false);
+        for &item in &state.left_out {
+            core.sites.linked(core.members[item]).into_iter().for_each(|site| counts[site] = false);
+        }
         let mut centers: Vec<usize> = vec![];
         for (cluster, held) in state.clusters.iter().zip(state.held()) {
             let items: Vec<usize> = held.into_iter().map(|item| core.members[item]).collect();
             centers.extend(core.sites.middle(&cluster.words, &items));
         }
+        let of_clusters = centers.clone();
         *self.scans += 1;
         let mut reaches = core.sites.reaches(&centers);
         loop {
@@ -96,7 +99,8 @@ impl Search<'_, '_> {
             if radius < self.incumbent.radius {
                 *self.incumbent = Incumbent { centers, radius };
             }
-            return farthest.filter(|_| radius >= core.radius);
+            let farthest = farthest.filter(|_| radius >= core.radius)?;
+            return Some(state.witness(farthest, &of_clusters));
         }
     }
 }

@@ -31,8 +31,17 @@ pub(super) struct Sites {
     weights: Vec<f64>,
     /// By site; empty for points.
     radii: Vec<f64>,
+    groups: Option<SiteGroups>,
     rows: Vec<u64>,
     hash: PointsHash,
+}
+
+/// The groups of rows that one ball is to hold whole.
+struct SiteGroups {
+    /// The group of each site.
+    of: Vec<u32>,
+    /// The sites of each group.
+    members: Vec<Vec<usize>>,
 }
 
 impl Sites {
@@ -45,7 +54,14 @@ impl Sites {
             true => order.iter().map(|&id| rows.row(id as usize)[dim]).collect(),
             false => vec![],
         };
+        let groups = (!rows.groups.is_empty()).then(|| {
+            let of: Vec<u32> = order.iter().map(|&id| rows.groups[id as usize]).collect();
+            let mut members = vec![vec![]; rows.group_count()];
+            of.iter().enumerate().for_each(|(site, &group)| members[group as usize].push(site));
+            SiteGroups { of, members }
+        });
         Sites {
+            groups,
             dim,
             positions: order.iter().flat_map(|&id| rows.place(id as usize)).copied().collect(),
             weights: last(Shape::Weighted),
@@ -78,6 +94,36 @@ impl Sites {
     /// Returns true if all items count alike.
     pub(super) fn are_plain(&self) -> bool {
         self.weights.is_empty() && self.radii.is_empty()
+    }
+
+    /// Returns true if rows are in groups.
+    pub(super) fn are_grouped(&self) -> bool {
+        self.groups.is_some()
+    }
+
+    /// The group of a site, if rows are in groups.
+    pub(super) fn group(&self, site: usize) -> Option<u32> {
+        self.groups.as_ref().map(|groups| groups.of[site])
+    }
+
+    /// The sites that one ball is to hold with a site, itself among them.
+    pub(super) fn linked(&self, site: usize) -> Vec<usize> {
+        match &self.groups {
+            None => vec![site],
+            Some(groups) => groups.members[groups.of[site] as usize].clone(),
+        }
+    }
+
+    /// Of the sites linked to a site, the first that reaches farthest from a center.
+    pub(super) fn farthest_linked(&self, site: usize, center: usize) -> usize {
+        let reach = |site: usize| self.reach(site, self.distance(site, center));
+        let farther = |a: usize, b: usize| if reach(b) > reach(a) { b } else { a };
+        self.linked(site).into_iter().reduce(farther).unwrap_or(site)
+    }
+
+    /// Returns true if a center has a site within a reach less than `radius`.
+    pub(super) fn is_near(&self, site: usize, center: usize, radius: f64) -> bool {
+        self.reach(site, self.distance(site, center)) < radius
     }
 
     /// Returns the reach of an item at a distance: w·distance + r.
@@ -176,8 +222,12 @@ impl Sites {
         least.into_iter().fold(f64::INFINITY, f64::min)
     }
 
-    /// Lowers the reaches of all items to those from one more center.
+    /// Lowers the reaches of all items to those from one more center. Of a group the site that reaches farthest from the best center
+    /// has its reach, and the others −∞.
     pub(super) fn lower(&self, reaches: &mut [f64], center: usize) {
+        if let Some(groups) = &self.groups {
+            return self.lower_groups(groups, reaches, center);
+        }
         let center = self.center(center);
         let chunk = |(number, reaches): (usize, &mut [f64])| {
             let mut distances = [0.0; DISTANCES_PER_BATCH];
@@ -197,15 +247,37 @@ impl Sites {
         }
     }
 
-    /// The reach of every item from the nearest of these centers.
+    fn lower_groups(&self, groups: &SiteGroups, reaches: &mut [f64], center: usize) {
+        let distances = self.by_chunks(center, |_, distances| distances.to_vec()).concat();
+        for members in &groups.members {
+            let reach = |&site: &usize| self.reach(site, distances[site]);
+            let mut farthest = (members[0], f64::NEG_INFINITY);
+            for site in members {
+                if reach(site) > farthest.1 {
+                    farthest = (*site, reach(site));
+                }
+            }
+            let known = members.iter().map(|&site| reaches[site]).fold(f64::NEG_INFINITY, f64::max);
+            if farthest.1 < known {
+                members.iter().for_each(|&site| reaches[site] = f64::NEG_INFINITY);
+                reaches[farthest.0] = farthest.1;
+            }
+        }
+    }
+
+    /// The reach of every item from the nearest of these centers, as [`Self::lower`] gives them.
     pub(super) fn reaches(&self, centers: &[usize]) -> Vec<f64> {
         let mut reaches = vec![f64::INFINITY; self.len()];
         centers.iter().for_each(|&center| self.lower(&mut reaches, center));
         reaches
     }
 
-    /// The reach of every item from the nearest of these centers, and which that is, the first of several.
+    /// The reach of every item from the nearest of these centers, and which that is, the first of several. The sites of a group
+    /// have the center from which the farthest of them reaches least.
     pub(super) fn nearest(&self, centers: &[usize]) -> (Vec<f64>, Vec<u32>) {
+        if let Some(groups) = &self.groups {
+            return self.nearest_of_groups(groups, centers);
+        }
         let mut least = vec![f64::INFINITY; self.len()];
         let mut nearest = vec![0; self.len()];
         for (j, &center) in (0..).zip(centers) {
@@ -218,6 +290,26 @@ impl Sites {
             }
         }
         let reaches = (0..).zip(least).map(|(site, distance)| self.reach(site, distance)).collect();
+        (reaches, nearest)
+    }
+
+    fn nearest_of_groups(&self, groups: &SiteGroups, centers: &[usize]) -> (Vec<f64>, Vec<u32>) {
+        let mut reaches = vec![f64::INFINITY; self.len()];
+        let mut nearest = vec![0; self.len()];
+        let mut least = vec![f64::INFINITY; groups.members.len()];
+        for (j, &center) in (0..).zip(centers) {
+            let distances = self.by_chunks(center, |_, distances| distances.to_vec()).concat();
+            for (members, least) in groups.members.iter().zip(&mut least) {
+                let from_here = |&site: &usize| self.reach(site, distances[site]);
+                let most = members.iter().map(from_here).fold(f64::NEG_INFINITY, f64::max);
+                if most < *least {
+                    *least = most;
+                    members.iter().for_each(|site| {
+                        (reaches[*site], nearest[*site]) = (from_here(site), j);
+                    });
+                }
+            }
+        }
         (reaches, nearest)
     }
 
@@ -320,7 +412,7 @@ mod tests {
 
     fn sites(values: &[f64], dim: usize) -> Sites {
         let points = Points::new(values, dim).unwrap();
-        let rows = ItemRows::read(&points, Items::Points, false, &Monitor::silent());
+        let rows = ItemRows::read(&points, Items::Points, false, None, &Monitor::silent());
         Sites::of(rows.unwrap())
     }
 

@@ -6,6 +6,8 @@
 //! *Reference.* Gonzalez, Theoretical Computer Science 38, 1985; with weights, Dyer and Frieze, Operations Research
 //! Letters 3(6), 1985.
 
+use std::collections::HashSet;
+
 use taut_points::{Monitor, ReadError};
 
 use super::sites::Sites;
@@ -57,10 +59,16 @@ fn farthest_first(
 ) -> Result<(Vec<usize>, f64), Error> {
     let mut order = vec![first];
     let mut reaches = sites.reaches(&order);
+    // A group is taken once, though it reaches beyond its center.
+    let mut taken = HashSet::from([sites.group(first)]);
     let mut last = f64::INFINITY;
     while order.len() < count {
         monitor.check().map_err(ReadError::from)?;
-        let farther = |a: &usize, b: &usize| reaches[*b].total_cmp(&reaches[*a]).then(a.cmp(b));
+        let reach = |site: usize| match sites.are_grouped() && taken.contains(&sites.group(site)) {
+            true => f64::NEG_INFINITY,
+            false => reaches[site],
+        };
+        let farther = |a: &usize, b: &usize| reach(*b).total_cmp(&reach(*a)).then(a.cmp(b));
         let next = match skip {
             0 => (0..sites.len()).min_by(farther),
             _ if skip >= sites.len() => None,
@@ -69,9 +77,10 @@ fn farthest_first(
                 Some(*all.select_nth_unstable_by(skip, farther).1)
             }
         };
-        let Some(next) = next.filter(|&next| reaches[next] > sites.own_reach(next)) else { break };
+        let Some(next) = next.filter(|&next| reach(next) > sites.own_reach(next)) else { break };
         last = reaches[next];
         order.push(next);
+        taken.insert(sites.group(next));
         sites.lower(&mut reaches, next);
     }
     Ok((order, last))
@@ -107,7 +116,7 @@ pub(super) fn start(
         let pairs = || (0..order.len()).flat_map(|a| (0..a).map(move |b| (a, b)));
         let lower = match order.len() == count {
             false => 0.0,
-            true if sites.are_plain() => 0.5 * last,
+            true if sites.are_plain() && !sites.are_grouped() => 0.5 * last,
             true => pairs()
                 .map(|(a, b)| sites.reach_of_pair(order[a], order[b]))
                 .fold(f64::INFINITY, f64::min),

@@ -10,6 +10,7 @@ use std::sync::Arc;
 
 use super::core_set::{CoreSet, Words, size};
 use crate::centers::depth_first::{self, Place};
+use crate::centers::links::{Links, cluster_of};
 use crate::centers::proof_tree::{ProofLog, Proving};
 
 /// At the root, sets of items apart are sought from this many starts, divided by |X|: from every item while X is small.
@@ -36,6 +37,8 @@ pub(super) struct State<'s> {
     /// For each item, whether it was given to a cluster or left out; may be shorter than X.
     given: Vec<bool>,
     pub(super) left_out: Vec<usize>,
+    /// None where each row stands for itself.
+    links: Option<Links>,
     /// Items to branch on first, of which no two fit in one ball.
     lead: Vec<usize>,
 }
@@ -60,12 +63,73 @@ pub(super) struct Undo {
 impl<'s> State<'s> {
     pub(super) fn new(core: Arc<CoreSet<'s>>, k: usize, outliers: usize) -> Self {
         let (clusters, given, left_out, lead) = (vec![], vec![], vec![], vec![]);
-        State { core, k, outliers, clusters, given, left_out, lead }
+        let links = core.sites.are_grouped().then(|| {
+            let mut links = Links::default();
+            let groups = core.members.iter().filter_map(|&site| core.sites.group(site));
+            groups.for_each(|group| links.add(group));
+            links
+        });
+        State { core, k, outliers, clusters, given, left_out, links, lead }
     }
 
     /// Adds an item to X.
     pub(super) fn add(&mut self, site: usize) {
         Arc::make_mut(&mut self.core).add(site);
+        if let (Some(links), Some(group)) = (&mut self.links, self.core.sites.group(site)) {
+            links.add(group);
+        }
+    }
+
+    /// For a site that reaches too far from all centers, the one to be added to X: itself, or where its group has items in X that one of
+    /// the clusters' centers has all within the radius, the site of the group that reaches farthest from there, which is not in X.
+    pub(super) fn witness(&self, farthest: usize, centers: &[usize]) -> usize {
+        let (Some(links), Some(group)) = (&self.links, self.core.sites.group(farthest)) else {
+            return farthest;
+        };
+        let (known, sites) = (links.known(group), self.core.sites);
+        let holds = |&&center: &&usize| {
+            known.iter().all(|&item| {
+                sites.is_near(self.core.members[item as usize], center, self.core.radius)
+            })
+        };
+        match centers.iter().find(holds).filter(|_| !known.is_empty()) {
+            Some(&center) => sites.farthest_linked(farthest, center),
+            None => farthest,
+        }
+    }
+
+    /// Returns true if it is decided that an item's group is left out.
+    fn is_out(&self, item: usize) -> bool {
+        let home = self.links.as_ref().and_then(|links| links.home(item as u32));
+        home.is_some_and(|home| home.cluster.is_none())
+    }
+
+    /// Returns true if it is decided where the group of an item is.
+    fn is_settled(&self, item: usize) -> bool {
+        self.links.as_ref().is_some_and(|links| links.home(item as u32).is_some())
+    }
+
+    /// Returns true if an item stands for others of its group, whose place is open.
+    fn stands_for_group(&self, item: usize) -> bool {
+        self.links.as_ref().is_none_or(|links| {
+            links.home(item as u32).is_some()
+                || links.linked(item as u32).first() == Some(&(item as u32))
+        })
+    }
+
+    /// The number of rows of a cluster that have an item, or those that have the item of its group that fewest have; 0 for clusters that the
+    /// group is not in, if it is in one.
+    fn count(&self, item: usize, number: usize) -> u32 {
+        let column = &self.clusters[number].column;
+        let Some(links) = &self.links else { return column[item] };
+        match links.home(item as u32) {
+            Some(home) if home.cluster == Some(number) => column[item],
+            Some(_) => 0,
+            None => {
+                let linked = links.linked(item as u32).iter();
+                linked.map(|&other| column[other as usize]).min().unwrap_or(0)
+            }
+        }
     }
 
     /// Tests whether an item was given to a cluster or left out.
@@ -86,12 +150,15 @@ impl<'s> State<'s> {
         // Items that fit in no cluster that has items.
         let mut unplaced = vec![];
         let mut best: Option<(usize, bool, f64, usize)> = None;
-        for item in (0..core.len()).filter(|&item| !self.is_given(item)) {
+        let is_open = |&item: &usize| {
+            !self.is_given(item) && !self.is_out(item) && self.stands_for_group(item)
+        };
+        for item in (0..core.len()).filter(is_open) {
             let (mut places, mut freedom) =
                 (0, f64::from(core.size(item)) / core.sites.len() as f64);
             let mut held = false;
-            for cluster in &self.clusters {
-                let count = cluster.column[item];
+            for (number, cluster) in self.clusters.iter().enumerate() {
+                let count = self.count(item, number);
                 held |= count == cluster.size;
                 if count > 0 {
                     places += 1;
@@ -101,12 +168,15 @@ impl<'s> State<'s> {
             if held {
                 continue;
             }
-            if places == 0 {
+            let is_settled = self.is_settled(item);
+            if places == 0 && !is_settled {
                 unplaced.push(item);
             }
             // A ball of a radius may have no row that holds it.
-            places +=
-                usize::from(empty > 0 && core.size(item) > 0) + usize::from(outliers_left > 0);
+            if !is_settled {
+                places +=
+                    usize::from(empty > 0 && core.size(item) > 0) + usize::from(outliers_left > 0);
+            }
             if places == 0 {
                 return NodeState::Dead(vec![item]);
             }
@@ -164,9 +234,14 @@ impl<'s> State<'s> {
 
     /// Where an item may go, in the order in which a proof takes them.
     fn places(&self, item: usize) -> Vec<Place> {
+        let home = self.links.as_ref().and_then(|links| links.home(item as u32));
         let joins = (0..self.clusters.len())
+            .filter(|&j| home.is_none_or(|home| home.cluster == Some(j)))
             .filter(|&j| self.clusters[j].column[item] > 0)
             .map(Place::Into);
+        if home.is_some() {
+            return joins.collect();
+        }
         let opens = self.clusters.len() < self.k && self.core.size(item) > 0;
         let opens = opens.then_some(Place::Open);
         let leaves = (self.left_out.len() < self.outliers).then_some(Place::LeaveOut);
@@ -222,6 +297,10 @@ impl depth_first::State for State<'_> {
         let item = item as usize;
         self.given.resize(self.core.len(), false);
         self.given[item] = true;
+        let cluster = cluster_of(place, self.clusters.len());
+        if let Some(links) = &mut self.links {
+            links.decide(item as u32, cluster, 0);
+        }
         let mut before = None;
         match place {
             Place::Into(j) => {
@@ -240,6 +319,9 @@ impl depth_first::State for State<'_> {
 
     fn undo(&mut self, Undo { item, place, before }: Undo) {
         self.given[item] = false;
+        if let Some(links) = &mut self.links {
+            links.undo();
+        }
         match (place, before) {
             (Place::Into(j), Some(before)) => self.clusters[j] = before,
             (Place::Open, _) => drop(self.clusters.pop()),
@@ -253,6 +335,8 @@ impl Proving for State<'_> {
         match self.examine() {
             NodeState::StreamingReport => vec![],
             NodeState::Branch(item) => vec![item as u32],
+            // What is left of a group when one of its items is decided is looked at again.
+            NodeState::Dead(items) if self.links.is_some() => vec![items[0] as u32],
             NodeState::Dead(items) => items.into_iter().map(|item| item as u32).collect(),
         }
     }

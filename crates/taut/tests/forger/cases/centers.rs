@@ -14,10 +14,15 @@ pub fn all() -> Vec<Case> {
     for (dim, count) in [(1, 6), (2, 8), (3, 7)] {
         let mut inputs = clouds::points(dim, count);
         inputs.truncate(if dim == 2 { inputs.len() } else { 4 });
-        found.extend(cases(inputs, |input| solve(input, Items::Points, false)));
+        found.extend(cases(inputs, |input| solve(input, Items::Points, false, None)));
     }
-    found.extend(cases(weighted(), |input| solve(input, Items::Points, true)));
-    found.extend(cases(balls(), |input| solve(input, Items::Balls, false)));
+    found.extend(cases(weighted(), |input| solve(input, Items::Points, true, None)));
+    found.extend(cases(balls(), |input| solve(input, Items::Balls, false, None)));
+    // The last column, or the first: the others are coordinates, a radius or a weight.
+    found.extend(cases(grouped(2), |input| solve(input, Items::Points, false, Some(2))));
+    found.extend(cases(grouped(0), |input| solve(input, Items::Points, false, Some(0))));
+    found.extend(cases(grouped(2), |input| solve(input, Items::Balls, false, Some(2))));
+    found.extend(cases(grouped(2), |input| solve(input, Items::Points, true, Some(2))));
     for case in &mut found {
         let roomy: Vec<_> = case
             .own
@@ -80,8 +85,40 @@ fn balls() -> Vec<Input> {
     ]
 }
 
-fn solve(input: &Input, items: Items, weights: bool) -> Vec<Solved> {
-    let base = CentersOptions { epsilon: 1e-9, weights, ..Default::default() };
+/// Nine rows of three numbers above 0, of which this one is the group: groups of one to three rows, apart, nested, one as large as the
+/// others together, copies of each other, and numbers of all sizes.
+fn grouped(column: usize) -> Vec<Input> {
+    let mut random = Random::new("groups", column as u64);
+    let of = |name: &str, groups: [i32; 9], number: &mut dyn FnMut(i32, usize) -> f64| {
+        let rows = (0..9).flat_map(|row| {
+            let mut values = vec![number(groups[row], row), number(groups[row], row + 9)];
+            values.insert(column, f64::from(groups[row]) - 1.0);
+            values
+        });
+        Input::new(format!("{name}, column {column}"), rows.collect(), 3)
+    };
+    let places: Vec<f64> = (0..40).map(|_| 0.5 + 9.0 * random.unit()).collect();
+    let shakes: Vec<f64> = (0..18).map(|_| random.unit()).collect();
+    vec![
+        of("groups apart", [0, 0, 0, 1, 1, 1, 2, 2, 3], &mut |group, at| {
+            places[group as usize * 2 + at / 9] + shakes[at]
+        }),
+        of("groups that overlap", [0, 1, 2, 3, 0, 1, 2, 3, 4], &mut |_, at| 0.5 + 5.0 * shakes[at]),
+        of("one large group", [0, 1, 2, 0, 1, 2, 0, 3, 4], &mut |group, at| {
+            let size = if group == 0 { 9.0 } else { 1.0 };
+            1.0 + size * shakes[at] + places[group as usize]
+        }),
+        of("copies of groups", [0, 0, 1, 1, 2, 2, 3, 3, 4], &mut |group, at| {
+            f64::from(1 + group / 2 * 7 + (at % 2) as i32)
+        }),
+        of("groups of 1e-300", [0, 0, 1, 1, 2, 2, 3, 3, 4], &mut |group, at| {
+            (places[group as usize] + shakes[at]) * 1e-300
+        }),
+    ]
+}
+
+fn solve(input: &Input, items: Items, weights: bool, group: Option<usize>) -> Vec<Solved> {
+    let base = CentersOptions { epsilon: 1e-9, weights, group, ..Default::default() };
     let rows = CentersOptions { placement: Placement::Rows, ..base };
     let ways = [
         ("two", 2, base),

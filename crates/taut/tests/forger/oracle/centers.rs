@@ -19,6 +19,7 @@ const ROWS_MAX: usize = 10;
 struct Problem {
     items: u8,
     has_weights: bool,
+    group: Option<u64>,
     is_discrete: bool,
 }
 
@@ -32,7 +33,9 @@ pub struct CentersOracle {
 /// The least radius of each number of balls around each subset of the rows, from below and from above.
 struct Optima {
     bodies: Vec<Body>,
-    /// By whether it is a bound from above, by the number of balls less 1, and by the subset.
+    /// The rows of each group, each row one where there are none.
+    groups: Vec<Vec<usize>>,
+    /// By whether it is a bound from above, by the number of balls less 1, and by the subset of groups.
     least: [Vec<Vec<Dyadic>>; 2],
 }
 
@@ -48,29 +51,60 @@ impl CentersOracle {
         let (answer, certificate) = (&solution.answer, &solution.certificate);
         let is_discrete = certificate.placement == Placement::Rows;
         let items = certificate.items as u8;
-        let problem = Problem { items, has_weights: certificate.weights, is_discrete };
+        let (has_weights, group) = (certificate.weights, certificate.group);
+        let problem = Problem { items, has_weights, group, is_discrete };
         let (values, columns) = (&self.values, self.columns);
         let optima = self.solved.entry(problem).or_insert_with(|| {
+            let groups = groups(values, columns, certificate)?;
             bodies(values, columns, certificate).map(|bodies| match is_discrete {
-                true => Optima::of_rows(bodies),
-                false => Optima::free(bodies),
+                true => Optima::of_rows(bodies, groups),
+                false => Optima::free(bodies, groups),
             })
         });
         let Some(optima) = optima else {
             return Truth::False("the rows are no such items".into());
         };
-        form(answer, certificate, verdict, &optima.bodies)
-            .and(|| holds(answer, &optima.bodies))
-            .and(|| assigned(answer, &optima.bodies))
+        form(answer, certificate, verdict, optima)
+            .and(|| holds(answer, optima))
+            .and(|| match certificate.group {
+                None => assigned(answer, &optima.bodies),
+                Some(_) => assigned_together(answer, optima),
+            })
             .and(|| optima.bounds(certificate, verdict))
     }
+}
+
+/// The rows of each group, by first appearance; none if the column of groups is not there or all there is.
+fn groups(
+    values: &[f64],
+    columns: usize,
+    certificate: &CentersCertificate,
+) -> Option<Vec<Vec<usize>>> {
+    let rows = values.len() / columns;
+    let Some(column) = certificate.group else {
+        return Some((0..rows).map(|row| vec![row]).collect());
+    };
+    let column = usize::try_from(column).ok().filter(|&column| column < columns && columns > 1)?;
+    let mut found: Vec<(f64, Vec<usize>)> = vec![];
+    for (row, values) in values.chunks_exact(columns).enumerate() {
+        // By value: zeros of either sign are one group.
+        match found.iter_mut().find(|(value, _)| *value == values[column]) {
+            Some((_, rows)) => rows.push(row),
+            None => found.push((values[column], vec![row])),
+        }
+    }
+    Some(found.into_iter().map(|(_, rows)| rows).collect())
 }
 
 /// Reads rows as the certificate says; none if they cannot be that.
 fn bodies(values: &[f64], columns: usize, certificate: &CentersCertificate) -> Option<Vec<Body>> {
     let body = |row: &[f64]| {
-        let (position, radius, weight) = match (certificate.items, certificate.weights, row) {
-            (Items::Points, false, _) => (row, 0.0, 1.0),
+        let mut row = row.to_vec();
+        if let Some(group) = certificate.group {
+            row.remove(group as usize);
+        }
+        let (position, radius, weight) = match (certificate.items, certificate.weights, &row[..]) {
+            (Items::Points, false, row) => (row, 0.0, 1.0),
             (Items::Points, true, [position @ .., weight]) => (position, 0.0, *weight),
             (Items::Balls, false, [position @ .., radius]) => (position, *radius, 1.0),
             _ => return None,
@@ -89,8 +123,11 @@ fn form(
     answer: &Centers,
     certificate: &CentersCertificate,
     verdict: &CentersVerdict,
-    bodies: &[Body],
+    optima: &Optima,
 ) -> Truth {
+    let bodies = &optima.bodies;
+    let is_out = |row: usize| answer.outliers.contains(&(row as u64));
+    let left_out = optima.groups.iter().filter(|rows| rows.iter().any(|&row| is_out(row)));
     let (n, dim) = (bodies.len() as u64, bodies[0].position.len());
     let is_number = |x: f64| x >= 0.0 && x.is_sign_positive() && x.is_finite();
     let is_ascending = |rows: &[u64]| {
@@ -122,7 +159,11 @@ fn form(
         (places.iter().all(|place| place.len() == dim), "a center has another dimension"),
         (places.iter().flatten().all(|x| x.is_finite()), "a center is not finite"),
         (is_ascending(&answer.outliers), "the outliers are no ascending list of rows"),
-        (answer.outliers.len() as u64 <= certificate.outliers, "there are too many outliers"),
+        (left_out.clone().count() as u64 <= certificate.outliers, "there are too many outliers"),
+        (
+            left_out.clone().all(|rows| rows.iter().all(|&row| is_out(row))),
+            "a group is left out in part",
+        ),
         (is_ascending(&core), "the core-set is no list of different rows"),
         (verdict.upper == answer.radius, "the upper bound is not the radius"),
         (verdict.lower == answer.lower_bound, "the lower bound is another one"),
@@ -148,15 +189,53 @@ fn form(
     Truth::claim(is_covered, || "the radius exceeds the lower bound by more than the gap".into())
 }
 
-/// Every row that is not left out lies in a ball.
-fn holds(answer: &Centers, bodies: &[Body]) -> Truth {
+/// Every group that is not left out lies in a ball.
+fn holds(answer: &Centers, optima: &Optima) -> Truth {
     let radius = Dyadic::of(answer.radius);
     let centers: Vec<Vec<Dyadic>> = answer.centers.iter().map(|center| exact(center)).collect();
-    for (row, body) in bodies.iter().enumerate() {
-        let is_held = answer.outliers.contains(&(row as u64))
-            || centers.iter().any(|center| body.is_within(center, &radius));
-        if !is_held {
-            return Truth::False(format!("row {row} is in no ball"));
+    for rows in &optima.groups {
+        let is_within = |center: &Vec<Dyadic>| {
+            rows.iter().all(|&row| optima.bodies[row].is_within(center, &radius))
+        };
+        if !answer.outliers.contains(&(rows[0] as u64)) && !centers.iter().any(is_within) {
+            return Truth::False(format!("no ball holds all of the rows {rows:?}"));
+        }
+    }
+    Truth::True
+}
+
+/// Every group is assigned to one center, from which it reaches least far, up to what the sum of a distance in `f64` is off by.
+fn assigned_together(answer: &Centers, optima: &Optima) -> Truth {
+    if answer.assignment.is_empty() {
+        return Truth::True;
+    }
+    if answer.assignment.len() != optima.bodies.len() {
+        return Truth::False("the assignment has another length".into());
+    }
+    for rows in &optima.groups {
+        let center = answer.assignment[rows[0]];
+        if rows.iter().any(|&row| answer.assignment[row] != center) {
+            return Truth::False(format!("the rows {rows:?} have several centers"));
+        }
+        let reach = |center: &Vec<f64>, end: usize| {
+            let place = exact(center);
+            let reaches =
+                rows.iter().map(|&row| optima.bodies[row].reach(&place, 200)[end].clone());
+            reaches.max().unwrap_or_else(Dyadic::zero)
+        };
+        let Some(own) = answer.centers.get(center as usize) else {
+            return Truth::False(format!("the rows {rows:?} are assigned to center {center}"));
+        };
+        let dim = own.len() as i64;
+        for other in &answer.centers {
+            let nearer = reach(other, 1);
+            let granted =
+                &(&nearer * &Dyadic::integer(dim + 60)).scaled(-53) + &Dyadic::power(-1070);
+            if reach(own, 0) > &nearer + &granted {
+                return Truth::False(format!(
+                    "the rows {rows:?} have a center nearer than their own"
+                ));
+            }
         }
     }
     Truth::True
@@ -193,11 +272,13 @@ fn assigned(answer: &Centers, bodies: &[Body]) -> Truth {
 
 impl Optima {
     /// Centers anywhere: the smallest ball of each subset, then the best partition of each.
-    fn free(bodies: Vec<Body>) -> Self {
-        let balls: Vec<[Dyadic; 2]> = (1u32..1 << bodies.len())
+    fn free(bodies: Vec<Body>, groups: Vec<Vec<usize>>) -> Self {
+        let balls: Vec<[Dyadic; 2]> = (1u32..1 << groups.len())
             .map(|mask| {
-                let subset: Vec<Body> =
-                    chosen(mask, bodies.len()).map(|i| bodies[i].clone()).collect();
+                let subset: Vec<Body> = chosen(mask, groups.len())
+                    .flat_map(|group| &groups[group])
+                    .map(|&row| bodies[row].clone())
+                    .collect();
                 let found = bracket(&subset);
                 [found.lower, found.upper]
             })
@@ -207,34 +288,42 @@ impl Optima {
                 .into_iter()
                 .chain(balls.iter().map(|ball| ball[end].clone()))
                 .collect();
-            partitions(one, bodies.len())
+            partitions(one, groups.len())
         });
-        Optima { bodies, least }
+        Optima { bodies, groups, least }
     }
 
     /// Centers at rows: the best choice of so many rows for each subset.
-    fn of_rows(bodies: Vec<Body>) -> Self {
-        let (n, bits) = (bodies.len(), digits(&bodies));
+    fn of_rows(bodies: Vec<Body>, groups: Vec<Vec<usize>>) -> Self {
+        let (n, bits) = (groups.len(), digits(&bodies));
+        let of_group = |rows: &Vec<usize>, center: &Body| {
+            let reaches: Vec<[Dyadic; 2]> =
+                rows.iter().map(|&row| bodies[row].reach(&center.position, bits)).collect();
+            [0, 1].map(|end| {
+                let reaches = reaches.iter().map(|reach| reach[end].clone());
+                reaches.max().unwrap_or_else(Dyadic::zero)
+            })
+        };
         let reach: Vec<Vec<[Dyadic; 2]>> = bodies
             .iter()
-            .map(|center| bodies.iter().map(|body| body.reach(&center.position, bits)).collect())
+            .map(|center| groups.iter().map(|rows| of_group(rows, center)).collect())
             .collect();
         let least = [0, 1].map(|end| {
             let one = (0u32..1 << n)
                 .map(|mask| {
                     let farthest =
                         |from: usize| chosen(mask, n).map(|i| reach[from][i][end].clone()).max();
-                    (0..n).filter_map(farthest).min().unwrap_or_else(Dyadic::zero)
+                    (0..bodies.len()).filter_map(farthest).min().unwrap_or_else(Dyadic::zero)
                 })
                 .collect();
             partitions(one, n)
         });
-        Optima { bodies, least }
+        Optima { bodies, groups, least }
     }
 
-    /// The least radius of at most k balls around all rows except z.
+    /// The least radius of at most k balls around all groups except z.
     fn optimum(&self, k: u64, outliers: u64, end: usize) -> Dyadic {
-        let n = self.bodies.len();
+        let n = self.groups.len();
         let layer = &self.least[end][(k as usize).clamp(1, n) - 1];
         let kept = (n as u64).saturating_sub(outliers) as u32;
         (0u32..1 << n)
