@@ -79,16 +79,16 @@ pub(super) fn figures(plan: &Plan) -> Result<()> {
     Ok(fs::write(plan.out.join("figures-1-16-17.csv"), csv)?)
 }
 
+/// Draws the points, or some thousands of them, with their balls.
 fn draw(
     plan: &Plan,
     number: u32,
     found: &Solution<Centers>,
     points: &Points<'_, f64>,
 ) -> Result<()> {
-    let options = DrawOptions::default();
-    for (at, figure) in centers_figures(found, points, &options)?.iter().enumerate() {
-        let letter = if at == 0 { String::new() } else { format!("-{}", at + 1) };
-        let path = plan.out.join(format!("figure-{number:02}{letter}.svg"));
+    let options = DrawOptions { max_points: 4000, ..DrawOptions::default() };
+    if let Some(figure) = centers_figures(found, points, &options)?.first() {
+        let path = plan.out.join(format!("figure-{number:02}.svg"));
         fs::write(&path, to_svg(figure, &Style::default()))?;
         println!("{}", path.display());
     }
