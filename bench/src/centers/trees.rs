@@ -26,10 +26,10 @@ struct Cloud {
 const NEAREST: [Cloud; 6] = [
     Cloud { law: Distribution::Uniform, n: 1_000_000, dim: 3 },
     Cloud { law: Distribution::Uniform, n: 100_000, dim: 3 },
-    Cloud { law: Distribution::Clusters, n: 1_000_000, dim: 3 },
+    Cloud { law: Distribution::Clusters { count: 5, spread: 0.05 }, n: 1_000_000, dim: 3 },
     Cloud { law: Distribution::Sphere, n: 1_000_000, dim: 3 },
     Cloud { law: Distribution::Uniform, n: 1_000_000, dim: 2 },
-    Cloud { law: Distribution::Clusters, n: 1_000_000, dim: 2 },
+    Cloud { law: Distribution::Clusters { count: 5, spread: 0.05 }, n: 1_000_000, dim: 2 },
 ];
 
 const PAIRS: [Cloud; 4] = [NEAREST[0], NEAREST[1], NEAREST[2], NEAREST[3]];

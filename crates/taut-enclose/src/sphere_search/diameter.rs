@@ -146,6 +146,7 @@ impl<'a> Task<'a> {
         let (below, group) = (&nodes.levels[split.0 as usize - 1], split.1 as usize);
         let lowest_rows = below.lowest_rows_of(group);
         let first = stack.len();
+        let is_parent = split.0 == kept.0 + 1 && kept.1 as usize / FANOUT == split.1 as usize;
         let is_root = kept.0 == nodes.root_level();
         let (keys, kept_row, kept_radius) = if is_root {
             ([M::ABOVE_ALL; FANOUT], 0, 0.0)
@@ -156,13 +157,13 @@ impl<'a> Task<'a> {
             let center = level.center_of(dim.get(), node);
             let ball = (&center[..], level.radii[node]);
             let keys = below.upper::<D, M>(dim, group, (&low, &high), ball);
-            (keys, level.lowest_rows[node], level.row_radii.get(node).copied().unwrap_or(0.0))
+            (keys, level.lowest_rows[node], level.row_radius(node))
         };
         let keys = M::lengthen(keys, |_| kept_radius);
         for lane in 0..below.width(group) {
             let child = (split.0 - 1, (group * FANOUT + lane) as u32);
-            // Of two nodes of one level each pair is met in one order.
-            if child.0 == kept.0 && child.1 < kept.1 {
+            // Of the children of one node each pair is met in one order.
+            if is_parent && child.1 < kept.1 {
                 continue;
             }
             let mut rows = [lowest_rows[lane], kept_row];

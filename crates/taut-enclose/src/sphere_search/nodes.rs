@@ -108,9 +108,10 @@ impl Level {
         self.boxes[group * size..][..size].as_chunks().0
     }
 
+    /// The largest radius of a row of a node, 0 of points.
     #[inline(always)]
-    fn row_radius(&self, group: usize, lane: usize) -> f64 {
-        self.row_radii[group * FANOUT + lane]
+    pub(super) fn row_radius(&self, node: usize) -> f64 {
+        self.row_radii.get(node).copied().unwrap_or(0.0)
     }
 
     /// Lower bounds of the keys of the rows of a group's nodes from a box, which may be a place.
@@ -134,7 +135,7 @@ impl Level {
             }
             differences
         });
-        M::lengthen(keys, |lane| -self.row_radius(group, lane))
+        M::lengthen(keys, |lane| -self.row_radius(group * FANOUT + lane))
     }
 
     /// Upper bounds of the keys of the rows of a group's nodes from a box, which may be a place, and which the ball around `center`
@@ -174,7 +175,7 @@ impl Level {
             let by_ball = M::key_above(M::distance(between[lane]) + (radius + radii[lane]));
             keys[lane] = if by_ball < keys[lane] { by_ball } else { keys[lane] };
         }
-        M::lengthen(keys, |lane| self.row_radius(group, lane))
+        M::lengthen(keys, |lane| self.row_radius(group * FANOUT + lane))
     }
 
     /// The lowest rows of a group's nodes.

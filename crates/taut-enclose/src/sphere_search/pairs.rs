@@ -196,7 +196,7 @@ impl BlockBounds {
     fn of(tree: &SphereSearch, block: usize) -> Self {
         let level: &Level = &tree.nodes.levels[0];
         let (low, high) = level.box_of(tree.dim(), block);
-        let row_radius = level.row_radii.get(block).copied().unwrap_or(0.0);
+        let row_radius = level.row_radius(block);
         let width = (tree.len as usize - block * BLOCK_SIZE).min(BLOCK_SIZE);
         BlockBounds { block, low, high, row_radius, width }
     }

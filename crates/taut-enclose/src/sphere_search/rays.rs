@@ -169,7 +169,7 @@ impl FindHits {
         let first = stack.len();
         for lane in 0..below.width(group) {
             let node = group * FANOUT + lane;
-            let row_radius = below.row_radii.get(node).copied().unwrap_or(0.0) + self.hit_radius;
+            let row_radius = below.row_radius(node) + self.hit_radius;
             let radius = (below.radii[node] + row_radius) * ray.scale;
             let (along, away) = (approach.along[lane], approach.away[lane]);
             let radius = radius + ray.slack * (radius + along.abs() + away);
