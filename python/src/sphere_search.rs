@@ -11,8 +11,7 @@ use crate::rows::Rows;
 use crate::work::interruptible;
 
 /// What queries found: where the rows of each begin, the rows, and their distances.
-type Lists<'py> =
-    (Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<f64>>);
+type Lists<'py> = (Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<f64>>);
 
 /// A tree that answers queries.
 #[pyclass(frozen, module = "taut._native")]
@@ -119,7 +118,8 @@ impl SearchTree {
             }
         })?;
         let found = found.map_err(|error| raise(error, Items::Points, 0))?;
-        let rows = |place: usize| found.iter().map(|pair| pair.rows[place] as i64).collect::<Vec<_>>();
+        let rows =
+            |place: usize| found.iter().map(|pair| pair.rows[place] as i64).collect::<Vec<_>>();
         let distances: Vec<f64> = found.iter().map(|pair| pair.distance).collect();
         Ok((rows(0).to_pyarray(py), rows(1).to_pyarray(py), distances.to_pyarray(py)))
     }

@@ -1,6 +1,6 @@
 //! Queries of sphere trees: the nearest row beside kiddo, and touching pairs of balls beside parry3d's hierarchy of boxes.
 //!
-//! All on one thread, as the peers have one. Answers are compared before times: distances to the last bit, and pairs one by one.
+//! All on one thread, as the peers have one, in processor time. Answers are compared before times: distances to the last bit, and pairs one by one.
 
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
 use taut_certify::Items;
@@ -49,15 +49,16 @@ pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
     Ok(())
 }
 
-/// Times of one program.
+/// The median of times.
 fn median(times: &[f64]) -> f64 {
     Summary::of(times).map_or(f64::NAN, |summary| summary.median)
 }
 
+/// Does the work, and adds its processor time.
 fn timed<R>(times: &mut Vec<f64>, work: impl FnOnce() -> R) -> R {
-    let start = Instant::now();
+    let meter = Meter::start();
     let found = work();
-    times.push(start.elapsed().as_secs_f64());
+    times.push(meter.stop().cpu);
     found
 }
 
@@ -107,9 +108,11 @@ fn nearest<const D: usize>(context: &Context, out: &mut Outcome, cloud: Cloud) -
         let queries = Points::new(&places, dim)?;
         let mut times: [Vec<f64>; 3] = Default::default();
         for _ in 0..context.runs {
-            let found = timed(&mut times[0], || pool.install(|| search.nearest(&queries, &options)))?;
-            let single: Vec<_> =
-                timed(&mut times[1], || queries.rows().map(|place| search.nearest_to(place)).collect());
+            let found =
+                timed(&mut times[0], || pool.install(|| search.nearest(&queries, &options)))?;
+            let single: Vec<_> = timed(&mut times[1], || {
+                queries.rows().map(|place| search.nearest_to(place)).collect()
+            });
             let peer: Vec<f64> = timed(&mut times[2], || {
                 let nearest = |&place: &[f64; D]| {
                     theirs.query(&place).nearest_one::<SquaredEuclidean<f64>>().execute().distance
@@ -132,8 +135,18 @@ fn nearest<const D: usize>(context: &Context, out: &mut Outcome, cloud: Cloud) -
     built.push(json!({ "build": "", "taut": median(&build[0]), "kiddo": median(&build[1]) }));
     out.table("", built);
     for (name, at_once, single) in ratios {
-        out.at_least(format!("{name} places at once: kiddo over taut"), at_once, [1.0, 2.0], Unit::Times);
-        out.at_least(format!("{name} places one by one: kiddo over taut"), single, [1.0, 1.5], Unit::Times);
+        out.at_least(
+            format!("{name} places at once: kiddo over taut"),
+            at_once,
+            [1.0, 2.0],
+            Unit::Times,
+        );
+        out.at_least(
+            format!("{name} places one by one: kiddo over taut"),
+            single,
+            [1.0, 1.5],
+            Unit::Times,
+        );
     }
     out.close(&what);
     Ok(())
@@ -172,8 +185,10 @@ fn pairs(context: &Context, out: &mut Outcome, cloud: Cloud) -> Result<()> {
     let what = format!("{law}, {n} balls in space");
     let mut table = Table::new("program | build:s | pairs:s | found");
     let (own_build, own) = (median(&build), median(&times));
-    table.push(json!({ "program": "taut", "build": own_build, "pairs": own, "found": found.len() }));
-    let (answers, silence) = peer::ask_often(context, "parry3d-pairs", (&balls, dim + 1), context.runs)?;
+    table
+        .push(json!({ "program": "taut", "build": own_build, "pairs": own, "found": found.len() }));
+    let (answers, silence) =
+        peer::ask_often(context, "parry3d-pairs", (&balls, dim + 1), context.runs)?;
     if let Some(silence) = silence {
         println!("parry3d-pairs: {silence}\n");
     }
@@ -189,9 +204,19 @@ fn pairs(context: &Context, out: &mut Outcome, cloud: Cloud) -> Result<()> {
     }
     out.table(&what, table);
     let ratio = |ours: f64, theirs: f64| if answers.is_empty() { f64::NAN } else { theirs / ours };
-    out.at_least("touching pairs: parry3d over taut", ratio(own, median(&theirs)), [1.0, 2.0], Unit::Times);
+    out.at_least(
+        "touching pairs: parry3d over taut",
+        ratio(own, median(&theirs)),
+        [1.0, 2.0],
+        Unit::Times,
+    );
     let both = (own + own_build, median(&theirs) + median(&builds));
-    out.at_least("with the tree: parry3d over taut", ratio(both.0, both.1), [1.0, 2.0], Unit::Times);
+    out.at_least(
+        "with the tree: parry3d over taut",
+        ratio(both.0, both.1),
+        [1.0, 2.0],
+        Unit::Times,
+    );
     out.close(&what);
     Ok(())
 }

@@ -1,15 +1,15 @@
 //! Touching pairs of balls by the hierarchy of boxes of parry3d, in the protocol of `bench/peers/protocol.hpp`.
 //!
-//! The seconds are those of the pairs, from the tree to a sorted list; the radius is the seconds of building the tree.
+//! Times are processor time of the process, which has one thread. The seconds are those of the pairs, from the tree to a sorted list; the radius is the seconds of building the tree.
 
 use std::error::Error;
 use std::io::stdin;
-use std::time::Instant;
 
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhWorkspace};
 
+use crate::meter::Meter;
 use crate::shapes::rows;
 
 /// Answers each line of standard input with a line, and `output` with the pairs, sorted.
@@ -18,11 +18,11 @@ pub fn serve(path: &str, output: &str) -> Result<(), Box<dyn Error>> {
     println!("{{\"ready\":true}}");
     for line in stdin().lines() {
         line?;
-        let start = Instant::now();
+        let meter = Meter::start();
         let boxes: Vec<Aabb> = balls.iter().map(|&ball| bounding_box(ball)).collect();
         let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
-        let build = start.elapsed().as_secs_f64();
-        let start = Instant::now();
+        let build = meter.stop().cpu;
+        let meter = Meter::start();
         let mut pairs: Vec<[u32; 2]> = vec![];
         let mut workspace = BvhWorkspace::default();
         tree.traverse_bvtt_single_tree::<false>(&mut workspace, &mut |a, b| {
@@ -31,7 +31,7 @@ pub fn serve(path: &str, output: &str) -> Result<(), Box<dyn Error>> {
             }
         });
         pairs.sort_unstable();
-        let seconds = start.elapsed().as_secs_f64();
+        let seconds = meter.stop().cpu;
         let bytes = pairs.as_flattened().iter().flat_map(|&row| f64::from(row).to_le_bytes());
         std::fs::write(output, bytes.collect::<Vec<u8>>())?;
         println!("{{\"seconds\":{seconds},\"radius\":{build},\"support\":0}}");

@@ -78,9 +78,9 @@ impl Nodes {
         &self.row_radii.as_chunks().0[block]
     }
 
-    /// Keys of the rows of a block from a place: the near sides of balls, or with `FAR` the far sides.
+    /// Keys of the rows of a block from a place: the near sides of balls, or with `IS_FAR` the far sides.
     #[inline(always)]
-    pub(super) fn block_keys<D: Dim, M: Measure, const FAR: bool>(
+    pub(super) fn block_keys<D: Dim, M: Measure, const IS_FAR: bool>(
         &self,
         dim: D,
         block: usize,
@@ -95,7 +95,7 @@ impl Nodes {
             }
             differences
         });
-        let sign = if FAR { 1.0 } else { -1.0 };
+        let sign = if IS_FAR { 1.0 } else { -1.0 };
         M::lengthen(keys, |lane| sign * self.radii_of(block)[lane])
     }
 }

@@ -33,9 +33,9 @@ pub(super) trait Collector<K> {
 /// The stack of a search, kept from one place to the next.
 pub(super) type Stack<K> = Vec<Pending<K>>;
 
-/// Offers all blocks that may hold rows of the answer, nearest (with `FAR` farthest) first.
+/// Offers all blocks that may hold rows of the answer, nearest (with `IS_FAR` farthest) first.
 #[inline(always)]
-pub(super) fn search<D: Dim, M: Measure, const FAR: bool>(
+pub(super) fn search<D: Dim, M: Measure, const IS_FAR: bool>(
     nodes: &Nodes,
     dim: D,
     place: &[f64],
@@ -44,7 +44,7 @@ pub(super) fn search<D: Dim, M: Measure, const FAR: bool>(
 ) {
     stack.clear();
     let mut next = Some(Pending {
-        bound: if FAR { M::ABOVE_ALL } else { M::BELOW_ALL },
+        bound: if IS_FAR { M::ABOVE_ALL } else { M::BELOW_ALL },
         level: nodes.root_level(),
         node: 0,
         lowest_row: 0,
@@ -52,10 +52,10 @@ pub(super) fn search<D: Dim, M: Measure, const FAR: bool>(
     while let Some(here) = next {
         if here.level == 0 {
             let block = here.node as usize;
-            let keys = nodes.block_keys::<D, M, FAR>(dim, block, place);
+            let keys = nodes.block_keys::<D, M, IS_FAR>(dim, block, place);
             found.offer(&keys, nodes.rows_of(block));
         } else {
-            open::<D, M, FAR>(nodes, dim, place, here, stack, found);
+            open::<D, M, IS_FAR>(nodes, dim, place, here, stack, found);
         }
         next = loop {
             match stack.pop() {
@@ -68,7 +68,7 @@ pub(super) fn search<D: Dim, M: Measure, const FAR: bool>(
 
 /// Pushes the children of a node that may hold rows of the answer, the most promising one last.
 #[inline(always)]
-fn open<D: Dim, M: Measure, const FAR: bool>(
+fn open<D: Dim, M: Measure, const IS_FAR: bool>(
     nodes: &Nodes,
     dim: D,
     place: &[f64],
@@ -78,7 +78,7 @@ fn open<D: Dim, M: Measure, const FAR: bool>(
 ) {
     let level = here.level - 1;
     let (below, group) = (&nodes.levels[level as usize], here.node as usize);
-    let keys = match FAR {
+    let keys = match IS_FAR {
         true => below.upper::<D, M>(dim, group, (place, place), (place, 0.0)),
         false => below.lower::<D, M>(dim, group, place, place),
     };
@@ -99,7 +99,7 @@ fn open<D: Dim, M: Measure, const FAR: bool>(
         let node = (group * FANOUT + lane) as u32;
         stack.push(Pending { bound, level, node, lowest_row });
         let mut at = stack.len() - 1;
-        let is_before = |other: M::Key| if FAR { bound > other } else { bound < other };
+        let is_before = |other: M::Key| if IS_FAR { bound > other } else { bound < other };
         while at > first && !is_before(stack[at - 1].bound) {
             stack.swap(at, at - 1);
             at -= 1;
