@@ -220,7 +220,12 @@ impl<M: Measure> Measure for Surfaces<M> {
 
     #[inline(always)]
     fn keys<const L: usize>(dim: usize, differences: impl Fn(usize, f64) -> [f64; L]) -> [f64; L] {
-        M::keys(dim, differences).map(M::distance)
+        let keys = M::keys(dim, differences);
+        let mut distances = [0.0; L];
+        for lane in 0..L {
+            distances[lane] = M::distance(keys[lane]);
+        }
+        distances
     }
 
     #[inline(always)]

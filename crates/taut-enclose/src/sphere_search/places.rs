@@ -1,4 +1,6 @@
 //! Searches from places: nearest, k nearest, within a distance, farthest.
+//!
+//! *Trap.* Loops, not `map` and `collect`: what these call is compiled without the vectors of the processor.
 
 use std::collections::BinaryHeap;
 
@@ -33,12 +35,13 @@ impl Work for FindNearest {
         queries: &[&[f64]],
     ) -> Vec<Neighbor> {
         let mut stack = vec![];
-        let nearest = |place: &&[f64]| {
+        let mut all = Vec::with_capacity(queries.len());
+        for place in queries {
             let mut found = Nearest { key: M::ABOVE_ALL, row: NO_ROW };
             search::<D, M, false>(&tree.nodes, dim, place, &mut stack, &mut found);
-            neighbor::<M>(found.key, found.row)
-        };
-        queries.iter().map(nearest).collect()
+            all.push(neighbor::<M>(found.key, found.row));
+        }
+        all
     }
 }
 
@@ -56,13 +59,14 @@ impl Work for FindNearestK {
         queries: &[&[f64]],
     ) -> Vec<Vec<Neighbor>> {
         let mut stack = vec![];
-        let nearest = |place: &&[f64]| {
+        let mut all = Vec::with_capacity(queries.len());
+        for place in queries {
             let heap = BinaryHeap::with_capacity(self.0);
             let mut found = NearestHeap { heap, k: self.0 };
             search::<D, M, false>(&tree.nodes, dim, place, &mut stack, &mut found);
-            sorted::<M>(found.heap.into_vec())
-        };
-        queries.iter().map(nearest).collect()
+            all.push(sorted::<M>(found.heap.into_vec()));
+        }
+        all
     }
 }
 
@@ -81,12 +85,13 @@ impl Work for FindWithin {
     ) -> Vec<Vec<Neighbor>> {
         let mut stack = vec![];
         let limit = M::limit(self.0);
-        let within = |place: &&[f64]| {
+        let mut all = Vec::with_capacity(queries.len());
+        for place in queries {
             let mut found = Within::<M> { limit, found: vec![] };
             search::<D, M, false>(&tree.nodes, dim, place, &mut stack, &mut found);
-            sorted::<M>(found.found)
-        };
-        queries.iter().map(within).collect()
+            all.push(sorted::<M>(found.found));
+        }
+        all
     }
 }
 
@@ -104,12 +109,13 @@ impl Work for FindFarthest {
         queries: &[&[f64]],
     ) -> Vec<Neighbor> {
         let mut stack = vec![];
-        let farthest = |place: &&[f64]| {
+        let mut all = Vec::with_capacity(queries.len());
+        for place in queries {
             let (factor, distance) = (self.0, M::distance as fn(M::Key) -> f64);
             let mut found = Farthest { key: M::BELOW_ALL, row: NO_ROW, factor, distance };
             search::<D, M, true>(&tree.nodes, dim, place, &mut stack, &mut found);
-            neighbor::<M>(found.key, found.row)
-        };
-        queries.iter().map(farthest).collect()
+            all.push(neighbor::<M>(found.key, found.row));
+        }
+        all
     }
 }

@@ -117,7 +117,11 @@ impl Work for FindHits {
         queries: &[&[f64]],
     ) -> Vec<Vec<Neighbor>> {
         let mut stack = vec![];
-        queries.iter().map(|query| self.hits(tree, dim, query, &mut stack)).collect()
+        let mut all = Vec::with_capacity(queries.len());
+        for query in queries {
+            all.push(self.hits(tree, dim, query, &mut stack));
+        }
+        all
     }
 }
 
