@@ -98,8 +98,8 @@ fn what_is_wrong_is_named() {
         assert_eq!(run.out, "");
         assert_eq!(folder.text("found.csv"), "earlier");
     };
-    refused("nan.csv --queries places.csv", &["nan.csv", "row 2", "`y`", "NaN"]);
-    refused("points.csv --queries nan.csv", &["nan.csv", "row 2", "`y`", "NaN"]);
+    refused("nan.csv --queries places.csv", &["nan.csv", "row 2", "`y`", "nan"]);
+    refused("points.csv --queries nan.csv", &["nan.csv", "row 2", "`y`", "nan"]);
     refused(
         "points.csv --queries space.csv",
         &["space.csv", "3 coordinates", "as the rows of the tree"],
