@@ -114,8 +114,12 @@ fn what_is_wrong_is_named() {
     refused("points.csv --rays rays.csv --hit-radius -1", &["--hit-radius", "at least 0"]);
     refused("points.csv --queries places.csv --epsilon 1", &["--farthest and --diameter"]);
     refused("- --queries -", &["standard input"]);
-    refused("points.csv", &["--queries"]);
-    refused("points.csv --queries places.csv --diameter", &["cannot be used with"]);
+    for (line, part) in
+        [("", "--queries"), ("--queries places.csv --diameter", "cannot be used with")]
+    {
+        let run = folder.taut(&format!("near points.csv {line}")).ends(2);
+        assert!(run.err.contains(part), "no `{part}` in {run:#?}");
+    }
     folder
         .taut("near points.csv --queries places.csv -o places.csv")
         .ends(2)
