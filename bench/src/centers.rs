@@ -1,4 +1,4 @@
-//! k centers: proven optima of cities and of space, centers among the points, traversals, outliers and streams.
+//! k centers: proven optima of cities and of space, centers among the points, traversals, outliers and streams; queries of trees.
 
 mod case;
 pub(crate) mod cities;
@@ -8,6 +8,7 @@ mod judgement;
 mod outliers;
 mod streams;
 mod traversal;
+mod trees;
 
 use taut_certify::{Centers, CentersVerdict, LowerBound, Placement, Solution};
 use taut_enclose::{

@@ -90,6 +90,7 @@ const PEERS: &[(&str, &str, &str)] = &[
     ("dynesty", "dynesty", "bounding.py"),
     ("mic-shapely", "shapely", "inscribe.py NAME"),
     ("mic-polylabel", "polylabel", "inscribe.py NAME"),
+    ("parry3d-pairs", "", "rust/release/peers NAME"),
     ("polylabel-crate", "", "rust/release/peers NAME"),
     ("solid-iris", "pydrake", "inscribe.py NAME"),
     ("solid-parry3d", "igl", "inscribe.py NAME"),

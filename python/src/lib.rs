@@ -29,6 +29,7 @@ mod picture;
 mod planar;
 mod robust;
 mod rows;
+mod sphere_search;
 mod sphere_tree;
 mod surface;
 mod terrain;
@@ -80,6 +81,8 @@ mod _native {
     };
     #[pymodule_export]
     use crate::robust::robust_ellipsoid;
+    #[pymodule_export]
+    use crate::sphere_search::SearchTree;
     #[pymodule_export]
     use crate::sphere_tree::sphere_tree;
     #[pymodule_export]

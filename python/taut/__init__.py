@@ -52,6 +52,7 @@ from ._oriented import inscribed_oriented_rectangle
 from ._rectangle import inscribed_rectangle
 from ._robust import robust_ellipsoid
 from ._solution import Solution
+from ._sphere_search import SphereSearch
 from ._surface import surface
 from ._terrain import Contour, Raster, contours, raster
 from ._tiles import AlphaPart, Tile, Tiles, VoronoiCell, delaunay_tiles
@@ -120,6 +121,7 @@ __all__ = [
     "RobustEllipsoid",
     "RobustVerdict",
     "Solution",
+    "SphereSearch",
     "SphereTree",
     "Surface",
     "SurfaceCertificate",

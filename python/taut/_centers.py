@@ -195,7 +195,7 @@ def sphere_tree(
     epsilon: float = 1e-9,
     threads: int | None = None,
 ) -> SphereTree:
-    """A tree of balls around ever fewer points, for queries such as "what is near here".
+    """A tree of balls around ever fewer points.
 
     The ball of each node is the smallest around its points. These are parted in two, so that the larger ball of both parts is
     small, down to leaves of a few points.
@@ -228,6 +228,7 @@ def sphere_tree(
 
     See Also
     --------
+    SphereSearch : nearest, within a radius, along rays, farthest, pairs.
     centers : k balls of one size, to any proved gap.
 
     Examples

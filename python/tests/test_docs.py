@@ -28,7 +28,7 @@ def test_examples_run(module):
     assert attempted > 0
 
 
-@pytest.mark.parametrize("public", [taut.Ellipsoid, taut.Solution, taut.Tiles], ids=lambda c: c.__name__)
+@pytest.mark.parametrize("public", [taut.Ellipsoid, taut.Solution, taut.SphereSearch, taut.Tiles], ids=lambda c: c.__name__)
 def test_examples_of_methods_run(public):
     runner = doctest.DocTestRunner(optionflags=FLAGS)
     # Without a module: classes say that they are of `taut`, their methods are of the file they are in.
@@ -57,7 +57,7 @@ def test_short_names_are_those_of_all_inscribed_shapes():
         assert getattr(inscribe, name) is getattr(taut, f"inscribed_{name}")
 
 
-NAMES = ["ball", "bodies", "centers", "circle", "classify", "curve", "delaunay", "ellipsoid", "robust"]
+NAMES = ["ball", "bodies", "centers", "circle", "classify", "curve", "delaunay", "ellipsoid", "robust", "sphere-tree"]
 OF_MEMORY = ["matrix", "order", "sample", "sort"]
 PAGES = ["README.md", *(f"docs/{page}.md" for page in NAMES), *(f"docs/memory/{page}.md" for page in OF_MEMORY)]
 

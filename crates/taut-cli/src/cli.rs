@@ -4,7 +4,7 @@ use clap::{Parser, Subcommand};
 
 use crate::commands::{
     ball, centers, classify, completions, curve, delaunay, dop, draw, ellipsoid, formats, generate,
-    hand, inscribe, man, memory, stream, surface, tour, verify,
+    hand, inscribe, man, memory, near, stream, surface, tour, verify,
 };
 use crate::exit::Outcome;
 
@@ -27,6 +27,7 @@ enum Command {
     Ellipsoid(ellipsoid::Args),
     Dop(dop::Args),
     Centers(centers::Args),
+    Near(near::Args),
     Delaunay(delaunay::Args),
     Stream(stream::Args),
     Curve(curve::Args),
@@ -51,6 +52,7 @@ impl Cli {
             Command::Ellipsoid(args) => args.run(),
             Command::Dop(args) => args.run(),
             Command::Centers(args) => args.run(),
+            Command::Near(args) => args.run(),
             Command::Delaunay(args) => args.run(),
             Command::Stream(args) => args.run(),
             Command::Curve(args) => args.run(),

@@ -16,6 +16,7 @@ pub(crate) mod hand;
 pub(crate) mod inscribe;
 pub(crate) mod man;
 pub(crate) mod memory;
+pub(crate) mod near;
 mod radii;
 mod robust;
 pub(crate) mod stream;

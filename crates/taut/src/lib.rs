@@ -7,6 +7,7 @@
 //! | centers for every k at once, of any number of points | [`farthest_first()`] | at most twice the least radius, for each k | [`enclose`] |
 //! | k centers of a stream, or of points in many places | [`enclose::StreamingCenters`], [`enclose::CoreSetSummary`] | a factor of the least radius, both bounds told | [`enclose`] |
 //! | a tree of balls | [`sphere_tree()`] | each the smallest around its points | [`enclose`] |
+//! | nearest, within a radius, along a ray, farthest, pairs, diameter; of points or balls | [`enclose::SphereSearch`] | as by a search through all rows, ties to the lowest | [`enclose`] |
 //! | the ellipsoid of least volume around points, balls or ellipsoids | [`ellipsoid()`] | log-volume ≤ least + ε, proved | [`enclose`] |
 //! | one for each of many point sets | [`ellipsoids()`] | the same | [`enclose`] |
 //! | the ellipsoid of largest volume in a polytope | [`inscribed_ellipsoid()`] | optimum ≤ log-volume + ε, proved | [`enclose`] |
@@ -209,6 +210,8 @@ mod pages {
     struct Rectangle;
     #[doc = include_str!("../../../docs/robust.md")]
     struct Robust;
+    #[doc = include_str!("../../../docs/sphere-tree.md")]
+    struct SphereTree;
     #[doc = include_str!("../../../docs/surface.md")]
     struct Surface;
     #[doc = include_str!("../../../docs/terrain.md")]

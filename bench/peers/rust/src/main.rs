@@ -1,6 +1,7 @@
 //! spade and delaunator as peers: `peers NAME FILE` builds one triangulation in the plane and prints one line of JSON.
 //! quickheap as a peer: `peers quickheap FILE OUTPUT` and `peers quickheap-keys FILE OUTPUT`, see `queue`; `peers imageproc FILE OUTPUT`,
-//! see `images`; `peers polylabel-crate FILE OUTPUT` and `peers parry3d FILE`, see `shapes`.
+//! see `images`; `peers polylabel-crate FILE OUTPUT` and `peers parry3d FILE`, see `shapes`; `peers parry3d-pairs FILE OUTPUT`, see
+//! `spheres`.
 //!
 //! The line is described in `bench/peers/delaunay.hpp`; time and memory are taken by the code that takes those of taut.
 #![forbid(unsafe_code)]
@@ -10,6 +11,7 @@ mod images;
 mod meter;
 mod queue;
 mod shapes;
+mod spheres;
 
 use std::fs::File;
 use std::io::{BufReader, Read};
@@ -30,6 +32,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         [_, name, path, output] if name == "polylabel-crate" => {
             return shapes::serve_circle(path, output);
         }
+        [_, name, path, output] if name == "parry3d-pairs" => return spheres::serve(path, output),
         [_, name, path, output] => return queue::serve(name, path, output),
         _ => return Err("expected NAME and FILE".into()),
     };

@@ -66,7 +66,7 @@ pub fn convex_parts(path: &str) -> Result<serde_json::Value, Box<dyn Error>> {
 }
 
 /// The rows of a file of the protocol.
-fn rows<const N: usize>(path: &str) -> Result<Vec<[f64; N]>, Box<dyn Error>> {
+pub(crate) fn rows<const N: usize>(path: &str) -> Result<Vec<[f64; N]>, Box<dyn Error>> {
     let bytes = std::fs::read(path)?;
     let (words, _) = bytes.as_chunks::<8>();
     let [_, columns, values @ ..] = words else { return Err("no header".into()) };

@@ -391,6 +391,12 @@ impl Opened {
                 self.name(),
                 self.row(row)
             ),
+            SolveError::NoDirection { row } => anyhow!(
+                "{}, row {}: the ray has no direction, as the numbers after the origin are all 0: repair or remove that row, or \
+                 choose the columns with --columns",
+                self.name(),
+                self.row(row)
+            ),
             SolveError::Unbounded { direction } => anyhow!(
                 "{}: the polytope is unbounded in the direction {}, so no ellipsoid in it is the largest: add \
                  half-spaces that end it",

@@ -29,6 +29,7 @@ mod inscribe_triangle;
 mod interrupt;
 mod limits;
 mod memory;
+mod near;
 mod pictures;
 mod places;
 mod robust;

@@ -2,7 +2,7 @@
 
 use crate::test_folder::TestFolder;
 
-const COMMANDS: [&str; 18] = [
+const COMMANDS: [&str; 19] = [
     "ball",
     "ellipsoid",
     "centers",
@@ -16,6 +16,7 @@ const COMMANDS: [&str; 18] = [
     "verify",
     "draw",
     "memory",
+    "near",
     "generate",
     "tour",
     "formats",
