@@ -20,11 +20,11 @@ enum Way {
 }
 
 impl Way {
-    /// Those of the first table.
-    const EVEN: [(Self, &'static str); 3] =
+    /// The ways of the first section: spacings differ by at most 2 : 1 between directions.
+    const EVEN_WAYS: [(Self, &'static str); 3] =
         [(Self::Random, "random"), (Self::Disk, "Poisson disk"), (Self::Lines(2.0), "lines 2:1")];
-    /// Those of the second.
-    const SCANS: [(Self, &'static str); 3] = [
+    /// The ways of the second section: spacings differ by 3 : 1 to 8 : 1 between directions.
+    const SCAN_WAYS: [(Self, &'static str); 3] = [
         (Self::Lines(3.0), "lines 3:1"),
         (Self::Lines(5.0), "lines 5:1"),
         (Self::Lines(8.0), "lines 8:1"),
@@ -109,7 +109,11 @@ fn trial(
 }
 
 /// All classes and both sizes of holes, sampled in some ways.
-fn judge(ways: [(Way, &'static str); 3], context: &Context, out: &mut Outcome) -> Result<Vec<Trial>> {
+fn judge(
+    ways: [(Way, &'static str); 3],
+    context: &Context,
+    out: &mut Outcome,
+) -> Result<Vec<Trial>> {
     let mut trials = vec![];
     for seed in context.seeds.clone() {
         let each: Vec<(usize, usize)> = (0..Kind::ALL.len())
@@ -126,7 +130,10 @@ fn judge(ways: [(Way, &'static str); 3], context: &Context, out: &mut Outcome) -
     let mut failures = Table::new(
         "class | sampling | seed | holes:1 | points | truth | components | genus | loops | bad edges | bad vertices | unused | certified",
     );
-    trials.iter().filter(|trial| !trial.is_right).for_each(|trial| failures.push(trial.cells.clone()));
+    trials
+        .iter()
+        .filter(|trial| !trial.is_right)
+        .for_each(|trial| failures.push(trial.cells.clone()));
     out.table("not right", failures);
     let head = ways.map(|(_, name)| name).join(" | ");
     let mut table = Table::new(&format!("class | {head} | small holes | larger ones | all"));
@@ -140,7 +147,8 @@ fn judge(ways: [(Way, &'static str); 3], context: &Context, out: &mut Outcome) -
     };
     let names = Kind::ALL.map(|(_, name)| name);
     for class in names.iter().map(Some).chain([None]) {
-        let own = || trials.iter().filter(move |trial| class.is_none_or(|name| trial.kind == *name));
+        let own =
+            || trials.iter().filter(move |trial| class.is_none_or(|name| trial.kind == *name));
         let mut cells = vec![json!(class.unwrap_or(&"all"))];
         for (_, way) in ways {
             cells.push(rate(&mut own().filter(|trial| trial.way == way)));
@@ -166,14 +174,14 @@ fn share(trials: &[Trial]) -> f64 {
 
 /// Samples that are about as dense in all directions.
 pub(in crate::surface) fn even(context: &Context, out: &mut Outcome) -> Result<()> {
-    let trials = judge(Way::EVEN, context, out)?;
+    let trials = judge(Way::EVEN_WAYS, context, out)?;
     out.at_least("right loops", share(&trials), [0.75, 0.9], Unit::Percent);
     Ok(())
 }
 
 /// Scan lines that are much farther apart than points on them.
 pub(in crate::surface) fn scans(context: &Context, out: &mut Outcome) -> Result<()> {
-    let trials = judge(Way::SCANS, context, out)?;
+    let trials = judge(Way::SCAN_WAYS, context, out)?;
     out.at_least("right loops", share(&trials), 0.8, Unit::Percent);
     Ok(())
 }

@@ -107,12 +107,19 @@ pub(in crate::surface) fn noise(context: &Context, out: &mut Outcome) -> Result<
         let right = share(each.iter().filter(|one| one.1).count());
         out.at_least(format!("noise {percent} %: right topology"), right, bounds, Unit::Percent);
         let wrong = share(each.iter().filter(|one| one.2 && !one.1).count());
-        out.at_most(format!("noise {percent} %: false certificates"), wrong, [0.015, 0.005], Unit::Percent);
+        out.at_most(
+            format!("noise {percent} %: false certificates"),
+            wrong,
+            [0.015, 0.005],
+            Unit::Percent,
+        );
         let front: Vec<_> = each.iter().filter_map(|one| one.3).collect();
         let worst = front.iter().map(|one| one.1).reduce(f64::max);
         out.at_most(
             format!("noise {percent} %: mean distance over the advancing front's, the largest"),
-            worst, 1.0, Unit::Times,
+            worst,
+            1.0,
+            Unit::Times,
         );
         let theirs = front.iter().filter(|one| one.0).count() as f64 / front.len() as f64;
         out.keep(&format!("advancing front, right at {percent} %"), json!(theirs));
@@ -135,10 +142,12 @@ pub(in crate::surface) fn outliers(context: &Context, out: &mut Outcome) -> Resu
             let added = points.len() / 100;
             let ends = [0, 1, 2].map(|k| {
                 let on = || points.iter().map(|point| point[k]);
-                let (low, high) = (on().fold(RADIUS_MAX, f64::min), on().fold(-RADIUS_MAX, f64::max));
+                let (low, high) =
+                    (on().fold(RADIUS_MAX, f64::min), on().fold(-RADIUS_MAX, f64::max));
                 [low - 0.05 * (high - low), high + 0.05 * (high - low)]
             });
-            let place = |lot: [f64; 3]| [0, 1, 2].map(|k| ends[k][0] + (ends[k][1] - ends[k][0]) * lot[k]);
+            let place =
+                |lot: [f64; 3]| [0, 1, 2].map(|k| ends[k][0] + (ends[k][1] - ends[k][0]) * lot[k]);
             all.extend(chances::<3>(added, seed + 8)?.into_iter().map(place));
             let denoise = Some(Denoise::default());
             let options = SurfaceOptions { denoise, threads: Some(1), ..Default::default() };

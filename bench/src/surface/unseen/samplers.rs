@@ -148,7 +148,8 @@ pub(super) fn lines(field: &Field, pool: &[Point], spacing: f64, step: f64) -> V
         let level = |point: Point| (point[axis] / spacing - 0.25).round();
         let mut at = point;
         at[axis] = spacing * (level(point) + 0.25);
-        for _ in 0..30 {
+        // A function that grows more slowly than a distance takes many steps.
+        for _ in 0..400 {
             let value = field.value(at);
             if value.abs() < 1e-12 {
                 break;
