@@ -91,6 +91,24 @@ pub(crate) const AREA: Area<Run> = Area {
             .extra(),
         runs("unseen-20k", unseen::middling).about("The same at 20 000 points.").extra(),
         runs("unseen-80k", unseen::large).about("The same at 80 000 points.").extra(),
+        runs("unseen-open", unseen::even)
+            .about(
+                "Pieces of surfaces of fifteen classes, with small holes and larger ones, at 20 000 \
+                 points, sampled in three ways: right boundary loops by class.",
+            )
+            .extra(),
+        runs("unseen-scans", unseen::scans)
+            .about("The same along lines 3, 5 and 8 times as far apart as points on them.")
+            .extra(),
+        runs("unseen-noise", unseen::noise)
+            .about(
+                "Smooth closed shapes of 50 000 points with noise of 0.1 and 0.5 % of the diagonal, \
+                 with the pre-pass, beside CGAL's advancing front.",
+            )
+            .extra(),
+        runs("unseen-outliers", unseen::outliers)
+            .about("The same shapes with one outlier for a hundred points.")
+            .extra(),
         runs("thesis", table_one::run).about(
             "Table 1 of the thesis beside the method of the thesis and the default, on \
                  the data that exists and on stand-ins.",

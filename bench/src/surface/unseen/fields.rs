@@ -13,6 +13,8 @@ pub(super) enum Field {
     /// Around the z axis: the radius of the circle in the middle, and that of the tube.
     Ring(f64, f64),
     Tube(Tube),
+    /// Below the graph of a height over the plane of x and y.
+    Terrain(Terrain),
     /// The gyroid of this period.
     Gyroid(f64),
     /// In any of them.
@@ -36,6 +38,17 @@ pub(super) struct Tube {
     radius: f64,
     /// For some segments at a time a ball around them.
     balls: Vec<(Point, f64)>,
+}
+
+/// A height over the plane of x and y: a sum of waves, steps and dents.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Terrain {
+    /// Of each wave the height, the two wave numbers and the phase.
+    pub(super) waves: Vec<[f64; 4]>,
+    /// Of each step the direction in which it rises, its distance from the origin, height and half width.
+    pub(super) steps: Vec<[f64; 4]>,
+    /// Of each dent the place, depth and width.
+    pub(super) dents: Vec<[f64; 4]>,
 }
 
 /// Segments under one ball.
@@ -82,6 +95,37 @@ impl Tube {
     }
 }
 
+impl Terrain {
+    fn height(&self, x: f64, y: f64) -> f64 {
+        let wave = |&[high, j, k, phase]: &[f64; 4]| high * (j * x + k * y + phase).sin();
+        let step = |&[angle, far, high, wide]: &[f64; 4]| {
+            let (sin, cos) = angle.sin_cos();
+            0.5 * high * ((cos * x + sin * y - far) / wide).tanh()
+        };
+        let dent = |&[u, v, deep, wide]: &[f64; 4]| {
+            -deep * (-((x - u).powi(2) + (y - v).powi(2)) / (wide * wide)).exp()
+        };
+        self.waves.iter().map(wave).sum::<f64>()
+            + self.steps.iter().map(step).sum::<f64>()
+            + self.dents.iter().map(dent).sum::<f64>()
+    }
+
+    /// A bound on the slope.
+    fn slope(&self) -> f64 {
+        let wave = |[high, j, k, _]: &[f64; 4]| (high * j.hypot(*k)).abs();
+        let step = |[_, _, high, wide]: &[f64; 4]| (0.5 * high / wide).abs();
+        // exp(−r²) falls by at most √(2/e).
+        let dent = |[_, _, deep, wide]: &[f64; 4]| 0.86 * (deep / wide).abs();
+        self.waves.iter().map(wave).sum::<f64>()
+            + self.steps.iter().map(step).sum::<f64>()
+            + self.dents.iter().map(dent).sum::<f64>()
+    }
+
+    fn value(&self, [x, y, z]: Point) -> f64 {
+        (z - self.height(x, y)) / 1f64.hypot(self.slope())
+    }
+}
+
 impl Field {
     pub(super) fn at(self, place: Point) -> Self {
         Field::At(place, Box::new(self))
@@ -112,6 +156,7 @@ impl Field {
             }
             Field::Ring(radius, tube) => (p[0].hypot(p[1]) - radius).hypot(p[2]) - tube,
             Field::Tube(tube) => tube.value(p),
+            Field::Terrain(terrain) => terrain.value(p),
             Field::Gyroid(period) => {
                 let k = TAU / period;
                 let [x, y, z] = p.map(|x| (k * x).sin_cos());

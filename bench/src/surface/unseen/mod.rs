@@ -1,17 +1,24 @@
 //! Inputs that no setting was chosen on: closed bodies of sixteen classes, sampled in three ways, with the thinnest wall or gap from 1.2 to
 //! 6 spacings. Rates of exact answers by class, and of certificates that are false.
 
+mod bordered;
+mod disturbed;
 mod fields;
 mod samplers;
 mod shapes;
+mod sheets;
 
 use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
 use super::*;
+use fields::length;
 use samplers::{Sampling, crossings, sample};
 use shapes::{Class, Shape, shape};
+
+pub(super) use bordered::{even, scans};
+pub(super) use disturbed::{noise, outliers};
 
 /// Shapes of each class, each in its own band of thickness.
 const BANDS: [[f64; 2]; 4] = [[1.2, 2.0], [2.0, 3.0], [3.0, 4.5], [4.5, 6.0]];

@@ -132,22 +132,24 @@ impl Cubes {
 }
 
 /// Points of some random ones that are nowhere crowded.
-fn disk(field: &Field, pool: &[Point], spacing: f64) -> Vec<Point> {
+pub(super) fn disk(field: &Field, pool: &[Point], spacing: f64) -> Vec<Point> {
     let mut cubes = Cubes::new(0.75 * spacing);
     pool.iter().for_each(|&point| cubes.offer(field, point, |_| true));
     cubes.points()
 }
 
-/// Random points moved onto the nearest section, then thinned along it. The sections are level where the surface is steep, else upright.
-fn lines(field: &Field, pool: &[Point], spacing: f64) -> Vec<Point> {
-    let mut cubes = Cubes::new(0.5 * spacing);
+/// Random points moved onto the nearest of some plane sections, this far apart, then thinned so that they are at least `step` apart along
+/// these. The sections are level where the surface is steep, else upright.
+pub(super) fn lines(field: &Field, pool: &[Point], spacing: f64, step: f64) -> Vec<Point> {
+    let mut cubes = Cubes::new(step);
     for &point in pool {
         let normal = field.normal(point);
         let axis = if normal[2].abs() < 0.75 { 2 } else { 0 };
         let level = |point: Point| (point[axis] / spacing - 0.25).round();
         let mut at = point;
         at[axis] = spacing * (level(point) + 0.25);
-        for _ in 0..30 {
+        // A function that grows more slowly than a distance takes many steps.
+        for _ in 0..400 {
             let value = field.value(at);
             if value.abs() < 1e-12 {
                 break;
@@ -178,6 +180,6 @@ pub(super) fn sample(
     match sampling {
         Sampling::Random => pool[..count].to_vec(),
         Sampling::Disk => disk(field, pool, spacing),
-        Sampling::Lines => lines(field, pool, spacing),
+        Sampling::Lines => lines(field, pool, spacing, 0.5 * spacing),
     }
 }

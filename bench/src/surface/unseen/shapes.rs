@@ -68,12 +68,12 @@ impl Dice {
     }
 
     /// A number of a range.
-    fn real(&mut self, from: f64, to: f64) -> f64 {
+    pub(super) fn real(&mut self, from: f64, to: f64) -> f64 {
         from + (to - from) * self.0.next().map_or(0.5, |[x]| x)
     }
 
     /// A whole number of a range, both ends included.
-    fn whole(&mut self, from: usize, to: usize) -> usize {
+    pub(super) fn whole(&mut self, from: usize, to: usize) -> usize {
         (self.real(from as f64, to as f64 + 1.0) as usize).min(to)
     }
 }
