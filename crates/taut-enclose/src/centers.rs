@@ -326,6 +326,7 @@ fn finish<P: Position>(
         outliers: options.outliers,
         gap,
         core_set: core_set.into_iter().map(|item| cloud.rows[item as usize]).collect(),
+        directions: vec![],
         proof: proof.kind,
         points_hash: table.rows.hash,
     };

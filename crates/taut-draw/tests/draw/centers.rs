@@ -35,6 +35,7 @@ fn case(dim: usize, most: usize) -> (Vec<f64>, Solution<Centers>) {
         outliers: 1,
         gap: 0.25,
         core_set: vec![3, 0, 1, most as u64 - 1],
+        directions: vec![],
         proof: LowerBound::Separated,
         points_hash,
     };
