@@ -58,7 +58,10 @@ pub fn centers_figures(
     };
     let dim = check(answer, certificate, source)?;
     let nearest = Nearest::new(answer, certificate, dim);
-    let always = [&certificate.core_set[..], &answer.outliers].concat();
+    let mut always = [&certificate.core_set[..], &answer.outliers].concat();
+    // Several points of one ellipsoid are one row.
+    always.sort_unstable();
+    always.dedup();
     let question = PassQuery {
         items: certificate.items,
         support: &always,
