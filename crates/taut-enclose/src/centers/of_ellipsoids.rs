@@ -191,7 +191,7 @@ fn answer<P: Position>(
     let near: Vec<usize> = near.copied().collect();
     let reaches: Vec<f64> = near.par_iter().with_min_len(16).map(|&i| exact(i)).collect();
     let largest = reaches.into_iter().fold(0.0, f64::max);
-    let radius = (largest * bodies.scale).next_up();
+    let radius = largest.next_up();
     if !(radius.is_finite() && radius >= f64::MIN_POSITIVE) {
         return Err(Error::Overflow);
     }

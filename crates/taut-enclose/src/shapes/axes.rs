@@ -64,10 +64,11 @@ pub(crate) fn units(shapes: &Shapes) -> Result<(Center, f64), Error> {
     if !(reach * (shapes.dim() as f64)).is_finite() {
         return Err(Error::Overflow);
     }
-    let scale = if reach == 0.0 {
-        1.0
-    } else {
-        2f64.powi(reach.log2().floor().clamp(-1000.0, 1000.0) as i32)
-    };
+    let scale = if reach == 0.0 { 1.0 } else { power_below(reach) };
     Ok((Center { high: origin, low: vec![] }, scale))
+}
+
+/// The power of two of about a size above 0, kept away from the ends of the range.
+pub(crate) fn power_below(size: f64) -> f64 {
+    2f64.powi(size.log2().floor().clamp(-1000.0, 1000.0) as i32)
 }

@@ -333,7 +333,7 @@ fn nodes_that_run_out_leave_what_is_proved() {
         vec![x, y, 1.0 + (i % 7) as f64, 0.5, 1.0 + (i % 5) as f64]
     };
     let given = Ellipsoids { dim: 2, rows: (0..120).map(row).collect() };
-    for max_nodes in [0, 1, 100, 2000] {
+    for max_nodes in [0, 1, 100] {
         let found = given.found(8, &CentersOptions { max_nodes, ..options(1e-6) });
         assert_eq!(found.trace.stop, Stop::NodeBudget, "{max_nodes}");
         assert!(found.answer.lower_bound > 0.0 && found.certificate.gap < 1.5, "{max_nodes}");

@@ -40,6 +40,7 @@ impl Sound {
         };
         let points = Points::new(&self.values, COLUMNS).unwrap();
         let found = centers(&points, certificate.k as usize, &options).ok()?;
+        found.check(&points).unwrap_or_else(|why| panic!("{why}\n{:?}\n{found:?}", self.values));
         Some((found.answer.lower_bound, found.answer.radius))
     }
 

@@ -7,7 +7,7 @@ use crate::centers::items::Position;
 use crate::kernel::vector::dot;
 use crate::kernel::{Center, DoubleDouble};
 use crate::shapes::Shapes;
-use crate::shapes::axes::{Axes, diagonal, units};
+use crate::shapes::axes::{Axes, diagonal, power_below, units};
 use crate::shapes::eigen::eigen;
 use crate::shapes::frame::{Framed, Map};
 use crate::shapes::reach::{alternatives, farthest};
@@ -147,7 +147,8 @@ impl<'a> Bodies<'a> {
             };
             let open: Vec<usize> = (0..centers.len()).filter(could_serve).collect();
             if open.len() > 1 {
-                let measured = |center: usize| (self.reach_from(i, &centers[center]), center);
+                let measured =
+                    |center: usize| (self.reach_from(i, &centers[center]) / self.scale, center);
                 let least = open.into_iter().map(measured).min_by(|a, b| a.0.total_cmp(&b.0));
                 if let Some((reach, center)) = least {
                     *served = ServedWhole { center, reach };
@@ -168,14 +169,23 @@ impl<'a> Bodies<'a> {
         self.map(&self.origin).point(place)
     }
 
-    /// How far an ellipsoid reaches from a place among the rows, in the units of the search, but for the rounding of a few sums.
+    /// How far an ellipsoid reaches from a place among the rows, in the unit of the rows, but for the rounding of a few sums; whatever
+    /// its size, which decides the unit of these sums.
     pub(super) fn reach_from(&self, i: usize, place: &[f64]) -> f64 {
-        let center = Center { high: place.to_vec(), low: vec![] };
-        let map = self.map(&center);
+        let parts = self.shapes.center(i).iter().zip(place).enumerate();
+        let size = parts.map(|(j, (m, c))| (m - c).abs().max(self.shapes.width(i, j)));
+        let size = size.fold(0.0, f64::max);
+        if size == 0.0 || !size.is_finite() {
+            return size;
+        }
+        let scale = power_below(size);
+        let (unit, center) =
+            (diagonal(self.dim(), 1.0 / scale), Center { high: place.to_vec(), low: vec![] });
+        let map = Map { matrix: &unit, center: &center };
         let (squares, vectors) = eigen(&mut map.shape_of(self.shapes, i), self.dim());
         let offset = map.center_of(self.shapes, i);
         let h: Vec<f64> = vectors.chunks_exact(self.dim()).map(|v| dot(v, &offset)).collect();
-        farthest(&squares, &h).square.sqrt()
+        farthest(&squares, &h).square.sqrt() * scale
     }
 
     fn map<'b>(&'b self, center: &'b Center) -> Map<'b> {
