@@ -19,6 +19,7 @@ def centers(
     k: int,
     *,
     radii: ArrayLike | None = None,
+    shapes: ArrayLike | None = None,
     weights: ArrayLike | None = None,
     groups: ArrayLike | None = None,
     epsilon: float = 0.01,
@@ -40,6 +41,10 @@ def centers(
     radii : array_like of shape (n,), optional
         Given these, `points` are the centers of balls, and each of these is to lie in one of the k. ``check`` takes the
         radii as well.
+    shapes : array_like of shape (n, d, d), optional
+        Given these, `points` are the centers m of ellipsoids {m + v : v v.T <= S}, as of `ball`, and each of these is to
+        lie in one of the k. They have the method "tree", free centers, and neither weights nor groups. ``check`` takes the
+        shapes as well.
     weights : array_like of shape (n,), optional
         Numbers above 0: a point counts with its weight times its distance. ``check`` takes the weights as well.
     groups : array_like of shape (n,), optional
@@ -77,7 +82,7 @@ def centers(
     ------
     ValueError
         When there is no point, a coordinate is NaN or infinite (the message names its row and column), a radius is
-        negative, a weight is not positive, sizes are beyond what float64 can hold, or an option is out of range.
+        negative, a shape is not symmetric or not positive semidefinite, a weight is not positive, sizes are beyond what float64 can hold, or an option is out of range.
     KeyboardInterrupt
         Ctrl-C stops the work.
 
@@ -114,11 +119,22 @@ def centers(
     3.0
     >>> found.check(ends, groups=[0, 0, 1, 1]).upper
     3.0
+
+    Three ellipses, each held whole by one of two balls:
+
+    >>> places, shapes = [[0, 0], [1, 0], [9, 0]], [[[4, 0], [0, 1]], [[1, 0], [0, 1]], [[1, 0], [0, 9]]]
+    >>> found = taut.centers(places, 2, shapes=shapes, epsilon=1e-6)
+    >>> round(found.answer.radius, 5)
+    3.0
+    >>> found.check(places, shapes=shapes).gap <= 1e-6
+    True
     """
+    if shapes is not None and groups is not None:
+        raise ValueError("only one of shapes and groups can be given: an ellipsoid is a group of its own")
     if radii is not None and weights is not None:
         raise ValueError("only one of radii and weights can be given: points alone can have weights")
-    rows = as_rows(points, radii, weights=weights, groups=groups)
-    items = "points" if radii is None else "balls"
+    rows = as_rows(points, radii, shapes, weights=weights, groups=groups)
+    items = "balls" if radii is not None else "points" if shapes is None else "ellipsoids"
     found = _native.centers(
         rows,
         k,

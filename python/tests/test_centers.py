@@ -306,6 +306,31 @@ def test_groups_are_held_whole():
     assert taut.centers(ends, 2).certificate.group is None
 
 
+def test_ellipsoids_are_held_whole():
+    places = np.array([[0.0, 0.0], [1.0, 0.0], [9.0, 0.0]])
+    shapes = np.array([np.diag([4.0, 4.0]), np.eye(2), np.diag([1.0, 9.0])])
+    found = taut.centers(places, 2, shapes=shapes, epsilon=1e-6, assignment=True)
+    assert found.answer.radius == pytest.approx(3.0, rel=1e-6)
+    assert found.certificate.items == "ellipsoids"
+    assert found.certificate.directions.shape == (len(found.certificate.core_set), 2)
+    assert found.answer.assignment[0] == found.answer.assignment[1] != found.answer.assignment[2]
+    assert found.check(places, shapes=shapes).upper == found.answer.radius
+    assert taut.verify(found.to_json(), places, shapes=shapes).gap <= 1e-6
+    assert pickle.loads(pickle.dumps(found)) == found
+    with pytest.raises(taut.Violation):
+        found.check(places, shapes=shapes * 1.01)
+    one = taut.centers(places, 1, shapes=shapes, epsilon=1e-9)
+    assert one.answer.radius == pytest.approx(taut.ball(places, shapes=shapes).answer.radius, rel=3e-9)
+    with pytest.raises(ValueError, match="shapes and groups"):
+        taut.centers(places, 1, shapes=shapes, groups=[1, 1, 2])
+    with pytest.raises(ValueError, match="only one of"):
+        taut.centers(places, 1, shapes=shapes, weights=[1, 1, 2])
+    with pytest.raises(ValueError, match="placement|discrete"):
+        taut.centers(places, 1, shapes=shapes, discrete=True)
+    with pytest.raises(ValueError, match="method"):
+        taut.centers(places, 1, shapes=shapes, method="stream")
+
+
 def test_wrong_groups_are_named():
     ends = [[0.0, 0.0], [0.0, 6.0]]
     with pytest.raises(ValueError, match="2 rows, but 3 groups"):

@@ -46,6 +46,7 @@ SOLVED = {
     "ball": (taut.ball(PLANE), (PLANE,), {}),
     "ball of balls": (taut.ball_of_balls(PLANE, RADII), (PLANE, RADII), {}),
     "ball of ellipsoids": (taut.ball(PLANE, shapes=SHAPES), (PLANE,), {"shapes": SHAPES}),
+    "centers of ellipsoids": (taut.centers(PLANE, 2, shapes=SHAPES), (PLANE,), {"shapes": SHAPES}),
     "ball far away": (taut.ball(PLANE + 1e9), (PLANE + 1e9,), {}),
     "ellipsoid": (taut.ellipsoid(SPACE), (SPACE,), {}),
     "ellipsoid of balls": (taut.ellipsoid(PLANE, radii=RADII), (PLANE, RADII), {}),

@@ -1,6 +1,6 @@
 //! The minimum enclosing ball of points, of balls or of ellipsoids, and its certificate.
 
-mod check;
+pub(crate) mod check;
 
 use serde::{Deserialize, Serialize};
 use taut_points::{Monitor, PointSource, PointsHash};

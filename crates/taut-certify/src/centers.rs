@@ -32,7 +32,7 @@ pub struct Centers {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub rows: Vec<u64>,
     /// The largest distance of an item to the center next to it, as evaluated in `f64` or a little more: |p − c|, |m − c| + r for a ball,
-    /// w·|p − c| for a point of weight w, and the largest of these for a group of rows.
+    /// w·|p − c| for a point of weight w, and the largest of these for a group of rows; of an ellipsoid, how far its farthest point is.
     pub radius: f64,
     /// No k centers have a smaller radius.
     pub lower_bound: f64,
@@ -43,7 +43,7 @@ pub struct Centers {
     ///
     /// The checker asks that no other center is nearer by more than what a sum in `f64` may be off by: which of centers that
     /// are equally near but for rounding is the first, depends on the order of the sum. All rows of a group have the center from which
-    /// the group reaches least far.
+    /// the group reaches least far. For ellipsoids 1e-9 of how far they reach is granted.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub assignment: Vec<u32>,
 }
@@ -52,7 +52,7 @@ pub struct Centers {
 /// its items.
 ///
 /// Rows of one group are to be in one ball. Those of them that are in the core-set stand for the group: a ball that does not
-/// hold these does not hold it.
+/// hold these does not hold it. An ellipsoid is the group of its points, of which the core-set has some.
 ///
 /// A ball of a radius less than ρ holds items just when its center is less than ρᵢ from each of them, with ρᵢ = ρ for points,
 /// ρ − r for balls and ρ/w for points of weight w. That no such ball holds some items is shown by λ ≥ 0 with
@@ -113,7 +113,7 @@ impl TryFrom<LowerBoundFields> for LowerBound {
     expecting = "the certificate of centers: an object with items, k, core_set and proof"
 )]
 pub struct CentersCertificate {
-    /// Points or balls.
+    /// Points, balls or ellipsoids.
     pub items: Items,
     /// True if the last column holds the weights w > 0 of points.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
@@ -132,8 +132,14 @@ pub struct CentersCertificate {
     /// The gap claimed: radius ≤ (1 + gap)·lower_bound. Accepted when the gap found is at most gap·(1 + 1e-9) + 4e-16; where
     /// the lower bound is 0 and the radius is not, only [`f64::MAX`] is.
     pub gap: f64,
-    /// Row numbers, none twice, in the order that `proof` speaks of.
+    /// Row numbers, none twice, in the order that `proof` speaks of. Of an ellipsoid there may be several points.
     pub core_set: Vec<u64>,
+    /// For ellipsoids, in the order of `core_set`: d numbers a that say which point of the ellipsoid is meant.
+    ///
+    /// It is the point that lies farthest in the direction a, as at [`BallCertificate::directions`](crate::BallCertificate::directions):
+    /// so it belongs to the ellipsoid whatever a is. Empty for points and balls.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub directions: Vec<Vec<f64>>,
     /// The way in which these rows prove the lower bound. Where that is 0 nothing has to be proved.
     pub proof: LowerBound,
     /// The hash of the rows this was made for.

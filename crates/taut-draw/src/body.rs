@@ -179,6 +179,25 @@ impl Measure for Body {
 /// The climb has this many steps: for a picture, the first few tell all.
 const CLIMB_STEPS: usize = 12;
 
+/// How far an item reaches from a place, by climbing from its center, a little beside the straight way so that it does not stay between
+/// two ways up.
+pub(crate) fn reach_from(items: Items, dim: usize, row: &[f64], place: &[f64]) -> f64 {
+    let offset =
+        |point: &[f64]| -> Vec<f64> { point.iter().zip(place).map(|(x, c)| x - c).collect() };
+    let mut here = offset(&row[..dim]);
+    let mut best = length(&here);
+    let aside = if best > 0.0 { BESIDE * best } else { 1.0 };
+    here.iter_mut().for_each(|x| *x += aside);
+    for _ in 0..CLIMB_STEPS {
+        here = offset(&touching(items, dim, row, &here));
+        best = best.max(length(&here));
+    }
+    best
+}
+
+/// A climb begins this part of the way beside it, along every axis.
+const BESIDE: f64 = 1e-2;
+
 /// The point of an item that lies farthest in a direction.
 pub(crate) fn touching(items: Items, dim: usize, row: &[f64], direction: &[f64]) -> Vec<f64> {
     let center = &row[..dim];

@@ -14,6 +14,7 @@ mod item_rows;
 mod items;
 mod links;
 mod nearest;
+mod of_ellipsoids;
 mod options;
 mod proof;
 mod proof_tree;
@@ -62,6 +63,7 @@ const PROOF_NODES: u64 = 10_000;
 /// k centers such that no point of `points`, n × d, is farther than `radius` from the nearest, with a radius at most 1 + ε times the
 /// least possible.
 ///
+/// With [`CentersOptions::inputs`] rows are balls or ellipsoids in place of points, each of which one ball of that radius holds whole.
 /// Rows with one value in the column [`CentersOptions::group`] are a group, such as the vertices of a polytope: all of them are within
 /// `radius` of one center.
 ///
@@ -91,7 +93,8 @@ const PROOF_NODES: u64 = 10_000;
 ///
 /// # Errors
 /// [`Error::Empty`], [`Error::Overflow`]; [`Error::Input`], also when the source fails or the monitor stops the work; with
-/// weights [`Error::NoWeight`] and [`Error::NonPositiveWeight`]; of balls [`Error::NoRadius`] and [`Error::NegativeRadius`].
+/// weights [`Error::NoWeight`] and [`Error::NonPositiveWeight`]; of balls [`Error::NoRadius`] and [`Error::NegativeRadius`]; of
+/// ellipsoids [`Error::NoShape`] and [`Error::NegativeShape`].
 pub fn centers(
     source: &dyn PointSource,
     k: usize,
@@ -110,6 +113,9 @@ pub fn centers(
                 Err(Error::Overflow) => {}
                 found => return found,
             }
+        }
+        if items == Items::Ellipsoids {
+            return of_ellipsoids::solve(source, k, options, monitor);
         }
         if let CentersMethod::Stream(streaming) = options.method {
             return centers_in_two_passes(source, k, options.placement, &streaming, monitor);
@@ -197,7 +203,9 @@ fn solve_in<P: Position>(
         // Streams are not held in memory, and so do not come here.
         CentersMethod::FarthestFirst | CentersMethod::Stream(_) => of_traversal(start),
     };
-    let (proof, given_up, why) = prove(table, &cloud, &found, separated, k, z, monitor)?;
+    let unit = table.scale * table.weight_scale;
+    let claim = |lower, core_set: &[u32]| lower_bound(lower, core_set, table, &cloud) * unit;
+    let (proof, given_up, why) = prove(&claim, &cloud, &found, separated, k, z, monitor)?;
     let answered = answer::answer(table, &cloud, &found.incumbent.centers, z, options.assignment)?;
     finish(table, &cloud, items, asked, options, found, proof, (given_up, why), answered)
 }
@@ -218,9 +226,10 @@ fn of_traversal<P: Position>(start: Start<P>) -> SearchResult<P> {
     }
 }
 
-/// The largest of the radii shown that can be proved again; how many could not, and why not the largest of all.
+/// The largest of the radii shown that can be proved again; how many could not, and why not the largest of all. `claim` is that of
+/// [`Proof::by_tree`].
 fn prove<P: Position>(
-    table: &Table,
+    claim: &dyn Fn(f64, &[u32]) -> f64,
     cloud: &Cloud<P>,
     found: &SearchResult<P>,
     separated: Vec<u32>,
@@ -232,8 +241,6 @@ fn prove<P: Position>(
         true => Proof::none(),
         false => Proof::separated(cloud, separated, monitor)?,
     };
-    let unit = table.scale * table.weight_scale;
-    let claim = |lower, core_set: &[u32]| lower_bound(lower, core_set, table, cloud) * unit;
     let mut budget = found.nodes.saturating_mul(PROOF_FACTOR).saturating_add(PROOF_NODES);
     let (mut given_up, mut why) = (0, None);
     for &ProvedBound { threshold, items } in found.proved.iter().rev() {
@@ -241,7 +248,7 @@ fn prove<P: Position>(
             break;
         }
         let core_set = &found.core_set[..items];
-        match Proof::by_tree(cloud, core_set, threshold, k, z, budget, &claim, monitor)? {
+        match Proof::by_tree(cloud, core_set, threshold, k, z, budget, claim, monitor)? {
             Ok(proof) if proof.lower >= plain.lower => return Ok((proof, given_up, why)),
             tried => why = why.or(Some(tried.err().unwrap_or(Stop::Rounding))),
         }
@@ -269,19 +276,9 @@ fn finish<P: Position>(
     }
     let radius = answered.radius;
     let lower = lower_bound(proof.lower, &proof.core_set, table, cloud).min(radius);
-    let gap = match radius {
-        0.0 => 0.0,
-        // JSON knows no infinity.
-        _ if lower <= 0.0 => f64::MAX,
-        _ => ((radius / lower).next_up() - 1.0).next_up().min(f64::MAX),
-    };
-    let wanted = if options.epsilon > 0.0 { options.epsilon } else { ROUNDING };
-    let stop = match found.stop {
-        _ if gap <= wanted || options.method == CentersMethod::FarthestFirst => Stop::Converged,
-        Stop::Converged => why.unwrap_or(Stop::Rounding),
-        stop => stop,
-    };
-    let counters = [
+    let gap = gap_between(lower, radius);
+    let stop = stop_of(gap, found.stop, why, options);
+    let events = [
         ("nodes", found.nodes),
         ("restarts", found.restarts),
         ("scans", found.scans),
@@ -301,11 +298,7 @@ fn finish<P: Position>(
         iterations: found.nodes,
         core_set: found.core_set.len() as u64,
         history: found.history.iter().map(bounds).collect(),
-        counters: counters
-            .into_iter()
-            .filter(|(_, events)| *events > 0)
-            .map(|(name, events)| (name.to_owned(), events))
-            .collect::<BTreeMap<_, _>>(),
+        counters: counters(&events),
     };
     // Where nothing is claimed, nothing is shown.
     let core_set = if lower > 0.0 { proof.core_set } else { vec![] };
@@ -326,10 +319,37 @@ fn finish<P: Position>(
         outliers: options.outliers,
         gap,
         core_set: core_set.into_iter().map(|item| cloud.rows[item as usize]).collect(),
+        directions: vec![],
         proof: proof.kind,
         points_hash: table.rows.hash,
     };
     Ok(Solution { answer, certificate, trace })
+}
+
+/// radius/lower − 1, rounded up.
+fn gap_between(lower: f64, radius: f64) -> f64 {
+    match radius {
+        0.0 => 0.0,
+        // JSON knows no infinity.
+        _ if lower <= 0.0 => f64::MAX,
+        _ => ((radius / lower).next_up() - 1.0).next_up().min(f64::MAX),
+    }
+}
+
+/// Why a search ended, if its proof is of this gap; `why` is the reason that nothing better was proved.
+fn stop_of(gap: f64, found: Stop, why: Option<Stop>, options: &CentersOptions<'_>) -> Stop {
+    let wanted = if options.epsilon > 0.0 { options.epsilon } else { ROUNDING };
+    match found {
+        _ if gap <= wanted || options.method == CentersMethod::FarthestFirst => Stop::Converged,
+        Stop::Converged => why.unwrap_or(Stop::Rounding),
+        stop => stop,
+    }
+}
+
+/// The events that occurred, by name.
+fn counters(events: &[(&str, u64)]) -> BTreeMap<String, u64> {
+    let occurred = events.iter().filter(|(_, count)| *count > 0);
+    occurred.map(|&(name, count)| (name.to_owned(), count)).collect()
 }
 
 /// Returns what a proof shows, in the units of the rows and less by what rounding there may have added; 0 where it may have added anything.

@@ -5,7 +5,7 @@
 //! | smallest ball around points or balls | [`ball()`] | R ≤ (1 + ε)·R*, proved | few passes of O(nd) |
 //! | smallest ball around ellipsoids | [`ball()`] with [`BallOptions::inputs`] | the same | O(nd³), then a dozen passes of O(nd²) |
 //! | smallest ball in the feature space of a kernel, hard or soft | [`kernel_ball()`] | objective ≤ (1 + ε) times the least, proved | some ten passes of O(nd) where the kernel is wide |
-//! | k smallest equal balls around points or balls, with outliers, weights | [`centers()`] | radius ≤ (1 + ε) times the least, proved | exponential in k; about 0.1 s for k = 10 in the plane |
+//! | k smallest equal balls around points, balls or ellipsoids, with outliers, weights | [`centers()`] | radius ≤ (1 + ε) times the least, proved | exponential in k; about 0.1 s for k = 10 in the plane |
 //! | ellipsoid of least volume around points | [`ellipsoid()`] | log-volume ≤ optimum + ε, proved | few passes of O(nd²) |
 //! | ellipsoid of least volume around balls, ellipsoids | [`ellipsoid()`] with [`EllipsoidOptions::inputs`] | the same | a dozen passes of O(nd³) |
 //! | one for each of many point sets | [`ellipsoids()`] | the same | that of the sets, shared by all threads |

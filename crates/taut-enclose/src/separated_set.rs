@@ -63,6 +63,7 @@ impl SeparatedSet {
             outliers: 0,
             gap: gap(answer.radius, answer.lower_bound)?,
             core_set: self.rows,
+            directions: vec![],
             proof: LowerBound::Separated,
             points_hash,
         };

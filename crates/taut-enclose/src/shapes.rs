@@ -9,6 +9,7 @@
 //! *Trap.* Rounding the entries of a singular S makes some of its eigenvalues negative. Such a row stands for an S that is
 //! a little thicker ([`thickening`]), and all that is asked of S here is asked of that.
 
+pub(crate) mod axes;
 pub(crate) mod eigen;
 pub(crate) mod frame;
 pub(crate) mod reach;

@@ -41,7 +41,7 @@ class CentersCertificate(Record):
     Attributes
     ----------
     items : str
-        ``"points"`` or ``"balls"``.
+        ``"points"``, ``"balls"`` or ``"ellipsoids"``.
     weights : bool
         Whether the points have weights.
     group : int or None
@@ -55,7 +55,9 @@ class CentersCertificate(Record):
     gap : float
         The gap claimed: radius <= (1 + gap) lower_bound.
     core_set : ndarray of int64, shape (m,)
-        Row numbers. Read-only.
+        Row numbers, those of ellipsoids once for each of their points. Read-only.
+    directions : ndarray of shape (m, d) or (0, 0)
+        For ellipsoids {m + v : v v.T <= S}, directions a that name points of theirs, m + S a / sqrt(a S a). Read-only.
     proof : str
         ``"apart"`` (no two of the core-set fit in one ball) or ``"branches"`` (the checker replays the branches of a
         search).
@@ -71,6 +73,7 @@ class CentersCertificate(Record):
     outliers: int
     gap: float
     core_set: RowNumbers = column(ROW)
+    directions: Floats = table(FLOAT, None)
     proof: str = value("proof.by")
     points_hash: str
 

@@ -24,11 +24,11 @@
 //! *Reference.* For points, the dual of Yıldırım, SIAM J. Optim. 19(3), 2008.
 
 mod difference;
-mod ellipsoids;
+pub(crate) mod ellipsoids;
 mod enclosure;
 mod lower_bound;
 mod scale;
-mod structure;
+pub(crate) mod structure;
 
 use taut_points::{Monitor, PointSource};
 

@@ -3,7 +3,7 @@
 //! *Problem.* Given rows, at most k centers, a radius R, rows left out, a core-set X and a bound L, prove L ≤ R* ≤ R, where R*
 //! is the least radius of k equal balls, with their centers anywhere or at rows, that hold all rows except z.
 //! *Upper bound.* Each row that counts is at most R from a center, decided exactly: [`enclosure`]. Where rows are in groups, one
-//! center serves all rows of a group: [`group_enclosure`].
+//! center serves all rows of a group: [`group_enclosure`]. Ellipsoids are compared with balls as they are: [`ellipsoids`].
 //! *Lower bound.* No k balls of a radius less than L hold all of X except z of its rows. Balls that held all rows but z
 //! would; so R* ≥ L. There are two proofs: a separated set, more than k + z rows no two of which fit in one ball, and the
 //! log of a branch and bound search, which is replayed ([`replay`]). An [`oracle`] refutes balls: with bounds on all that is
@@ -17,6 +17,7 @@
 mod center_tree;
 mod core;
 mod distance;
+mod ellipsoids;
 mod enclosure;
 mod free;
 mod group_enclosure;
@@ -30,6 +31,7 @@ mod structure;
 use taut_points::{Cancelled, Monitor, PointSource};
 
 use self::core::{Core, Pairs};
+use self::ellipsoids::EllipsoidEnclosure;
 use self::enclosure::Enclosure;
 use self::free::Free;
 use self::group_enclosure::GroupEnclosure;
@@ -38,6 +40,7 @@ use self::meter::Meter;
 use self::oracle::Oracle;
 use self::replay::Log;
 use self::rows::Places;
+use self::structure::Reading;
 use super::{Centers, CentersCertificate, CentersVerdict, CentersViolation, LowerBound, Placement};
 use crate::CheckError;
 use crate::hashed_pass::KeptRows;
@@ -48,27 +51,64 @@ pub(super) fn check(
     source: &dyn PointSource,
     monitor: &Monitor<'_>,
 ) -> Result<CentersVerdict, CheckError> {
-    let (layout, gap) = structure::check(answer, certificate, source)?;
+    let (reading, gap) = structure::check(answer, certificate, source)?;
     monitor.pass(1, source.len());
+    let (lower, upper) = (answer.lower_bound, answer.radius);
+    let branches = match reading {
+        Reading::Items(layout) => of_items(answer, certificate, layout, source, monitor)?,
+        Reading::Ellipsoids(dim) => of_ellipsoids(answer, certificate, dim, source, monitor)?,
+    };
+    Ok(CentersVerdict { lower, upper, gap, branches })
+}
+
+/// Points and balls; the number of branches.
+fn of_items(
+    answer: &Centers,
+    certificate: &CentersCertificate,
+    layout: Layout,
+    source: &dyn PointSource,
+    monitor: &Monitor<'_>,
+) -> Result<u64, CheckError> {
     let kept = match layout.group {
         None => Enclosure::of(answer, layout.kind).check(source, certificate, monitor)?,
         Some(_) => GroupEnclosure::of(answer, layout).check(source, certificate, monitor)?,
     };
     are_rows(answer, layout, &kept)?;
-    let (lower, upper) = (answer.lower_bound, answer.radius);
-    let mut verdict = CentersVerdict { lower, upper, gap, branches: 0 };
-    if lower > 0.0 {
-        let rows = || certificate.core_set.iter().map(|&id| kept.row(id));
-        let items: Vec<f64> = rows().flat_map(|row| layout.of_item(row)).collect();
-        let columns = source.dim() - usize::from(layout.group.is_some());
-        let mut core = Core::of(&items, columns, layout.kind, lower);
-        if layout.group.is_some() {
-            let groups: Vec<f64> = rows().filter_map(|row| layout.group_of(row)).collect();
-            core = core.with_groups(&groups);
-        }
-        verdict.branches = prove(&core, layout, certificate, source, monitor)?;
+    if answer.lower_bound <= 0.0 {
+        return Ok(0);
     }
-    Ok(verdict)
+    let rows = || certificate.core_set.iter().map(|&id| kept.row(id));
+    let items: Vec<f64> = rows().flat_map(|row| layout.of_item(row)).collect();
+    let columns = source.dim() - usize::from(layout.group.is_some());
+    let mut core = Core::of(&items, columns, layout.kind, answer.lower_bound);
+    if layout.group.is_some() {
+        core = core.with_groups(rows().filter_map(|row| layout.group_of(row)).map(f64::to_bits));
+    }
+    let places = || {
+        monitor.pass(2, source.len());
+        Places::of(&core, layout, certificate.points_hash, source, monitor)
+    };
+    prove(&core, certificate, &places, monitor)
+}
+
+/// Ellipsoids, of which the core-set has points; the number of branches.
+fn of_ellipsoids(
+    answer: &Centers,
+    certificate: &CentersCertificate,
+    dim: usize,
+    source: &dyn PointSource,
+    monitor: &Monitor<'_>,
+) -> Result<u64, CheckError> {
+    let kept = EllipsoidEnclosure::of(answer, dim).check(source, certificate, monitor)?;
+    if answer.lower_bound <= 0.0 {
+        return Ok(0);
+    }
+    let core = ellipsoids::core(answer, certificate, dim, &kept, monitor)?;
+    let places = || {
+        let problem = "whose centers are no rows";
+        refused(CentersViolation::Ellipsoids { problem })
+    };
+    prove(&core, certificate, &places, monitor)
 }
 
 /// Centers among the rows are the rows they are said to be, to the last bit.
@@ -85,9 +125,8 @@ fn are_rows(answer: &Centers, layout: Layout, kept: &KeptRows) -> Result<(), Che
 /// Proves the lower bound; returns the number of branches that were replayed.
 fn prove(
     core: &Core,
-    layout: Layout,
     certificate: &CentersCertificate,
-    source: &dyn PointSource,
+    places: &dyn Fn() -> Result<Places, CheckError>,
     monitor: &Monitor<'_>,
 ) -> Result<u64, CheckError> {
     let (rows, groups, outliers) = (core.len(), core.group_count(), certificate.outliers);
@@ -95,10 +134,6 @@ fn prove(
     if groups as u64 <= outliers {
         return refused(CentersViolation::TooFew { rows: groups, outliers });
     }
-    let places = || {
-        monitor.pass(2, source.len());
-        Places::of(core, layout, certificate.points_hash, source, monitor)
-    };
     let limited = |proof| match rows > replay::ITEMS {
         true => refused(CentersViolation::CoreSetSize { rows, most: replay::ITEMS, proof }),
         false => Ok(()),
@@ -109,7 +144,7 @@ fn prove(
             if groups as u64 <= certificate.k.saturating_add(outliers) {
                 return refused(CentersViolation::TooFew { rows: groups, outliers });
             }
-            if layout.group.is_some() {
+            if core.is_grouped() {
                 limited("groups apart")?;
                 let close = match certificate.placement {
                     Placement::Free => {

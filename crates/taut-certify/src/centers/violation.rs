@@ -7,9 +7,18 @@ pub enum CentersViolation {
     /// There are no items.
     #[error("there are no rows: centers need at least one")]
     Empty,
-    /// The certificate speaks of ellipsoids.
-    #[error("the items are said to be ellipsoids: centers are of points or of balls")]
-    Ellipsoids,
+    /// The certificate says of ellipsoids what cannot be.
+    #[error("the items are said to be ellipsoids, {problem}")]
+    Ellipsoids {
+        /// The reason for the refusal.
+        problem: &'static str,
+    },
+    /// A point of an ellipsoid of the core-set is beyond the largest number, seen from the first center.
+    #[error("ellipsoid {row} of the core-set is too far from the first center to be measured")]
+    TooFar {
+        /// The row, from 0.
+        row: u64,
+    },
     /// The certificate speaks of balls with weights.
     #[error("the items are said to be balls with weights: points alone can have weights")]
     WeightsOfBalls,

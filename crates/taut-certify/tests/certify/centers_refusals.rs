@@ -40,6 +40,7 @@ fn by_hand(
             outliers: 0,
             gap,
             core_set: core_set.to_vec(),
+            directions: vec![],
             proof,
             points_hash: hash_points(points, &Monitor::silent()).unwrap(),
         },
@@ -326,6 +327,7 @@ fn any_solution() -> impl Strategy<Value = Solution<Centers>> {
                 outliers: z,
                 gap,
                 core_set,
+                directions: vec![],
                 proof: match proof {
                     0 => LowerBound::Separated,
                     _ => LowerBound::Branches { items: items_of_log },

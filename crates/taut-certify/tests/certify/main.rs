@@ -8,6 +8,7 @@ mod ball_mutations;
 mod ball_properties;
 mod ball_refusals;
 mod ball_threads;
+mod centers_ellipsoids;
 mod centers_mutations;
 mod centers_properties;
 mod centers_refusals;

@@ -3,8 +3,9 @@
 use anyhow::bail;
 use taut::certify::Centers;
 use taut::certify::Placement;
-use taut::{CentersMethod, CentersOptions, Items, Monitor, Solution, centers};
+use taut::{CentersMethod, CentersOptions, Monitor, Solution, centers};
 
+use crate::commands::ball::items;
 use crate::commands::elbow::{self, Range};
 use crate::effort::Effort;
 use crate::exit::Outcome;
@@ -25,7 +26,8 @@ Exit: 0 reached · 1 the check failed · 2 bad input or usage, nothing written �
 Example: taut centers points.csv -k 5 -o centers.json --draw centers.svg &&
          taut verify centers.json points.csv
          taut centers points.csv --elbow 1..10 --draw elbow.svg
-         taut centers corners.csv -k 3 --group house")]
+         taut centers corners.csv -k 3 --group house
+         taut centers ellipses.csv -k 3 --ellipsoids")]
 pub(crate) struct Args {
     #[command(flatten)]
     points: Points,
@@ -59,6 +61,10 @@ pub(crate) struct Args {
     /// Rows are balls: the coordinates of a center, then the radius; each is to lie in one of the k
     #[arg(long)]
     balls: bool,
+    /// Rows are ellipsoids {m + v : vvᵀ ⪯ S}: the coordinates of the center m, then the lower triangle of the shape
+    /// matrix S, row by row; each is to lie in one of the k
+    #[arg(long, conflicts_with_all = ["balls", "weights", "group", "discrete"])]
+    ellipsoids: bool,
     /// The column, by name or number from 0, that holds a number for the group of each row: one ball is to hold all rows of a group,
     /// such as the vertices of a polytope. --outliers then counts groups
     #[arg(long, value_name = "COLUMN")]
@@ -131,7 +137,7 @@ impl Args {
 
     fn options(&self) -> CentersOptions<'static> {
         CentersOptions {
-            inputs: if self.balls { Items::Balls } else { Items::Points },
+            inputs: items(self.balls, self.ellipsoids),
             epsilon: self.epsilon,
             method: self.method,
             placement: if self.discrete { Placement::Rows } else { Placement::Free },
@@ -149,6 +155,7 @@ impl Args {
         let asked = [
             ("--discrete", self.discrete),
             ("--balls", self.balls),
+            ("--ellipsoids", self.ellipsoids),
             ("--weights", self.weights),
             ("--outliers", self.outliers > 0),
             ("--assignment", self.assignment),
@@ -156,13 +163,15 @@ impl Args {
         ];
         let (names, knows) = match self.method {
             CentersMethod::Thesis => (
-                &["--discrete", "--weights", "--outliers", "--group"][..],
+                &["--discrete", "--ellipsoids", "--weights", "--outliers", "--group"][..],
                 "free centers of points and balls",
             ),
             CentersMethod::Stream(_) => (
-                &["--balls", "--weights", "--outliers", "--assignment", "--group"][..],
+                &["--balls", "--ellipsoids", "--weights", "--outliers", "--assignment", "--group"]
+                    [..],
                 "centers of points alone, which it does not look at again",
             ),
+            CentersMethod::FarthestFirst => (&["--ellipsoids"][..], "points and balls"),
             _ => return Ok(()),
         };
         match asked.into_iter().find(|(name, is_asked)| *is_asked && names.contains(name)) {

@@ -61,7 +61,13 @@ impl Summary for Centers {
                 format!("with {} of a search", counted_branches(items.len() as u64))
             }
         };
-        let core_set = counted(certificate.core_set.len() as u64, noun);
+        let core_set = match certificate.items {
+            Items::Ellipsoids => {
+                let points = counted(certificate.core_set.len() as u64, "point");
+                format!("{points} of {}", counted(different(&certificate.core_set), noun))
+            }
+            _ => counted(certificate.core_set.len() as u64, noun),
+        };
         fields.extend([
             Field::new("nodes", count(trace.iterations)),
             match certificate.core_set.len() {
@@ -167,6 +173,14 @@ fn gap_of(answer: &Centers, value: f64) -> Field {
         true => Field::new("gap", gap(value)),
         false => Field::new("gap", "none"),
     }
+}
+
+/// The number of different rows.
+fn different(rows: &[u64]) -> u64 {
+    let mut rows = rows.to_vec();
+    rows.sort_unstable();
+    rows.dedup();
+    rows.len() as u64
 }
 
 fn counted_branches(branches: u64) -> String {

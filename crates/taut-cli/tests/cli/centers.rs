@@ -99,6 +99,55 @@ fn groups_are_held_whole() {
     folder.taut("centers ends.csv --elbow 1..3 --group house").ends(0);
 }
 
+/// Discs of radius 2 and 1, the one within the other, and an ellipse with half axes 1 and 3.
+const ELLIPSES: &str = "x,y,a,b,c\n0,0,4,0,4\n1,0,1,0,1\n9,0,1,0,9\n";
+
+#[test]
+fn ellipsoids_are_held_whole() {
+    let folder = TestFolder::new();
+    folder.put("ellipses.csv", ELLIPSES);
+    let line = "centers ellipses.csv -k 2 --ellipsoids --epsilon 1e-6";
+    folder.taut(&format!("{line} --assignment -o found.json --draw found.svg")).ends(0).stdout_has(
+        &[
+            "3 ellipsoids in 2 dimensions: 2 centers\n",
+            "radius      3",
+            "yes; every ellipsoid is in a ball, and the gap is proved\n",
+            "core-set    ",
+            " points of ",
+            " ellipsoid",
+        ],
+    );
+    let document: serde_json::Value = serde_json::from_str(&folder.text("found.json")).unwrap();
+    let list = |of: &str, name: &str| document[of][name].as_array().unwrap().clone();
+    assert_eq!(document["certificate"]["items"], "ellipsoids");
+    assert_eq!(list("certificate", "directions").len(), list("certificate", "core_set").len());
+    let next = list("answer", "assignment");
+    assert!(next[0] == next[1] && next[1] != next[2], "{next:?}");
+    folder.taut("verify found.json ellipses.csv").ends(0).stdout_has(&["3 ellipsoids"]);
+    folder.taut("draw found.json ellipses.csv -o again.svg").ends(0);
+    assert_eq!(folder.text("again.svg"), folder.text("found.svg"));
+    assert!(folder.text("found.svg").contains("ellipsoid"));
+    folder.put("other.csv", ELLIPSES.replace("9,0,1,0,9", "9,0,1,0,9.01"));
+    folder.taut("verify found.json other.csv").ends(1);
+    let out = "centers ellipses.csv -k 1 --ellipsoids --outliers 1 --json";
+    assert_eq!(folder.taut(out).ends(0).json()["answer"]["outliers"][0], 2);
+    folder.taut("centers ellipses.csv --elbow 1..3 --ellipsoids").ends(0);
+    let refused = |line: &str, words: &[&str]| {
+        let run = folder.taut(line).ends(2);
+        words.iter().for_each(|word| assert!(run.err.contains(word), "{line}: {}", run.err));
+    };
+    for option in ["--balls", "--weights", "--discrete", "--group x"] {
+        let name = option.split(' ').next().unwrap();
+        refused(&format!("{line} {option}"), &["--ellipsoids", name]);
+    }
+    for method in ["thesis", "farthest-first", "stream"] {
+        refused(&format!("{line} --method {method}"), &["--ellipsoids", method]);
+    }
+    refused("centers ellipses.csv -k 1 --ellipsoids --columns x,y,a", &["d(d + 3)/2"]);
+    folder.put("bad.csv", ELLIPSES.replace("9,0,1,0,9", "9,0,1,4,9"));
+    refused("centers bad.csv -k 1 --ellipsoids", &["row 4", "positive semidefinite"]);
+}
+
 #[test]
 fn groups_that_are_not_there_are_named() {
     let folder = TestFolder::new();

@@ -58,7 +58,10 @@ pub fn centers_figures(
     };
     let dim = check(answer, certificate, source)?;
     let nearest = Nearest::new(answer, certificate, dim);
-    let always = [&certificate.core_set[..], &answer.outliers].concat();
+    let mut always = [&certificate.core_set[..], &answer.outliers].concat();
+    // Several points of one ellipsoid are one row.
+    always.sort_unstable();
+    always.dedup();
     let question = PassQuery {
         items: certificate.items,
         support: &always,
@@ -185,10 +188,18 @@ impl<'a> Picture<'a> {
         format!("Radius {}; {gap}.{bound}{weights}", short(radius, 8))
     }
 
+    /// The rows of the core-set, ascending: several points of one ellipsoid are one.
+    fn core_set(&self) -> Vec<u64> {
+        let mut rows = self.certificate.core_set.clone();
+        rows.sort_unstable();
+        rows.dedup();
+        rows
+    }
+
     /// Returns what is drawn of how many, and what proves the bound.
     fn counts(&self) -> String {
         let thing = self.input.thing();
-        let core_set = match self.certificate.core_set.len() as u64 {
+        let core_set = match self.core_set().len() as u64 {
             0 => String::new(),
             1 => format!(" The one {thing} of the core-set proves the lower bound."),
             m => format!(" The {} {thing}s of the core-set prove the lower bound.", count(m)),
@@ -219,9 +230,7 @@ impl<'a> Picture<'a> {
     /// Balls, rows of no part, the lower bound, the core-set, rows left out, and centers.
     fn layers(&self) -> Result<Vec<Layer<'a>>, Error> {
         let Centers { centers, outliers, radius, lower_bound, .. } = self.answer;
-        let mut core: Vec<u64> = self.certificate.core_set.clone();
-        core.sort_unstable();
-        core.dedup();
+        let mut core = self.core_set();
         core.retain(|id| outliers.binary_search(id).is_err());
         let is_other =
             |id: &u64| core.binary_search(id).is_err() && outliers.binary_search(id).is_err();

@@ -3,6 +3,7 @@
 use taut_certify::{Centers, CentersCertificate, Items};
 
 use crate::axes::unit;
+use crate::body::reach_from;
 use crate::item_pass::Measure;
 
 /// Centers and their radius, scaled so that sums of squares neither overflow nor vanish.
@@ -31,20 +32,17 @@ impl Nearest {
 
     /// Returns how far an item reaches from the center next to it, in units.
     pub(super) fn reach(&self, row: &[f64], items: Items) -> f64 {
-        let square = |center: &[f64]| -> f64 {
-            center.iter().zip(row).map(|(c, x)| (x / self.unit - c).powi(2)).sum()
-        };
-        let nearest = self.centers.chunks_exact(self.dim).map(square).fold(f64::INFINITY, f64::min);
-        match items {
-            _ if self.weights => row[self.dim] * nearest.sqrt(),
-            Items::Balls => nearest.sqrt() + row[self.dim] / self.unit,
-            Items::Points | Items::Ellipsoids => nearest.sqrt(),
-        }
+        let each = 0..self.centers.len() / self.dim;
+        each.map(|center| self.reach_from(center, row, items)).fold(f64::INFINITY, f64::min)
     }
 
     /// Returns how far an item reaches from one of the centers, in units.
     pub(super) fn reach_from(&self, center: usize, row: &[f64], items: Items) -> f64 {
         let center = &self.centers[center * self.dim..][..self.dim];
+        if items == Items::Ellipsoids {
+            let place: Vec<f64> = center.iter().map(|c| c * self.unit).collect();
+            return reach_from(items, self.dim, row, &place) / self.unit;
+        }
         let square: f64 = center.iter().zip(row).map(|(c, x)| (x / self.unit - c).powi(2)).sum();
         match items {
             _ if self.weights => row[self.dim] * square.sqrt(),

@@ -35,6 +35,7 @@ fn case(dim: usize, most: usize) -> (Vec<f64>, Solution<Centers>) {
         outliers: 1,
         gap: 0.25,
         core_set: vec![3, 0, 1, most as u64 - 1],
+        directions: vec![],
         proof: LowerBound::Separated,
         points_hash,
     };
@@ -49,6 +50,28 @@ fn drawn(values: &[f64], columns: usize, found: &Solution<Centers>) -> Vec<Figur
         assert!(!text.contains("NaN") && !text.contains("inf"), "{columns} columns");
     }
     figures
+}
+
+/// An ellipse of half axes 3 and 1 that the ball around its middle holds, and one that reaches to a center of its own from aside.
+#[test]
+fn ellipses_are_drawn_and_reach_as_far_as_their_ends() {
+    let (_, mut found) = case(2, 3);
+    let values = [4.0, 0.0, 1.0, 0.0, 9.0, -4.0, 2.0, 1.0, 0.0, 1.0];
+    found.answer.outliers.clear();
+    found.answer.radius = 3.0;
+    found.certificate.items = Items::Ellipsoids;
+    found.certificate.core_set = vec![0, 0, 1];
+    found.certificate.directions = vec![vec![0.0, 1.0], vec![0.0, -1.0], vec![0.0, 1.0]];
+    let figures = drawn(&values, 5, &found);
+    let text = to_svg(&figures[0], &Style::default());
+    assert!(text.contains("2 ellipsoids") && !text.contains("reach outside"), "{text}");
+    assert!(text.contains("The 2 ellipsoids of the core-set"), "{text}");
+    // A little less, and both reach beyond.
+    found.answer.radius = 2.9;
+    let figures = drawn(&values, 5, &found);
+    assert!(
+        to_svg(&figures[0], &Style::default()).contains("2 ellipsoids reach outside the balls")
+    );
 }
 
 fn plane(figures: &[Figure]) -> &Scene2 {

@@ -21,6 +21,7 @@ use crate::Error;
 use crate::kernel::vector::{add_scaled, dot};
 use crate::kernel::{Center, DoubleDouble};
 use crate::shapes::Shapes;
+use crate::shapes::axes::{Axes, diagonal, units};
 use crate::shapes::eigen::eigen;
 use crate::shapes::frame::{Framed, Map};
 use crate::shapes::reach::{alternatives, farthest};
@@ -41,12 +42,6 @@ const FAR_OFF: f64 = 8.0;
 struct SupportPoint {
     item: usize,
     direction: Vec<f64>,
-}
-
-/// Squares of half axes, and their directions as rows.
-struct Axes {
-    squares: Vec<f64>,
-    directions: Vec<f64>,
 }
 
 /// The result of a pass: squared reaches, and the points outside, the farthest first.
@@ -84,14 +79,7 @@ pub(super) fn solve(
     if !framed.is_finite() {
         return Err(Error::Overflow);
     }
-    let axes: Vec<Axes> = (0..framed.len())
-        .into_par_iter()
-        .with_min_len(32)
-        .map(|i| {
-            let (squares, directions) = eigen(&mut framed.shape(i).to_vec(), dim);
-            Axes { squares, directions }
-        })
-        .collect();
+    let axes = Axes::of_all(&framed);
     let start = pass(&framed, &axes, &vec![0.0; dim], 0.0, &vec![vec![]; shapes.len()]);
     let mut trace =
         Trace { method: options.method.name().to_owned(), passes: 2, ..Trace::default() };
@@ -162,30 +150,6 @@ pub(super) fn solve(
     prove(&shapes, &origin, scale, best, trace, options)
 }
 
-fn diagonal(dim: usize, value: f64) -> Vec<f64> {
-    (0..dim * dim).map(|at| if at / dim == at % dim { value } else { 0.0 }).collect()
-}
-
-/// An origin among the items, and a power of two of about how far they reach.
-fn units(shapes: &Shapes) -> Result<(Center, f64), Error> {
-    let origin = shapes.center(0).to_vec();
-    let mut reach = 0.0f64;
-    for i in 0..shapes.len() {
-        for (j, (m, o)) in shapes.center(i).iter().zip(&origin).enumerate() {
-            reach = reach.max((m - o).abs()).max(shapes.width(i, j));
-        }
-    }
-    if !(reach * (shapes.dim() as f64)).is_finite() {
-        return Err(Error::Overflow);
-    }
-    let scale = if reach == 0.0 {
-        1.0
-    } else {
-        2f64.powi(reach.log2().floor().clamp(-1000.0, 1000.0) as i32)
-    };
-    Ok((Center { high: origin, low: vec![] }, scale))
-}
-
 /// Takes the first of the points found to the working set.
 fn add(
     framed: &Framed,
@@ -217,11 +181,8 @@ fn pass(
         .into_par_iter()
         .with_min_len(32)
         .map(|i| {
-            let dim = framed.rank;
-            let offset: Vec<f64> =
-                framed.center(i).iter().zip(center).map(|(m, c)| m - c).collect();
             let axes = &axes[i];
-            let h: Vec<f64> = axes.directions.chunks_exact(dim).map(|v| dot(v, &offset)).collect();
+            let h = axes.along(framed.center(i), center);
             let best = farthest(&axes.squares, &h);
             let mut support_points = vec![];
             if best.square > beyond {
@@ -229,10 +190,7 @@ fn pass(
                 let seeds: Vec<Vec<f64>> = seeds[i].iter().map(|a| seed(axes, a)).collect();
                 alternatives(&axes.squares, &h, &best, &seeds, |square, beta| {
                     if square >= worth {
-                        let mut direction = vec![0.0; dim];
-                        for (&beta, v) in beta.iter().zip(axes.directions.chunks_exact(dim)) {
-                            add_scaled(&mut direction, beta, v);
-                        }
+                        let direction = axes.direction(beta);
                         support_points.push((square, SupportPoint { item: i, direction }));
                     }
                 });

@@ -32,6 +32,8 @@ pub(super) struct Cloud<P> {
     pub(super) items: ItemSet<P>,
     pub(super) rows: Vec<u64>,
     cells: Vec<Cell<P>>,
+    /// What positions may be off by, in length; 0 for rows as they are given.
+    pub(super) place_error: f64,
     /// None where each item stands for itself.
     pub(super) grouping: Option<Grouping<P>>,
 }
@@ -91,7 +93,8 @@ impl<P: Position> Cloud<P> {
             let of = order.iter().map(|&row| groups[row as usize]).collect();
             Grouping::new(&items, of)
         });
-        Cloud { items, rows: order.into_iter().map(u64::from).collect(), cells, grouping }
+        let rows = order.into_iter().map(u64::from).collect();
+        Cloud { items, rows, cells, place_error: 0.0, grouping }
     }
 
     /// Number of groups; of items where each stands for itself.

@@ -37,7 +37,8 @@ choice! { "method", CentersMethod {
 /// Options to look for centers. Write `CentersOptions { epsilon: 1e-6, ..Default::default() }`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CentersOptions<'a> {
-    /// The kind of the rows: points or balls. Default [`Items::Points`].
+    /// The kind of the rows: points, balls or ellipsoids. Ellipsoids have free centers, the method [`CentersMethod::Tree`], and neither
+    /// weights nor groups. Default [`Items::Points`].
     pub inputs: Items,
     /// Wanted relative gap, radius ≤ (1 + ε)·lower bound. Range [0, 1), default 0.01. Has no influence on
     /// [`CentersMethod::FarthestFirst`] and [`CentersMethod::Stream`].
@@ -90,9 +91,6 @@ impl CentersOptions<'_> {
         let wrong = |name, value: String, expected| {
             Err(Error::Input(InputError::Option { name, value, expected }))
         };
-        if self.inputs == Items::Ellipsoids {
-            return wrong("inputs", "ellipsoids".into(), "points or balls");
-        }
         if k == 0 {
             return wrong("k", "0".into(), "at least 1");
         }
@@ -103,6 +101,21 @@ impl CentersOptions<'_> {
             && let Err(refused) = check_threads(threads)
         {
             return wrong("threads", threads.to_string(), refused.expected);
+        }
+        if self.inputs == Items::Ellipsoids {
+            if self.method != CentersMethod::Tree {
+                let expected = "tree, the one method for ellipsoids";
+                return wrong("method", self.method.to_string(), expected);
+            }
+            if self.placement == Placement::Rows {
+                return wrong("placement", "rows".into(), "free for ellipsoids");
+            }
+            if self.weights {
+                return wrong("weights", "true".into(), "false for ellipsoids");
+            }
+            if let Some(group) = self.group {
+                return wrong("group", group.to_string(), "none for ellipsoids");
+            }
         }
         if self.method == CentersMethod::Thesis {
             if self.placement == Placement::Rows {

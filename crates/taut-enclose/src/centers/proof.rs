@@ -24,10 +24,12 @@ use crate::Error;
 
 /// The amount that rounding may have added to the radius of a ball of a few items, for the solver and for a checker; in parts of it.
 const ROUNDING: f64 = 1e-12;
+/// In length, what a bound may be off by for items that are off by 1: each end of it, and what the checker adds.
+const PLACES: f64 = 3.0;
 /// The same for two items, but for what grows with d.
 const PAIR_ROUNDING: f64 = 2e-14;
-/// Open children stay below the refuted ones by this, so that others, who round otherwise, refute the same.
-const REFUTED_MARGIN: f64 = 4e-12;
+/// Open children stay below the refuted ones by so many times the rounding, so that others, who round otherwise, refute the same.
+const REFUTED_MARGIN: f64 = 4.0;
 /// At most this many trees are made over what the one before has branched on, or with open children farther from the
 /// bound.
 const ROUNDS_MAX: usize = 5;
@@ -80,7 +82,7 @@ impl Proof {
         }
         let mut known = HashSet::new();
         core_set.retain(|&item| known.insert(item));
-        let lower = if lower.is_finite() { lower * (1.0 - ROUNDING) } else { 0.0 };
+        let lower = if lower.is_finite() { lower * (1.0 - rounding(cloud, lower)) } else { 0.0 };
         Ok(Proof { lower, core_set, kind: LowerBound::Separated, nodes: 0 })
     }
 
@@ -110,6 +112,8 @@ impl Proof {
         }
         let mut best: Option<(Vec<u32>, ProofLog)> = None;
         let (mut budget, mut threshold) = (budget, threshold);
+        let rounding = rounding(cloud, threshold);
+        let margin = REFUTED_MARGIN * rounding;
         for _ in 0..ROUNDS_MAX {
             let core_set = best.as_ref().map_or(core_set, |(core_set, _)| core_set);
             let log = match ProofTree::new(root(core_set, threshold), budget, monitor).log()? {
@@ -117,15 +121,15 @@ impl Proof {
                 Err(why) if best.is_none() => return Ok(Err(why)),
                 Err(_) => break,
             };
-            if log.open > log.lower * (1.0 - REFUTED_MARGIN) {
+            if log.open > log.lower * (1.0 - margin) {
                 // A child that is open here may be refuted there: both have to be on the same side of the bound.
-                threshold = log.open * (1.0 - REFUTED_MARGIN);
+                threshold = log.open * (1.0 - margin);
                 continue;
             }
-            let claimed = claim(log.lower * (1.0 - ROUNDING), core_set);
-            if claimed > 0.0 && log.open > claimed * (1.0 - ROUNDING) {
+            let claimed = claim(log.lower * (1.0 - rounding), core_set);
+            if claimed > 0.0 && log.open > claimed * (1.0 - rounding) {
                 // The checker refutes what reaches the bound that is claimed, and the log has to do the same.
-                threshold = claimed * (1.0 + 2.0 * ROUNDING);
+                threshold = claimed * (1.0 + 2.0 * rounding);
                 continue;
             }
             budget = (log.items.len() as u64).saturating_sub(1);
@@ -142,9 +146,17 @@ impl Proof {
             return Ok(Err(Stop::ProofBudget));
         }
         let nodes = log.items.len() as u64;
-        let lower = log.lower * (1.0 - ROUNDING);
+        let lower = log.lower * (1.0 - rounding);
         let kind = LowerBound::Branches { items: log.items };
         Ok(Ok(Proof { lower, core_set, kind, nodes }))
+    }
+}
+
+/// What a bound of about this radius may be off by, relatively; 1 where it may be nothing.
+pub(super) fn rounding<P>(cloud: &Cloud<P>, radius: f64) -> f64 {
+    match cloud.place_error {
+        0.0 => ROUNDING,
+        error => (ROUNDING + PLACES * error / radius).min(1.0),
     }
 }
 

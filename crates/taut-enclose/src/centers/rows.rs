@@ -95,6 +95,7 @@ pub(super) fn solve(
         outliers: options.outliers,
         gap,
         core_set: proof.members.iter().map(|&site| sites.row(site)).collect(),
+        directions: vec![],
         proof: proof.by,
         points_hash: sites.hash(),
     };

@@ -108,6 +108,7 @@ impl TrivialCenters {
                 outliers: options.outliers,
                 gap: 0.0,
                 core_set: vec![],
+                directions: vec![],
                 proof: LowerBound::Separated,
                 points_hash,
             },

@@ -286,8 +286,8 @@ fn wrong_input_is_named() {
     assert_eq!(option(CentersOptions { outliers: 1, ..stream }, 1), "outliers");
     assert_eq!(option(CentersOptions { weights: true, ..stream }, 1), "weights");
     assert_eq!(option(CentersOptions { assignment: true, ..stream }, 1), "assignment");
-    for plain in [plain, stream] {
-        assert_eq!(option(CentersOptions { inputs: Items::Ellipsoids, ..plain }, 1), "inputs");
+    for other in [thesis, stream] {
+        assert_eq!(option(CentersOptions { inputs: Items::Ellipsoids, ..other }, 1), "method");
     }
     let of_balls = centers(&points, 1, &CentersOptions { inputs: Items::Balls, ..stream });
     assert!(matches!(of_balls, Err(Error::Input(InputError::Option { name: "method", .. }))));

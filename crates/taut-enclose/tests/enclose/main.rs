@@ -13,6 +13,8 @@ mod ball_thesis;
 mod centers;
 mod centers_bytes;
 mod centers_damage;
+mod centers_ellipsoids;
+mod centers_ellipsoids_damage;
 mod centers_exact;
 mod centers_groups;
 mod centers_groups_damage;

@@ -39,18 +39,7 @@ pub(super) fn prove(
     source: &dyn PointSource,
     monitor: &Monitor<'_>,
 ) -> Result<Bound, CheckError> {
-    let dim = ball.center.len();
-    let stretch = if ball.radius > 0.0 { (1.0 / ball.radius).next_up() } else { 0.0 };
-    let unit = |i: usize| (0..dim).map(|j| if i == j { stretch } else { 0.0 }).collect();
-    // Only F and c are looked at.
-    let as_ellipsoid = Ellipsoid {
-        center: ball.center.clone(),
-        center_tail: ball.center_tail.clone(),
-        matrix: vec![],
-        factor: (0..dim).map(unit).collect(),
-        hull: None,
-        log_volume: 0.0,
-    };
+    let as_ellipsoid = as_ellipsoid(&ball.center, &ball.center_tail, ball.radius);
     let frame = Frame::of(&as_ellipsoid);
     let wanted = WantedRows::of(&certificate.support);
     let claimed = certificate.points_hash;
@@ -65,6 +54,32 @@ pub(super) fn prove(
     lower_bound(ball, certificate, &frame, &support, monitor)
 }
 
+/// A ball as the ellipsoid that it is, of which the frame takes F and c.
+pub(crate) fn as_ellipsoid(center: &[f64], center_tail: &[f64], radius: f64) -> Ellipsoid {
+    let dim = center.len();
+    let stretch = if radius > 0.0 { (1.0 / radius).next_up() } else { 0.0 };
+    let unit = |i: usize| (0..dim).map(|j| if i == j { stretch } else { 0.0 }).collect();
+    Ellipsoid {
+        center: center.to_vec(),
+        center_tail: center_tail.to_vec(),
+        matrix: vec![],
+        factor: (0..dim).map(unit).collect(),
+        hull: None,
+        log_volume: 0.0,
+    }
+}
+
+/// By how much of the radius an item reaches beyond the ball of a frame; at most 0 where it is known to lie in it. Beyond a ball of
+/// radius 0 everything reaches infinitely far but its center.
+pub(crate) fn excess(frame: &Frame<'_>, radius: f64, item: &Item<'_>) -> f64 {
+    if radius > 0.0 {
+        return reach::excess(frame, item);
+    }
+    let has_tail = (0..frame.dim).any(|j| frame.tail(j) != 0.0);
+    let is_center = item.is_point() && !has_tail && item.center() == frame.center;
+    if is_center { 0.0 } else { f64::INFINITY }
+}
+
 fn block(ball: &Ball, frame: &Frame<'_>, first: u64, rows: &Rows<'_>) -> Result<(), Violation> {
     let mut values = vec![0.0; Items::Ellipsoids.columns(frame.dim)];
     for i in 0..rows.len() {
@@ -72,20 +87,13 @@ fn block(ball: &Ball, frame: &Frame<'_>, first: u64, rows: &Rows<'_>) -> Result<
         let row = first + i as u64;
         let item = Item::of(Items::Ellipsoids, frame.dim, &values);
         item.is_valid(row, kind_of(rows))?;
-        if ball.radius == 0.0 {
-            let is_center = item.is_point()
-                && ball.center_tail.iter().all(|&t| t == 0.0)
-                && item.center() == &ball.center[..];
-            if !is_center {
-                let distance = f64::MIN_POSITIVE;
-                return Err(Violation::Outside { row, distance, radius: 0.0, excess: distance });
-            }
-            continue;
-        }
-        let excess = reach::excess(frame, &item);
+        let (radius, excess) = (ball.radius, excess(frame, ball.radius, &item));
         let is_inside = excess <= 0.0;
         if !is_inside {
-            let radius = ball.radius;
+            if radius == 0.0 {
+                let distance = f64::MIN_POSITIVE;
+                return Err(Violation::Outside { row, distance, radius, excess: distance });
+            }
             let distance = radius * (1.0 + excess);
             return Err(Violation::Outside { row, distance, radius, excess: radius * excess });
         }

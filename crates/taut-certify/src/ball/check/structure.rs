@@ -21,16 +21,19 @@ pub(super) fn check(
     number("the claimed gap", certificate.gap)?;
     support(certificate, source.len())?;
     multipliers(&certificate.multipliers)?;
-    directions(certificate, dim)
+    directions(certificate.items, &certificate.directions, certificate.support.len(), dim)
 }
 
-fn directions(certificate: &BallCertificate, dim: usize) -> Result<(), Violation> {
-    let expected = match certificate.items {
-        Items::Points | Items::Balls => 0,
-        Items::Ellipsoids => certificate.support.len(),
-    };
-    length("the list of directions", certificate.directions.len(), expected)?;
-    for (position, direction) in certificate.directions.iter().enumerate() {
+/// Ellipsoids have a direction of `dim` finite numbers for each of `count` points of theirs, and other items none.
+pub(crate) fn directions(
+    items: Items,
+    directions: &[Vec<f64>],
+    count: usize,
+    dim: usize,
+) -> Result<(), Violation> {
+    let expected = if items == Items::Ellipsoids { count } else { 0 };
+    length("the list of directions", directions.len(), expected)?;
+    for (position, direction) in directions.iter().enumerate() {
         length("a direction", direction.len(), dim)?;
         if let Some(column) = direction.iter().position(|value| !value.is_finite()) {
             let what = format!("coordinate {column} of direction {position}");

@@ -29,6 +29,7 @@ pub(super) struct Core {
     extras: Vec<f64>,
     /// For each item the number of its group, by first appearance.
     groups: Vec<usize>,
+    is_grouped: bool,
     /// ρᵢ, scaled and rounded up; where it is not above 0, nothing holds the item.
     reaches: Vec<f64>,
 }
@@ -59,20 +60,26 @@ impl Core {
         let scale = Scale::of(of_scale);
         let reaches: Vec<f64> = lengths.iter().map(|&length| length * scale.up).collect();
         let groups = (0..reaches.len()).collect();
-        Core { dim, scale, kind, bound, places, extras, groups, reaches }
+        let is_grouped = false;
+        Core { dim, scale, kind, bound, places, extras, groups, is_grouped, reaches }
     }
 
-    /// The same items, those of one value in one group.
-    pub(super) fn with_groups(mut self, values: &[f64]) -> Self {
+    /// The same items, those of one name in one group.
+    pub(super) fn with_groups(mut self, names: impl Iterator<Item = u64>) -> Self {
         let mut numbers: HashMap<u64, usize> = HashMap::new();
-        self.groups = values
-            .iter()
-            .map(|value| {
+        self.groups = names
+            .map(|name| {
                 let next = numbers.len();
-                *numbers.entry((value + 0.0).to_bits()).or_insert(next)
+                *numbers.entry(name).or_insert(next)
             })
             .collect();
+        self.is_grouped = true;
         self
+    }
+
+    /// Returns true if items are in groups.
+    pub(super) fn is_grouped(&self) -> bool {
+        self.is_grouped
     }
 
     /// For each item the number of its group, from 0 by first appearance.

@@ -265,6 +265,7 @@ mod tests {
             k: answer.centers.len() as u64,
             outliers: 0,
             core_set: vec![],
+            directions: vec![],
             proof: LowerBound::Separated,
             gap: 0.0,
             points_hash: hash_points(&points, &monitor).unwrap(),

@@ -64,7 +64,10 @@ impl Kind {
     /// Returns what the certificate says rows are, if rows of so many columns can be that.
     pub(super) fn of(certificate: &CentersCertificate, columns: usize) -> Result<Self, Violation> {
         match (certificate.items, certificate.weights) {
-            (Items::Ellipsoids, _) => Err(CentersViolation::Ellipsoids.into()),
+            (Items::Ellipsoids, _) => {
+                let problem = "of which each is a group of its own";
+                Err(CentersViolation::Ellipsoids { problem }.into())
+            }
             (Items::Balls, true) => Err(CentersViolation::WeightsOfBalls.into()),
             (Items::Balls, false) if columns < 2 => Err(Violation::NoRadius { columns }),
             (Items::Points, true) if columns < 2 => {

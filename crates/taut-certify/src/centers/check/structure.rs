@@ -4,27 +4,66 @@ use taut_points::PointSource;
 
 use super::super::{Centers, CentersCertificate, CentersViolation, Placement};
 use super::item::Layout;
-use crate::Violation;
 use crate::arithmetic::U;
+use crate::ball::check::structure::directions;
+use crate::{Items, Violation};
 
 /// The amount by which the gap claimed may fall short of the gap found, relatively and in units of 1: a solver forms the quotient in
 /// arithmetic of its own.
 const GAP_SLACK: (f64, f64) = (1e-9, 4e-16);
+
+/// The way in which rows are to be read.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Reading {
+    /// As points or balls.
+    Items(Layout),
+    /// As ellipsoids in a space of this dimension.
+    Ellipsoids(usize),
+}
+
+impl Reading {
+    fn of(certificate: &CentersCertificate, columns: usize) -> Result<Self, Violation> {
+        if certificate.items != Items::Ellipsoids {
+            return Ok(Reading::Items(Layout::of(certificate, columns)?));
+        }
+        let problem = match () {
+            () if certificate.weights => "with weights, which points alone can have",
+            () if certificate.group.is_some() => "in groups, but each is a group of its own",
+            () if certificate.placement == Placement::Rows => {
+                "with centers among them, which are no points"
+            }
+            () => {
+                return match Items::Ellipsoids.dim(columns) {
+                    0 => Err(Violation::NoShape { columns }),
+                    dim => Ok(Reading::Ellipsoids(dim)),
+                };
+            }
+        };
+        Err(CentersViolation::Ellipsoids { problem }.into())
+    }
+
+    fn dim(self) -> usize {
+        match self {
+            Reading::Items(layout) => layout.dim,
+            Reading::Ellipsoids(dim) => dim,
+        }
+    }
+}
 
 /// Returns what rows are, and the gap found.
 pub(super) fn check(
     answer: &Centers,
     certificate: &CentersCertificate,
     source: &dyn PointSource,
-) -> Result<(Layout, f64), Violation> {
-    let layout = Layout::of(certificate, source.dim())?;
+) -> Result<(Reading, f64), Violation> {
+    let reading = Reading::of(certificate, source.dim())?;
     if source.is_empty() {
         return Err(CentersViolation::Empty.into());
     }
     number("the radius", answer.radius)?;
     number("the lower bound", answer.lower_bound)?;
     number("the claimed gap", certificate.gap)?;
-    centers(answer, certificate, layout.dim)?;
+    centers(answer, certificate, reading.dim())?;
     rows(answer, certificate, source.len())?;
     outliers(answer, certificate, source.len())?;
     if !answer.assignment.is_empty() {
@@ -32,7 +71,9 @@ pub(super) fn check(
         length("the assignment", answer.assignment.len(), expected)?;
     }
     core_set(certificate, source.len())?;
-    Ok((layout, gap(answer, certificate)?))
+    let (points, dim) = (certificate.core_set.len(), reading.dim());
+    directions(certificate.items, &certificate.directions, points, dim)?;
+    Ok((reading, gap(answer, certificate)?))
 }
 
 fn centers(
@@ -101,6 +142,9 @@ fn core_set(certificate: &CentersCertificate, n: u64) -> Result<(), Violation> {
     };
     if let Some(position) = rows.iter().position(|&row| row >= n) {
         return Err(refused(position, "but there are not so many").into());
+    }
+    if certificate.items == Items::Ellipsoids {
+        return Ok(());
     }
     let mut order: Vec<usize> = (0..rows.len()).collect();
     order.sort_unstable_by_key(|&position| (rows[position], position));

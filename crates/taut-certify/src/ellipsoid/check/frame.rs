@@ -13,6 +13,7 @@ use crate::arithmetic::{DoubleDouble, Field, Ring, U};
 const UNDERFLOW: f64 = f64::from_bits((1023 - 900) << 52);
 
 /// F, c and s.
+#[derive(Clone)]
 pub(crate) struct Frame<'a> {
     pub(crate) dim: usize,
     pub(crate) rank: usize,
@@ -30,7 +31,7 @@ pub(crate) struct Frame<'a> {
 
 /// The distances by which the rows of F lean out of a hull, and inputs lie off it. The claim is about projections to the hull: F(x − c) differs
 /// from the image of the projection of x by at most the product of the two.
-#[derive(Default)]
+#[derive(Clone, Default)]
 struct Tilt {
     /// The root of the sum of squares of |(I − BᵀB)f| over the rows f of F/s, rounded up. No part of f off the hull is longer,
     /// whatever B lacks of being orthonormal.
@@ -113,6 +114,15 @@ impl<'a> Frame<'a> {
             scale,
             tilt: Tilt::of(ellipsoid, scale),
         }
+    }
+
+    /// The same map from another center, for an answer that is its whole space.
+    pub(crate) fn around<'b>(&self, center: &'b [f64]) -> Frame<'b>
+    where
+        'a: 'b,
+    {
+        let center_tail = &[][..];
+        Frame { center, center_tail, ..self.clone() }
     }
 
     /// The row of F/s between its outermost entries other than 0, and where that is.

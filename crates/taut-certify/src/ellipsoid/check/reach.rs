@@ -29,6 +29,18 @@ pub(crate) fn excess(frame: &Frame<'_>, item: &Item<'_>) -> f64 {
     if plain <= 0.0 { plain } else { bound::<DoubleDouble>(frame, item) }
 }
 
+/// The largest |F(x − c)| over the item but for what a few hundred sums in `f64` may be off by, to compare it with others; not a
+/// number where squares overflow.
+pub(crate) fn length(frame: &Frame<'_>, item: &Item<'_>) -> f64 {
+    let image = frame.image(&frame.offset::<f64>(item.center()));
+    if item.is_point() {
+        return image.iter().map(|y| y * y).sum::<f64>().sqrt();
+    }
+    let shape = Shape::<f64>::of(frame, item);
+    let mu = multiplier(&shape.lower, &image);
+    (1.0 + shape.beyond_one(&image, &mu)).max(0.0).sqrt()
+}
+
 fn bound<N: Field>(frame: &Frame<'_>, item: &Item<'_>) -> f64 {
     let offset: Vec<N> = frame.offset(item.center());
     let sizes: Vec<f64> = offset.iter().map(|x| x.rounded().abs()).collect();
@@ -107,11 +119,16 @@ impl<N: Field> Shape<N> {
 
     /// √φ(μ) − 1 for a μ near the one given, rounded up.
     fn excess(&self, g: &[N], mu: &N) -> f64 {
+        excess_of_square(N::of(self.beyond_one(g, mu)), self.n)
+    }
+
+    /// φ(μ) − 1 for a μ near the one given, but for the rounding of one more sum.
+    fn beyond_one(&self, g: &[N], mu: &N) -> f64 {
         let least = self.error + self.rounding(mu.rounded());
-        let mut best = self.excess_at(g, mu);
+        let mut best = self.beyond_one_at(g, mu);
         let mut raised = least.max(f64::MIN_POSITIVE);
         for _ in 0..RAISES_MAX {
-            let next = self.excess_at(g, &mu.plus(&N::of(raised)));
+            let next = self.beyond_one_at(g, &mu.plus(&N::of(raised)));
             // φ is convex: once it grows it does not fall again.
             if next >= best && best.is_finite() || raised > self.trace {
                 return best.min(next);
@@ -127,7 +144,7 @@ impl<N: Field> Shape<N> {
         (16 * self.n + 64) as f64 * N::ROUNDOFF * (self.n as f64 * mu)
     }
 
-    fn excess_at(&self, g: &[N], mu: &N) -> f64 {
+    fn beyond_one_at(&self, g: &[N], mu: &N) -> f64 {
         let n = self.n;
         let lost = self.error + self.rounding(mu.rounded());
         let lowered = mu.minus(&N::of(lost * (1.0 + 4.0 * U)));
@@ -151,8 +168,8 @@ impl<N: Field> Shape<N> {
             square = square.plus(&value.times(&value).over(&row[i]));
         }
         let rounding = 1.0 + 4.0 * (n + 8) as f64 * N::ROUNDOFF;
-        let excess = mu.minus(&N::of(1.0)).plus(&mu.times(&square).times(&N::of(rounding)));
-        excess_of_square(excess, n)
+        let beyond = mu.minus(&N::of(1.0)).plus(&mu.times(&square).times(&N::of(rounding)));
+        if beyond.rounded().is_nan() { f64::INFINITY } else { beyond.rounded() }
     }
 }
 

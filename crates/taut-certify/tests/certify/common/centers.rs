@@ -286,6 +286,7 @@ impl Case {
                 outliers: z as u64,
                 gap: gap.min(f64::MAX),
                 core_set,
+                directions: vec![],
                 proof,
                 points_hash: hash_points(&points, &Monitor::silent()).unwrap(),
             },

@@ -1,11 +1,11 @@
-//! Few centers of few rows: anywhere or at rows, with outliers, weights and assignments.
+//! Few centers of few rows, which are points, balls or ellipsoids: anywhere or at rows, with outliers, weights and assignments.
 
 use serde_json::{Value, json};
 use taut::certify::Placement;
 use taut::enclose::StreamingOptions;
 use taut::{CentersMethod, CentersOptions, Items, Monitor, centers};
 
-use super::{Case, Input, Solved, cases, clouds, document};
+use super::{Case, Input, Solved, ball, cases, clouds, document};
 
 use crate::random::Random;
 /// Returns the cases of k centers.
@@ -23,6 +23,10 @@ pub fn all() -> Vec<Case> {
     found.extend(cases(grouped(0), |input| solve(input, Items::Points, false, Some(0))));
     found.extend(cases(grouped(2), |input| solve(input, Items::Balls, false, Some(2))));
     found.extend(cases(grouped(2), |input| solve(input, Items::Points, true, Some(2))));
+    for dim in 1..=3 {
+        let inputs = ball::ellipsoids(dim);
+        found.extend(cases(inputs, |input| solve(input, Items::Ellipsoids, false, None)));
+    }
     for case in &mut found {
         let roomy: Vec<_> = case
             .own

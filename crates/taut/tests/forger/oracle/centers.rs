@@ -1,4 +1,7 @@
 //! The oracle of k centers: brute force over all partitions, or over all choices of rows.
+//!
+//! Of rows that are ellipsoids no bracket of the optimum is known here: the largest lower bound that was verified and the least radius
+//! must agree.
 
 use std::collections::BTreeMap;
 
@@ -10,6 +13,7 @@ use super::Truth;
 use super::ball::is_gap_granted;
 use super::dyadic::{Dyadic, exact};
 use super::enclosing::{Body, bracket, digits};
+use super::shapes::{Shape, shapes};
 
 /// There may be at most this many rows: all subsets of them are looked at.
 const ROWS_MAX: usize = 10;
@@ -28,6 +32,8 @@ pub struct CentersOracle {
     values: Vec<f64>,
     columns: usize,
     solved: BTreeMap<Problem, Option<Optima>>,
+    /// The rows as ellipsoids, if they are asked for; none if they cannot be that.
+    shapes: Option<Option<Vec<Shape>>>,
 }
 
 /// The least radius of each number of balls around each subset of the rows, from below and from above.
@@ -43,12 +49,16 @@ impl CentersOracle {
     /// Prepares to judge answers for few rows.
     pub fn new(values: &[f64], columns: usize) -> Self {
         assert!(values.len() / columns <= ROWS_MAX, "too many rows for all of their subsets");
-        CentersOracle { values: values.to_vec(), columns, solved: BTreeMap::new() }
+        let (values, solved) = (values.to_vec(), BTreeMap::new());
+        CentersOracle { values, columns, solved, shapes: None }
     }
 
     /// Judges every claim of an accepted answer.
     pub fn judge(&mut self, solution: &Solution<Centers>, verdict: &CentersVerdict) -> Truth {
         let (answer, certificate) = (&solution.answer, &solution.certificate);
+        if certificate.items == Items::Ellipsoids {
+            return self.judge_ellipsoids(solution, verdict);
+        }
         let is_discrete = certificate.placement == Placement::Rows;
         let items = certificate.items as u8;
         let (has_weights, group) = (certificate.weights, certificate.group);
@@ -64,13 +74,41 @@ impl CentersOracle {
         let Some(optima) = optima else {
             return Truth::False("the rows are no such items".into());
         };
-        form(answer, certificate, verdict, optima)
+        let position = |row: usize| optima.bodies[row].position.clone();
+        let (n, dim) = (optima.bodies.len(), optima.bodies[0].position.len());
+        form(answer, certificate, verdict, [n, dim], &optima.groups, &position)
             .and(|| holds(answer, optima))
             .and(|| match certificate.group {
                 None => assigned(answer, &optima.bodies),
                 Some(_) => assigned_together(answer, optima),
             })
             .and(|| optima.bounds(certificate, verdict))
+    }
+
+    /// The same where rows are ellipsoids, but for the lower bound.
+    fn judge_ellipsoids(
+        &mut self,
+        solution: &Solution<Centers>,
+        verdict: &CentersVerdict,
+    ) -> Truth {
+        let (answer, certificate) = (&solution.answer, &solution.certificate);
+        let (values, columns) = (&self.values, self.columns);
+        let dim = Items::Ellipsoids.dim(columns);
+        let read = || if dim > 0 { shapes(values, columns) } else { None };
+        let Some(shapes) = self.shapes.get_or_insert_with(read) else {
+            return Truth::False("the rows are no ellipsoids".into());
+        };
+        if certificate.weights
+            || certificate.group.is_some()
+            || certificate.placement == Placement::Rows
+        {
+            return Truth::False("ellipsoids have no weights, groups or centers among them".into());
+        }
+        let groups: Vec<Vec<usize>> = (0..shapes.len()).map(|row| vec![row]).collect();
+        let no_position = |_: usize| vec![];
+        form(answer, certificate, verdict, [shapes.len(), dim], &groups, &no_position)
+            .and(|| shapes_held(answer, shapes))
+            .and(|| shapes_assigned(answer, shapes))
     }
 }
 
@@ -123,18 +161,24 @@ fn form(
     answer: &Centers,
     certificate: &CentersCertificate,
     verdict: &CentersVerdict,
-    optima: &Optima,
+    [n, dim]: [usize; 2],
+    groups: &[Vec<usize>],
+    position: &dyn Fn(usize) -> Vec<Dyadic>,
 ) -> Truth {
-    let bodies = &optima.bodies;
     let is_out = |row: usize| answer.outliers.contains(&(row as u64));
-    let left_out = optima.groups.iter().filter(|rows| rows.iter().any(|&row| is_out(row)));
-    let (n, dim) = (bodies.len() as u64, bodies[0].position.len());
+    let left_out = groups.iter().filter(|rows| rows.iter().any(|&row| is_out(row)));
+    let n = n as u64;
+    let are_ellipsoids = certificate.items == Items::Ellipsoids;
+    let directions = if are_ellipsoids { certificate.core_set.len() } else { 0 };
     let is_number = |x: f64| x >= 0.0 && x.is_sign_positive() && x.is_finite();
     let is_ascending = |rows: &[u64]| {
         rows.windows(2).all(|pair| pair[0] < pair[1]) && rows.iter().all(|&row| row < n)
     };
     let mut core = certificate.core_set.clone();
     core.sort_unstable();
+    if are_ellipsoids {
+        core.dedup();
+    }
     let places = &answer.centers;
     let rows_are_centers = || {
         answer.rows.len() == places.len()
@@ -142,7 +186,7 @@ fn form(
                 .rows
                 .iter()
                 .zip(places)
-                .all(|(&row, place)| row < n && exact(place) == bodies[row as usize].position)
+                .all(|(&row, place)| row < n && exact(place) == position(row as usize))
     };
     let nodes = match (&certificate.proof, answer.lower_bound > 0.0) {
         (LowerBound::Branches { items }, true) => verdict.branches == items.len() as u64,
@@ -165,6 +209,14 @@ fn form(
             "a group is left out in part",
         ),
         (is_ascending(&core), "the core-set is no list of different rows"),
+        (certificate.directions.len() == directions, "there is no direction for each point"),
+        (
+            certificate
+                .directions
+                .iter()
+                .all(|a| a.len() == dim && a.iter().all(|x| x.is_finite())),
+            "a direction is not one of so many finite numbers",
+        ),
         (verdict.upper == answer.radius, "the upper bound is not the radius"),
         (verdict.lower == answer.lower_bound, "the lower bound is another one"),
         (verdict.lower <= verdict.upper, "the lower bound exceeds the radius"),
@@ -187,6 +239,74 @@ fn form(
     let is_covered = verdict.gap == f64::INFINITY
         || &(&Dyadic::integer(1) + &Dyadic::of(verdict.gap)) * &lower >= upper;
     Truth::claim(is_covered, || "the radius exceeds the lower bound by more than the gap".into())
+}
+
+/// Every ellipsoid that is not left out lies in a ball.
+fn shapes_held(answer: &Centers, shapes: &[Shape]) -> Truth {
+    let rows = shapes.iter().enumerate();
+    let counts = rows.filter(|(row, _)| !answer.outliers.contains(&(*row as u64)));
+    counts.fold(Truth::True, |truth, (row, shape)| {
+        truth.and(|| {
+            let found: Vec<Option<bool>> = answer
+                .centers
+                .iter()
+                .map(|center| shape.is_within(center, &[], answer.radius))
+                .collect();
+            match () {
+                () if found.contains(&Some(true)) => Truth::True,
+                () if found.contains(&None) => {
+                    Truth::Undecided(format!("no ball is known to hold ellipsoid {row}"))
+                }
+                () => Truth::False(format!("no ball holds ellipsoid {row}")),
+            }
+        })
+    })
+}
+
+/// The part of how far an ellipsoid reaches that its center may be worse than another, twice what the documentation grants.
+const GRANTED: f64 = 2e-9;
+
+/// Every ellipsoid is assigned to the center from which it reaches least far.
+fn shapes_assigned(answer: &Centers, shapes: &[Shape]) -> Truth {
+    if answer.assignment.is_empty() {
+        return Truth::True;
+    }
+    if answer.assignment.len() != shapes.len() {
+        return Truth::False("the assignment has another length".into());
+    }
+    for (row, (shape, &center)) in shapes.iter().zip(&answer.assignment).enumerate() {
+        let Some(own) = answer.centers.get(center as usize) else {
+            return Truth::False(format!("ellipsoid {row} is assigned to center {center}"));
+        };
+        for other in &answer.centers {
+            let Some(reach) = reach_of(shape, other, answer.radius) else { continue };
+            if shape.is_within(own, &[], reach * (1.0 + GRANTED)) == Some(false) {
+                return Truth::False(format!("ellipsoid {row} has a center nearer than its own"));
+            }
+        }
+    }
+    Truth::True
+}
+
+/// A radius within which an ellipsoid lies, by halving not much more than the least; none where that is beyond the largest number.
+fn reach_of(shape: &Shape, center: &[f64], radius: f64) -> Option<f64> {
+    let is_within = |radius: f64| shape.is_within(center, &[], radius) == Some(true);
+    let (mut low, mut high) = (0.0, radius.max(f64::MIN_POSITIVE));
+    while !is_within(high) {
+        (low, high) = (high, high * 2.0);
+        if high == f64::INFINITY {
+            return None;
+        }
+    }
+    for _ in 0..48 {
+        let middle = low + (high - low) / 2.0;
+        if is_within(middle) {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    Some(high)
 }
 
 /// Every group that is not left out lies in a ball.
