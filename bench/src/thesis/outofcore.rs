@@ -108,7 +108,7 @@ fn diamonds_of(built: &Plane) -> Vec<Vec<[f64; 2]>> {
 /// Times against the number of points.
 pub(super) fn figure_53(plan: &Plan) -> Result<()> {
     let mut figure = Figure::of_times(53, "triangulations of the plane, one thread", "points")
-        .note("The thesis: 79 million points of TIGER and up to 300 million; here uniform points.");
+        .note("The thesis: 79 million points of TIGER, on one processor; here uniform points.");
     let sizes = plan.upto(&[20_000, 100_000, 300_000, 1_000_000, 3_000_000, 10_000_000], 1, 4);
     /// The way, given the folder for tiles.
     type WayIn = fn(PathBuf) -> Way;

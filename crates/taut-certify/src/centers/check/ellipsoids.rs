@@ -139,7 +139,8 @@ impl<'a> EllipsoidEnclosure<'a> {
         for (center, place) in centers.iter().enumerate().filter(|(other, _)| *other != assigned) {
             meter.spend(self.dim)?;
             // The center of the item is nearer than the farthest of its points.
-            if !(distance(item.center(), place) < own) {
+            let may_be_nearer = distance(item.center(), place) < own;
+            if !may_be_nearer {
                 continue;
             }
             meter.spend(self.steps())?;
