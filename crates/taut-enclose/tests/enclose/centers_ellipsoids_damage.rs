@@ -201,12 +201,15 @@ fn the_question_is_part_of_the_proof() {
     }
 }
 
+/// What is done to the rows and the directions of a core-set.
+type Change<'a> = &'a dyn Fn(&mut Vec<u64>, &mut Vec<Vec<f64>>);
+
 #[test]
 fn points_of_the_core_set_are_judged() {
     for sound in sound() {
         let n = sound.values.len() / COLUMNS;
         let core = sound.found.certificate.core_set.len();
-        let with = |change: &dyn Fn(&mut Vec<u64>, &mut Vec<Vec<f64>>)| {
+        let with = |change: Change<'_>| {
             let mut damaged = sound.clone();
             let certificate = &mut damaged.found.certificate;
             change(&mut certificate.core_set, &mut certificate.directions);
