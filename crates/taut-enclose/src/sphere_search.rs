@@ -96,7 +96,7 @@ pub struct Diameter {
 
 /// Points or balls in a tree that answers queries.
 ///
-/// The rows are copied: 8·d + 4 bytes each, and about as much as a seventh of that for boxes and balls.
+/// The rows are copied: 8·d + 4 bytes each, and about a fifth of that for boxes and balls.
 ///
 /// ```
 /// use taut_enclose::{QueryOptions, SphereSearch, SphereSearchOptions};
@@ -126,7 +126,7 @@ pub struct SphereSearch {
 impl SphereSearch {
     /// Builds the tree over the rows of a source, which are read into memory.
     ///
-    /// *Cost.* O(n log n) for the order of the rows, and some five passes over them for each of the ⌈log₈(n/16)⌉ levels.
+    /// *Cost.* O(n log n) for the order of the rows, and O(n) for each of the ⌈log₈(n/16)⌉ levels.
     ///
     /// # Errors
     /// [`Error::Empty`]; [`Error::NegativeRadius`] and [`Error::NoRadius`] of balls; [`Error::Input`] for coordinates that are not

@@ -1,7 +1,7 @@
 //! Pairs of rows of two trees, or of one, within a distance.
 //!
 //! *Idea.* For each block of one tree a walk down the other, with the box of the block in place of a point: what it costs is shared
-//! by sixteen rows. Then each row of the block against the boxes, and at last the rows, of the blocks that are left.
+//! by sixteen rows. Then each row of the block against the rows of the blocks that are left.
 //! *Guarantee.* All pairs whose distance as calculated, less the radii of balls, is at most the one asked for; sorted by both rows;
 //! the same for any number of threads. Of one tree each pair comes once, the lower row first.
 //! *Trap.* Of one tree no subtree can be left out by its rows, as tree order is not that of rows; by its place in the tree it can.
