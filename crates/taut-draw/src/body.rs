@@ -186,7 +186,7 @@ pub(crate) fn reach_from(items: Items, dim: usize, row: &[f64], place: &[f64]) -
         |point: &[f64]| -> Vec<f64> { point.iter().zip(place).map(|(x, c)| x - c).collect() };
     let mut here = offset(&row[..dim]);
     let mut best = length(&here);
-    let aside = if best > 0.0 { BESIDE * best } else { 1.0 };
+    let aside = if best > 0.0 { GAP_BESIDE_BODIES * best } else { 1.0 };
     here.iter_mut().for_each(|x| *x += aside);
     for _ in 0..CLIMB_STEPS {
         here = offset(&touching(items, dim, row, &here));
@@ -196,7 +196,7 @@ pub(crate) fn reach_from(items: Items, dim: usize, row: &[f64], place: &[f64]) -
 }
 
 /// A climb begins this part of the way beside it, along every axis.
-const BESIDE: f64 = 1e-2;
+const GAP_BESIDE_BODIES: f64 = 1e-2;
 
 /// The point of an item that lies farthest in a direction.
 pub(crate) fn touching(items: Items, dim: usize, row: &[f64], direction: &[f64]) -> Vec<f64> {

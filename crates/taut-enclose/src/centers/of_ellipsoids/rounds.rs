@@ -42,7 +42,7 @@ const BALL_STEPS_MAX: usize = 100;
 const TAKEN_PER_CENTER: usize = 4;
 const TAKEN: usize = 16;
 /// Centers from which an ellipsoid reaches no farther than so many radii could serve it.
-const NEAR: f64 = 2.0;
+const SERVING_RADII: f64 = 2.0;
 
 /// Centers with all that is known of them.
 #[derive(Clone)]
@@ -205,8 +205,8 @@ impl<'a, P: Position> Rounds<'a, P> {
         self.pool.take(i);
         for center in centers {
             let center = center.as_ref();
-            if length(self.bodies.center(i), center) > NEAR * radius
-                || self.bodies.reach(i, center) > NEAR * radius
+            if length(self.bodies.center(i), center) > SERVING_RADII * radius
+                || self.bodies.reach(i, center) > SERVING_RADII * radius
             {
                 continue;
             }
