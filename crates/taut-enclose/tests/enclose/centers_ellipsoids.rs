@@ -286,6 +286,21 @@ fn odd_sets_have_their_answers() {
     with_disc.insert(0, disc(1.0, 1.0, 3.0));
     let found = of(with_disc).found(2, &left_out);
     assert_eq!((found.answer.radius, &found.answer.outliers[..]), (0.0, &[0][..]));
+    // Two pairs so far apart that rounding is in the way of a small gap.
+    for far in [1e6, 1e10, 1e14, 1e40] {
+        let pairs = [
+            disc(0.0, 0.0, 1.0),
+            needle(0.0, 1.0, 2.0, 0.5),
+            disc(far, 0.0, 1.0),
+            needle(far, 1.0, 0.5, 2.0),
+        ];
+        let asked = CentersOptions { assignment: true, ..options(1e-12) };
+        let found = of(pairs.to_vec()).found(2, &asked);
+        assert_eq!(found.trace.stop, Stop::Rounding, "{far:e}");
+        let wanted = [0, 2].map(|i| of(pairs[i..i + 2].to_vec()).ball(0..2));
+        let wanted = wanted[0].max(wanted[1]);
+        assert!((found.answer.radius - wanted).abs() <= 4e-16 * far + 1e-9, "{found:?}");
+    }
     // In one dimension an ellipsoid is an interval.
     let intervals = [[0.0, 1.0], [3.0, 4.0], [10.0, 0.0]];
     let intervals = Ellipsoids { dim: 1, rows: intervals.iter().map(|row| row.to_vec()).collect() };

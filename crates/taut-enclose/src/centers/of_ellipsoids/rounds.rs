@@ -7,7 +7,8 @@
 //! *Guarantee.* The lower bounds of all rounds hold, as the points of one are among those of the next; each tree begins with the
 //! core-set of the one before. A round that finds no further point leaves a gap no larger than that of its tree, and the next has a
 //! smaller one to reach.
-//! *Trap.* Rounding alone may keep the two apart. A round after which nothing is known that was not known before it is the last.
+//! *Trap.* Rounding alone may keep the two apart. A round after which nothing is known that was not known before it is the last, and so is
+//! one after some that have brought the bounds no nearer to each other, where these are as near as rounding can keep apart.
 
 use taut_certify::{PassBounds, Stop};
 use taut_points::{Monitor, ReadError};
@@ -28,8 +29,9 @@ const FIRST_GAP: f64 = 0.1;
 const TREE_SHARE: f64 = 0.5;
 /// The ball of the ellipsoids of a center leaves out no more than this part of the gap of the tree.
 const BALL_SHARE: f64 = 0.02;
-/// What lies beyond a radius by no more than this part of it does so by rounding.
+/// What lies beyond a radius by no more than this part of it does so by rounding, and by so many times what places are off by.
 const BEYOND: f64 = 1e-12;
+const PLACES_BEYOND: f64 = 4.0;
 /// The same for the balls of Lloyd's steps.
 const BALL_BEYOND: f64 = 1e-13;
 /// Lloyd's steps end when one gains less than this part of the gap of the tree.
@@ -38,6 +40,11 @@ const LLOYD_SHARE: f64 = 0.05;
 const LLOYD_STEPS_MAX: usize = 30;
 /// A ball asks for further points at most this often; five to ten times are usual.
 const BALL_STEPS_MAX: usize = 100;
+/// This many rounds without a better gap show that rounding is in the way, where the gap is below this or so many times what rounding of
+/// the proof comes to.
+const STALE_ROUNDS_MAX: u32 = 6;
+const STALE_GAP: f64 = 1e-6;
+const STALE_ROUNDINGS: f64 = 64.0;
 /// Ellipsoids that get points after a tree, for each center and beside these.
 const TAKEN_PER_CENTER: usize = 4;
 const TAKEN: usize = 16;
@@ -120,6 +127,7 @@ impl<'a, P: Position> Rounds<'a, P> {
         let (mut nodes, mut restarts, mut scans, mut rounds) = (0, 0, 0, 0);
         let mut history = vec![];
         let mut gap = least.max(FIRST_GAP);
+        let (mut nearest, mut stale) = (f64::INFINITY, 0);
         loop {
             rounds += 1;
             let numbered = self.pool.cloud();
@@ -152,13 +160,18 @@ impl<'a, P: Position> Rounds<'a, P> {
             let best = self.best.clone().expect("centers were just measured");
             let working_set = core_set.len() as u64;
             history.push(PassBounds { lower, upper: best.radius, working_set });
-            let sure = lower * (1.0 - rounding(cloud, lower.max(f64::MIN_POSITIVE)));
+            let rounding = rounding(cloud, lower.max(f64::MIN_POSITIVE));
+            let sure = lower * (1.0 - rounding);
             let open = if sure > 0.0 { best.radius / sure - 1.0 } else { f64::INFINITY };
             let is_known = self.pool.len() == known && best.radius >= before;
+            stale = if open < nearest { 0 } else { stale + 1 };
+            nearest = nearest.min(open);
+            let is_stale =
+                stale >= STALE_ROUNDS_MAX && nearest <= (STALE_ROUNDINGS * rounding).max(STALE_GAP);
             let stop = match stop {
                 _ if open <= wanted => Stop::Converged,
                 Stop::NodeBudget => Stop::NodeBudget,
-                _ if is_known && gap <= least => Stop::Rounding,
+                _ if is_known && gap <= least || is_stale => Stop::Rounding,
                 _ => {
                     let next = (TREE_SHARE * open).clamp(least, FIRST_GAP.max(least));
                     // Where nothing is new, the tree alone keeps the bounds apart.
@@ -188,7 +201,7 @@ impl<'a, P: Position> Rounds<'a, P> {
     fn measure(&mut self, found: &Incumbent<P>, gap: f64) -> Result<(), Error> {
         let served = self.bodies.served(&found.centers);
         let order = self.farthest_first(&served);
-        let beyond = found.radius * (1.0 + BEYOND);
+        let beyond = found.radius * (1.0 + BEYOND) + self.places();
         let most = self.z + TAKEN_PER_CENTER * self.k + TAKEN;
         let outside = order.iter().copied().take(most).take_while(|&i| served[i].reach > beyond);
         let outside: Vec<usize> = outside.collect();
@@ -225,6 +238,11 @@ impl<'a, P: Position> Rounds<'a, P> {
             }
         }
         Ok(())
+    }
+
+    /// In length, what rounding of places may make of something beyond a radius.
+    fn places(&self) -> f64 {
+        PLACES_BEYOND * self.bodies.place_error
     }
 
     /// Ellipsoids in the order of how far they reach.
@@ -285,7 +303,7 @@ impl<'a, P: Position> Rounds<'a, P> {
         let mut ball = Ball::of_all(&self.pool.places, &members, &mut self.work);
         for _ in 0..BALL_STEPS_MAX {
             self.monitor.check().map_err(ReadError::from)?;
-            let (mut farthest, mut most) = (None, ball.radius * (1.0 + slack));
+            let (mut farthest, mut most) = (None, ball.radius * (1.0 + slack) + self.places());
             for &i in cluster {
                 let center = ball.center.as_ref();
                 // No point of it is farther than this.
