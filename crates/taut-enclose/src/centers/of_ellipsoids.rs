@@ -6,7 +6,7 @@
 //! ([`rounds`]), until that makes no difference.
 //! *Guarantee.* What no k balls do with the points, they do not do with the ellipsoids: the lower bound and its proof are those of
 //! the search. The upper bound is measured on the ellipsoids, from the centers as they are returned.
-//! *Cost.* A tree over the points for each of some five to twenty rounds, and some ten looks at all ellipsoids for each.
+//! *Cost.* A tree over the points for each of some five to thirty rounds, and some ten looks at all ellipsoids for each.
 //! *Reference.* The oracle of farthest points is that of the ball ([`reach`](crate::shapes::reach)); cutting planes for sets of
 //! infinitely many points are those of Kelley, J. SIAM 8, 1960.
 
