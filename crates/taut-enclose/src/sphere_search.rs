@@ -96,6 +96,10 @@ pub struct Diameter {
 
 /// Points or balls in a tree that answers queries.
 ///
+/// The source has n rows of d coordinates, for balls with the radius behind them; queries have m rows of d coordinates, in the same
+/// unit, and answers come in the order of the queries. Distances are in that unit, and what is found is that of brute force over
+/// distances as calculated in `f64`. Trees of balls are those of Omohundro (ICSI TR-89-063, 1989) and of section 2.4 of the thesis.
+///
 /// The rows are copied: 8·d + 4 bytes each, and about a fifth of that for boxes and balls.
 ///
 /// ```
@@ -181,7 +185,8 @@ impl SphereSearch {
         self.items
     }
 
-    /// The row nearest to each place, of several the lowest. About O(log n) for each where places are near the rows.
+    /// The row nearest to each of m places, of several the lowest: m answers. About O(d log n) for each where places are near the rows and d is
+    /// small, O(nd) at worst.
     ///
     /// # Errors
     /// [`Error::Input`] for places with other dimensions or coordinates that are not finite, and when the monitor stops the work.
@@ -301,7 +306,7 @@ impl SphereSearch {
     }
 
     /// The two rows that are farthest apart, of several the lowest; with ε > 0 two rows so that no two are farther apart than 1 + ε
-    /// times. Runs on one thread. O(n log n) for most sets; see docs/sphere-tree.md for rows on a sphere.
+    /// times, by pairs of nodes (Har-Peled, SoCG 2001). Runs on one thread. O(n log n) for most sets; see docs/sphere-tree.md for rows on a sphere.
     ///
     /// # Errors
     /// For an ε that is negative or not finite, and when the monitor stops the work.

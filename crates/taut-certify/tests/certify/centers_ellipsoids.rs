@@ -1,10 +1,11 @@
 //! Centers of ellipsoids: closed forms to thirteen digits, and what is refused by name.
 
 use taut_certify::{
-    Centers, CentersCertificate, CentersViolation, CheckError, Items, LowerBound, Placement,
-    Solution, Trace, Violation,
+    Centers, CentersViolation, CheckError, Items, LowerBound, Placement, Solution, Violation,
 };
-use taut_points::{Monitor, Points, hash_points};
+use taut_points::Points;
+
+use crate::common::centers::by_hand as of_points;
 
 /// Around ellipsoids of the plane, or of a line: centers of this radius, and points of them by row and direction that prove the bound.
 fn by_hand(
@@ -16,31 +17,11 @@ fn by_hand(
     proof: LowerBound,
 ) -> Solution<Centers> {
     let source = Points::new(values, columns).unwrap();
-    let gap = if lower_bound > 0.0 { (radius - lower_bound) / lower_bound } else { f64::MAX };
-    Solution {
-        answer: Centers {
-            centers: centers.iter().map(|center| center.to_vec()).collect(),
-            rows: vec![],
-            radius,
-            lower_bound,
-            outliers: vec![],
-            assignment: vec![],
-        },
-        certificate: CentersCertificate {
-            items: Items::Ellipsoids,
-            weights: false,
-            group: None,
-            placement: Placement::Free,
-            k: centers.len() as u64,
-            outliers: 0,
-            gap: gap.min(f64::MAX),
-            core_set: points.iter().map(|point| point.0).collect(),
-            directions: points.iter().map(|point| point.1.to_vec()).collect(),
-            proof,
-            points_hash: hash_points(&source, &Monitor::silent()).unwrap(),
-        },
-        trace: Trace::default(),
-    }
+    let core_set: Vec<u64> = points.iter().map(|point| point.0).collect();
+    let mut found = of_points(&source, centers, (radius, lower_bound), &core_set, proof);
+    found.certificate.items = Items::Ellipsoids;
+    found.certificate.directions = points.iter().map(|point| point.1.to_vec()).collect();
+    found
 }
 
 /// Half axes 3 and 1 at the origin, 1 and 2 at (10, 0), and a point at (10, 40).

@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use common::centers::{Best, Case, Task, best, everything, log};
+use common::centers::{Best, Case, Task, best, by_hand, everything, log};
 use common::numbers;
 use proptest::prelude::*;
 use taut_certify::{
@@ -12,41 +12,6 @@ use taut_certify::{
 use taut_points::{Monitor, Points, PointsHash, ReadError, hash_points};
 
 use crate::common;
-
-/// k centers at these places, of this radius.
-fn by_hand(
-    points: &Points<'_, f64>,
-    centers: &[&[f64]],
-    (radius, lower_bound): (f64, f64),
-    core_set: &[u64],
-    proof: LowerBound,
-) -> Solution<Centers> {
-    let gap = if lower_bound > 0.0 { (radius - lower_bound) / lower_bound } else { f64::MAX };
-    Solution {
-        answer: Centers {
-            centers: centers.iter().map(|center| center.to_vec()).collect(),
-            rows: vec![],
-            radius,
-            lower_bound,
-            outliers: vec![],
-            assignment: vec![],
-        },
-        certificate: CentersCertificate {
-            items: Items::Points,
-            weights: false,
-            group: None,
-            placement: Placement::Free,
-            k: centers.len() as u64,
-            outliers: 0,
-            gap,
-            core_set: core_set.to_vec(),
-            directions: vec![],
-            proof,
-            points_hash: hash_points(points, &Monitor::silent()).unwrap(),
-        },
-        trace: Trace::default(),
-    }
-}
 
 fn refusal(found: &Solution<Centers>, points: &Points<'_, f64>) -> CentersViolation {
     match found.check(points) {

@@ -18,17 +18,37 @@ use crate::Error;
 /// Queries of one task.
 const TASK_SIZE: usize = 1 << 10;
 
-/// What is done with the queries of a task.
+/// What is done with each query of a task.
 pub(super) trait Work: Sync {
     type Found: Send;
+    /// Memory that is kept from one query to the next.
+    type Kept<M: Measure>: Default;
 
-    /// The answers to some queries, in their order.
-    fn run<D: Dim, M: Measure>(
+    /// The answer to a query.
+    fn answer<D: Dim, M: Measure>(
         &self,
         search: &SphereSearch,
         dim: D,
-        queries: &[&[f64]],
-    ) -> Vec<Self::Found>;
+        query: &[f64],
+        kept: &mut Self::Kept<M>,
+    ) -> Self::Found;
+}
+
+/// The answers to some queries, in their order. A loop, not `map` and `collect`: what these call is compiled without the vectors of
+/// the processor.
+#[inline(always)]
+fn answers<D: Dim, M: Measure, W: Work>(
+    work: &W,
+    search: &SphereSearch,
+    dim: D,
+    queries: &[&[f64]],
+) -> Vec<W::Found> {
+    let mut kept = W::Kept::<M>::default();
+    let mut all = Vec::with_capacity(queries.len());
+    for query in queries {
+        all.push(work.answer::<D, M>(search, dim, query, &mut kept));
+    }
+    all
 }
 
 /// The answer to each query; `width` numbers are a query, and its first ones a place.
@@ -80,8 +100,8 @@ pub(super) fn run_task<W: Work>(
         return Arch::new().dispatch(Task { search, queries, work });
     }
     match search.items {
-        Items::Points => work.run::<_, WideSquares>(search, AnyDim(dim), queries),
-        _ => work.run::<_, Surfaces<WideSquares>>(search, AnyDim(dim), queries),
+        Items::Points => answers::<_, WideSquares, W>(work, search, AnyDim(dim), queries),
+        _ => answers::<_, Surfaces<WideSquares>, W>(work, search, AnyDim(dim), queries),
     }
 }
 
@@ -95,9 +115,10 @@ struct Task<'a, W> {
 impl<W: Work> Task<'_, W> {
     #[inline(always)]
     fn in_dim<D: Dim>(self, dim: D) -> Vec<W::Found> {
-        match self.search.items {
-            Items::Points => self.work.run::<D, Squares>(self.search, dim, self.queries),
-            _ => self.work.run::<D, Surfaces<Squares>>(self.search, dim, self.queries),
+        let Task { search, queries, work } = self;
+        match search.items {
+            Items::Points => answers::<D, Squares, W>(work, search, dim, queries),
+            _ => answers::<D, Surfaces<Squares>, W>(work, search, dim, queries),
         }
     }
 }

@@ -148,18 +148,18 @@ impl<'a> Task<'a> {
         let first = stack.len();
         let is_parent = split.0 == kept.0 + 1 && kept.1 as usize / FANOUT == split.1 as usize;
         let is_root = kept.0 == nodes.root_level();
-        let (keys, kept_row, kept_radius) = if is_root {
-            ([M::ABOVE_ALL; FANOUT], 0, 0.0)
+        let (keys, kept_row) = if is_root {
+            ([M::ABOVE_ALL; FANOUT], 0)
         } else {
             let level = &nodes.levels[kept.0 as usize];
             let node = kept.1 as usize;
             let (low, high) = level.box_of(dim.get(), node);
             let center = level.center_of(dim.get(), node);
             let ball = (&center[..], level.radii[node]);
-            let keys = below.upper::<D, M>(dim, group, (&low, &high), ball);
-            (keys, level.lowest_rows[node], level.row_radius(node))
+            let row_radius = level.row_radius(node);
+            let keys = below.upper::<D, M>(dim, group, (&low, &high), ball, row_radius);
+            (keys, level.lowest_rows[node])
         };
-        let keys = M::lengthen(keys, |_| kept_radius);
         for lane in 0..below.width(group) {
             let child = (split.0 - 1, (group * FANOUT + lane) as u32);
             // Of the children of one node each pair is met in one order.

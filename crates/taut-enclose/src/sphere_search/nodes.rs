@@ -114,14 +114,15 @@ impl Level {
         self.row_radii.get(node).copied().unwrap_or(0.0)
     }
 
-    /// Lower bounds of the keys of the rows of a group's nodes from a box, which may be a place.
+    /// Lower bounds of the keys of the rows of a group's nodes from a box, which may be a place, with balls in it of radii up to
+    /// `own_radius`. The sum of two radii comes first, as it does for two rows: other roundings could put a bound above a key.
     #[inline(always)]
     pub(super) fn lower<D: Dim, M: Measure>(
         &self,
         dim: D,
         group: usize,
-        low: &[f64],
-        high: &[f64],
+        (low, high): (&[f64], &[f64]),
+        own_radius: f64,
     ) -> [M::Key; FANOUT] {
         let boxes = self.boxes_of(dim, group);
         let keys = M::keys(dim.get(), |axis, scale| {
@@ -135,11 +136,11 @@ impl Level {
             }
             differences
         });
-        M::lengthen(keys, |lane| -self.row_radius(group * FANOUT + lane))
+        M::lengthen(keys, |lane| -(own_radius + self.row_radius(group * FANOUT + lane)))
     }
 
-    /// Upper bounds of the keys of the rows of a group's nodes from a box, which may be a place, and which the ball around `center`
-    /// with `radius` holds.
+    /// Upper bounds of the keys of the rows of a group's nodes from a box, which may be a place, with balls in it of radii up to
+    /// `own_radius`, whose centers the ball around `center` with `radius` holds.
     #[inline(always)]
     pub(super) fn upper<D: Dim, M: Measure>(
         &self,
@@ -147,6 +148,7 @@ impl Level {
         group: usize,
         (low, high): (&[f64], &[f64]),
         (center, radius): (&[f64], f64),
+        own_radius: f64,
     ) -> [M::Key; FANOUT] {
         let boxes = self.boxes_of(dim, group);
         let by_box = M::keys(dim.get(), |axis, scale| {
@@ -175,7 +177,7 @@ impl Level {
             let by_ball = M::key_above(M::distance(between[lane]) + (radius + radii[lane]));
             keys[lane] = if by_ball < keys[lane] { by_ball } else { keys[lane] };
         }
-        M::lengthen(keys, |lane| self.row_radius(group * FANOUT + lane))
+        M::lengthen(keys, |lane| own_radius + self.row_radius(group * FANOUT + lane))
     }
 
     /// The lowest rows of a group's nodes.

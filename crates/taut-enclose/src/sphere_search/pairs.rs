@@ -106,8 +106,8 @@ impl Task<'_> {
                 continue;
             }
             let (below, group) = (&nodes.levels[level as usize - 1], node as usize);
-            let keys = below.lower::<D, M>(dim, group, &bounds.low, &bounds.high);
-            let keys = M::lengthen(keys, |_| -bounds.row_radius);
+            let box_of_block = (&bounds.low[..], &bounds.high[..]);
+            let keys = below.lower::<D, M>(dim, group, box_of_block, bounds.row_radius);
             // Of one tree no block before this one: it has seen this one.
             let first = if self.is_one { bounds.block >> (3 * (level - 1)) } else { 0 };
             for lane in 0..below.width(group) {

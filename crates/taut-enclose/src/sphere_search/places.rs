@@ -1,6 +1,4 @@
 //! Searches from places: nearest, k nearest, within a distance, farthest.
-//!
-//! *Trap.* Loops, not `map` and `collect`: what these call is compiled without the vectors of the processor.
 
 use std::collections::BinaryHeap;
 
@@ -9,7 +7,7 @@ use super::collect::{Candidate, Farthest, Nearest, NearestHeap, Within};
 use super::dim::Dim;
 use super::measure::Measure;
 use super::nodes::NO_ROW;
-use super::traverse::search;
+use super::traverse::{Stack, search};
 use super::{Neighbor, SphereSearch};
 
 fn neighbor<M: Measure>(key: M::Key, row: u32) -> Neighbor {
@@ -26,22 +24,19 @@ pub(super) struct FindNearest;
 
 impl Work for FindNearest {
     type Found = Neighbor;
+    type Kept<M: Measure> = Stack<M::Key>;
 
     #[inline(always)]
-    fn run<D: Dim, M: Measure>(
+    fn answer<D: Dim, M: Measure>(
         &self,
         tree: &SphereSearch,
         dim: D,
-        queries: &[&[f64]],
-    ) -> Vec<Neighbor> {
-        let mut stack = vec![];
-        let mut all = Vec::with_capacity(queries.len());
-        for place in queries {
-            let mut found = Nearest { key: M::ABOVE_ALL, row: NO_ROW };
-            search::<D, M, false>(&tree.nodes, dim, place, &mut stack, &mut found);
-            all.push(neighbor::<M>(found.key, found.row));
-        }
-        all
+        place: &[f64],
+        stack: &mut Stack<M::Key>,
+    ) -> Neighbor {
+        let mut found = Nearest { key: M::ABOVE_ALL, row: NO_ROW };
+        search::<D, M, false>(&tree.nodes, dim, place, stack, &mut found);
+        neighbor::<M>(found.key, found.row)
     }
 }
 
@@ -50,23 +45,20 @@ pub(super) struct FindNearestK(pub(super) usize);
 
 impl Work for FindNearestK {
     type Found = Vec<Neighbor>;
+    type Kept<M: Measure> = Stack<M::Key>;
 
     #[inline(always)]
-    fn run<D: Dim, M: Measure>(
+    fn answer<D: Dim, M: Measure>(
         &self,
         tree: &SphereSearch,
         dim: D,
-        queries: &[&[f64]],
-    ) -> Vec<Vec<Neighbor>> {
-        let mut stack = vec![];
-        let mut all = Vec::with_capacity(queries.len());
-        for place in queries {
-            let heap = BinaryHeap::with_capacity(self.0);
-            let mut found = NearestHeap { heap, k: self.0 };
-            search::<D, M, false>(&tree.nodes, dim, place, &mut stack, &mut found);
-            all.push(sorted::<M>(found.heap.into_vec()));
-        }
-        all
+        place: &[f64],
+        stack: &mut Stack<M::Key>,
+    ) -> Vec<Neighbor> {
+        let heap = BinaryHeap::with_capacity(self.0);
+        let mut found = NearestHeap { heap, k: self.0 };
+        search::<D, M, false>(&tree.nodes, dim, place, stack, &mut found);
+        sorted::<M>(found.heap.into_vec())
     }
 }
 
@@ -75,23 +67,19 @@ pub(super) struct FindWithin(pub(super) f64);
 
 impl Work for FindWithin {
     type Found = Vec<Neighbor>;
+    type Kept<M: Measure> = Stack<M::Key>;
 
     #[inline(always)]
-    fn run<D: Dim, M: Measure>(
+    fn answer<D: Dim, M: Measure>(
         &self,
         tree: &SphereSearch,
         dim: D,
-        queries: &[&[f64]],
-    ) -> Vec<Vec<Neighbor>> {
-        let mut stack = vec![];
-        let limit = M::limit(self.0);
-        let mut all = Vec::with_capacity(queries.len());
-        for place in queries {
-            let mut found = Within::<M> { limit, found: vec![] };
-            search::<D, M, false>(&tree.nodes, dim, place, &mut stack, &mut found);
-            all.push(sorted::<M>(found.found));
-        }
-        all
+        place: &[f64],
+        stack: &mut Stack<M::Key>,
+    ) -> Vec<Neighbor> {
+        let mut found = Within::<M> { limit: M::limit(self.0), found: vec![] };
+        search::<D, M, false>(&tree.nodes, dim, place, stack, &mut found);
+        sorted::<M>(found.found)
     }
 }
 
@@ -100,22 +88,19 @@ pub(super) struct FindFarthest(pub(super) f64);
 
 impl Work for FindFarthest {
     type Found = Neighbor;
+    type Kept<M: Measure> = Stack<M::Key>;
 
     #[inline(always)]
-    fn run<D: Dim, M: Measure>(
+    fn answer<D: Dim, M: Measure>(
         &self,
         tree: &SphereSearch,
         dim: D,
-        queries: &[&[f64]],
-    ) -> Vec<Neighbor> {
-        let mut stack = vec![];
-        let mut all = Vec::with_capacity(queries.len());
-        for place in queries {
-            let (factor, distance) = (self.0, M::distance as fn(M::Key) -> f64);
-            let mut found = Farthest { key: M::BELOW_ALL, row: NO_ROW, factor, distance };
-            search::<D, M, true>(&tree.nodes, dim, place, &mut stack, &mut found);
-            all.push(neighbor::<M>(found.key, found.row));
-        }
-        all
+        place: &[f64],
+        stack: &mut Stack<M::Key>,
+    ) -> Neighbor {
+        let (factor, distance) = (self.0, M::distance as fn(M::Key) -> f64);
+        let mut found = Farthest { key: M::BELOW_ALL, row: NO_ROW, factor, distance };
+        search::<D, M, true>(&tree.nodes, dim, place, stack, &mut found);
+        neighbor::<M>(found.key, found.row)
     }
 }

@@ -100,7 +100,7 @@ impl<const L: usize> Approach<L> {
 
 /// A node that the ray may meet, from where on.
 #[derive(Clone, Copy)]
-struct Pending {
+pub(super) struct Pending {
     entry: f64,
     level: u32,
     node: u32,
@@ -108,26 +108,10 @@ struct Pending {
 
 impl Work for FindHits {
     type Found = Vec<Neighbor>;
+    type Kept<M: Measure> = Vec<Pending>;
 
     #[inline(always)]
-    fn run<D: Dim, M: Measure>(
-        &self,
-        tree: &SphereSearch,
-        dim: D,
-        queries: &[&[f64]],
-    ) -> Vec<Vec<Neighbor>> {
-        let mut stack = vec![];
-        let mut all = Vec::with_capacity(queries.len());
-        for query in queries {
-            all.push(self.hits(tree, dim, query, &mut stack));
-        }
-        all
-    }
-}
-
-impl FindHits {
-    #[inline(always)]
-    fn hits<D: Dim>(
+    fn answer<D: Dim, M: Measure>(
         &self,
         tree: &SphereSearch,
         dim: D,
@@ -154,7 +138,9 @@ impl FindHits {
         let neighbor = |(entry, row)| Neighbor { row: u64::from(row), distance: entry / ray.scale };
         found.into_iter().map(neighbor).collect()
     }
+}
 
+impl FindHits {
     /// Pushes the children of a node that the ray may meet, the first one last.
     #[inline(always)]
     fn open<D: Dim>(

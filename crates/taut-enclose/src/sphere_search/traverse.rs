@@ -79,8 +79,8 @@ fn open<D: Dim, M: Measure, const IS_FAR: bool>(
     let level = here.level - 1;
     let (below, group) = (&nodes.levels[level as usize], here.node as usize);
     let keys = match IS_FAR {
-        true => below.upper::<D, M>(dim, group, (place, place), (place, 0.0)),
-        false => below.lower::<D, M>(dim, group, place, place),
+        true => below.upper::<D, M>(dim, group, (place, place), (place, 0.0), 0.0),
+        false => below.lower::<D, M>(dim, group, (place, place), 0.0),
     };
     let lowest_rows = below.lowest_rows_of(group);
     let mut mask = 0u32;

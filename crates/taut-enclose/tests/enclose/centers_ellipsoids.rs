@@ -8,6 +8,8 @@ use taut_enclose::{
 };
 use taut_points::{InputError, Points};
 
+use crate::common::least_of_partitions;
+
 fn seeded(cases: u32) -> Config {
     Config { cases, rng_seed: RngSeed::Fixed(59), failure_persistence: None, ..Config::default() }
 }
@@ -107,25 +109,6 @@ impl Ellipsoids {
     }
 }
 
-/// The least radius of k balls that hold all but z, where `one` is that of one ball for each set.
-fn least(one: &[f64], k: usize, z: usize) -> f64 {
-    let all = one.len();
-    let mut best = one.to_vec();
-    for _ in 1..k {
-        let before = best.clone();
-        for set in 1..all {
-            let mut part = set;
-            while part > 0 {
-                best[set] = best[set].min(one[part].max(before[set & !part]));
-                part = (part - 1) & set;
-            }
-        }
-    }
-    let n = all.trailing_zeros();
-    let kept = (0..all).filter(|set| set.count_ones() + z as u32 >= n);
-    kept.map(|set| best[set]).fold(f64::INFINITY, f64::min)
-}
-
 fn is_near(found: f64, wanted: f64, part: f64) -> bool {
     (found - wanted).abs() <= part * wanted.abs()
 }
@@ -169,7 +152,7 @@ proptest! {
             for z in 0..=2.min(given.rows.len() - 1) {
                 let options =
                     CentersOptions { outliers: z as u64, assignment: true, ..options(1e-9) };
-                let (found, wanted) = (given.radius(k, &options), least(&one, k, z));
+                let (found, wanted) = (given.radius(k, &options), least_of_partitions(&one, k, z));
                 prop_assert!(is_near(found, wanted, 3e-9), "{found} {wanted}, k = {k}, z = {z}");
             }
         }

@@ -3,67 +3,14 @@
 //!
 //! Every damaged answer is either refused, or what it claims is so: the same problem is solved again, as it is then told.
 
-use taut_certify::{Centers, CheckError, Items, LowerBound, Placement, Solution};
-use taut_enclose::{CentersOptions, centers};
-use taut_points::{Distribution, Monitor, Points, generate, hash_points};
+use taut_certify::{Items, Placement};
+use taut_enclose::CentersOptions;
+use taut_points::{Distribution, generate};
 
-/// An answer and its rows: two coordinates, then the triangle of a shape.
-#[derive(Clone)]
-struct Sound {
-    name: &'static str,
-    values: Vec<f64>,
-    found: Solution<Centers>,
-}
+use crate::centers_sound::*;
 
+/// Two coordinates, then the triangle of a shape.
 const COLUMNS: usize = 5;
-
-impl Sound {
-    fn check(&self) -> Result<(), CheckError> {
-        let points = Points::new(&self.values, COLUMNS).unwrap();
-        self.found.check(&points).map(|_| ())
-    }
-
-    /// Makes the hash that of the rows, so that it hides nothing.
-    fn rehash(&mut self) {
-        let points = Points::new(&self.values, COLUMNS).unwrap();
-        self.found.certificate.points_hash = hash_points(&points, &Monitor::silent()).unwrap();
-    }
-
-    /// The least radius of what the certificate says was asked.
-    fn optimum(&self) -> Option<(f64, f64)> {
-        let certificate = &self.found.certificate;
-        let options = CentersOptions {
-            epsilon: 1e-9,
-            inputs: Items::Ellipsoids,
-            outliers: certificate.outliers,
-            ..Default::default()
-        };
-        let points = Points::new(&self.values, COLUMNS).unwrap();
-        let found = centers(&points, certificate.k as usize, &options).ok()?;
-        found.check(&points).unwrap_or_else(|why| panic!("{why}\n{:?}\n{found:?}", self.values));
-        Some((found.answer.lower_bound, found.answer.radius))
-    }
-
-    /// Fails where the checker accepts what is not so.
-    fn is_judged(&self, damage: &str) {
-        if self.check().is_err() {
-            return;
-        }
-        let Some((least, reached)) = self.optimum() else {
-            panic!("{}: accepted, though nothing can be so: {damage}", self.name);
-        };
-        let Centers { radius, lower_bound, .. } = self.found.answer;
-        assert!(
-            radius >= least && lower_bound <= reached && radius.is_finite(),
-            "{}: accepted: {damage}: {lower_bound} to {radius}, found {least} to {reached}",
-            self.name
-        );
-    }
-
-    fn is_refused(&self, damage: &str) {
-        assert!(self.check().is_err(), "{}: accepted: {damage}", self.name);
-    }
-}
 
 fn sound() -> Vec<Sound> {
     let plain = CentersOptions {
@@ -91,113 +38,39 @@ fn sound() -> Vec<Sound> {
             [x, y, a * a + c * c, a * b + c * d, b * b + d * d]
         };
         let values: Vec<f64> = (0..count).flat_map(row).collect();
-        let found = centers(&Points::new(&values, COLUMNS).unwrap(), k, &options).unwrap();
-        Sound { name, values, found }
+        Sound::of(name, values, COLUMNS, k, &options)
     };
     let sound: Vec<Sound> = tasks.into_iter().map(found).collect();
-    for answer in &sound {
-        answer.check().unwrap_or_else(|why| panic!("{}: {why}", answer.name));
-    }
-    let is_apart = |s: &&Sound| s.found.certificate.proof == LowerBound::Separated;
-    assert!(sound.iter().any(|s| is_apart(&s)) && !sound.iter().all(|s| is_apart(&s)));
+    have_both_proofs(&sound);
     sound
-}
-
-/// The answer after one change each.
-fn each<T>(
-    sound: &Sound,
-    values: impl IntoIterator<Item = T>,
-    change: impl Fn(&mut Sound, T),
-) -> Vec<Sound> {
-    let changed = |value| {
-        let mut damaged = sound.clone();
-        change(&mut damaged, value);
-        damaged
-    };
-    values.into_iter().map(changed).collect()
 }
 
 #[test]
 fn numbers_of_the_answer_are_judged() {
-    let no_numbers = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0, -0.0, 1e308];
-    for sound in sound() {
-        let Centers { radius, lower_bound, .. } = sound.found.answer;
-        for value in no_numbers.into_iter().chain([
-            0.0,
-            5e-324,
-            f64::MIN_POSITIVE,
-            radius * (1.0 - 1e-9),
-            radius / 2.0,
-        ]) {
-            each(&sound, [value], |s, value| s.found.answer.radius = value)[0]
-                .is_refused("the radius");
-        }
-        for value in [5e-324, f64::MIN_POSITIVE, 0.0] {
-            let both = |s: &mut Sound, value: f64| {
-                s.found.answer.lower_bound = value;
-                s.found.answer.radius = value;
-            };
-            each(&sound, [value], both)[0].is_refused("bound and radius of nothing");
-        }
-        for factor in [1.0 + 1e-7, 1.5, 1e6, 1e300] {
-            let raise = |s: &mut Sound, factor: f64| {
-                s.found.answer.lower_bound = radius * factor;
-                s.found.answer.radius = radius * factor;
-            };
-            each(&sound, [factor], raise)[0].is_refused("bound and radius raised");
-        }
-        for value in [f64::NAN, f64::INFINITY, -1.0, -0.0, radius * (1.0 + 1e-9)] {
-            each(&sound, [value], |s, value| s.found.answer.lower_bound = value)[0]
-                .is_refused("the bound");
-        }
-        each(&sound, [radius, 5e-324, lower_bound / 2.0, 0.0], |s, value| {
-            s.found.answer.lower_bound = value;
-            s.found.certificate.gap = f64::MAX;
-        })
-        .iter()
-        .for_each(|damaged| damaged.is_judged("the bound, with any gap"));
-        for value in [f64::NAN, -1.0, f64::INFINITY] {
-            each(&sound, [value], |s, value| s.found.certificate.gap = value)[0]
-                .is_refused("the gap");
-        }
-        for center in 0..sound.found.answer.centers.len() {
-            for column in 0..2 {
-                let numbers = [f64::NAN, f64::INFINITY, 1e308, 1e300, 5e-324, 0.0];
-                for damaged in
-                    each(&sound, numbers, |s, value| s.found.answer.centers[center][column] = value)
-                {
-                    damaged.is_judged("a coordinate of a center");
-                }
-            }
-        }
-    }
+    sound().iter().for_each(numbers_are_judged);
 }
 
 #[test]
 fn the_question_is_part_of_the_proof() {
     for sound in sound() {
         for items in [Items::Points, Items::Balls] {
-            each(&sound, [items], |s, items| s.found.certificate.items = items)[0]
+            sound.each([items], |s, items| s.found.certificate.items = items)[0]
                 .is_refused("other items");
         }
-        each(&sound, [true], |s, weights| s.found.certificate.weights = weights)[0]
+        sound.each([true], |s, weights| s.found.certificate.weights = weights)[0]
             .is_refused("weights");
-        each(&sound, [Some(0), Some(4), Some(u64::MAX)], |s, group| {
-            s.found.certificate.group = group;
-        })
-        .iter()
-        .for_each(|damaged| damaged.is_refused("groups"));
+        sound
+            .each([Some(0), Some(4), Some(u64::MAX)], |s, group| {
+                s.found.certificate.group = group;
+            })
+            .iter()
+            .for_each(|damaged| damaged.is_refused("groups"));
         let mut damaged = sound.clone();
         damaged.found.certificate.placement = Placement::Rows;
         damaged.is_refused("centers among the rows");
         damaged.found.answer.rows = vec![0; damaged.found.answer.centers.len()];
         damaged.is_refused("centers among the rows, with their rows");
-        for damaged in each(&sound, 1..8, |s, k| s.found.certificate.k = k) {
-            damaged.is_judged("another k");
-        }
-        for damaged in each(&sound, 0..4, |s, z| s.found.certificate.outliers = z) {
-            damaged.is_judged("other outliers");
-        }
+        counts_are_judged(&sound);
     }
 }
 
@@ -207,7 +80,7 @@ type Change<'a> = &'a dyn Fn(&mut Vec<u64>, &mut Vec<Vec<f64>>);
 #[test]
 fn points_of_the_core_set_are_judged() {
     for sound in sound() {
-        let n = sound.values.len() / COLUMNS;
+        let n = sound.rows();
         let core = sound.found.certificate.core_set.len();
         let with = |change: Change<'_>| {
             let mut damaged = sound.clone();
@@ -253,44 +126,10 @@ fn points_of_the_core_set_are_judged() {
 #[test]
 fn lists_are_judged() {
     for sound in sound() {
-        let n = sound.values.len() / COLUMNS;
-        let core = sound.found.certificate.core_set.len();
-        if let LowerBound::Branches { items } = &sound.found.certificate.proof {
-            for at in 0..items.len() {
-                let with = |change: &dyn Fn(&mut Vec<u32>)| {
-                    let mut damaged = sound.clone();
-                    if let LowerBound::Branches { items } = &mut damaged.found.certificate.proof {
-                        change(items);
-                    }
-                    damaged
-                };
-                with(&|items| items.truncate(at)).is_refused("a log cut off");
-                with(&|items| items.insert(at, items[at])).is_judged("a branch repeated");
-                with(&|items| items.push(items[at])).is_refused("a branch added");
-                with(&|items| items[at] = u32::MAX).is_refused("no such item");
-                with(&|items| items[at] = (items[at] + 1) % core as u32).is_judged("another item");
-                with(&|items| {
-                    items.remove(at);
-                })
-                .is_judged("a branch dropped");
-            }
-            let mut damaged = sound.clone();
-            damaged.found.certificate.proof = LowerBound::Separated;
-            damaged.is_judged("said to be apart");
-        } else {
-            let mut damaged = sound.clone();
-            damaged.found.certificate.proof = LowerBound::Branches { items: vec![] };
-            if damaged.found.answer.lower_bound > 0.0 {
-                damaged.is_refused("no log");
-            }
-        }
+        let n = sound.rows();
+        branches_are_judged(&sound);
+        assignments_are_judged(&sound);
         for row in 0..n {
-            let centers = sound.found.answer.centers.len() as u32;
-            for center in (0..=centers).filter(|&c| c != sound.found.answer.assignment[row]) {
-                let mut damaged = sound.clone();
-                damaged.found.answer.assignment[row] = center;
-                damaged.is_refused("another center");
-            }
             let mut damaged = sound.clone();
             match damaged.found.answer.outliers.binary_search(&(row as u64)) {
                 Ok(at) => {
@@ -307,16 +146,13 @@ fn lists_are_judged() {
                 }
             }
         }
-        let mut damaged = sound.clone();
-        damaged.found.answer.assignment.pop();
-        damaged.is_refused("an assignment cut off");
     }
 }
 
 #[test]
 fn rows_of_the_input_are_part_of_the_proof() {
     for sound in sound() {
-        let n = sound.values.len() / COLUMNS;
+        let n = sound.rows();
         for row in 0..n {
             for column in 0..COLUMNS {
                 for value in [50.0, -1e150, 1e300, 5e-324, 0.0] {

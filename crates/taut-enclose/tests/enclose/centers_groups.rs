@@ -10,6 +10,8 @@ use taut_enclose::{
 };
 use taut_points::{InputError, Points};
 
+use crate::common::least_of_partitions;
+
 fn seeded(cases: u32) -> Config {
     Config { cases, rng_seed: RngSeed::Fixed(53), failure_persistence: None, ..Config::default() }
 }
@@ -71,25 +73,6 @@ impl Groups {
         }
         changed
     }
-}
-
-/// The least radius of k balls that hold all groups but z, where `one` is that of one ball for each set of groups.
-fn least(one: &[f64], k: usize, z: usize) -> f64 {
-    let all = one.len();
-    let mut best = one.to_vec();
-    for _ in 1..k {
-        let before = best.clone();
-        for set in 1..all {
-            let mut part = set;
-            while part > 0 {
-                best[set] = best[set].min(one[part].max(before[set & !part]));
-                part = (part - 1) & set;
-            }
-        }
-    }
-    let groups = all.trailing_zeros();
-    let kept = (0..all).filter(|set| set.count_ones() + z as u32 >= groups);
-    kept.map(|set| best[set]).fold(f64::INFINITY, f64::min)
 }
 
 /// The radius of the smallest ball of each set of groups, with its center anywhere: by another solver.
@@ -180,7 +163,7 @@ proptest! {
         for k in 1..=3 {
             for z in 0..=2.min(count - 1) {
                 let options = CentersOptions { outliers: z as u64, assignment: true, ..groups.options() };
-                let (found, wanted) = (groups.radius(k, &options), least(&one, k, z));
+                let (found, wanted) = (groups.radius(k, &options), least_of_partitions(&one, k, z));
                 prop_assert!(is_near(found, wanted), "{found} {wanted}, k = {k}, z = {z}");
             }
         }
@@ -195,7 +178,7 @@ proptest! {
                 let options = CentersOptions {
                     outliers: z as u64, assignment: true, placement: Placement::Rows, ..groups.options()
                 };
-                let (found, wanted) = (groups.radius(k, &options), least(&one, k, z));
+                let (found, wanted) = (groups.radius(k, &options), least_of_partitions(&one, k, z));
                 prop_assert!(is_near(found, wanted), "{found} {wanted}, k = {k}, z = {z}");
             }
         }
@@ -206,7 +189,7 @@ proptest! {
         let one = free_radii(&groups, Items::Balls);
         for k in 1..=3 {
             let options = CentersOptions { inputs: Items::Balls, assignment: true, ..groups.options() };
-            let (found, wanted) = (groups.radius(k, &options), least(&one, k, 0));
+            let (found, wanted) = (groups.radius(k, &options), least_of_partitions(&one, k, 0));
             prop_assert!(is_near(found, wanted), "{found} {wanted}, k = {k}");
         }
     }

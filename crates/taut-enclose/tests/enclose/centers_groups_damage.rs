@@ -2,67 +2,14 @@
 //!
 //! Every damaged answer is either refused, or what it claims is so: the same problem is solved again, as it is then told.
 
-use taut_certify::{Centers, CheckError, LowerBound, Placement, Solution};
-use taut_enclose::{CentersMethod, CentersOptions, centers};
-use taut_points::{Distribution, Monitor, Points, generate, hash_points};
+use taut_certify::Placement;
+use taut_enclose::{CentersMethod, CentersOptions};
+use taut_points::{Distribution, generate};
 
-/// An answer and its rows: two coordinates, then the group.
-#[derive(Clone)]
-struct Sound {
-    name: &'static str,
-    values: Vec<f64>,
-    found: Solution<Centers>,
-}
+use crate::centers_sound::*;
 
+/// Two coordinates, then the group.
 const COLUMNS: usize = 3;
-
-impl Sound {
-    fn check(&self) -> Result<(), CheckError> {
-        let points = Points::new(&self.values, COLUMNS).unwrap();
-        self.found.check(&points).map(|_| ())
-    }
-
-    /// Makes the hash that of the rows, so that it hides nothing.
-    fn rehash(&mut self) {
-        let points = Points::new(&self.values, COLUMNS).unwrap();
-        self.found.certificate.points_hash = hash_points(&points, &Monitor::silent()).unwrap();
-    }
-
-    /// The least radius of what the certificate says was asked.
-    fn optimum(&self) -> Option<(f64, f64)> {
-        let certificate = &self.found.certificate;
-        let options = CentersOptions {
-            epsilon: 1e-9,
-            placement: certificate.placement,
-            outliers: certificate.outliers,
-            group: certificate.group.map(|column| column as usize),
-            ..Default::default()
-        };
-        let points = Points::new(&self.values, COLUMNS).unwrap();
-        let found = centers(&points, certificate.k as usize, &options).ok()?;
-        Some((found.answer.lower_bound, found.answer.radius))
-    }
-
-    /// Fails where the checker accepts what is not so.
-    fn is_judged(&self, damage: &str) {
-        if self.check().is_err() {
-            return;
-        }
-        let Some((least, reached)) = self.optimum() else {
-            panic!("{}: accepted, though nothing can be so: {damage}", self.name);
-        };
-        let Centers { radius, lower_bound, .. } = self.found.answer;
-        assert!(
-            radius >= least && lower_bound <= reached && radius.is_finite(),
-            "{}: accepted: {damage}: {lower_bound} to {radius}, found {least} to {reached}",
-            self.name
-        );
-    }
-
-    fn is_refused(&self, damage: &str) {
-        assert!(self.check().is_err(), "{}: accepted: {damage}", self.name);
-    }
-}
 
 fn sound() -> Vec<Sound> {
     let plain =
@@ -92,102 +39,35 @@ fn sound() -> Vec<Sound> {
             [place(0), place(1), 10.0 + group as f64]
         };
         let values: Vec<f64> = (0..count).flat_map(row).collect();
-        let found = centers(&Points::new(&values, COLUMNS).unwrap(), k, &options).unwrap();
-        Sound { name, values, found }
+        Sound::of(name, values, COLUMNS, k, &options)
     };
     let sound: Vec<Sound> = tasks.into_iter().map(found).collect();
-    for answer in &sound {
-        answer.check().unwrap_or_else(|why| panic!("{}: {why}", answer.name));
-    }
-    let is_apart = |s: &&Sound| s.found.certificate.proof == LowerBound::Separated;
-    assert!(sound.iter().any(|s| is_apart(&s)) && !sound.iter().all(|s| is_apart(&s)));
+    have_both_proofs(&sound);
     sound
-}
-
-/// The answer after one change each.
-fn each<T>(
-    sound: &Sound,
-    values: impl IntoIterator<Item = T>,
-    change: impl Fn(&mut Sound, T),
-) -> Vec<Sound> {
-    let changed = |value| {
-        let mut damaged = sound.clone();
-        change(&mut damaged, value);
-        damaged
-    };
-    values.into_iter().map(changed).collect()
 }
 
 #[test]
 fn numbers_of_the_answer_are_judged() {
-    let no_numbers = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0, -0.0, 1e308];
-    for sound in sound() {
-        let Centers { radius, lower_bound, .. } = sound.found.answer;
-        for value in
-            no_numbers.into_iter().chain([0.0, 5e-324, radius * (1.0 - 1e-9), radius / 2.0])
-        {
-            each(&sound, [value], |s, value| s.found.answer.radius = value)[0]
-                .is_refused("the radius");
-        }
-        for factor in [1.0 + 1e-7, 1.5, 1e6] {
-            let raise = |s: &mut Sound, factor: f64| {
-                s.found.answer.lower_bound = radius * factor;
-                s.found.answer.radius = radius * factor;
-            };
-            each(&sound, [factor], raise)[0].is_refused("bound and radius raised");
-        }
-        for value in [f64::NAN, f64::INFINITY, -1.0, -0.0, radius * (1.0 + 1e-9)] {
-            each(&sound, [value], |s, value| s.found.answer.lower_bound = value)[0]
-                .is_refused("the bound");
-        }
-        each(&sound, [radius, 5e-324, lower_bound / 2.0, 0.0], |s, value| {
-            s.found.answer.lower_bound = value;
-            s.found.certificate.gap = f64::MAX;
-        })
-        .iter()
-        .for_each(|damaged| damaged.is_judged("the bound, with any gap"));
-        for value in [f64::NAN, -1.0, f64::INFINITY] {
-            each(&sound, [value], |s, value| s.found.certificate.gap = value)[0]
-                .is_refused("the gap");
-        }
-        for center in 0..sound.found.answer.centers.len() {
-            for column in 0..2 {
-                let numbers = [f64::NAN, f64::INFINITY, 1e300, 5e-324, 0.0];
-                for damaged in
-                    each(&sound, numbers, |s, value| s.found.answer.centers[center][column] = value)
-                {
-                    damaged.is_judged("a coordinate of a center");
-                }
-            }
-        }
-    }
+    sound().iter().for_each(numbers_are_judged);
 }
 
 #[test]
 fn the_question_is_part_of_the_proof() {
     for sound in sound() {
         for group in [Some(0), Some(1), Some(3), Some(u64::MAX)] {
-            let damaged = &each(&sound, [group], |s, group| s.found.certificate.group = group)[0];
+            let damaged = &sound.each([group], |s, group| s.found.certificate.group = group)[0];
             damaged.is_refused("another column of groups");
         }
         // Without groups the rows have one coordinate more.
-        each(&sound, [None], |s, group| s.found.certificate.group = group)[0]
-            .is_refused("no groups");
-        for damaged in each(&sound, 0..8, |s, k| s.found.certificate.k = k) {
-            if damaged.found.certificate.k > 0 {
-                damaged.is_judged("another k");
-            }
-        }
-        for damaged in each(&sound, 0..4, |s, z| s.found.certificate.outliers = z) {
-            damaged.is_judged("other outliers");
-        }
+        sound.each([None], |s, group| s.found.certificate.group = group)[0].is_refused("no groups");
+        counts_are_judged(&sound);
     }
 }
 
 #[test]
 fn lists_are_judged() {
     for sound in sound() {
-        let n = sound.values.len() / COLUMNS;
+        let n = sound.rows();
         let core = sound.found.certificate.core_set.len();
         for at in 0..core {
             let mut damaged = sound.clone();
@@ -203,42 +83,9 @@ fn lists_are_judged() {
                 damaged.is_judged("another row in the core-set");
             }
         }
-        if let LowerBound::Branches { items } = &sound.found.certificate.proof {
-            for at in 0..items.len() {
-                let with = |change: &dyn Fn(&mut Vec<u32>)| {
-                    let mut damaged = sound.clone();
-                    if let LowerBound::Branches { items } = &mut damaged.found.certificate.proof {
-                        change(items);
-                    }
-                    damaged
-                };
-                with(&|items| items.truncate(at)).is_refused("a log cut off");
-                with(&|items| items.insert(at, items[at])).is_judged("a branch repeated");
-                with(&|items| items.push(items[at])).is_refused("a branch added");
-                with(&|items| items[at] = u32::MAX).is_refused("no such item");
-                with(&|items| items[at] = (items[at] + 1) % core as u32).is_judged("another item");
-                with(&|items| {
-                    items.remove(at);
-                })
-                .is_judged("a branch dropped");
-            }
-            let mut damaged = sound.clone();
-            damaged.found.certificate.proof = LowerBound::Separated;
-            damaged.is_judged("said to be apart");
-        } else {
-            let mut damaged = sound.clone();
-            damaged.found.certificate.proof = LowerBound::Branches { items: vec![] };
-            if damaged.found.answer.lower_bound > 0.0 {
-                damaged.is_refused("no log");
-            }
-        }
+        branches_are_judged(&sound);
+        assignments_are_judged(&sound);
         for row in 0..n {
-            let centers = sound.found.answer.centers.len() as u32;
-            for center in (0..=centers).filter(|&c| c != sound.found.answer.assignment[row]) {
-                let mut damaged = sound.clone();
-                damaged.found.answer.assignment[row] = center;
-                damaged.is_refused("a row has another center than its group");
-            }
             let mut damaged = sound.clone();
             match damaged.found.answer.outliers.binary_search(&(row as u64)) {
                 Ok(at) => drop(damaged.found.answer.outliers.remove(at)),
@@ -253,7 +100,7 @@ fn lists_are_judged() {
 #[test]
 fn groups_of_the_input_are_part_of_the_proof() {
     for sound in sound() {
-        let n = sound.values.len() / COLUMNS;
+        let n = sound.rows();
         for row in 0..n {
             // Split off, merged with another group, and by a row that is moved, or is no number.
             for group in

@@ -21,6 +21,7 @@ mod centers_groups_damage;
 mod centers_laws;
 mod centers_numbers;
 mod centers_outliers;
+mod centers_sound;
 mod centers_threads;
 mod certificate_edits;
 mod circles;

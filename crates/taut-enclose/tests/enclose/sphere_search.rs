@@ -372,3 +372,19 @@ fn what_is_no_input_is_named() {
     assert_eq!(option(tree.nearest(&place, &threads).unwrap_err()), "threads");
     assert!(tree.nearest(&points(&[], 2), &QUERY).unwrap().is_empty());
 }
+
+#[test]
+fn balls_that_touch_as_calculated_are_pairs_whatever_the_order_of_roundings() {
+    let lots = generate::<f64>(Distribution::Uniform, 2000, 2, 11).unwrap();
+    for radii in lots.as_chunks::<2>().0 {
+        let [first, second] = *radii;
+        let distance = first + second;
+        let alone = |x: f64, radius: f64| tree(&[x, 0.0, radius], 3, Items::Balls);
+        let wanted = [RowPair { rows: [0, 0], distance: 0.0 }];
+        let (a, b) = (alone(0.0, first), alone(distance, second));
+        assert_eq!(a.pairs_with(&b, 0.0, &QUERY).unwrap(), wanted, "{radii:?}");
+        assert_eq!(b.pairs_with(&a, 0.0, &QUERY).unwrap(), wanted, "{radii:?}");
+        let both = tree(&[0.0, 0.0, first, distance, 0.0, second], 3, Items::Balls);
+        assert_eq!(both.pairs(0.0, &QUERY).unwrap()[0].rows, [0, 1], "{radii:?}");
+    }
+}

@@ -312,3 +312,38 @@ impl Case {
 pub(crate) fn everything(task: &Task) -> Vec<u64> {
     (0..task.len() as u64).collect()
 }
+
+/// k centers at these places, of this radius.
+pub(crate) fn by_hand(
+    points: &Points<'_, f64>,
+    centers: &[&[f64]],
+    (radius, lower_bound): (f64, f64),
+    core_set: &[u64],
+    proof: LowerBound,
+) -> Solution<Centers> {
+    let gap = if lower_bound > 0.0 { (radius - lower_bound) / lower_bound } else { f64::MAX };
+    Solution {
+        answer: Centers {
+            centers: centers.iter().map(|center| center.to_vec()).collect(),
+            rows: vec![],
+            radius,
+            lower_bound,
+            outliers: vec![],
+            assignment: vec![],
+        },
+        certificate: CentersCertificate {
+            items: Items::Points,
+            weights: false,
+            group: None,
+            placement: Placement::Free,
+            k: centers.len() as u64,
+            outliers: 0,
+            gap: gap.min(f64::MAX),
+            core_set: core_set.to_vec(),
+            directions: vec![],
+            proof,
+            points_hash: hash_points(points, &Monitor::silent()).unwrap(),
+        },
+        trace: Trace::default(),
+    }
+}

@@ -312,3 +312,22 @@ fn circumcenter(support: &[&[f64]], dim: usize) -> Option<Vec<f64>> {
     }
     Some(center)
 }
+
+/// The least radius of k balls that hold all items but z, where `one` is that of one ball for each set.
+pub fn least_of_partitions(one: &[f64], k: usize, z: usize) -> f64 {
+    let all = one.len();
+    let mut best = one.to_vec();
+    for _ in 1..k {
+        let before = best.clone();
+        for set in 1..all {
+            let mut part = set;
+            while part > 0 {
+                best[set] = best[set].min(one[part].max(before[set & !part]));
+                part = (part - 1) & set;
+            }
+        }
+    }
+    let n = all.trailing_zeros();
+    let kept = (0..all).filter(|set| set.count_ones() + z as u32 >= n);
+    kept.map(|set| best[set]).fold(f64::INFINITY, f64::min)
+}
