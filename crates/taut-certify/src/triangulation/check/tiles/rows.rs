@@ -8,16 +8,18 @@
 //! *Trap.* The input is read once more here, and may have changed in the meantime: each block is hashed again.
 
 mod buckets;
+mod pages;
 
+use std::ops::Range;
 use std::path::Path;
 use std::sync::atomic::{AtomicU8, Ordering};
 
 use rayon::prelude::*;
-use taut_points::{Blocks, Monitor, PointSource, PointsHash, Rows, Scratch, hash_block};
+use taut_points::{BlockHash, Blocks, Monitor, PointSource, PointsHash, Rows, Scratch, hash_block};
 
-use self::buckets::Buckets;
+use self::buckets::{Buckets, ReadBuckets};
 use super::overview::{Overview, point};
-use super::sort::Sorter;
+use super::sort::{Sorted, Sorter};
 use super::{TilesError, TilesViolation};
 
 /// Bytes of coordinates of a bucket where there is memory for it: what is compared stays in the cache.
@@ -129,63 +131,105 @@ impl<const D: usize> Coverage<D> {
         let n = source.len();
         monitor.pass(4, n);
         let Coverage { bucket_rows, sites, by_row, by_first, .. } = self;
-        let (mut by_row, mut by_first) = (by_row.sorted()?, by_first.sorted()?);
-        let mut sites = sites.finish()?;
-        let mut equal = Equal::<D>::new(folder, memory / 8);
-        let blocks = Blocks::of(source);
-        let (mut scratch, mut hashes) = (Scratch::new(), vec![]);
-        for (bucket, start) in (0..n).step_by(bucket_rows as usize).enumerate() {
-            let end = n.min(start + bucket_rows);
-            let rows = source.read(start..end, &mut scratch)?;
-            let first_block = start / blocks.range(0).end;
-            let hash = |block: u64| {
-                let range = blocks.range(block);
-                hash_block(&part(
-                    &rows,
-                    (range.start - start) as usize,
-                    (range.end - start) as usize,
-                ))
-            };
-            let count = (end - start).div_ceil(blocks.range(0).end);
-            let of_bucket: Vec<_> =
-                (first_block..first_block + count).into_par_iter().map(hash).collect();
-            hashes.extend(of_bucket);
-            let states: Vec<AtomicU8> = (start..end).map(|_| AtomicU8::new(0)).collect();
-            sites.for_each_block(bucket, |records| {
-                monitor.check()?;
-                compare::<D>(records, &rows, start, &states)
-            })?;
-            while let Some([row, first]) = by_row.next_if(|entry| entry[0] < end)? {
-                let state = &states[(row - start) as usize];
-                let problem = match state.fetch_or(DUPLICATE, Ordering::Relaxed) {
-                    _ if first >= row => "the second must be the earlier one",
-                    before if before & DUPLICATE != 0 => "the first is listed twice",
-                    before if before & SITE != 0 => "the first is a site of a tile",
-                    _ => continue,
-                };
-                return Err(TilesViolation::Duplicate { row, first, problem }.into());
-            }
-            while let Some([first, row]) = by_first.next_if(|entry| entry[0] < end)? {
-                let place = (first - start) as usize;
-                if states[place].load(Ordering::Relaxed) & OWNED == 0 {
-                    let problem = "the second is no site of a tile";
-                    return Err(TilesViolation::Duplicate { row, first, problem }.into());
-                }
-                equal.add(row, first, point(&rows, place))?;
-            }
-            for (row, state) in (start..end).zip(&states) {
-                let state = state.load(Ordering::Relaxed);
-                if let Some(problem) = problem_of(state) {
-                    return Err(TilesViolation::Site { row, problem }.into());
-                }
-            }
-            monitor.points(end - start);
-        }
-        let found = PointsHash::of_blocks(n, D, hashes);
+        let comparison = Comparison::<D> {
+            source,
+            blocks: Blocks::of(source),
+            monitor,
+            by_row: by_row.sorted()?,
+            by_first: by_first.sorted()?,
+            equal: Equal::new(folder, memory / 8),
+            hashes: vec![],
+        };
+        let (found, equal) =
+            sites.read(memory / 2, |sites| comparison.run(bucket_rows as usize, sites))?;
         if found != overview.hash {
             return Err(changed(overview.hash, found));
         }
         equal.check(source, overview, monitor)
+    }
+}
+
+/// The comparison of sites and duplicates with the input, bucket by bucket.
+struct Comparison<'a, const D: usize> {
+    source: &'a dyn PointSource,
+    blocks: Blocks,
+    monitor: &'a Monitor<'a>,
+    /// Row and earlier row, by the one and by the other.
+    by_row: Sorted<2>,
+    by_first: Sorted<2>,
+    equal: Equal<D>,
+    /// Those of the blocks of the input that were read.
+    hashes: Vec<BlockHash>,
+}
+
+impl<const D: usize> Comparison<'_, D> {
+    /// The hash of the input as it is now, and what is left to compare.
+    fn run(
+        mut self,
+        bucket_rows: usize,
+        sites: &mut ReadBuckets<'_>,
+    ) -> Result<(PointsHash, Equal<D>), TilesError> {
+        let n = self.source.len();
+        let mut scratch = Scratch::new();
+        for (bucket, start) in (0..n).step_by(bucket_rows).enumerate() {
+            let range = start..n.min(start + bucket_rows as u64);
+            let rows = self.source.read(range.clone(), &mut scratch)?;
+            self.hash(&rows, &range);
+            let states: Vec<AtomicU8> = range.clone().map(|_| AtomicU8::new(0)).collect();
+            sites.for_each_piece(bucket, |runs| {
+                self.monitor.check()?;
+                compare::<D>(runs, &rows, start, &states)
+            })?;
+            self.duplicates(&rows, &range, &states)?;
+            for (row, state) in range.clone().zip(&states) {
+                if let Some(problem) = problem_of(state.load(Ordering::Relaxed)) {
+                    return Err(TilesViolation::Site { row, problem }.into());
+                }
+            }
+            self.monitor.points(range.end - start);
+        }
+        Ok((PointsHash::of_blocks(n, D, self.hashes), self.equal))
+    }
+
+    /// Hashes the blocks of a bucket, which are whole.
+    fn hash(&mut self, rows: &Rows<'_>, range: &Range<u64>) {
+        let block_rows = self.blocks.range(0).end;
+        let hash = |block: u64| {
+            let of_block = self.blocks.range(block);
+            let place = |row: u64| (row - range.start) as usize;
+            hash_block(&part(rows, place(of_block.start), place(of_block.end)))
+        };
+        let all = range.start / block_rows..range.end.div_ceil(block_rows);
+        let of_bucket: Vec<BlockHash> = all.into_par_iter().map(hash).collect();
+        self.hashes.extend(of_bucket);
+    }
+
+    /// Judges the duplicates among the rows of a bucket, and notes the coordinates of those that others equal.
+    fn duplicates(
+        &mut self,
+        rows: &Rows<'_>,
+        range: &Range<u64>,
+        states: &[AtomicU8],
+    ) -> Result<(), TilesError> {
+        while let Some([row, first]) = self.by_row.next_if(|entry| entry[0] < range.end)? {
+            let state = &states[(row - range.start) as usize];
+            let problem = match state.fetch_or(DUPLICATE, Ordering::Relaxed) {
+                _ if first >= row => "the second must be the earlier one",
+                before if before & DUPLICATE != 0 => "the first is listed twice",
+                before if before & SITE != 0 => "the first is a site of a tile",
+                _ => continue,
+            };
+            return Err(TilesViolation::Duplicate { row, first, problem }.into());
+        }
+        while let Some([first, row]) = self.by_first.next_if(|entry| entry[0] < range.end)? {
+            let place = (first - range.start) as usize;
+            if states[place].load(Ordering::Relaxed) & OWNED == 0 {
+                let problem = "the second is no site of a tile";
+                return Err(TilesViolation::Duplicate { row, first, problem }.into());
+            }
+            self.equal.add(row, first, point(rows, place))?;
+        }
+        Ok(())
     }
 }
 
@@ -217,7 +261,7 @@ fn problem_of(state: u8) -> Option<&'static str> {
 
 /// Compares the coordinates of sites with their rows, and notes what is known of these.
 fn compare<const D: usize>(
-    records: &[u8],
+    runs: &[&[u8]],
     rows: &Rows<'_>,
     start: u64,
     states: &[AtomicU8],
@@ -225,7 +269,8 @@ fn compare<const D: usize>(
     /// Records that a thread takes at once.
     const SHARE: usize = 1 << 12;
     let width = 4 + 8 * D;
-    let wrong = records.par_chunks(SHARE * width).find_map_first(|records| {
+    let shares = runs.par_iter().flat_map(|run| run.par_chunks(SHARE * width));
+    let wrong = shares.find_map_first(|records| {
         records.chunks_exact(width).find_map(|record| {
             let (head, coordinates) = record.split_first_chunk::<4>()?;
             let head = u32::from_le_bytes(*head);
