@@ -4,7 +4,7 @@
 //! other; which two are farthest apart.
 //! *Idea.* Blocks of sixteen rows, and above them nodes of eight children, each with a box and a ball around its rows ([`nodes`]).
 //! Bounds of eight children are calculated at once; what cannot be in the answer is left out ([`traverse`]). Searches that look for
-//! what is near prune by boxes, rays by balls, and what is far by both.
+//! what is near climb from a home block ([`cuts`]) and prune by boxes, rays prune by balls, and what is far by both.
 //! *Guarantee.* The rows of brute force over distances as calculated in `f64`: the root of ((x² + y²) + z²) + … of differences, and
 //! of equal ones the lowest row; for coordinates of any finite size ([`measure`]). The same for any number of threads.
 //! *Trap.* Distances that differ by less than their rounding, some 10⁻¹⁶ of them, are ordered as calculated, not as they are.
@@ -14,6 +14,7 @@
 mod batch;
 mod build;
 mod collect;
+mod cuts;
 mod diameter;
 mod dim;
 mod measure;
@@ -27,7 +28,8 @@ use taut_certify::Items;
 use taut_points::{InputError, Monitor, PointSource, ReadError, Rows, Scratch, on_threads};
 
 use crate::Error;
-use batch::run_task;
+use batch::run_one;
+use dim::AnyDim;
 use nodes::{BLOCK_SIZE, Nodes};
 use places::{FindFarthest, FindNearest, FindNearestK, FindWithin};
 use rays::FindHits;
@@ -201,7 +203,7 @@ impl SphereSearch {
     /// The row nearest to one place, by this thread alone; `None` unless the place has as many coordinates as the rows, all finite.
     pub fn nearest_to(&self, place: &[f64]) -> Option<Neighbor> {
         let fits = place.len() == self.dim() && place.iter().all(|x| x.is_finite());
-        fits.then(|| run_task(self, &[place], &FindNearest)[0])
+        if fits { run_one(self, place, &FindNearest) } else { None }
     }
 
     /// The `k` rows nearest to each place, nearest first, and lower rows first where they are equally near; all rows where there are
@@ -378,9 +380,8 @@ impl SphereSearch {
 
     /// The coordinates of the row in a lane of all blocks.
     fn row(&self, lane: usize) -> Vec<f64> {
-        let size = self.dim() * BLOCK_SIZE;
-        let block = &self.nodes.coordinates[lane / BLOCK_SIZE * size..][..size];
-        block.iter().skip(lane % BLOCK_SIZE).step_by(BLOCK_SIZE).copied().collect()
+        let block = self.nodes.block(AnyDim(self.dim()), lane / BLOCK_SIZE);
+        block.iter().map(|column| column[lane % BLOCK_SIZE]).collect()
     }
 }
 

@@ -1,13 +1,14 @@
-//! Many queries at once: in spatial order, on all threads, each answer back in the place of its query.
+//! Many queries at once: in the order of the tree, on all threads, each answer back in the place of its query.
 //!
-//! *Idea.* Queries are sorted along a Hilbert curve through their first three coordinates, so that one finds in the caches what the
-//! one before it read; a task is a fixed number of them.
+//! *Idea.* Queries are put in the order of their home blocks, so that one finds in the caches what the one before it read; a task
+//! is a fixed number of them.
 //! *Guarantee.* Each answer depends on its query alone, so neither tasks nor threads change any.
+
+use std::sync::LazyLock;
 
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 use taut_certify::Items;
-use taut_oblivious::hilbert_order;
 use taut_points::ReadError;
 
 use super::dim::{AnyDim, Dim, Fixed};
@@ -17,6 +18,18 @@ use crate::Error;
 
 /// Queries of one task.
 const TASK_SIZE: usize = 1 << 10;
+/// Bits of the home blocks by which queries are put in order: what is below a node of so few rows is in the caches anyway.
+const ORDER_BITS: u32 = 12;
+
+/// The vectors of this processor, detected once and not for each query.
+static ARCH: LazyLock<Arch> = LazyLock::new(Arch::new);
+
+/// Numbers that begin with a place, and the home block of that.
+#[derive(Clone, Copy)]
+pub(super) struct Query<'a> {
+    pub(super) values: &'a [f64],
+    pub(super) home: usize,
+}
 
 /// What is done with each query of a task.
 pub(super) trait Work: Sync {
@@ -29,26 +42,9 @@ pub(super) trait Work: Sync {
         &self,
         search: &SphereSearch,
         dim: D,
-        query: &[f64],
+        query: Query<'_>,
         kept: &mut Self::Kept<M>,
     ) -> Self::Found;
-}
-
-/// The answers to some queries, in their order. A loop, not `map` and `collect`: what these call is compiled without the vectors of
-/// the processor.
-#[inline(always)]
-fn answers<D: Dim, M: Measure, W: Work>(
-    work: &W,
-    search: &SphereSearch,
-    dim: D,
-    queries: &[&[f64]],
-) -> Vec<W::Found> {
-    let mut kept = W::Kept::<M>::default();
-    let mut all = Vec::with_capacity(queries.len());
-    for query in queries {
-        all.push(work.answer::<D, M>(search, dim, query, &mut kept));
-    }
-    all
 }
 
 /// The answer to each query; `width` numbers are a query, and its first ones a place.
@@ -59,75 +55,115 @@ pub(super) fn run<W: Work>(
     options: &QueryOptions<'_>,
     work: &W,
 ) -> Result<Vec<W::Found>, Error> {
-    let order = spatial_order(values, width, search.dim().min(width));
-    let tasks: Vec<Vec<W::Found>> = order
-        .par_chunks(TASK_SIZE)
-        .map(|task| {
+    let homes: Vec<u32> = values
+        .par_chunks_exact(width)
+        .with_min_len(TASK_SIZE)
+        .map(|query| search.nodes.home(&query[..search.dim()]) as u32)
+        .collect();
+    let order = tree_order(&homes, search.nodes.blocks());
+    let mut found: Vec<Option<W::Found>> = order.iter().map(|_| None).collect();
+    order.par_chunks(TASK_SIZE).zip(found.par_chunks_mut(TASK_SIZE)).try_for_each(
+        |(task, found)| {
             options.monitor.check().map_err(ReadError::from)?;
-            let queries: Vec<&[f64]> =
-                task.iter().map(|&query| &values[query as usize * width..][..width]).collect();
-            let found = run_task(search, &queries, work);
+            let query = |&query: &u32| {
+                let (query, home) = (query as usize, homes[query as usize] as usize);
+                Query { values: &values[query * width..][..width], home }
+            };
+            let queries: Vec<Query<'_>> = task.iter().map(query).collect();
+            run_task(search, &queries, work, found);
             options.monitor.points(task.len() as u64);
-            Ok(found)
-        })
-        .collect::<Result<_, Error>>()?;
-    let mut placed: Vec<(u32, W::Found)> =
-        order.into_iter().zip(tasks.into_iter().flatten()).collect();
-    placed.par_sort_unstable_by_key(|&(query, _)| query);
-    Ok(placed.into_iter().map(|(_, found)| found).collect())
+            Ok::<(), Error>(())
+        },
+    )?;
+    let mut placed: Vec<Option<W::Found>> = order.iter().map(|_| None).collect();
+    for (query, found) in order.into_iter().zip(found) {
+        placed[query as usize] = found;
+    }
+    Ok(placed.into_iter().flatten().collect())
 }
 
-fn spatial_order(values: &[f64], width: usize, dim: usize) -> Vec<u32> {
-    let at = |i: usize, axis: usize| {
-        if axis < dim { values[i * width + axis] } else { 0.0 }
-    };
-    let len = values.len() / width;
-    if dim < 3 {
-        hilbert_order(len, |i| [at(i, 0), at(i, 1)])
-    } else {
-        hilbert_order(len, |i| [at(i, 0), at(i, 1), at(i, 2)])
+/// The answer to one query, on this thread.
+pub(super) fn run_one<W: Work>(
+    search: &SphereSearch,
+    values: &[f64],
+    work: &W,
+) -> Option<W::Found> {
+    let home = search.nodes.home(&values[..search.dim()]);
+    let mut found = [None];
+    run_task(search, &[Query { values, home }], work, &mut found);
+    let [found] = found;
+    found
+}
+
+/// The queries by the first bits of their home blocks.
+fn tree_order(homes: &[u32], blocks: usize) -> Vec<u32> {
+    let shift = (blocks.ilog2() + 1).saturating_sub(ORDER_BITS);
+    let mut ends = vec![0u32; (1 << ORDER_BITS) + 1];
+    for home in homes {
+        ends[(home >> shift) as usize + 1] += 1;
     }
+    for bucket in 1..ends.len() {
+        ends[bucket] += ends[bucket - 1];
+    }
+    let mut order = vec![0; homes.len()];
+    for (query, home) in (0..).zip(homes) {
+        let end = &mut ends[(home >> shift) as usize];
+        order[*end as usize] = query;
+        *end += 1;
+    }
+    order
 }
 
 /// Does the work in the measure and the dimension of the tree and the queries.
-pub(super) fn run_task<W: Work>(
+fn run_task<W: Work>(
     search: &SphereSearch,
-    queries: &[&[f64]],
+    queries: &[Query<'_>],
     work: &W,
-) -> Vec<W::Found> {
-    let dim = search.dim();
-    if search.is_plain && queries.iter().all(|query| is_plain(query)) {
-        return Arch::new().dispatch(Task { search, queries, work });
+    found: &mut [Option<W::Found>],
+) {
+    let task = Task { search, queries, work, found };
+    let dim = AnyDim(search.dim());
+    if search.is_plain && queries.iter().all(|query| is_plain(query.values)) {
+        return ARCH.dispatch(task);
     }
     match search.items {
-        Items::Points => answers::<_, WideSquares, W>(work, search, AnyDim(dim), queries),
-        _ => answers::<_, Surfaces<WideSquares>, W>(work, search, AnyDim(dim), queries),
+        Items::Points => task.answer::<_, WideSquares>(dim),
+        _ => task.answer::<_, Surfaces<WideSquares>>(dim),
     }
 }
 
-/// A task compiled for the vectors of the processor.
-struct Task<'a, W> {
+/// Queries, and where their answers go.
+struct Task<'a, W: Work> {
     search: &'a SphereSearch,
-    queries: &'a [&'a [f64]],
+    queries: &'a [Query<'a>],
     work: &'a W,
+    found: &'a mut [Option<W::Found>],
 }
 
 impl<W: Work> Task<'_, W> {
+    /// A loop, not an iterator: a closure is compiled without the vectors of the processor unless it is inlined.
     #[inline(always)]
-    fn in_dim<D: Dim>(self, dim: D) -> Vec<W::Found> {
-        let Task { search, queries, work } = self;
-        match search.items {
-            Items::Points => answers::<D, Squares, W>(work, search, dim, queries),
-            _ => answers::<D, Surfaces<Squares>, W>(work, search, dim, queries),
+    fn answer<D: Dim, M: Measure>(self, dim: D) {
+        let mut kept = W::Kept::<M>::default();
+        for (query, found) in self.queries.iter().zip(self.found) {
+            *found = Some(self.work.answer::<D, M>(self.search, dim, *query, &mut kept));
+        }
+    }
+
+    #[inline(always)]
+    fn in_dim<D: Dim>(self, dim: D) {
+        match self.search.items {
+            Items::Points => self.answer::<D, Squares>(dim),
+            _ => self.answer::<D, Surfaces<Squares>>(dim),
         }
     }
 }
 
 impl<W: Work> WithSimd for Task<'_, W> {
-    type Output = Vec<W::Found>;
+    type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> Self::Output {
+    fn with_simd<S: Simd>(self, _: S) {
         match self.search.dim() {
             2 => self.in_dim(Fixed::<2>),
             3 => self.in_dim(Fixed::<3>),

@@ -9,8 +9,9 @@
 
 use rayon::prelude::*;
 
+use super::cuts::Cuts;
 use super::measure::{BALL_SLACK, scaled};
-use super::nodes::{BLOCK_SIZE, FANOUT, Level, NO_ROW, Nodes};
+use super::nodes::{BLOCK_SIZE, FANOUT, Lanes, Level, NO_ROW, Nodes};
 
 /// Rows below which a part is not shared among threads.
 const ALONE_BELOW: usize = 1 << 13;
@@ -31,10 +32,10 @@ pub(super) fn pack(values: &[f64], dim: usize, row_radii: &[f64]) -> Nodes {
     drop(keyed);
     let blocks = len.div_ceil(BLOCK_SIZE);
     let lane = |i: usize| order[i.min(len - 1)] as usize;
-    let mut coordinates = vec![0.0; blocks * BLOCK_SIZE * dim];
-    coordinates.par_chunks_mut(BLOCK_SIZE * dim).enumerate().for_each(|(block, columns)| {
-        for (axis, column) in columns.as_chunks_mut::<BLOCK_SIZE>().0.iter_mut().enumerate() {
-            for (i, x) in column.iter_mut().enumerate() {
+    let mut coordinates = vec![Lanes([0.0; BLOCK_SIZE]); blocks * dim];
+    coordinates.par_chunks_mut(dim).enumerate().for_each(|(block, columns)| {
+        for (axis, column) in columns.iter_mut().enumerate() {
+            for (i, x) in column.0.iter_mut().enumerate() {
                 *x = values[lane(block * BLOCK_SIZE + i) * dim + axis];
             }
         }
@@ -45,7 +46,8 @@ pub(super) fn pack(values: &[f64], dim: usize, row_radii: &[f64]) -> Nodes {
         [] => vec![],
         radii => lanes.map(|i| radii[lane(i)]).collect(),
     };
-    let mut nodes = Nodes { dim, coordinates, row_radii, rows, levels: vec![] };
+    let row_radius_max = row_radii.iter().fold(0.0, |a: f64, &r| a.max(r));
+    let mut nodes = Nodes { dim, coordinates, row_radii, row_radius_max, rows, levels: vec![] };
     let mut rows_below = BLOCK_SIZE;
     loop {
         let level = bounds(&nodes, points, &order, rows_below);
@@ -92,7 +94,8 @@ fn split(points: Rows<'_>, order: &mut [u32], keyed: &mut [(f64, u32)], mut unit
         }
         unit /= FANOUT;
     }
-    let middle = order.len().div_ceil(unit).div_ceil(2) * unit;
+    // The lower half of a group, of its half or of its quarter is full: so the cuts of all groups have the same places.
+    let middle = order.len().div_ceil(unit).next_power_of_two() / 2 * unit;
     let (low, high) = points.extents(order);
     // Halves, as an extent may overflow.
     let extent = |axis: usize| high[axis] / 2.0 - low[axis] / 2.0;
@@ -135,7 +138,10 @@ fn bounds(nodes: &Nodes, points: Rows<'_>, order: &[u32], rows_below: usize) -> 
         .par_chunks(rows_below)
         .enumerate()
         .map(|(node, rows)| {
-            let (low, high) = points.extents(rows);
+            let (low, high) = match nodes.levels.last() {
+                None => points.extents(rows),
+                Some(below) => extents_below(below, dim, node),
+            };
             let (center, radius) = ball(points, rows, &low, &high);
             let first = node * rows_below;
             let radii = nodes.row_radii.get(first..first + rows.len()).unwrap_or(&[]);
@@ -152,18 +158,26 @@ fn bounds(nodes: &Nodes, points: Rows<'_>, order: &[u32], rows_below: usize) -> 
     let (count, groups) = (found.len(), found.len().div_ceil(FANOUT));
     let mut level = Level {
         count,
-        boxes: Vec::with_capacity(groups * dim * 2 * FANOUT),
-        centers: Vec::with_capacity(groups * dim * FANOUT),
+        cuts: Vec::with_capacity(groups),
+        boxes: Vec::with_capacity(groups * dim),
+        centers: Vec::with_capacity(groups * dim),
         radii: vec![],
         row_radii: vec![],
         lowest_rows: vec![],
     };
     for group in 0..groups {
-        let lanes = || (0..FANOUT).map(|lane| &found[(group * FANOUT + lane).min(count - 1)]);
+        let at = |lane: usize| &found[(group * FANOUT + lane).min(count - 1)];
+        let lanes = || (0..FANOUT).map(at);
+        let nodes_of = &found[group * FANOUT..count.min((group + 1) * FANOUT)];
+        let boxes: Vec<_> = nodes_of.iter().map(|node| (&node.low[..], &node.high[..])).collect();
+        level.cuts.push(Cuts::between(&boxes));
         for axis in 0..dim {
-            level.boxes.extend(lanes().map(|node| node.low[axis]));
-            level.boxes.extend(lanes().map(|node| node.high[axis]));
-            level.centers.extend(lanes().map(|node| node.center[axis]));
+            let ends = |lane| match lane {
+                ..FANOUT => at(lane).low[axis],
+                _ => at(lane - FANOUT).high[axis],
+            };
+            level.boxes.push(Lanes(std::array::from_fn(ends)));
+            level.centers.push(Lanes(std::array::from_fn(|lane| at(lane).center[axis])));
         }
         level.radii.extend(lanes().map(|node| node.radius));
         level.lowest_rows.extend(lanes().map(|node| node.lowest_row));
@@ -172,6 +186,18 @@ fn bounds(nodes: &Nodes, points: Rows<'_>, order: &[u32], rows_below: usize) -> 
         }
     }
     level
+}
+
+/// Low and high ends of the children of a node.
+fn extents_below(below: &Level, dim: usize, node: usize) -> (Vec<f64>, Vec<f64>) {
+    let (mut low, mut high) = (vec![f64::INFINITY; dim], vec![f64::NEG_INFINITY; dim]);
+    for child in node * FANOUT..below.count.min((node + 1) * FANOUT) {
+        for (axis, (child_low, child_high)) in below.ends_of(dim, child).enumerate() {
+            low[axis] = low[axis].min(child_low);
+            high[axis] = high[axis].max(child_high);
+        }
+    }
+    (low, high)
 }
 
 /// A ball around rows in a box: its center, and its radius rounded up.

@@ -5,7 +5,7 @@ use std::collections::BinaryHeap;
 
 use super::measure::Measure;
 use super::nodes::{BLOCK_SIZE, NO_ROW};
-use super::traverse::Collector;
+use super::traverse::{Collector, lanes_where};
 
 /// The nearest row so far.
 #[derive(Clone, Copy)]
@@ -27,6 +27,10 @@ impl<K: Copy + PartialOrd> Collector<K> for Nearest<K> {
 
     #[inline(always)]
     fn offer(&mut self, keys: &[K; BLOCK_SIZE], rows: &[u32; BLOCK_SIZE]) {
+        // Of most blocks after the first no row is nearer.
+        if lanes_where(keys, |key| key <= self.key) == 0 {
+            return;
+        }
         let mut least = *keys;
         for half in [BLOCK_SIZE / 2, BLOCK_SIZE / 4, BLOCK_SIZE / 8, BLOCK_SIZE / 16] {
             for i in 0..half {
@@ -34,14 +38,11 @@ impl<K: Copy + PartialOrd> Collector<K> for Nearest<K> {
             }
         }
         let least = least[0];
-        if least <= self.key {
-            let mut row = NO_ROW;
-            for (key, &other) in keys.iter().zip(rows) {
-                row = if *key == least && other < row { other } else { row };
-            }
-            if self.admits(least, row) {
-                *self = Nearest { key: least, row };
-            }
+        // The first lane has the lowest row.
+        let lane = lanes_where(keys, |key| key == least).trailing_zeros() as usize;
+        let row = rows[lane % BLOCK_SIZE];
+        if self.admits(least, row) {
+            *self = Nearest { key: least, row };
         }
     }
 }
@@ -122,8 +123,12 @@ impl<K: Copy + PartialOrd> Collector<K> for NearestHeap<K> {
 
     #[inline(always)]
     fn offer(&mut self, keys: &[K; BLOCK_SIZE], rows: &[u32; BLOCK_SIZE]) {
-        for (&key, &row) in keys.iter().zip(rows) {
-            if self.may_admit(key) && row != NO_ROW && self.admits(key, row) {
+        let mut left = lanes_where(keys, |key| self.may_admit(key));
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize % BLOCK_SIZE;
+            left &= left - 1;
+            let (key, row) = (keys[lane], rows[lane]);
+            if row != NO_ROW && self.admits(key, row) {
                 if self.heap.len() == self.k {
                     self.heap.pop();
                 }
@@ -152,9 +157,12 @@ impl<M: Measure> Collector<M::Key> for Within<M> {
 
     #[inline(always)]
     fn offer(&mut self, keys: &[M::Key; BLOCK_SIZE], rows: &[u32; BLOCK_SIZE]) {
-        for (&key, &row) in keys.iter().zip(rows) {
-            if M::is_within(key, self.limit) && row != NO_ROW {
-                self.found.push(Candidate { key, row });
+        let mut left = lanes_where(keys, |key| M::is_within(key, self.limit));
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize % BLOCK_SIZE;
+            left &= left - 1;
+            if rows[lane] != NO_ROW {
+                self.found.push(Candidate { key: keys[lane], row: rows[lane] });
             }
         }
     }

@@ -15,7 +15,7 @@ use pulp::{Arch, Simd, WithSimd};
 use taut_certify::Items;
 use taut_points::{Monitor, ReadError};
 
-use super::batch::run_task;
+use super::batch::run_one;
 use super::dim::{AnyDim, Dim, Fixed};
 use super::measure::{Measure, Squares, Surfaces, WideSquares};
 use super::nodes::{BLOCK_SIZE, FANOUT, NO_ROW};
@@ -103,8 +103,9 @@ impl<'a> Task<'a> {
         let mut lane = 0;
         for _ in 0..STEPS_MAX {
             let place = self.tree.row(lane);
-            let far = run_task(self.tree, &[&place], &FindFarthest(self.factor))[0].row as u32;
-            let Some(other) = self.tree.nodes.rows.iter().position(|&row| row == far) else {
+            let far = run_one(self.tree, &place, &FindFarthest(self.factor));
+            let is_far = |&row: &u32| far.is_some_and(|far| far.row == u64::from(row));
+            let Some(other) = self.tree.nodes.rows.iter().position(is_far) else {
                 return;
             };
             let before = best.key;
@@ -153,7 +154,7 @@ impl<'a> Task<'a> {
         } else {
             let level = &nodes.levels[kept.0 as usize];
             let node = kept.1 as usize;
-            let (low, high) = level.box_of(dim.get(), node);
+            let (low, high): (Vec<f64>, Vec<f64>) = level.ends_of(dim.get(), node).unzip();
             let center = level.center_of(dim.get(), node);
             let ball = (&center[..], level.radii[node]);
             let row_radius = level.row_radius(node);
@@ -219,8 +220,8 @@ impl<'a> Task<'a> {
         block: usize,
     ) -> [M::Key; BLOCK_SIZE] {
         let nodes = &self.tree.nodes;
-        let own = nodes.block(dim, lane / BLOCK_SIZE).as_chunks::<BLOCK_SIZE>().0;
-        let columns = nodes.block(dim, block).as_chunks::<BLOCK_SIZE>().0;
+        let own = nodes.block(dim, lane / BLOCK_SIZE);
+        let columns = nodes.block(dim, block);
         let keys = M::keys(dim.get(), |axis, scale| {
             let (column, x) = (&columns[axis], own[axis][lane % BLOCK_SIZE] * scale);
             let mut differences = [0.0; BLOCK_SIZE];

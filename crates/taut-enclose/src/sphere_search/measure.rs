@@ -40,11 +40,31 @@ pub(super) trait Measure: Copy + Send + Sync + 'static {
     /// The key of a distance that is rounded up.
     fn key_above(distance: f64) -> Self::Key;
 
+    /// A key that is at most that of a vector with such a coordinate, which is not negative.
+    fn key_along(coordinate: f64) -> Self::Key;
+
     /// Returns what [`Measure::is_within`] compares keys with.
     fn limit(distance: f64) -> f64;
 
     /// Tests whether the distance of `key`, as calculated, is at most the one of `limit`.
     fn is_within(key: Self::Key, limit: f64) -> bool;
+
+    /// A bit for each lane that [`Measure::is_within`] may pass, once its distance is shortened by a length: all that it does pass,
+    /// and hardly others. It takes no roots.
+    #[inline(always)]
+    fn lanes_near<const L: usize>(
+        dim: usize,
+        differences: impl Fn(usize, f64) -> [f64; L],
+        _lengths: impl Fn(usize) -> f64,
+        limit: f64,
+    ) -> u32 {
+        let keys = Self::keys(dim, differences);
+        let mut near = 0;
+        for lane in 0..L {
+            near |= u32::from(Self::is_within(keys[lane], limit)) << lane;
+        }
+        near
+    }
 }
 
 /// Tests whether the squares of differences of such coordinates are neither infinite nor inexact beyond rounding: each is zero, or
@@ -99,6 +119,11 @@ impl Measure for Squares {
     #[inline(always)]
     fn key_above(distance: f64) -> f64 {
         distance * distance * BALL_SLACK
+    }
+
+    #[inline(always)]
+    fn key_along(coordinate: f64) -> f64 {
+        coordinate * coordinate
     }
 
     /// The largest square whose root is at most the distance.
@@ -200,6 +225,10 @@ impl Measure for WideSquares {
         WideSquares::ABOVE_ALL
     }
 
+    fn key_along(_: f64) -> WideSquare {
+        WideSquare { exponent: i32::MIN, sum: 0.0 }
+    }
+
     fn limit(distance: f64) -> f64 {
         distance
     }
@@ -246,6 +275,11 @@ impl<M: Measure> Measure for Surfaces<M> {
         distance * BALL_SLACK
     }
 
+    #[inline(always)]
+    fn key_along(coordinate: f64) -> f64 {
+        M::distance(M::key_along(coordinate))
+    }
+
     fn limit(distance: f64) -> f64 {
         distance
     }
@@ -253,6 +287,24 @@ impl<M: Measure> Measure for Surfaces<M> {
     #[inline(always)]
     fn is_within(key: f64, limit: f64) -> bool {
         key <= limit
+    }
+
+    #[inline(always)]
+    fn lanes_near<const L: usize>(
+        dim: usize,
+        differences: impl Fn(usize, f64) -> [f64; L],
+        lengths: impl Fn(usize) -> f64,
+        limit: f64,
+    ) -> u32 {
+        let keys = M::keys(dim, differences);
+        let mut near = 0;
+        for lane in 0..L {
+            let length = lengths(lane);
+            // Beyond the roundings of both sums; not a number for a limit of −∞, which nothing is within.
+            let reach = (limit + length) + (limit.abs() + length) * (BALL_SLACK - 1.0);
+            near |= u32::from((reach >= 0.0) & (keys[lane] <= M::key_above(reach))) << lane;
+        }
+        near
     }
 }
 

@@ -6,7 +6,10 @@
 //! `lowest_row`. Lanes beyond the last node or row repeat the last one; searches skip these nodes by number, and such rows have the
 //! number [`NO_ROW`].
 
+use std::ops::Deref;
+
 use super::build::pack;
+use super::cuts::Cuts;
 use super::dim::Dim;
 use super::measure::Measure;
 
@@ -17,15 +20,44 @@ pub(super) const FANOUT: usize = 8;
 /// The row number of a lane without a row.
 pub(super) const NO_ROW: u32 = u32::MAX;
 
+/// One number for each lane, on cache lines of their own.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(64))]
+pub(super) struct Lanes<const L: usize>(pub(super) [f64; L]);
+
+impl<const L: usize> Deref for Lanes<L> {
+    type Target = [f64; L];
+
+    #[inline(always)]
+    fn deref(&self) -> &[f64; L] {
+        &self.0
+    }
+}
+
+/// How far a range is from those of eight nodes.
+#[inline(always)]
+fn outside(bounds: &[f64; 2 * FANOUT], low: f64, high: f64, scale: f64) -> [f64; FANOUT] {
+    let mut differences = [0.0; FANOUT];
+    for lane in 0..FANOUT {
+        let above = bounds[lane] * scale - high;
+        let below = low - bounds[FANOUT + lane] * scale;
+        let outside = if above > below { above } else { below };
+        differences[lane] = if outside > 0.0 { outside } else { 0.0 };
+    }
+    differences
+}
+
 /// The bounds of the nodes of one level.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Level {
     /// Nodes.
     pub(super) count: usize,
+    /// For each group the cuts between its nodes.
+    pub(super) cuts: Vec<Cuts>,
     /// For each group and axis the eight low ends, then the eight high ends.
-    pub(super) boxes: Vec<f64>,
+    pub(super) boxes: Vec<Lanes<{ 2 * FANOUT }>>,
     /// For each group and axis the eight coordinates of centers of balls.
-    pub(super) centers: Vec<f64>,
+    pub(super) centers: Vec<Lanes<FANOUT>>,
     /// For each group the eight radii of these balls around the points (or centers of balls) of a node.
     pub(super) radii: Vec<f64>,
     /// For each group the largest radius of a row of each node; empty where rows are points.
@@ -39,10 +71,12 @@ pub(super) struct Level {
 pub(super) struct Nodes {
     pub(super) dim: usize,
     /// For each block and axis the coordinates of its rows.
-    pub(super) coordinates: Vec<f64>,
+    pub(super) coordinates: Vec<Lanes<BLOCK_SIZE>>,
     /// The radii of the rows of blocks; empty where rows are points.
     pub(super) row_radii: Vec<f64>,
-    /// The row numbers of blocks.
+    /// The largest of them, 0 of points.
+    pub(super) row_radius_max: f64,
+    /// The row numbers of blocks, ascending in each.
     pub(super) rows: Vec<u32>,
     /// From the blocks up; the last has one group.
     pub(super) levels: Vec<Level>,
@@ -63,9 +97,8 @@ impl Nodes {
     }
 
     #[inline(always)]
-    pub(super) fn block<D: Dim>(&self, dim: D, block: usize) -> &[f64] {
-        let size = dim.get() * BLOCK_SIZE;
-        &self.coordinates[block * size..][..size]
+    pub(super) fn block<D: Dim>(&self, dim: D, block: usize) -> &[Lanes<BLOCK_SIZE>] {
+        &self.coordinates[block * dim.get()..][..dim.get()]
     }
 
     #[inline(always)]
@@ -86,7 +119,7 @@ impl Nodes {
         block: usize,
         place: &[f64],
     ) -> [M::Key; BLOCK_SIZE] {
-        let coordinates = self.block(dim, block).as_chunks::<BLOCK_SIZE>().0;
+        let coordinates = self.block(dim, block);
         let keys = M::keys(dim.get(), |axis, scale| {
             let (column, x) = (&coordinates[axis], place[axis] * scale);
             let mut differences = [0.0; BLOCK_SIZE];
@@ -103,9 +136,14 @@ impl Nodes {
 impl Level {
     /// The boxes of a group.
     #[inline(always)]
-    pub(super) fn boxes_of<D: Dim>(&self, dim: D, group: usize) -> &[[f64; 2 * FANOUT]] {
-        let size = dim.get() * 2 * FANOUT;
-        self.boxes[group * size..][..size].as_chunks().0
+    pub(super) fn boxes_of<D: Dim>(&self, dim: D, group: usize) -> &[Lanes<{ 2 * FANOUT }>] {
+        &self.boxes[group * dim.get()..][..dim.get()]
+    }
+
+    /// The coordinates of the centers of a group's balls.
+    #[inline(always)]
+    pub(super) fn centers_of<D: Dim>(&self, dim: D, group: usize) -> &[Lanes<FANOUT>] {
+        &self.centers[group * dim.get()..][..dim.get()]
     }
 
     /// The largest radius of a row of a node, 0 of points.
@@ -126,17 +164,28 @@ impl Level {
     ) -> [M::Key; FANOUT] {
         let boxes = self.boxes_of(dim, group);
         let keys = M::keys(dim.get(), |axis, scale| {
-            let (bounds, low, high) = (&boxes[axis], low[axis] * scale, high[axis] * scale);
-            let mut differences = [0.0; FANOUT];
-            for lane in 0..FANOUT {
-                let above = bounds[lane] * scale - high;
-                let below = low - bounds[FANOUT + lane] * scale;
-                let outside = if above > below { above } else { below };
-                differences[lane] = if outside > 0.0 { outside } else { 0.0 };
-            }
-            differences
+            outside(&boxes[axis], low[axis] * scale, high[axis] * scale, scale)
         });
         M::lengthen(keys, |lane| -(own_radius + self.row_radius(group * FANOUT + lane)))
+    }
+
+    /// The lanes of a group's nodes that may have rows within a limit of a box with balls in it of radii up to `own_radius`.
+    #[inline(always)]
+    pub(super) fn lanes_near<D: Dim, M: Measure>(
+        &self,
+        dim: D,
+        group: usize,
+        (low, high): (&[f64], &[f64]),
+        own_radius: f64,
+        limit: f64,
+    ) -> u32 {
+        let boxes = self.boxes_of(dim, group);
+        let differences = |axis: usize, scale: f64| {
+            outside(&boxes[axis], low[axis] * scale, high[axis] * scale, scale)
+        };
+        let lengths = |lane: usize| own_radius + self.row_radius(group * FANOUT + lane);
+        let near = M::lanes_near::<FANOUT>(dim.get(), differences, lengths, limit);
+        near & ((1 << self.width(group)) - 1)
     }
 
     /// Upper bounds of the keys of the rows of a group's nodes from a box, which may be a place, with balls in it of radii up to
@@ -161,8 +210,7 @@ impl Level {
             }
             differences
         });
-        let centers = &self.centers[group * dim.get() * FANOUT..][..dim.get() * FANOUT];
-        let centers = centers.as_chunks::<FANOUT>().0;
+        let centers = self.centers_of(dim, group);
         let between = M::keys(dim.get(), |axis, scale| {
             let (column, x) = (&centers[axis], center[axis] * scale);
             let mut differences = [0.0; FANOUT];
@@ -192,18 +240,20 @@ impl Level {
         (self.count - group * FANOUT).min(FANOUT)
     }
 
-    /// The box of one node, low ends and high ends.
-    pub(super) fn box_of(&self, dim: usize, node: usize) -> (Vec<f64>, Vec<f64>) {
+    /// The low and high ends of one node's box, by axis.
+    pub(super) fn ends_of(
+        &self,
+        dim: usize,
+        node: usize,
+    ) -> impl ExactSizeIterator<Item = (f64, f64)> {
         let (group, lane) = (node / FANOUT, node % FANOUT);
-        let at = |axis: usize, end: usize| {
-            self.boxes[(group * dim + axis) * 2 * FANOUT + end * FANOUT + lane]
-        };
-        ((0..dim).map(|axis| at(axis, 0)).collect(), (0..dim).map(|axis| at(axis, 1)).collect())
+        let boxes = &self.boxes[group * dim..][..dim];
+        boxes.iter().map(move |ends| (ends[lane], ends[FANOUT + lane]))
     }
 
     /// The center of the ball of one node.
     pub(super) fn center_of(&self, dim: usize, node: usize) -> Vec<f64> {
         let (group, lane) = (node / FANOUT, node % FANOUT);
-        (0..dim).map(|axis| self.centers[(group * dim + axis) * FANOUT + lane]).collect()
+        (0..dim).map(|axis| self.centers[group * dim + axis][lane]).collect()
     }
 }

@@ -2,12 +2,12 @@
 
 use std::collections::BinaryHeap;
 
-use super::batch::Work;
+use super::batch::{Query, Work};
 use super::collect::{Candidate, Farthest, Nearest, NearestHeap, Within};
 use super::dim::Dim;
 use super::measure::Measure;
 use super::nodes::NO_ROW;
-use super::traverse::{Stack, search};
+use super::traverse::{Frames, Search};
 use super::{Neighbor, SphereSearch};
 
 fn neighbor<M: Measure>(key: M::Key, row: u32) -> Neighbor {
@@ -24,18 +24,18 @@ pub(super) struct FindNearest;
 
 impl Work for FindNearest {
     type Found = Neighbor;
-    type Kept<M: Measure> = Stack<M::Key>;
+    type Kept<M: Measure> = Frames<M>;
 
     #[inline(always)]
     fn answer<D: Dim, M: Measure>(
         &self,
         tree: &SphereSearch,
         dim: D,
-        place: &[f64],
-        stack: &mut Stack<M::Key>,
+        Query { values: place, home }: Query<'_>,
+        frames: &mut Frames<M>,
     ) -> Neighbor {
         let mut found = Nearest { key: M::ABOVE_ALL, row: NO_ROW };
-        search::<D, M, false>(&tree.nodes, dim, place, stack, &mut found);
+        Search { nodes: &tree.nodes, dim, place }.near(home, frames, &mut found);
         neighbor::<M>(found.key, found.row)
     }
 }
@@ -45,19 +45,19 @@ pub(super) struct FindNearestK(pub(super) usize);
 
 impl Work for FindNearestK {
     type Found = Vec<Neighbor>;
-    type Kept<M: Measure> = Stack<M::Key>;
+    type Kept<M: Measure> = Frames<M>;
 
     #[inline(always)]
     fn answer<D: Dim, M: Measure>(
         &self,
         tree: &SphereSearch,
         dim: D,
-        place: &[f64],
-        stack: &mut Stack<M::Key>,
+        Query { values: place, home }: Query<'_>,
+        frames: &mut Frames<M>,
     ) -> Vec<Neighbor> {
         let heap = BinaryHeap::with_capacity(self.0);
         let mut found = NearestHeap { heap, k: self.0 };
-        search::<D, M, false>(&tree.nodes, dim, place, stack, &mut found);
+        Search { nodes: &tree.nodes, dim, place }.near(home, frames, &mut found);
         sorted::<M>(found.heap.into_vec())
     }
 }
@@ -67,18 +67,18 @@ pub(super) struct FindWithin(pub(super) f64);
 
 impl Work for FindWithin {
     type Found = Vec<Neighbor>;
-    type Kept<M: Measure> = Stack<M::Key>;
+    type Kept<M: Measure> = Frames<M>;
 
     #[inline(always)]
     fn answer<D: Dim, M: Measure>(
         &self,
         tree: &SphereSearch,
         dim: D,
-        place: &[f64],
-        stack: &mut Stack<M::Key>,
+        Query { values: place, home }: Query<'_>,
+        frames: &mut Frames<M>,
     ) -> Vec<Neighbor> {
         let mut found = Within::<M> { limit: M::limit(self.0), found: vec![] };
-        search::<D, M, false>(&tree.nodes, dim, place, stack, &mut found);
+        Search { nodes: &tree.nodes, dim, place }.near(home, frames, &mut found);
         sorted::<M>(found.found)
     }
 }
@@ -88,19 +88,19 @@ pub(super) struct FindFarthest(pub(super) f64);
 
 impl Work for FindFarthest {
     type Found = Neighbor;
-    type Kept<M: Measure> = Stack<M::Key>;
+    type Kept<M: Measure> = Frames<M>;
 
     #[inline(always)]
     fn answer<D: Dim, M: Measure>(
         &self,
         tree: &SphereSearch,
         dim: D,
-        place: &[f64],
-        stack: &mut Stack<M::Key>,
+        Query { values: place, .. }: Query<'_>,
+        frames: &mut Frames<M>,
     ) -> Neighbor {
         let (factor, distance) = (self.0, M::distance as fn(M::Key) -> f64);
         let mut found = Farthest { key: M::BELOW_ALL, row: NO_ROW, factor, distance };
-        search::<D, M, true>(&tree.nodes, dim, place, stack, &mut found);
+        Search { nodes: &tree.nodes, dim, place }.far(frames, &mut found);
         neighbor::<M>(found.key, found.row)
     }
 }

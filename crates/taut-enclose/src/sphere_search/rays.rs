@@ -9,10 +9,10 @@
 
 use std::cmp::Ordering;
 
-use super::batch::Work;
+use super::batch::{Query, Work};
 use super::dim::Dim;
 use super::measure::{Measure, is_plain};
-use super::nodes::{BLOCK_SIZE, FANOUT, NO_ROW};
+use super::nodes::{FANOUT, Lanes, NO_ROW};
 use super::{Neighbor, SphereSearch};
 
 /// The rows that each ray meets, or the first of them.
@@ -59,7 +59,7 @@ impl<'a> Ray<'a> {
 
     /// The approach to the centers in columns.
     #[inline(always)]
-    fn approach<D: Dim, const L: usize>(&self, dim: D, columns: &[[f64; L]]) -> Approach<L> {
+    fn approach<D: Dim, const L: usize>(&self, dim: D, columns: &[Lanes<L>]) -> Approach<L> {
         let scale = self.scale;
         let mut along = [0.0; L];
         for axis in 0..dim.get() {
@@ -115,7 +115,7 @@ impl Work for FindHits {
         &self,
         tree: &SphereSearch,
         dim: D,
-        query: &[f64],
+        Query { values: query, .. }: Query<'_>,
         stack: &mut Vec<Pending>,
     ) -> Vec<Neighbor> {
         let nodes = &tree.nodes;
@@ -153,9 +153,7 @@ impl FindHits {
     ) {
         let (level, group) = (here.level - 1, here.node as usize);
         let below = &tree.nodes.levels[level as usize];
-        let size = dim.get() * FANOUT;
-        let centers = below.centers[group * size..][..size].as_chunks::<FANOUT>().0;
-        let approach = ray.approach(dim, centers);
+        let approach = ray.approach(dim, below.centers_of(dim, group));
         let first = stack.len();
         for lane in 0..below.width(group) {
             let node = group * FANOUT + lane;
@@ -180,7 +178,7 @@ impl FindHits {
         block: usize,
         found: &mut Vec<(f64, u32)>,
     ) {
-        let columns = tree.nodes.block(dim, block).as_chunks::<BLOCK_SIZE>().0;
+        let columns = tree.nodes.block(dim, block);
         let approach = ray.approach(dim, columns);
         for (lane, &row) in tree.nodes.rows_of(block).iter().enumerate() {
             let radius = (tree.row_radius(block, lane) + self.hit_radius) * ray.scale;
