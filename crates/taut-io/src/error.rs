@@ -230,6 +230,16 @@ pub enum Error {
         /// The format.
         format: Format,
     },
+    /// The compression was left out of this build.
+    #[error(
+        "{path}: this build of taut reads and writes no files compressed with {compression}; build it with the feature `{compression}`"
+    )]
+    CompressionNotBuilt {
+        /// The file.
+        path: String,
+        /// The compression.
+        compression: Compression,
+    },
     /// The compressed stream is damaged or ends early.
     #[error(
         "{path}: the {compression} stream is damaged or ends early: {source}; fetch or compress the file again"
