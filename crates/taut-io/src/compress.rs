@@ -22,15 +22,10 @@ pub(crate) fn decoder(
                 .map_err(|source| Error::reading(path, source))?,
         ),
         #[cfg(not(all(feature = "xz", feature = "zstd")))]
-        left_out => return Err(not_built(left_out, path)),
+        left_out => return Err(Error::not_built(path, left_out)),
     };
     let named = Named { inner, path: path.to_owned(), compression };
     Ok(Box::new(BufReader::with_capacity(BUFFER_BYTES, named)))
-}
-
-#[cfg(not(all(feature = "xz", feature = "zstd")))]
-fn not_built(compression: Compression, path: &str) -> Error {
-    Error::CompressionNotBuilt { path: path.to_owned(), compression }
 }
 
 /// Says of each error of a decoder which file and which compression it is about.
@@ -89,7 +84,7 @@ impl<W: Write> Encoder<W> {
                 Encoder::Zstd(encoder)
             }
             #[cfg(not(all(feature = "xz", feature = "zstd")))]
-            Some(left_out) => return Err(not_built(left_out, path)),
+            Some(left_out) => return Err(Error::not_built(path, left_out)),
         })
     }
 

@@ -234,9 +234,7 @@ pub(crate) fn format_to_write(
                 Err(Error::ReadOnlyExtension { path: shown.to_owned(), extension, format })
             }
             _ => match compression.filter(|compression| !compression.is_built()) {
-                Some(compression) => {
-                    Err(Error::CompressionNotBuilt { path: shown.to_owned(), compression })
-                }
+                Some(compression) => Err(Error::not_built(shown, compression)),
                 None => Ok((format, compression)),
             },
         },
