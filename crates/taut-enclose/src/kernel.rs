@@ -71,6 +71,9 @@ pub(crate) fn squared_distances<T: Scalar>(
     if x86::squared_distances(values, stride, center, out) {
         return;
     }
+    if short_rows(values, stride, center, out) {
+        return;
+    }
     // SAFETY: the portable lanes need no feature of the processor; the lengths were checked above.
     #[allow(unsafe_code)]
     unsafe {

@@ -14,11 +14,15 @@ pub(crate) fn decoder(
 ) -> Result<Box<dyn BufRead>, Error> {
     let inner: Box<dyn Read> = match compression {
         Compression::Gzip => Box::new(flate2::bufread::MultiGzDecoder::new(stream)),
+        #[cfg(feature = "xz")]
         Compression::Xz => Box::new(liblzma::bufread::XzDecoder::new_multi_decoder(stream)),
+        #[cfg(feature = "zstd")]
         Compression::Zstd => Box::new(
             zstd::stream::read::Decoder::with_buffer(stream)
                 .map_err(|source| Error::reading(path, source))?,
         ),
+        #[cfg(not(all(feature = "xz", feature = "zstd")))]
+        left_out => return Err(Error::not_built(path, left_out)),
     };
     let named = Named { inner, path: path.to_owned(), compression };
     Ok(Box::new(BufReader::with_capacity(BUFFER_BYTES, named)))
@@ -48,25 +52,39 @@ impl Read for Named {
 pub(crate) enum Encoder<W: Write> {
     Plain(W),
     Gzip(flate2::write::GzEncoder<W>),
+    #[cfg(feature = "xz")]
     Xz(liblzma::write::XzEncoder<W>),
+    #[cfg(feature = "zstd")]
     Zstd(zstd::stream::write::Encoder<'static, W>),
 }
 
 impl<W: Write> Encoder<W> {
     /// The usual level of each tool: 6 for gzip and xz, 3 for zstd.
-    pub(crate) fn new(compression: Option<Compression>, to: W) -> io::Result<Self> {
+    ///
+    /// `path` and `failure` say what an error of the encoder means.
+    pub(crate) fn new(
+        compression: Option<Compression>,
+        to: W,
+        path: &str,
+        failure: fn(&str, io::Error) -> Error,
+    ) -> Result<Self, Error> {
+        let failed = |source| failure(path, source);
         Ok(match compression {
             None => Encoder::Plain(to),
             Some(Compression::Gzip) => {
                 Encoder::Gzip(flate2::write::GzEncoder::new(to, flate2::Compression::new(6)))
             }
+            #[cfg(feature = "xz")]
             Some(Compression::Xz) => Encoder::Xz(liblzma::write::XzEncoder::new(to, 6)),
+            #[cfg(feature = "zstd")]
             Some(Compression::Zstd) => {
-                let mut encoder = zstd::stream::write::Encoder::new(to, 3)?;
+                let mut encoder = zstd::stream::write::Encoder::new(to, 3).map_err(failed)?;
                 // As the zstd tool does; else a changed byte could pass for another number.
-                encoder.include_checksum(true)?;
+                encoder.include_checksum(true).map_err(failed)?;
                 Encoder::Zstd(encoder)
             }
+            #[cfg(not(all(feature = "xz", feature = "zstd")))]
+            Some(left_out) => return Err(Error::not_built(path, left_out)),
         })
     }
 
@@ -74,7 +92,9 @@ impl<W: Write> Encoder<W> {
         match self {
             Encoder::Plain(to) => Ok(to),
             Encoder::Gzip(encoder) => encoder.finish(),
+            #[cfg(feature = "xz")]
             Encoder::Xz(encoder) => encoder.finish(),
+            #[cfg(feature = "zstd")]
             Encoder::Zstd(encoder) => encoder.finish(),
         }
     }
@@ -83,7 +103,9 @@ impl<W: Write> Encoder<W> {
         match self {
             Encoder::Plain(to) => to,
             Encoder::Gzip(encoder) => encoder,
+            #[cfg(feature = "xz")]
             Encoder::Xz(encoder) => encoder,
+            #[cfg(feature = "zstd")]
             Encoder::Zstd(encoder) => encoder,
         }
     }

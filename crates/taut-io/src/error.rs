@@ -19,7 +19,7 @@ pub use place::{FilePlace, Place};
 pub use raster::RasterError;
 pub use stream::StreamRowError;
 
-use display::{Abbreviated, Printable, columns, format_of, names, names_or_extensions};
+use display::{Abbreviated, Printable, columns, format_of, names, names_or_extensions, not_built};
 use place::Row;
 
 /// Why points could not be read or a file could not be written.
@@ -220,15 +220,15 @@ pub enum Error {
         /// The format.
         format: Format,
     },
-    /// The format was left out of this build.
-    #[error(
-        "{path}: this build of taut reads and writes no {format} files; build it with the feature `arrow`"
-    )]
+    /// The format or the compression was left out of this build.
+    #[error("{path}: {}", not_built(.name, .feature))]
     NotBuilt {
         /// The file.
         path: String,
-        /// The format.
-        format: Format,
+        /// The name of the format or of the compression.
+        name: &'static str,
+        /// The cargo feature that has it.
+        feature: &'static str,
     },
     /// The compressed stream is damaged or ends early.
     #[error(

@@ -233,7 +233,10 @@ pub(crate) fn format_to_write(
             {
                 Err(Error::ReadOnlyExtension { path: shown.to_owned(), extension, format })
             }
-            _ => Ok((format, compression)),
+            _ => match compression.filter(|compression| !compression.is_built()) {
+                Some(compression) => Err(Error::not_built(shown, compression)),
+                None => Ok((format, compression)),
+            },
         },
     }
 }
@@ -277,6 +280,15 @@ impl Compression {
             Compression::Gzip => "gzip",
             Compression::Xz => "xz",
             Compression::Zstd => "zstd",
+        }
+    }
+
+    /// Returns true if this build supports the compression.
+    pub fn is_built(self) -> bool {
+        match self {
+            Compression::Gzip => true,
+            Compression::Xz => cfg!(feature = "xz"),
+            Compression::Zstd => cfg!(feature = "zstd"),
         }
     }
 

@@ -107,7 +107,7 @@ impl<'a> OutputFile<'a> {
     ) -> Result<Self, Error> {
         let file = create(path)?;
         let failure = file.failure();
-        let to = Encoder::new(compression, file).map_err(|source| failure(shown, source))?;
+        let to = Encoder::new(compression, file, shown, failure)?;
         Ok(OutputFile { to, path: shown, failure })
     }
 

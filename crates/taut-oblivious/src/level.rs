@@ -1,7 +1,9 @@
-//! The instruction sets that this processor has, asked once for all kernels of the crate; its last cache; prefetches.
+//! Proofs that this processor has an instruction set, for all kernels of the crate; its last cache; prefetches.
 //!
 //! *Guarantee.* A value of [`Avx2`] or [`Avx512`] is the proof that the processor has what it stands for: only asking it
 //! makes one. Whoever takes a [`Level`] gives the same bits on every level.
+
+use taut_points::{InstructionSet, instruction_set};
 
 /// Proof that the processor has AVX2, FMA and POPCNT.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,17 +25,15 @@ pub enum Level {
 }
 
 impl Level {
-    /// The fastest one of this machine. The answer is kept, as searches of some nanoseconds ask.
+    /// Returns the fastest one that `TAUT_KERNELS` allows on this machine.
     #[inline(always)]
     pub fn best() -> Self {
-        #[cfg(all(target_arch = "x86_64", not(miri)))]
-        match kept() {
-            PORTABLE => Level::Portable,
-            AVX2 => Level::Avx2(Avx2(())),
-            _ => Level::Avx512(Avx512(())),
+        match instruction_set() {
+            InstructionSet::Avx512 => Level::Avx512(Avx512(())),
+            InstructionSet::Avx2 => Level::Avx2(Avx2(())),
+            // The compiler knows by itself which vectors each such processor has.
+            InstructionSet::Neon | InstructionSet::Portable => Level::Portable,
         }
-        #[cfg(not(all(target_arch = "x86_64", not(miri))))]
-        Level::Portable
     }
 
     /// Returns all levels of this machine, the fastest last: what tests compare.
@@ -47,44 +47,6 @@ impl Level {
             all.push(best);
         }
         all
-    }
-}
-
-#[cfg(all(target_arch = "x86_64", not(miri)))]
-const UNASKED: u8 = 0;
-#[cfg(all(target_arch = "x86_64", not(miri)))]
-const PORTABLE: u8 = 1;
-#[cfg(all(target_arch = "x86_64", not(miri)))]
-const AVX2: u8 = 2;
-#[cfg(all(target_arch = "x86_64", not(miri)))]
-const AVX512: u8 = 3;
-
-/// Returns what the processor said: one of the above, but not that it was not asked.
-#[cfg(all(target_arch = "x86_64", not(miri)))]
-#[inline(always)]
-fn kept() -> u8 {
-    use std::sync::atomic::{AtomicU8, Ordering::Relaxed};
-    static LEVEL_FOUND: AtomicU8 = AtomicU8::new(UNASKED);
-    match LEVEL_FOUND.load(Relaxed) {
-        UNASKED => {
-            let answer = ask();
-            LEVEL_FOUND.store(answer, Relaxed);
-            answer
-        }
-        answer => answer,
-    }
-}
-
-#[cfg(all(target_arch = "x86_64", not(miri)))]
-#[cold]
-fn ask() -> u8 {
-    let has_256 = is_x86_feature_detected!("avx2")
-        && is_x86_feature_detected!("fma")
-        && is_x86_feature_detected!("popcnt");
-    match (has_256, is_x86_feature_detected!("avx512f")) {
-        (true, true) => AVX512,
-        (true, false) => AVX2,
-        _ => PORTABLE,
     }
 }
 

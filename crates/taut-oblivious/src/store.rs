@@ -94,25 +94,11 @@ pub trait Store {
 
 impl Store for File {
     fn read_at(&self, buffer: &mut [u8], at: u64) -> io::Result<usize> {
-        #[cfg(unix)]
-        return std::os::unix::fs::FileExt::read_at(self, buffer, at);
-        #[cfg(not(unix))]
-        {
-            let mut file = self;
-            io::Seek::seek(&mut file, io::SeekFrom::Start(at))?;
-            io::Read::read(&mut file, buffer)
-        }
+        taut_points::read_at(self, buffer, at)
     }
 
     fn write_at(&self, bytes: &[u8], at: u64) -> io::Result<usize> {
-        #[cfg(unix)]
-        return std::os::unix::fs::FileExt::write_at(self, bytes, at);
-        #[cfg(not(unix))]
-        {
-            let mut file = self;
-            io::Seek::seek(&mut file, io::SeekFrom::Start(at))?;
-            io::Write::write(&mut file, bytes)
-        }
+        taut_points::write_at(self, bytes, at)
     }
 
     #[cfg(target_os = "linux")]

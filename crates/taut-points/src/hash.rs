@@ -104,6 +104,7 @@ fn lanes<T: Scalar>(values: &[T]) -> BlockHash {
 #[cfg(target_arch = "x86_64")]
 mod dispatch {
     use super::{BlockHash, Points, Scalar, lanes};
+    use crate::{InstructionSet, instruction_set};
 
     #[target_feature(enable = "avx512f,avx512dq")]
     fn avx512<T: Scalar>(values: &[T]) -> BlockHash {
@@ -117,14 +118,12 @@ mod dispatch {
 
     #[allow(unsafe_code)]
     pub(super) fn hash<T: Scalar>(points: &Points<'_, T>) -> BlockHash {
-        if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq") {
-            // SAFETY: the processor has just been asked for both features.
-            unsafe { avx512(points.values()) }
-        } else if is_x86_feature_detected!("avx2") {
-            // SAFETY: the processor has just been asked for the feature.
-            unsafe { avx2(points.values()) }
-        } else {
-            lanes(points.values())
+        match instruction_set() {
+            // SAFETY: the processor has the features of the set.
+            InstructionSet::Avx512 => unsafe { avx512(points.values()) },
+            // SAFETY: as above.
+            InstructionSet::Avx2 => unsafe { avx2(points.values()) },
+            _ => lanes(points.values()),
         }
     }
 }

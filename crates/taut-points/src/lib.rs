@@ -29,6 +29,7 @@ pub mod generate;
 mod hash;
 mod monitor;
 mod points;
+mod processor;
 mod room;
 mod source;
 mod threads;
@@ -41,8 +42,10 @@ pub use generate::{Distribution, GeneratedSource, generate, generate_into};
 pub use hash::{BlockHash, HashFormError, PointsHash, hash_block, hash_points};
 pub use monitor::{Cancelled, Monitor};
 pub use points::{Points, Rows, Scalar, ScalarKind};
+pub use processor::{InstructionSet, KERNELS_VARIABLE, instruction_set, vectors};
 pub use room::{failure_is_handled, try_reserve_exact};
 pub use source::{
-    FileSource, MappedSource, OwnedPoints, PickedColumns, PointSource, Scratch, gather,
+    FileSource, MappedSource, OwnedPoints, PickedColumns, PointSource, Scratch, gather, read_at,
+    write_at,
 };
 pub use threads::{THREADS_MAX, ThreadsError, check_threads, on_threads, thread_pool};

@@ -7,6 +7,7 @@ mod file;
 mod mapped;
 mod owned;
 mod picked;
+mod positioned;
 
 use std::ops::Range;
 
@@ -14,6 +15,7 @@ pub use file::FileSource;
 pub use mapped::MappedSource;
 pub use owned::OwnedPoints;
 pub use picked::PickedColumns;
+pub use positioned::{read_at, write_at};
 
 use crate::room::try_reserve_exact;
 use crate::{Points, ReadError, Rows, Scalar, ScalarKind};

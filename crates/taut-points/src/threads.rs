@@ -51,6 +51,10 @@ pub fn on_threads<R: Send, E: From<InputError> + Send>(
     work: impl FnOnce() -> Result<R, E> + Send,
 ) -> Result<R, E> {
     let Some(threads) = threads else { return work() };
+    // WebAssembly starts no thread, and has the one of the caller.
+    if threads == 1 && cfg!(target_family = "wasm") {
+        return work();
+    }
     let refused = |refused: ThreadsError| InputError::Option {
         name: "threads",
         value: threads.to_string(),

@@ -173,6 +173,15 @@ fn unsafe_code_stays_in_the_kernels() {
 }
 
 #[test]
+fn the_processor_is_asked_in_one_place() {
+    for path in sources(&root().join("crates")) {
+        let asks = read(&path).contains(concat!("is_x86_", "feature_detected"));
+        let is_place = path.ends_with("taut-points/src/processor.rs");
+        assert_eq!(asks, is_place, "{}: ask taut_points::instruction_set", path.display());
+    }
+}
+
+#[test]
 fn every_dependency_is_justified() {
     let page = read(&root().join("ARCHITECTURE.md"));
     let packages = packages();

@@ -44,8 +44,8 @@ fn table() -> String {
         text += note;
         text.push('\n');
     }
-    let packed: Vec<&str> =
-        Compression::ALL.iter().flat_map(|packed| packed.extensions()).copied().collect();
+    let built = Compression::ALL.into_iter().filter(|packed| packed.is_built());
+    let packed: Vec<&str> = built.flat_map(|packed| packed.extensions()).copied().collect();
     text += &format!(
         "\nAny of them may be compressed, with one of {} as a further extension.\n",
         packed.join(", ")

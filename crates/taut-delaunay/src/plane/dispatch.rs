@@ -9,18 +9,17 @@ use taut_predicates::Separate;
 use super::Mesh;
 
 pub(super) fn insert(mesh: &mut Mesh, sites: &[u32]) {
-    #[cfg(target_arch = "x86_64")]
-    if mesh.settings.vectors && is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma")
-    {
-        // SAFETY: the processor has both features the function is compiled for.
-        return unsafe { insert_avx2(mesh, sites) };
+    match taut_points::instruction_set() {
+        _ if !mesh.settings.vectors => mesh.insert_all::<Separate>(sites),
+        #[cfg(target_arch = "x86_64")]
+        taut_points::InstructionSet::Avx2 | taut_points::InstructionSet::Avx512 => {
+            // SAFETY: the processor has the features the function is compiled for.
+            unsafe { insert_avx2(mesh, sites) }
+        }
+        #[cfg(target_arch = "aarch64")]
+        taut_points::InstructionSet::Neon => mesh.insert_all::<taut_predicates::Fused>(sites),
+        _ => mesh.insert_all::<Separate>(sites),
     }
-    #[cfg(target_arch = "aarch64")]
-    if mesh.settings.vectors {
-        // Every such processor has the fused instruction.
-        return mesh.insert_all::<taut_predicates::Fused>(sites);
-    }
-    mesh.insert_all::<Separate>(sites);
 }
 
 #[cfg(target_arch = "x86_64")]

@@ -4,6 +4,9 @@
 //! Sci. Comput. 26(6), 2005, algorithm Dot2); eight points side by side, so that the compiler uses full registers.
 //! *Guarantee.* The error of a coordinate of an image is one rounding of it, and about d²·2⁻¹⁰⁴ times |M||x − c|.
 
+#[cfg(target_arch = "x86_64")]
+use taut_points::{InstructionSet, instruction_set};
+
 use super::{Center, DoubleDouble};
 
 /// Eight points side by side.
@@ -70,8 +73,8 @@ impl<'a> Map<'a> {
 /// Σ mⱼ(highⱼ + lowⱼ) for eight points: a value, and what it lacks.
 fn products(row: &[f64], high: &[Eight], low: &[Eight], value: &mut Eight, error: &mut Eight) {
     #[cfg(target_arch = "x86_64")]
-    if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
-        // SAFETY: the processor has just been asked for both features.
+    if instruction_set() >= InstructionSet::Avx2 {
+        // SAFETY: the processor has both features.
         #[allow(unsafe_code)]
         unsafe {
             products_with_fma(row, high, low, value, error)

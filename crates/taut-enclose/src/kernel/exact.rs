@@ -5,6 +5,9 @@
 //! *Guarantee.* The relative error of a squared distance is below (d + 8)·2⁻¹⁰⁰: nothing, beside the 2⁻⁵³ of what
 //! is printed.
 
+#[cfg(target_arch = "x86_64")]
+use taut_points::{InstructionSet, instruction_set};
+
 use super::Center;
 
 /// An unevaluated sum `high + low` with |low| ≤ ulp(high)/2.
@@ -160,8 +163,8 @@ impl Difference {
     /// The squared length in double-double.
     pub(crate) fn squared(&self) -> DoubleDouble {
         #[cfg(target_arch = "x86_64")]
-        if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
-            // SAFETY: the processor has just been asked for both features.
+        if instruction_set() >= InstructionSet::Avx2 {
+            // SAFETY: the processor has both features.
             #[allow(unsafe_code)]
             return unsafe { squared_with_fma(self) };
         }

@@ -18,13 +18,14 @@ macro_rules! dispatched {
                 fn with_avx2($($arg: $type),*) $(-> $result)? {
                     $body::<true>($($arg),*)
                 }
-                if is_x86_feature_detected!("avx512f") {
-                    // SAFETY: the processor has just been asked for the feature; every one with it has FMA.
+                let set = taut_points::instruction_set();
+                if set == taut_points::InstructionSet::Avx512 {
+                    // SAFETY: the processor has both features.
                     #[allow(unsafe_code)]
                     return unsafe { with_avx512($($arg),*) };
                 }
-                if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
-                    // SAFETY: the processor has just been asked for both features.
+                if set >= taut_points::InstructionSet::Avx2 {
+                    // SAFETY: the processor has both features.
                     #[allow(unsafe_code)]
                     return unsafe { with_avx2($($arg),*) };
                 }

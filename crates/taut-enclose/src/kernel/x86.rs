@@ -4,7 +4,7 @@
 mod avx2;
 mod avx512;
 
-use taut_points::Scalar;
+use taut_points::{InstructionSet, Scalar, instruction_set};
 
 use super::triangle::Work;
 use super::{Center, all_rows, short_rows};
@@ -18,12 +18,12 @@ pub(super) fn squared_distances<T: Scalar>(
     center: &Center,
     out: &mut [f64],
 ) -> bool {
-    if is_x86_feature_detected!("avx512f") {
-        // SAFETY: the processor has just been asked; the lengths were checked by the caller.
+    if instruction_set() == InstructionSet::Avx512 {
+        // SAFETY: the processor has the features; the lengths were checked by the caller.
         unsafe { with_avx512(values, stride, center, out) };
         true
-    } else if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
-        // SAFETY: the processor has just been asked; the lengths were checked by the caller.
+    } else if instruction_set() >= InstructionSet::Avx2 {
+        // SAFETY: the processor has the features; the lengths were checked by the caller.
         unsafe { with_avx2(values, stride, center, out) };
         true
     } else {
@@ -56,13 +56,13 @@ pub(super) fn run_as<W: Work>(set: Set, work: W) -> Option<W> {
         unsafe { work.run::<Avx2>() }
     }
     match set {
-        Set::Avx512 if is_x86_feature_detected!("avx512f") => {
-            // SAFETY: the processor has just been asked; every one with AVX-512F has FMA.
+        Set::Avx512 if instruction_set() == InstructionSet::Avx512 => {
+            // SAFETY: the processor has the features.
             unsafe { with_avx512(work) };
             None
         }
-        Set::Avx2 if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") => {
-            // SAFETY: the processor has just been asked for both features.
+        Set::Avx2 if instruction_set() >= InstructionSet::Avx2 => {
+            // SAFETY: the processor has both features.
             unsafe { with_avx2(work) };
             None
         }
@@ -99,15 +99,15 @@ pub(super) fn each_instruction_set<T: Scalar>(
     rows: usize,
 ) -> Vec<Vec<f64>> {
     let mut results = Vec::new();
-    if is_x86_feature_detected!("avx512f") {
+    if instruction_set() == InstructionSet::Avx512 {
         let mut out = vec![0.0; rows];
-        // SAFETY: the processor has just been asked; the tests pass matching lengths.
+        // SAFETY: the processor has the features; the tests pass matching lengths.
         unsafe { with_avx512(values, stride, center, &mut out) };
         results.push(out);
     }
-    if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
+    if instruction_set() >= InstructionSet::Avx2 {
         let mut out = vec![0.0; rows];
-        // SAFETY: the processor has just been asked; the tests pass matching lengths.
+        // SAFETY: the processor has the features; the tests pass matching lengths.
         unsafe { with_avx2(values, stride, center, &mut out) };
         results.push(out);
     }

@@ -5,7 +5,8 @@
 //! coordinates the passes of a narrow kernel took 0.7 times as long as with points row by row.
 //! *Order.* Sums are made lane by lane and then in the order of the lanes, whatever the width of the vectors: the same bits everywhere.
 
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Simd, WithSimd};
+use taut_points::vectors;
 
 use super::decay::decay;
 
@@ -53,12 +54,12 @@ impl Cluster {
 
     /// Writes the term of each place for `row`, without its weight.
     pub(super) fn terms(&self, gamma: f64, row: &[f64], out: &mut [f64]) {
-        Arch::new().dispatch(Terms { cluster: self, gamma, row, out });
+        vectors().dispatch(Terms { cluster: self, gamma, row, out });
     }
 
     /// Σ wᵢ times the term of xᵢ, for the places from `first` to `end`, which are at the borders of eights.
     pub(super) fn sum(&self, gamma: f64, row: &[f64], first: usize, end: usize) -> f64 {
-        Arch::new().dispatch(Sum { cluster: self, gamma, row, first, end })
+        vectors().dispatch(Sum { cluster: self, gamma, row, first, end })
     }
 
     /// The terms of the eight places from `first` on.

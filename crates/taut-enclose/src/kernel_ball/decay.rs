@@ -4,7 +4,8 @@
 //! is in the loop, so that the compiler takes several numbers at a time; small z keep all digits, as n = 0 there.
 //! *Error.* A few units of the last place; the checker has its own arithmetic.
 
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Simd, WithSimd};
+use taut_points::vectors;
 
 /// e^{−708} is the last power that is a normal number.
 const EXPONENT_MAX: f64 = 708.0;
@@ -29,7 +30,7 @@ const COEFFICIENTS: [f64; 12] = [
 
 /// Puts 2(1 − e^{−γs}) in the place of each s ≥ 0. The widest vectors of the processor give the same bits as any others.
 pub(super) fn decay_all(gamma: f64, squares: &mut [f64]) {
-    Arch::new().dispatch(All { gamma, squares });
+    vectors().dispatch(All { gamma, squares });
 }
 
 struct All<'a> {

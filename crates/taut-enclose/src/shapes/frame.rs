@@ -4,6 +4,8 @@
 //! doubled precision and rounded once, it is right to the last digits beside 1.
 
 use rayon::prelude::*;
+#[cfg(target_arch = "x86_64")]
+use taut_points::{InstructionSet, instruction_set};
 
 use super::Shapes;
 use crate::kernel::{Center, DoubleDouble};
@@ -54,8 +56,8 @@ impl Map<'_> {
     /// PSP′ of an item, r × r.
     pub(crate) fn shape_of(&self, shapes: &Shapes, i: usize) -> Vec<f64> {
         #[cfg(target_arch = "x86_64")]
-        if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
-            // SAFETY: the processor has just been asked for both features.
+        if instruction_set() >= InstructionSet::Avx2 {
+            // SAFETY: the processor has both features.
             #[allow(unsafe_code)]
             return unsafe { congruence_with_fma(*self, shapes, i) };
         }

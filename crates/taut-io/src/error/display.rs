@@ -65,3 +65,10 @@ impl fmt::Display for Abbreviated<'_> {
         }
     }
 }
+
+/// What this build has been left without.
+pub(super) fn not_built(name: &str, feature: &str) -> String {
+    format!(
+        "this build of taut reads and writes no {name} files; build it with the feature `{feature}`"
+    )
+}

@@ -2,7 +2,7 @@
 
 use std::io;
 
-use crate::{Content, Error, Format};
+use crate::{Compression, Content, Error, Format};
 
 impl Error {
     /// Returns what an error of opening or reading the file shown as `path` means, for those who read it themselves.
@@ -39,11 +39,17 @@ impl Error {
         }
     }
 
+    /// Why no file compressed so is read or written.
+    pub(crate) fn not_built(path: &str, compression: Compression) -> Error {
+        let name = compression.name();
+        Error::NotBuilt { path: path.to_owned(), name, feature: name }
+    }
+
     /// Why such content is not read from a file of this format.
     pub(crate) fn not_readable(path: &str, format: Format, content: Content) -> Error {
         let path = path.to_owned();
         match format.holds(content) && !format.is_built() {
-            true => Error::NotBuilt { path, format },
+            true => Error::NotBuilt { path, name: format.name(), feature: "arrow" },
             false => Error::NotReadable { path, format, content },
         }
     }
@@ -52,7 +58,7 @@ impl Error {
     pub(crate) fn not_writable(path: &str, format: Format, content: Content) -> Error {
         let path = path.to_owned();
         match format.holds(content) && !format.is_built() {
-            true => Error::NotBuilt { path, format },
+            true => Error::NotBuilt { path, name: format.name(), feature: "arrow" },
             false => Error::NotWritable { path, format, content },
         }
     }

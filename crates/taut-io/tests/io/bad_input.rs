@@ -324,6 +324,39 @@ fn formats_left_out_of_the_build_are_refused_with_a_sentence() {
     assert!(found.contains("this build of taut reads and writes no parquet files"), "{found}");
 }
 
+#[cfg(not(all(feature = "xz", feature = "zstd")))]
+#[test]
+fn compressions_left_out_of_the_build_are_refused_with_a_sentence() {
+    let packed: [(&str, &[u8]); 2] =
+        [("xz", b"\xfd7zXZ\0"), ("zst", &[0x28, 0xb5, 0x2f, 0xfd, 0, 0])];
+    for (extension, start) in packed {
+        let name = format!("p.csv.{extension}");
+        if super::unpacks(&name) {
+            continue;
+        }
+        let wanted = match extension {
+            "xz" => {
+                "this build of taut reads and writes no xz files; build it with the feature `xz`"
+            }
+            _ => {
+                "this build of taut reads and writes no zstd files; build it with the feature `zstd`"
+            }
+        };
+        // By the name, and by the first bytes.
+        for name in [&*name, "p"] {
+            let found = message(open_bytes(start.to_vec(), name, &ReadOptions::default()));
+            assert!(found.contains(wanted), "{found}");
+        }
+        let folder = tempfile::tempdir().unwrap();
+        let points = taut_points::Points::new(&[1.0, 2.0], 2).unwrap();
+        let monitor = taut_points::Monitor::silent();
+        let path = folder.path().join(&name);
+        let refused = taut_io::write_points(&points, &[], &path, None, &monitor).unwrap_err();
+        assert!(refused.to_string().contains(wanted), "{refused}");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+    }
+}
+
 #[cfg(feature = "arrow")]
 mod tables {
     use std::sync::Arc;
@@ -472,7 +505,7 @@ mod tables {
         for compression in [
             None,
             Some(arrow_ipc::CompressionType::LZ4_FRAME),
-            Some(arrow_ipc::CompressionType::ZSTD),
+            cfg!(feature = "zstd").then_some(arrow_ipc::CompressionType::ZSTD),
         ] {
             let options = arrow_ipc::writer::IpcWriteOptions::default()
                 .try_with_compression(compression)

@@ -6,6 +6,8 @@ use proptest::prelude::*;
 use taut_io::{Content, Format, RawLayout, ReadOptions, open, open_bytes, write_points};
 use taut_points::{Distribution, Monitor, Points, ScalarKind, generate};
 
+use super::unpacks;
+
 /// 40 points of dimension 3 as a file of the given name.
 fn sample(folder: &Path, name: &str) -> Vec<u8> {
     let values: Vec<f64> = generate(Distribution::Normal, 40, 3, 11).unwrap();
@@ -18,7 +20,7 @@ fn sample(folder: &Path, name: &str) -> Vec<u8> {
 fn names() -> Vec<&'static str> {
     let all = ["p.npy", "p.parquet", "p.arrow", "p.csv.gz", "p.csv.xz", "p.csv.zst", "p.npy.gz"];
     let read = |name: &&str| Format::of_path(Path::new(name)).0.unwrap().reads(Content::Points);
-    all.into_iter().filter(read).collect()
+    all.into_iter().filter(read).filter(|name| unpacks(name)).collect()
 }
 
 #[test]
@@ -72,7 +74,10 @@ fn a_message_about_a_cut_stream_says_so() {
         ("p.csv.xz", "the xz stream is damaged or ends early"),
         ("p.csv.zst", "the zstd stream is damaged or ends early"),
         ("p.npy", "p.npy is cut short or damaged: its npy header promises 960 bytes of values"),
-    ] {
+    ]
+    .into_iter()
+    .filter(|(name, _)| unpacks(name))
+    {
         let whole = sample(folder.path(), name);
         let cut = whole[..whole.len() - 20].to_vec();
         let said = open_bytes(cut, name, &ReadOptions::default()).unwrap_err().to_string();
@@ -90,6 +95,7 @@ fn a_file_that_is_too_long_is_not_called_cut_short() {
     assert_eq!(said, wanted);
 }
 
+#[cfg(feature = "zstd")]
 #[test]
 fn zstd_streams_carry_a_checksum() {
     let folder = tempfile::tempdir().unwrap();
@@ -149,7 +155,7 @@ fn a_name_that_promises_another_format_is_an_error() {
             }
         }
     }
-    for name in ["p.csv.gz", "p.csv.xz", "p.csv.zst"] {
+    for name in ["p.csv.gz", "p.csv.xz", "p.csv.zst"].into_iter().filter(|name| unpacks(name)) {
         assert!(open_bytes(b"1,2\n3,4\n".to_vec(), name, &ReadOptions::default()).is_err());
     }
 }

@@ -10,6 +10,7 @@ mod columns;
 mod corpus;
 mod create;
 mod damaged;
+#[cfg(feature = "xz")]
 mod data;
 mod filter;
 mod folders;
@@ -51,6 +52,12 @@ fn hash(input: &Input) -> PointsHash {
 /// The message of an error, which must not be missing.
 fn message(read: Result<Input, Error>) -> String {
     read.expect_err("this should not have been read").to_string()
+}
+
+/// Returns true if this build has the compression that a name ends with.
+fn unpacks(name: &str) -> bool {
+    let needs = |extension: &str, built: bool| built || !name.ends_with(extension);
+    needs(".xz", cfg!(feature = "xz")) && needs(".zst", cfg!(feature = "zstd"))
 }
 
 fn open_default(path: &Path) -> Result<Input, Error> {

@@ -57,7 +57,7 @@ fn every_format_keeps_every_bit() {
             .collect();
         for (width, rows) in (1..).zip(ROWS) {
             for format in formats(width) {
-                for packed in ["", ".gz", ".xz", ".zst"] {
+                for packed in ["", ".gz", ".xz", ".zst"].into_iter().filter(|p| crate::unpacks(p)) {
                     let path = folder.path().join(format!("mesh.{format}{packed}"));
                     write(values, dim, rows, width, &path).unwrap();
                     let mesh = open_mesh(&path).unwrap();

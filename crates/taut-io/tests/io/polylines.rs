@@ -28,7 +28,7 @@ fn written(curves: &[Polyline<'_>], name: &str) -> String {
 #[test]
 fn csv_is_read_back_to_the_same_bits() {
     let folder = tempfile::tempdir().unwrap();
-    for name in ["curves.csv", "curves.csv.zst"] {
+    for name in ["curves.csv", "curves.csv.zst"].into_iter().filter(|name| crate::unpacks(name)) {
         let path = folder.path().join(name);
         write_polylines(&curves(), &path, None).unwrap();
         let input = open(&path, &ReadOptions::default()).unwrap();

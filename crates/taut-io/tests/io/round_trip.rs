@@ -5,7 +5,7 @@ use taut_points::{
     Distribution, GeneratedSource, Monitor, Points, Scalar, ScalarKind, generate, hash_points,
 };
 
-use super::hash;
+use super::{hash, unpacks};
 
 /// Hard values beside easy ones: long decimals, huge, tiny, subnormal, negative zero.
 fn points<T: Scalar>(n: usize, dim: usize, extremes: &[T]) -> Vec<T> {
@@ -50,9 +50,11 @@ fn round_trips<T: Scalar>(values: &[T], dim: usize, format: Format, compressions
 fn every_format_precision_and_compression_keeps_every_bit() {
     let wide = points(701, 3, &[1e300, 5e-324, -0.0, f64::MAX, f64::MIN_POSITIVE, 0.1, -1e-7]);
     let narrow = points(701, 3, &[1e30_f32, 1e-45, -0.0, f32::MAX, f32::MIN_POSITIVE, 0.1, -1e-7]);
+    let mut packed = vec!["", ".gz", ".xz", ".zst"];
+    packed.retain(|packed| unpacks(packed));
     for format in Format::all().filter(|format| format.writes(Content::Points)) {
-        round_trips(&wide, 3, format, &["", ".gz", ".xz", ".zst"]);
-        round_trips(&narrow, 3, format, &["", ".gz", ".xz", ".zst"]);
+        round_trips(&wide, 3, format, &packed);
+        round_trips(&narrow, 3, format, &packed);
     }
 }
 

@@ -362,7 +362,7 @@ impl<const D: usize> KdTree<D> {
                 // SAFETY: the value proves that the processor has AVX2.
                 unsafe { self.search_avx2(place, found, probe) }
             }
-            Level::Portable => self.search_by(place, found, probe),
+            _ => self.search_by(place, found, probe),
         }
     }
 

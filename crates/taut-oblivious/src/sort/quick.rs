@@ -7,9 +7,12 @@
 
 #[cfg(target_arch = "x86_64")]
 use crate::level::{Avx512, Level};
-use crate::probe::{NoProbe, Probe};
+#[cfg(target_arch = "x86_64")]
+use crate::probe::NoProbe;
+use crate::probe::Probe;
 
 /// Up to this many keys are sorted by the standard library: a network would be filled with nothing.
+#[cfg(target_arch = "x86_64")]
 const STANDARD_SORT_MAX: usize = 16;
 
 /// Sorts; on the current rayon pool if the probe does not record.

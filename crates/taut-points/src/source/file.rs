@@ -4,6 +4,7 @@ use std::fs::File;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use super::positioned::read_exact_at;
 use super::{PointSource, Scratch, check_range};
 use crate::{Points, ReadError, Rows, Scalar, ScalarKind};
 
@@ -105,26 +106,6 @@ pub(super) fn check_length(
         .unwrap_or(u64::MAX);
     if found < needed || dim == 0 {
         return Err(ReadError::Truncated { path: path.to_owned(), found, needed, n, dim });
-    }
-    Ok(())
-}
-
-#[cfg(unix)]
-fn read_exact_at(file: &File, buffer: &mut [u8], offset: u64) -> std::io::Result<()> {
-    std::os::unix::fs::FileExt::read_exact_at(file, buffer, offset)
-}
-
-#[cfg(windows)]
-fn read_exact_at(file: &File, mut buffer: &mut [u8], mut offset: u64) -> std::io::Result<()> {
-    use std::os::windows::fs::FileExt;
-    while !buffer.is_empty() {
-        match file.seek_read(buffer, offset)? {
-            0 => return Err(std::io::ErrorKind::UnexpectedEof.into()),
-            read => {
-                buffer = &mut buffer[read..];
-                offset += read as u64;
-            }
-        }
     }
     Ok(())
 }

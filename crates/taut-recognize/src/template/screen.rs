@@ -4,7 +4,8 @@
 //! sums of four are taken there, and then widened. All is exact, and no branch is in the inner loops, so that the compiler takes as
 //! many numbers at a time as the vectors of the processor have.
 
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Simd, WithSimd};
+use taut_points::vectors;
 
 /// Templates of a block.
 pub(super) const BLOCK: usize = 64;
@@ -26,7 +27,7 @@ pub(super) trait Visitor {
 ///
 /// The number of coordinates is a multiple of [`GROUP`], and no code is larger than [`CODE_MAX`].
 pub(super) fn screen(codes: &[u8], query: &[u8], stride: usize, visitor: &mut impl Visitor) {
-    Arch::new().dispatch(Pass { codes, query, stride, visitor });
+    vectors().dispatch(Pass { codes, query, stride, visitor });
 }
 
 struct Pass<'a, V> {

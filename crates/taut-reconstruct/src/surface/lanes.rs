@@ -4,7 +4,8 @@
 //! *Idea.* Cells lie in the lanes of a vector, corners and axes apart; what is not a sphere of its own is looked at again, one by one.
 //! *Guarantee.* The same operations in the same order as for [`circumsphere`], so the same bits whatever the width of the vector.
 
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Simd, WithSimd};
+use taut_points::vectors;
 
 use super::cells::Cells;
 use super::spheres::{NEARLY_FLAT, Point, Sphere, circumsphere};
@@ -21,7 +22,7 @@ pub(super) fn write_spheres(
     points: &[Point],
     flat: f64,
 ) -> Vec<u32> {
-    Arch::new().dispatch(Spheres { spheres, first, cells, points, flat })
+    vectors().dispatch(Spheres { spheres, first, cells, points, flat })
 }
 
 struct Spheres<'a> {

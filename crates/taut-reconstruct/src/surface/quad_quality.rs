@@ -5,7 +5,8 @@
 //! whichever that is, as only angles between them count.
 //! *Guarantee.* The same bits whatever the width of the vector, and however many are looked at.
 
-use pulp::{Arch, Scalar, Simd, WithSimd};
+use pulp::{Scalar, Simd, WithSimd};
+use taut_points::vectors;
 
 use super::cells::Cells;
 use super::diagonals::Quadrangle;
@@ -35,7 +36,7 @@ pub(super) fn quad_qualities(
     cells: &Cells,
     points: &[Point],
 ) -> Vec<QuadQuality> {
-    Arch::new().dispatch(QuadQualityKernel { quadrangles, cells, points })
+    vectors().dispatch(QuadQualityKernel { quadrangles, cells, points })
 }
 
 pub(super) fn quad_quality(

@@ -132,7 +132,7 @@ mod tests {
                 Level::Avx512(_) => Avx512::below(words, first, word),
                 #[cfg(target_arch = "x86_64")]
                 Level::Avx2(_) => Avx2::below(words, first, word),
-                Level::Portable => Portable::below(words, first, word),
+                _ => Portable::below(words, first, word),
             }
         }
     }

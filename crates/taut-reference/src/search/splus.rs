@@ -146,7 +146,7 @@ impl<'a, W: Word> Tree<'a, W> {
                 // SAFETY: the value proves that the processor has AVX2 and POPCNT.
                 unsafe { self.rank_avx2(word, probe) }
             }
-            Level::Portable => self.rank_by::<Portable, P>(word, probe),
+            _ => self.rank_by::<Portable, P>(word, probe),
         }
     }
 
@@ -213,7 +213,7 @@ impl<'a, W: Word> Tree<'a, W> {
                 // SAFETY: the value proves that the processor has AVX2 and POPCNT.
                 unsafe { self.ranks_avx2(keys, word, ranks, probe) }
             }
-            Level::Portable => self.ranks_by::<Portable, K, P>(keys, word, ranks, probe),
+            _ => self.ranks_by::<Portable, K, P>(keys, word, ranks, probe),
         }
     }
 

@@ -5,7 +5,8 @@
 //! one operation. The few that are still open are told one by one in whole numbers.
 //! *Bound.* As for [`DoubleDouble`](crate::arithmetic::DoubleDouble): the same operations, lane by lane.
 
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Simd, WithSimd};
+use taut_points::vectors;
 
 use super::super::MeshViolation;
 use super::facets::{Complex, Facet};
@@ -111,7 +112,7 @@ impl NearTies {
         self.values.clear();
         let (facets, values) = (&self.facets, &mut self.values);
         let geometry = std::marker::PhantomData::<G>;
-        Arch::new().dispatch(Determinants { complex, first, facets, values, geometry });
+        vectors().dispatch(Determinants { complex, first, facets, values, geometry });
         for (facet, &value) in self.facets.iter().zip(&self.values) {
             let bound = G::IN_SPHERE.of_double_double(facet.tested.size);
             let conflict = if value.abs() > bound {
@@ -183,6 +184,7 @@ mod tests {
 
     use proptest::collection::vec;
     use proptest::prelude::*;
+    use pulp::Arch;
     use taut_points::{Monitor, Points, Scratch};
 
     use super::super::geometry::{Tetrahedra, Triangles};

@@ -49,7 +49,11 @@ fn a_line_without_end_is_an_error_that_names_file_line_and_limit() {
     let mut encoder = XzEncoder::new(Vec::new(), 1);
     encoder.write_all(text).unwrap();
     folder.put("a.csv.xz", encoder.finish().unwrap());
-    folder.taut("ball a.csv.xz --memory 1M").ends(2).stderr_has(&["a.csv.xz: line 1 is longer"]);
+    let said = match cfg!(feature = "xz") {
+        true => "a.csv.xz: line 1 is longer",
+        false => "a.csv.xz: this build of taut reads and writes no xz files",
+    };
+    folder.taut("ball a.csv.xz --memory 1M").ends(2).stderr_has(&[said]);
     folder
         .pipe(gzip(text), "ball - --memory 1M")
         .ends(2)

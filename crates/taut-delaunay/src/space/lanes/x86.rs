@@ -7,6 +7,8 @@
 use std::arch::x86_64::*;
 use std::ops::{Add, Mul, Sub};
 
+use taut_points::{InstructionSet, instruction_set};
+
 use crate::kernel::TooMany;
 use crate::simplex::Simplex;
 use crate::space::cavity::Facet;
@@ -24,11 +26,7 @@ pub(in crate::space) struct Avx512(Avx2);
 
 impl Avx2 {
     pub(super) fn detect() -> Option<Self> {
-        (is_x86_feature_detected!("avx2")
-            && is_x86_feature_detected!("fma")
-            && is_x86_feature_detected!("bmi1")
-            && is_x86_feature_detected!("bmi2"))
-        .then_some(Avx2(()))
+        (instruction_set() >= InstructionSet::Avx2).then_some(Avx2(()))
     }
 
     /// [`Mesh::insert_with`], four numbers at a time.
@@ -44,10 +42,7 @@ impl Avx2 {
 
 impl Avx512 {
     pub(super) fn detect() -> Option<Self> {
-        let has = is_x86_feature_detected!("avx512f")
-            && is_x86_feature_detected!("avx512dq")
-            && is_x86_feature_detected!("avx512vl");
-        Avx2::detect().filter(|_| has).map(Avx512)
+        (instruction_set() == InstructionSet::Avx512).then_some(Avx512(Avx2(())))
     }
 
     /// [`Mesh::insert_with`], eight numbers at a time.

@@ -13,7 +13,8 @@ use super::{
 fn ply_obj_and_off_keep_every_bit_packed_or_not() {
     let folder = tempfile::tempdir().unwrap();
     for shape in samples() {
-        for name in ["s.ply", "s.obj", "s.off", "s.PLY", "s.ply.gz", "s.obj.xz", "s.off.zst"] {
+        let names = ["s.ply", "s.obj", "s.off", "s.PLY", "s.ply.gz", "s.obj.xz", "s.off.zst"];
+        for name in names.into_iter().filter(|name| crate::unpacks(name)) {
             for encoding in ENCODINGS {
                 let path = folder.path().join(name);
                 write_with(&shape, &path, encoding).unwrap();

@@ -90,7 +90,10 @@ fn origin(about: &Metadata) -> Origin {
         [modified, seconds.wrapping_add(about.ctime_nsec()) as u64, about.ino()]
     }
     #[cfg(not(unix))]
-    [modified, 0, 0]
+    {
+        let created = about.created().ok().and_then(|time| time.duration_since(UNIX_EPOCH).ok());
+        [modified, created.map_or(0, |since| since.as_nanos() as u64), 0]
+    }
 }
 
 /// Names the file that an error is about.

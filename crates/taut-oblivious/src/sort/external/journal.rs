@@ -26,6 +26,8 @@ type Identity = [u64; 10];
 
 /// The data of the system that identify a file: when it was modified, when anything about it changed, and its
 /// number, in any unit. Not the number of its device, which may be another one when the machine has started again.
+/// Off Unix the time of its creation stands for the time of the last change, and 0 for the number; what guards a resumed
+/// sort there are its length, its times, and the hash of the input of each run.
 pub(super) type Origin = [u64; 3];
 
 pub(super) struct Journal {
