@@ -142,7 +142,6 @@ impl SphereSearch {
     }
 
     fn build(source: &dyn PointSource, options: &SphereSearchOptions<'_>) -> Result<Self, Error> {
-        const ROWS_MAX: u64 = u32::MAX as u64 - 1;
         let (len, columns) = (source.len(), source.dim());
         if options.inputs == Items::Ellipsoids {
             let (name, value) = ("inputs", "ellipsoids".to_owned());
@@ -150,9 +149,6 @@ impl SphereSearch {
         }
         if options.inputs == Items::Balls && columns < 2 {
             return Err(Error::NoRadius { columns });
-        }
-        if len > ROWS_MAX {
-            return Err(InputError::TooManyPoints { points: len, most: ROWS_MAX }.into());
         }
         if len == 0 {
             return Err(Error::Empty);
@@ -402,6 +398,11 @@ fn other_dimension(dim: usize) -> Error {
 
 /// All rows in double precision, finite or refused.
 fn read(source: &dyn PointSource, monitor: &Monitor<'_>) -> Result<Vec<f64>, Error> {
+    /// Rows and queries have numbers of 32 bits.
+    const ROWS_MAX: u64 = u32::MAX as u64 - 1;
+    if source.len() > ROWS_MAX {
+        return Err(InputError::TooManyPoints { points: source.len(), most: ROWS_MAX }.into());
+    }
     monitor.check().map_err(ReadError::from)?;
     let mut scratch = Scratch::new();
     let values: Vec<f64> = match source.read(0..source.len(), &mut scratch)? {

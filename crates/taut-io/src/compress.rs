@@ -68,7 +68,6 @@ impl<W: Write> Encoder<W> {
         path: &str,
         failure: fn(&str, io::Error) -> Error,
     ) -> Result<Self, Error> {
-        let failed = |source| failure(path, source);
         Ok(match compression {
             None => Encoder::Plain(to),
             Some(Compression::Gzip) => {
@@ -78,6 +77,7 @@ impl<W: Write> Encoder<W> {
             Some(Compression::Xz) => Encoder::Xz(liblzma::write::XzEncoder::new(to, 6)),
             #[cfg(feature = "zstd")]
             Some(Compression::Zstd) => {
+                let failed = |source| failure(path, source);
                 let mut encoder = zstd::stream::write::Encoder::new(to, 3).map_err(failed)?;
                 // As the zstd tool does; else a changed byte could pass for another number.
                 encoder.include_checksum(true).map_err(failed)?;

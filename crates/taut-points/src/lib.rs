@@ -46,6 +46,6 @@ pub use processor::{InstructionSet, KERNELS_VARIABLE, instruction_set, vectors};
 pub use room::{failure_is_handled, try_reserve_exact};
 pub use source::{
     FileSource, MappedSource, OwnedPoints, PickedColumns, PointSource, Scratch, gather, read_at,
-    write_at,
+    read_exact_at, write_all_at, write_at,
 };
 pub use threads::{THREADS_MAX, ThreadsError, check_threads, on_threads, thread_pool};

@@ -6,7 +6,7 @@
 //! *Trap.* Kernels that are compiled for an instruction set are called because of what [`instruction_set`] returns: it must
 //! never name one that the processor lacks, whatever the variable says.
 
-use std::sync::atomic::{AtomicU8, Ordering::Relaxed};
+use std::sync::OnceLock;
 
 use pulp::Arch;
 
@@ -16,10 +16,9 @@ pub const KERNELS_VARIABLE: &str = "TAUT_KERNELS";
 
 /// Instruction sets for which there are kernels, each of those of one processor family included in the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[repr(u8)]
 pub enum InstructionSet {
     /// What every processor of the target has: one number at a time, or what the compiler makes of it.
-    Portable = 1,
+    Portable,
     /// Vectors of 16 bytes of 64-bit ARM, with fused multiply-add.
     Neon,
     /// Vectors of 32 bytes of x86-64: AVX2, FMA, POPCNT, BMI1 and BMI2.
@@ -39,20 +38,8 @@ pub enum InstructionSet {
 /// ```
 #[inline(always)]
 pub fn instruction_set() -> InstructionSet {
-    use InstructionSet::{Avx2, Avx512, Neon, Portable};
-    /// 0 as long as nobody has asked.
-    static FOUND: AtomicU8 = AtomicU8::new(0);
-    match FOUND.load(Relaxed) {
-        found if found == Portable as u8 => Portable,
-        found if found == Neon as u8 => Neon,
-        found if found == Avx2 as u8 => Avx2,
-        found if found == Avx512 as u8 => Avx512,
-        _ => {
-            let set = ask();
-            FOUND.store(set as u8, Relaxed);
-            set
-        }
-    }
+    static FOUND: OnceLock<InstructionSet> = OnceLock::new();
+    *FOUND.get_or_init(ask)
 }
 
 /// Returns the vectors that kernels written with `pulp` use: as wide as [`instruction_set`] allows.

@@ -15,7 +15,7 @@ pub use file::FileSource;
 pub use mapped::MappedSource;
 pub use owned::OwnedPoints;
 pub use picked::PickedColumns;
-pub use positioned::{read_at, write_at};
+pub use positioned::{read_at, read_exact_at, write_all_at, write_at};
 
 use crate::room::try_reserve_exact;
 use crate::{Points, ReadError, Rows, Scalar, ScalarKind};

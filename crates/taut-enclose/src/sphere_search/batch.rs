@@ -4,12 +4,10 @@
 //! is a fixed number of them.
 //! *Guarantee.* Each answer depends on its query alone, so neither tasks nor threads change any.
 
-use std::sync::LazyLock;
-
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Simd, WithSimd};
 use rayon::prelude::*;
 use taut_certify::Items;
-use taut_points::ReadError;
+use taut_points::{ReadError, vectors};
 
 use super::dim::{AnyDim, Dim, Fixed};
 use super::measure::{Measure, Squares, Surfaces, WideSquares, is_plain};
@@ -20,9 +18,6 @@ use crate::Error;
 const TASK_SIZE: usize = 1 << 10;
 /// Bits of the home blocks by which queries are put in order: what is below a node of so few rows is in the caches anyway.
 const ORDER_BITS: u32 = 12;
-
-/// The vectors of this processor, detected once and not for each query.
-static ARCH: LazyLock<Arch> = LazyLock::new(Arch::new);
 
 /// Numbers that begin with a place, and the home block of that.
 #[derive(Clone, Copy)]
@@ -124,7 +119,7 @@ fn run_task<W: Work>(
     let task = Task { search, queries, work, found };
     let dim = AnyDim(search.dim());
     if search.is_plain && queries.iter().all(|query| is_plain(query.values)) {
-        return ARCH.dispatch(task);
+        return vectors().dispatch(task);
     }
     match search.items {
         Items::Points => task.answer::<_, WideSquares>(dim),

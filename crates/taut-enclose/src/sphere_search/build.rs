@@ -9,7 +9,7 @@
 
 use rayon::prelude::*;
 
-use super::cuts::Cuts;
+use super::cuts::{AXES_MAX, Cuts};
 use super::measure::{BALL_SLACK, scaled};
 use super::nodes::{BLOCK_SIZE, FANOUT, Lanes, Level, NO_ROW, Nodes};
 
@@ -100,7 +100,7 @@ fn split(points: Rows<'_>, order: &mut [u32], keyed: &mut [(f64, u32)], mut unit
     // Halves, as an extent may overflow.
     let extent = |axis: usize| high[axis] / 2.0 - low[axis] / 2.0;
     let widest = |best, axis| if extent(axis) > extent(best) { axis } else { best };
-    let axis = (1..points.dim).fold(0, widest);
+    let axis = (1..points.dim.min(AXES_MAX)).fold(0, widest);
     for (key, &row) in keyed.iter_mut().zip(&*order) {
         *key = (points.at(row)[axis], row);
     }

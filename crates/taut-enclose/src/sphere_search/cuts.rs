@@ -11,6 +11,9 @@ use super::nodes::{FANOUT, Level, Nodes};
 /// Levels of a tree of fewer than 2³² rows, at most.
 pub(super) const LEVELS_MAX: usize = 10;
 
+/// Axes along which rows are divided: the number of one takes a byte.
+pub(super) const AXES_MAX: usize = 1 << u8::BITS;
+
 /// Comparisons of a place with the cuts of a group.
 const CUTS: usize = FANOUT - 1;
 
@@ -59,7 +62,7 @@ impl Cuts {
             };
             // Halves, as a difference may overflow.
             let size = |(low, high): (f64, f64)| high / 2.0 - low / 2.0;
-            let axes = 0..boxes[0].0.len().min(1 << u8::BITS);
+            let axes = 0..boxes[0].0.len().min(AXES_MAX);
             let widest = axes.map(|axis| (axis, gap(axis))).filter(|(_, (low, high))| low <= high);
             let widest = widest.reduce(|a, b| if size(b.1) > size(a.1) { b } else { a });
             if let Some((axis, (low, high))) = widest {
@@ -100,7 +103,7 @@ impl Nodes {
         self.levels.iter().rev().fold(0, step)
     }
 
-    /// For each level the distance along an axis to rows that are not below the node of that level above the home block.
+    /// For each level a lower bound of the distance to rows that are not below the node of that level above the home block.
     #[inline(always)]
     pub(super) fn margins(&self, place: &[f64], home: usize) -> [f64; LEVELS_MAX] {
         let mut margins = [f64::INFINITY; LEVELS_MAX];

@@ -11,9 +11,9 @@
 //! Processing Letters 32, 1989, for the far pair; S. Har-Peled: A practical approach for computing the diameter of a point set,
 //! SoCG 2001, for the pairs of nodes.
 
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Simd, WithSimd};
 use taut_certify::Items;
-use taut_points::{Monitor, ReadError};
+use taut_points::{Monitor, ReadError, vectors};
 
 use super::batch::run_one;
 use super::dim::{AnyDim, Dim, Fixed};
@@ -47,7 +47,7 @@ pub(super) fn diameter(
     let task = Task { tree, factor: 1.0 + epsilon, monitor };
     let dim = AnyDim(tree.dim());
     match (tree.is_plain, tree.items) {
-        (true, _) => Arch::new().dispatch(task),
+        (true, _) => vectors().dispatch(task),
         (false, Items::Points) => task.diameter::<_, WideSquares>(dim),
         (false, _) => task.diameter::<_, Surfaces<WideSquares>>(dim),
     }

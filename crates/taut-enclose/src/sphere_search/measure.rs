@@ -43,6 +43,9 @@ pub(super) trait Measure: Copy + Send + Sync + 'static {
     /// A key that is at most that of a vector with such a coordinate, which is not negative.
     fn key_along(coordinate: f64) -> Self::Key;
 
+    /// Tests whether the distance of a key is at most `reach`, or above it by less than the slack of a bound.
+    fn is_reached(key: Self::Key, reach: f64) -> bool;
+
     /// Returns what [`Measure::is_within`] compares keys with.
     fn limit(distance: f64) -> f64;
 
@@ -50,7 +53,7 @@ pub(super) trait Measure: Copy + Send + Sync + 'static {
     fn is_within(key: Self::Key, limit: f64) -> bool;
 
     /// A bit for each lane that [`Measure::is_within`] may pass, once its distance is shortened by a length: all that it does pass,
-    /// and hardly others. It takes no roots.
+    /// and hardly others. Of [`Squares`], and of their surfaces, it takes no roots.
     #[inline(always)]
     fn lanes_near<const L: usize>(
         dim: usize,
@@ -124,6 +127,11 @@ impl Measure for Squares {
     #[inline(always)]
     fn key_along(coordinate: f64) -> f64 {
         coordinate * coordinate
+    }
+
+    #[inline(always)]
+    fn is_reached(key: f64, reach: f64) -> bool {
+        key <= Squares::key_above(reach)
     }
 
     /// The largest square whose root is at most the distance.
@@ -229,6 +237,10 @@ impl Measure for WideSquares {
         WideSquare { exponent: i32::MIN, sum: 0.0 }
     }
 
+    fn is_reached(key: WideSquare, reach: f64) -> bool {
+        WideSquares::distance(key) <= reach
+    }
+
     fn limit(distance: f64) -> f64 {
         distance
     }
@@ -280,6 +292,11 @@ impl<M: Measure> Measure for Surfaces<M> {
         M::distance(M::key_along(coordinate))
     }
 
+    #[inline(always)]
+    fn is_reached(key: f64, reach: f64) -> bool {
+        key <= reach
+    }
+
     fn limit(distance: f64) -> f64 {
         distance
     }
@@ -302,7 +319,7 @@ impl<M: Measure> Measure for Surfaces<M> {
             let length = lengths(lane);
             // Beyond the roundings of both sums; not a number for a limit of −∞, which nothing is within.
             let reach = (limit + length) + (limit.abs() + length) * (BALL_SLACK - 1.0);
-            near |= u32::from((reach >= 0.0) & (keys[lane] <= M::key_above(reach))) << lane;
+            near |= u32::from((reach >= 0.0) & M::is_reached(keys[lane], reach)) << lane;
         }
         near
     }

@@ -7,10 +7,10 @@
 //! the same for any number of threads. Of one tree each pair comes once, the lower row first.
 //! *Trap.* Of one tree no subtree can be left out by its rows, as tree order is not that of rows; by its place in the tree it can.
 
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Simd, WithSimd};
 use rayon::prelude::*;
 use taut_certify::Items;
-use taut_points::ReadError;
+use taut_points::{ReadError, vectors};
 
 use super::dim::{AnyDim, Dim, Fixed};
 use super::measure::{Measure, Squares, Surfaces, WideSquares};
@@ -22,6 +22,9 @@ use crate::Error;
 const TASK_SIZE: usize = 1 << 6;
 /// Buckets that pairs are put into, as a power of two.
 const BUCKET_BITS: u32 = 10;
+
+/// Pairs of one row that one thread sorts alone.
+const LONG_RUN: usize = 1 << 16;
 
 /// All pairs of a row of `first` and one of `second`, or of two rows where there is no second tree.
 pub(super) fn within(
@@ -40,7 +43,7 @@ pub(super) fn within(
             Ok(task.run())
         })
         .collect::<Result<_, Error>>()?;
-    Ok(sorted(&tasks, first.len as usize))
+    Ok(sorted(tasks, first.len as usize))
 }
 
 /// A pair as it is found: 16 bytes, where a [`RowPair`] takes 24.
@@ -52,7 +55,7 @@ struct Found {
 
 /// All pairs in the order of their rows: first into buckets of a range of first rows, then each bucket in the
 /// caches.
-fn sorted(tasks: &[Vec<Found>], rows: usize) -> Vec<RowPair> {
+fn sorted(tasks: Vec<Vec<Found>>, rows: usize) -> Vec<RowPair> {
     let shift = (rows.ilog2() + 1).saturating_sub(BUCKET_BITS);
     let bucket = |found: &Found| (found.rows[0] >> shift) as usize;
     let mut ends = vec![0usize; (1 << BUCKET_BITS) + 1];
@@ -64,8 +67,8 @@ fn sorted(tasks: &[Vec<Found>], rows: usize) -> Vec<RowPair> {
     }
     let sizes: Vec<usize> = ends.windows(2).map(|ends| ends[1] - ends[0]).collect();
     let mut pairs = vec![RowPair { rows: [0; 2], distance: 0.0 }; ends[1 << BUCKET_BITS]];
-    for found in tasks.iter().flatten() {
-        let end = &mut ends[bucket(found)];
+    for found in tasks.into_iter().flatten() {
+        let end = &mut ends[bucket(&found)];
         pairs[*end] = RowPair { rows: found.rows.map(u64::from), distance: found.distance };
         *end += 1;
     }
@@ -102,8 +105,10 @@ fn sort_bucket(bucket: &mut [RowPair], mask: u64, memory: &mut (Vec<RowPair>, Ve
         *end += 1;
     }
     for run in bucket.chunk_by_mut(|a, b| a.rows[0] == b.rows[0]) {
-        if run.len() > 1 {
-            run.sort_unstable_by_key(|pair| pair.rows[1]);
+        match run.len() {
+            0..=1 => {}
+            ..=LONG_RUN => run.sort_unstable_by_key(|pair| pair.rows[1]),
+            _ => run.par_sort_unstable_by_key(|pair| pair.rows[1]),
         }
     }
 }
@@ -135,7 +140,7 @@ impl Task<'_> {
         let is_plain = self.first.is_plain && self.other.is_plain;
         let dim = AnyDim(self.first.dim());
         match (are_points, is_plain) {
-            (_, true) => Arch::new().dispatch(self),
+            (_, true) => vectors().dispatch(self),
             (true, false) => self.pairs::<_, WideSquares>(dim),
             (false, false) => self.pairs::<_, Surfaces<WideSquares>>(dim),
         }

@@ -250,6 +250,35 @@ fn clusters_grids_lines_and_copies() {
 }
 
 /// Of many copies the lowest row is found without a look at all of them, and so is their diameter.
+/// Rows are divided along the first 256 axes alone.
+#[test]
+fn many_axes_of_which_the_last_is_the_widest() {
+    for dim in [255, 256, 257, 300] {
+        let mut values: Vec<f64> = generate(Distribution::Uniform, 220, dim, 3).unwrap();
+        for (row, values) in values.chunks_exact_mut(dim).enumerate() {
+            values[dim - 1] *= 1000.0;
+            if row % 3 == 0 {
+                values[..dim - 1].fill(0.5);
+            }
+        }
+        let places: Vec<f64> = values[..20 * dim].iter().map(|x| x + 0.25).collect();
+        agrees(&Set::points(values, dim), &places);
+    }
+}
+
+/// Squares need an exponent of their own there, and the radii of balls come off their roots.
+#[test]
+fn pairs_of_balls_of_all_sizes() {
+    let mut values: Vec<f64> = generate(Distribution::Uniform, 300, 4, 4).unwrap();
+    for (row, ball) in values.chunks_exact_mut(4).enumerate() {
+        let size = [1.0, 1e-130, 1e200, 1e-300][row % 4];
+        ball.iter_mut().for_each(|x| *x *= size);
+        ball[3] *= 0.3;
+    }
+    let set = Set::balls(values, 3);
+    agrees_on_pairs(&set, &Set::points(vec![0.0, 0.1, 0.2, 1e200, 0.0, 0.0], 3));
+}
+
 #[test]
 fn copies_are_no_trap() {
     let copies = tree(&[3.0; 200_000], 2, Items::Points);

@@ -44,13 +44,35 @@ fn locked<R>(file: &File, offset: u64, work: impl FnOnce(&File) -> io::Result<R>
 }
 
 /// Fills the buffer from `offset` on, in as many reads as it takes.
-pub(super) fn read_exact_at(file: &File, mut buffer: &mut [u8], mut offset: u64) -> io::Result<()> {
+///
+/// # Errors
+/// What the system says, and [`ErrorKind::UnexpectedEof`] where the file ends before.
+pub fn read_exact_at(file: &File, mut buffer: &mut [u8], mut offset: u64) -> io::Result<()> {
     while !buffer.is_empty() {
         match read_at(file, buffer, offset) {
             Ok(0) => return Err(ErrorKind::UnexpectedEof.into()),
             Ok(read) => {
                 buffer = &mut buffer[read..];
                 offset += read as u64;
+            }
+            Err(error) if error.kind() == ErrorKind::Interrupted => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(())
+}
+
+/// Writes all bytes from `offset` on, in as many writes as it takes.
+///
+/// # Errors
+/// What the system says, and [`ErrorKind::WriteZero`] where it takes no more.
+pub fn write_all_at(file: &File, mut bytes: &[u8], mut offset: u64) -> io::Result<()> {
+    while !bytes.is_empty() {
+        match write_at(file, bytes, offset) {
+            Ok(0) => return Err(ErrorKind::WriteZero.into()),
+            Ok(written) => {
+                bytes = &bytes[written..];
+                offset += written as u64;
             }
             Err(error) if error.kind() == ErrorKind::Interrupted => {}
             Err(error) => return Err(error),
@@ -67,10 +89,7 @@ mod tests {
     fn threads_that_share_a_handle_read_the_places_they_asked_for() {
         let file = tempfile::tempfile().unwrap();
         let words: Vec<u8> = (0..4096u64).flat_map(u64::to_le_bytes).collect();
-        let mut done = 0;
-        while done < words.len() {
-            done += write_at(&file, &words[done..], done as u64).unwrap();
-        }
+        write_all_at(&file, &words, 0).unwrap();
         std::thread::scope(|scope| {
             for thread in 0..4u64 {
                 let file = &file;

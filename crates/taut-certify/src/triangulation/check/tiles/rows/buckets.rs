@@ -73,8 +73,12 @@ impl Buckets {
     /// Where the next record of a bucket goes, which must be added before the next call.
     #[inline(always)]
     pub(super) fn place(&mut self, bucket: usize) -> Result<&mut Vec<u8>, TilesError> {
-        if self.buffers[bucket].len() >= self.block {
+        let buffer = &mut self.buffers[bucket];
+        if buffer.len() >= self.block {
             self.gather(bucket)?;
+        } else if buffer.is_empty() {
+            // By doubling it could take nearly twice as much.
+            buffer.reserve_exact(self.block);
         }
         Ok(&mut self.buffers[bucket])
     }

@@ -9,6 +9,8 @@ use std::fs::File;
 use std::io::{self, ErrorKind};
 use std::path::Path;
 
+use taut_points::{read_exact_at, write_all_at};
+
 /// Bytes that the sectors of all common disks divide.
 pub(super) const PAGE_BYTES: usize = 1 << 12;
 
@@ -28,7 +30,7 @@ impl PageFile {
         self.or_by_the_cache(write(), write)
     }
 
-    /// Fills whole pages, from a page on. What lies beyond the end of the file is 0.
+    /// Fills whole pages, from a page on.
     pub(super) fn read(&self, bytes: &mut [u8], at: u64) -> io::Result<()> {
         let first = read_exact_at(&self.0, bytes, at);
         self.or_by_the_cache(first, || read_exact_at(&self.0, bytes, at))
@@ -61,44 +63,6 @@ fn set_direct(file: &File, is_direct: bool) -> bool {
 #[cfg(not(target_os = "linux"))]
 fn set_direct(_: &File, _: bool) -> bool {
     false
-}
-
-#[cfg(unix)]
-fn read_exact_at(file: &File, bytes: &mut [u8], at: u64) -> io::Result<()> {
-    std::os::unix::fs::FileExt::read_exact_at(file, bytes, at)
-}
-
-#[cfg(unix)]
-fn write_all_at(file: &File, bytes: &[u8], at: u64) -> io::Result<()> {
-    std::os::unix::fs::FileExt::write_all_at(file, bytes, at)
-}
-
-#[cfg(windows)]
-fn read_exact_at(file: &File, mut bytes: &mut [u8], mut at: u64) -> io::Result<()> {
-    while !bytes.is_empty() {
-        match std::os::windows::fs::FileExt::seek_read(file, bytes, at)? {
-            0 => return Err(ErrorKind::UnexpectedEof.into()),
-            count => {
-                bytes = &mut bytes[count..];
-                at += count as u64;
-            }
-        }
-    }
-    Ok(())
-}
-
-#[cfg(windows)]
-fn write_all_at(file: &File, mut bytes: &[u8], mut at: u64) -> io::Result<()> {
-    while !bytes.is_empty() {
-        match std::os::windows::fs::FileExt::seek_write(file, bytes, at)? {
-            0 => return Err(ErrorKind::WriteZero.into()),
-            count => {
-                bytes = &bytes[count..];
-                at += count as u64;
-            }
-        }
-    }
-    Ok(())
 }
 
 /// Bytes of whole pages, that begin where a page of memory does.
