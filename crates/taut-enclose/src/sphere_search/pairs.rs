@@ -106,8 +106,8 @@ fn sort_bucket(bucket: &mut [RowPair], mask: u64, memory: &mut (Vec<RowPair>, Ve
     }
     for run in bucket.chunk_by_mut(|a, b| a.rows[0] == b.rows[0]) {
         match run.len() {
-            0..=1 => {}
-            ..=LONG_RUN => run.sort_unstable_by_key(|pair| pair.rows[1]),
+            0 | 1 => {}
+            2..=LONG_RUN => run.sort_unstable_by_key(|pair| pair.rows[1]),
             _ => run.par_sort_unstable_by_key(|pair| pair.rows[1]),
         }
     }
