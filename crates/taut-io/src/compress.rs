@@ -68,24 +68,20 @@ impl<W: Write> Encoder<W> {
         path: &str,
         failure: fn(&str, io::Error) -> Error,
     ) -> Result<Self, Error> {
-        Ok(match compression {
-            None => Encoder::Plain(to),
+        let made: io::Result<Self> = match compression {
+            None => Ok(Encoder::Plain(to)),
             Some(Compression::Gzip) => {
-                Encoder::Gzip(flate2::write::GzEncoder::new(to, flate2::Compression::new(6)))
+                let level = flate2::Compression::new(6);
+                Ok(Encoder::Gzip(flate2::write::GzEncoder::new(to, level)))
             }
             #[cfg(feature = "xz")]
-            Some(Compression::Xz) => Encoder::Xz(liblzma::write::XzEncoder::new(to, 6)),
+            Some(Compression::Xz) => Ok(Encoder::Xz(liblzma::write::XzEncoder::new(to, 6))),
             #[cfg(feature = "zstd")]
-            Some(Compression::Zstd) => {
-                let failed = |source| failure(path, source);
-                let mut encoder = zstd::stream::write::Encoder::new(to, 3).map_err(failed)?;
-                // As the zstd tool does; else a changed byte could pass for another number.
-                encoder.include_checksum(true).map_err(failed)?;
-                Encoder::Zstd(encoder)
-            }
+            Some(Compression::Zstd) => zstd_encoder(to).map(Encoder::Zstd),
             #[cfg(not(all(feature = "xz", feature = "zstd")))]
             Some(left_out) => return Err(Error::not_built(path, left_out)),
-        })
+        };
+        made.map_err(|source| failure(path, source))
     }
 
     pub(crate) fn finish(self) -> io::Result<W> {
@@ -119,4 +115,12 @@ impl<W: Write> Write for Encoder<W> {
     fn flush(&mut self) -> io::Result<()> {
         self.writer().flush()
     }
+}
+
+#[cfg(feature = "zstd")]
+fn zstd_encoder<W: Write>(to: W) -> io::Result<zstd::stream::write::Encoder<'static, W>> {
+    let mut encoder = zstd::stream::write::Encoder::new(to, 3)?;
+    // As the zstd tool does; else a changed byte could pass for another number.
+    encoder.include_checksum(true)?;
+    Ok(encoder)
 }
