@@ -271,12 +271,12 @@ fn many_axes_of_which_the_last_is_the_widest() {
 fn pairs_of_balls_of_all_sizes() {
     let mut values: Vec<f64> = generate(Distribution::Uniform, 300, 4, 4).unwrap();
     for (row, ball) in values.chunks_exact_mut(4).enumerate() {
-        let size = [1.0, 1e-130, 1e200, 1e-300][row % 4];
+        let size = [1.0, 1e-130, 1e151, 1e-120][row % 4];
         ball.iter_mut().for_each(|x| *x *= size);
         ball[3] *= 0.3;
     }
     let set = Set::balls(values, 3);
-    agrees_on_pairs(&set, &Set::points(vec![0.0, 0.1, 0.2, 1e200, 0.0, 0.0], 3));
+    agrees_on_pairs(&set, &Set::points(vec![0.0, 0.1, 0.2, 1e151, 0.0, 0.0], 3));
 }
 
 #[test]
