@@ -159,11 +159,12 @@ fn lanes_answer_as_exact_arithmetic_or_leave_open() {
             assert_eq!((vectors.number, vectors.beyond), (fused.number, fused.beyond));
         }
     }
+    let levels = Level::filtered().len() as u32;
     assert!(
-        decided[0] > 100_000 && left[0] > 100_000,
+        decided[0] > 30_000 * levels && left[0] > 30_000 * levels,
         "both kinds were seen: {decided:?}, {left:?}"
     );
-    let vectors = Level::filtered().len() > 1;
+    let vectors = levels > 1;
     assert!(
         !vectors || decided[1] > 100_000 && left[1] > 100_000 && perturbed > 10_000,
         "{decided:?}, {left:?}, {perturbed}"
