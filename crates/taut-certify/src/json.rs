@@ -6,7 +6,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer, de::DeserializeOwn
 use serde_json::ser::{Formatter, PrettyFormatter};
 use taut_points::PointsHash;
 
-use crate::{Answer, Solution, Trace};
+use crate::{Answer, ReadingChoice, Solution, Trace};
 
 /// Version of the document; it grows by one when a reader of the old one would misread the new.
 pub const SCHEMA: u32 = 1;
@@ -62,6 +62,8 @@ struct Document<K, A, C, T> {
     answer: A,
     certificate: C,
     trace: T,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    reading: Option<ReadingChoice>,
 }
 
 impl<A: Answer> Solution<A> {
@@ -80,18 +82,31 @@ impl<A: Answer> Solution<A> {
     /// # Errors
     /// The error that `out` returns.
     pub fn write_json(&self, out: impl io::Write) -> io::Result<()> {
-        write_document(A::KIND, &self.answer, &self.certificate, &self.trace, out)
+        self.write_json_with(None, out)
+    }
+
+    /// Writes the document with how its points were read, as [`write_json`](Self::write_json).
+    ///
+    /// # Errors
+    /// The error that `out` returns.
+    pub fn write_json_with(
+        &self,
+        reading: Option<&ReadingChoice>,
+        out: impl io::Write,
+    ) -> io::Result<()> {
+        let parts = (&self.answer, &self.certificate, &self.trace);
+        write_document(A::KIND, parts, reading, out)
     }
 }
 
 pub(crate) fn write_document(
     kind: &str,
-    answer: &impl Serialize,
-    certificate: &impl Serialize,
-    trace: &Trace,
+    (answer, certificate, trace): (&impl Serialize, &impl Serialize, &Trace),
+    reading: Option<&ReadingChoice>,
     out: impl io::Write,
 ) -> io::Result<()> {
-    let document = Document { schema: SCHEMA, kind, answer, certificate, trace };
+    let reading = reading.cloned();
+    let document = Document { schema: SCHEMA, kind, answer, certificate, trace, reading };
     let mut serializer = serde_json::Serializer::with_formatter(out, RowFormatter::default());
     Ok(document.serialize(&mut serializer)?)
 }

@@ -79,6 +79,7 @@ mod kernel_ball;
 mod order;
 mod oriented;
 mod polygon;
+mod reading;
 mod rectangle;
 mod registry;
 mod robust;
@@ -123,6 +124,7 @@ pub use oriented::{
     OrientedRectangleViolation,
 };
 pub use polygon::PolygonViolation;
+pub use reading::{ReadingChoice, ScaleChoice};
 pub use rectangle::{
     InscribedRectangle, RectangleCertificate, RectangleVerdict, RectangleViolation,
 };

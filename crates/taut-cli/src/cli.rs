@@ -1,10 +1,10 @@
 //! The top of the command line: the subcommands and what is said about all of them.
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::commands::{
-    ball, centers, classify, completions, curve, delaunay, dop, draw, ellipsoid, formats, generate,
-    hand, inscribe, man, memory, near, stream, surface, tour, verify,
+    ball, centers, classify, completions, convert, curve, delaunay, dop, draw, ellipsoid, formats,
+    generate, hand, info, inscribe, man, memory, near, stream, surface, tour, verify,
 };
 use crate::exit::Outcome;
 
@@ -38,6 +38,8 @@ enum Command {
     Verify(verify::Args),
     Draw(draw::Args),
     Memory(memory::Args),
+    Info(info::Args),
+    Convert(convert::Args),
     Generate(generate::Args),
     Tour(tour::Args),
     Formats(formats::Args),
@@ -46,6 +48,13 @@ enum Command {
 }
 
 impl Cli {
+    /// Parses the words of the command line; the short help of a subcommand fits on a screen.
+    pub(crate) fn parsed() -> Result<Self, clap::Error> {
+        let mut command = short_help::shortened(Self::command());
+        let matches = command.try_get_matches_from_mut(std::env::args_os())?;
+        Self::from_arg_matches(&matches).map_err(|error| error.format(&mut command))
+    }
+
     pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
         match &self.command {
             Command::Ball(args) => args.run(),
@@ -63,6 +72,8 @@ impl Cli {
             Command::Verify(args) => args.run(),
             Command::Draw(args) => args.run(),
             Command::Memory(args) => args.run(),
+            Command::Info(args) => args.run(),
+            Command::Convert(args) => args.run(),
             Command::Generate(args) => args.run(),
             Command::Tour(args) => args.run(),
             Command::Formats(args) => args.run(),
@@ -71,6 +82,10 @@ impl Cli {
         }
     }
 }
+
+#[cfg(test)]
+mod options_table;
+mod short_help;
 
 #[cfg(test)]
 mod tests {

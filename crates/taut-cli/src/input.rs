@@ -7,3 +7,5 @@ pub(crate) mod obstacles;
 pub(crate) mod reading;
 pub(crate) mod samples;
 pub(crate) mod size;
+pub(crate) mod table;
+pub(crate) mod units;

@@ -18,10 +18,8 @@ mod watch;
 
 use std::process::ExitCode;
 
-use clap::Parser;
-
 fn main() -> ExitCode {
-    let cli = match cli::Cli::try_parse() {
+    let cli = match cli::Cli::parsed() {
         Ok(cli) => cli,
         Err(unparsed) => return exit::unparsed(&unparsed),
     };

@@ -5,4 +5,5 @@ pub(crate) mod meshes;
 pub(crate) mod numbers;
 pub(crate) mod parts;
 pub(crate) mod picture;
+pub(crate) mod tables;
 pub(crate) mod writing;

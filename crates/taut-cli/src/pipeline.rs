@@ -16,6 +16,7 @@ use crate::exit::Outcome;
 use crate::input::reading::{Opened, Reading};
 use crate::input::samples::Samples;
 use crate::output::picture::{Picture, PictureOptions};
+use crate::output::tables::{self, TableFiles, Tables, is_table};
 use crate::output::writing::{self, Outputs};
 use crate::reports::{self, Field, Report, Summary};
 use crate::watch::Watch;
@@ -77,6 +78,17 @@ pub(crate) trait Find {
         watch: &Watch,
     ) -> anyhow::Result<(Solution<Self::Answer>, Self::Extra)>;
 
+    /// The option for tables, in subcommands whose answers have some, and the names of these: the first is what `-o` writes where
+    /// its name is that of a table.
+    fn table_files(&self) -> Option<(&TableFiles, &'static [&'static str])> {
+        None
+    }
+
+    /// The parts of an answer that are tables.
+    fn tables(&self, _found: &Solution<Self::Answer>, _points: &Opened) -> Tables {
+        vec![]
+    }
+
     /// Fields of the summary beyond those of the answer.
     fn side_fields(&self, _extra: &Self::Extra) -> Vec<Field> {
         Vec::new()
@@ -95,6 +107,10 @@ pub(crate) trait Find {
             samples.write(points, outputs)?;
         }
         match self.output().out {
+            Some(out) if self.table_files().is_some() && is_table(out) => {
+                let tables = self.tables(found, points);
+                tables.first().map_or(Ok(()), |(_, first)| outputs.add_table(out, first))
+            }
             Some(out) => outputs.add_json(out, found),
             None => Ok(()),
         }
@@ -155,7 +171,12 @@ impl OutputOptions {
 pub(crate) fn run(command: &impl Find) -> anyhow::Result<Outcome> {
     let (input, output) = (command.input(), command.output());
     command.check_options()?;
-    let picture = output.check_files(input.path, &command.side_files())?;
+    let mut side_files = command.side_files();
+    if let Some((files, known)) = command.table_files() {
+        files.check(known)?;
+        side_files.extend(files.paths());
+    }
+    let picture = output.check_files(input.path, &side_files)?;
     let watch = input.effort.start()?;
     let mut clock = Clock::start();
     let points = command.open(&watch)?;
@@ -176,7 +197,8 @@ pub(crate) fn run(command: &impl Find) -> anyhow::Result<Outcome> {
 
     let report = Report { found: &found, points: &points, verdict };
     let (title, mut fields) = (report.title(), report.fields());
-    fields.extend(points.origin());
+    points.name_rows(&mut fields);
+    fields.extend(points.notes());
     fields.extend(command.side_fields(&extra));
     let drawn = match picture {
         Some(picture) => {
@@ -188,10 +210,13 @@ pub(crate) fn run(command: &impl Find) -> anyhow::Result<Outcome> {
         None => None,
     };
 
-    let mut outputs = Outputs::default();
+    let mut outputs = Outputs::of_reading(points.choice());
     // Watched to the end, so that an interrupt leaves no half of a file.
     watch.during("writing", |monitor| {
         command.write(&mut found, &extra, &points, &mut outputs, monitor)?;
+        if let Some((files, _)) = command.table_files().filter(|(files, _)| files.is_asked()) {
+            files.write(&command.tables(&found, &points), &mut outputs)?;
+        }
         match (output.draw, &drawn) {
             (Some(path), Some(drawn)) => outputs.add(path, drawn),
             _ => Ok(()),
@@ -200,11 +225,10 @@ pub(crate) fn run(command: &impl Find) -> anyhow::Result<Outcome> {
     if !outputs.is_empty() {
         clock.lap("writing");
     }
-    let side_files = command.side_files();
     // Where data go to standard output, nothing else does.
     if !output.is_standard_output() && !side_files.into_iter().any(writing::is_stream) {
         if output.json {
-            outputs.print(&(found.to_json() + "\n"));
+            outputs.print_json(&found);
         } else if !input.effort.quiet {
             fields.push(clock.field());
             outputs.print(&reports::text(&title, &fields));
@@ -236,6 +260,15 @@ pub(crate) fn check<A: Summary>(
     }
 }
 
+/// Tests whether the name of a file is one for JSON: it has its extension, or none, or is no regular file.
+pub(crate) fn names_json(path: &Path) -> bool {
+    let is_other = path.metadata().is_ok_and(|there| !there.is_file() && !there.is_dir());
+    let extension = path.extension();
+    writing::is_stream(path)
+        || is_other
+        || extension.is_none_or(|extension| extension.eq_ignore_ascii_case("json"))
+}
+
 /// An answer was rejected, which has been reported.
 pub(crate) struct Rejected;
 
@@ -261,18 +294,31 @@ impl<'a> Output<'a> {
         }
     }
 
-    /// Refuses the extension of anything else where JSON is written, except those of plain text. That an output would replace the
-    /// input is said first.
+    /// Refuses any extension but that of JSON where JSON is written. That an output would replace the input is said first.
     pub(crate) fn refuse_other_formats(&self, input: &Path) -> anyhow::Result<()> {
         self.refuse_pictures_as_json()?;
-        let Some(out) = self.out else { return Ok(()) };
+        let Some(out) = self.out.filter(|out| !names_json(out)) else { return Ok(()) };
+        writing::check_writable(&[out], &[input])?;
+        let shown = out.display();
         match Format::of_path(out).0 {
-            None | Some(Format::Whitespace) => Ok(()),
-            Some(format) => {
+            Some(format) => bail!("{shown}: -o writes JSON, no {format} file: name it .json"),
+            None => bail!("{shown}: -o writes JSON: name it .json"),
+        }
+    }
+
+    /// The same where a table may be written as well.
+    pub(crate) fn refuse_but_tables(&self, input: &Path) -> anyhow::Result<()> {
+        match self.out {
+            Some(out) if is_table(out) => Ok(()),
+            Some(out) if !names_json(out) && Picture::of_path(out).is_err() => {
                 writing::check_writable(&[out], &[input])?;
-                let name = format.name();
-                bail!("{}: -o writes JSON, no {name} file: name it .json", out.display())
+                bail!(
+                    "{}: -o writes JSON, or a table as {}; name one of these",
+                    out.display(),
+                    tables::extensions()
+                )
             }
+            _ => self.refuse_other_formats(input),
         }
     }
 

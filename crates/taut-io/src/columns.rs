@@ -76,6 +76,11 @@ impl Columns {
         Columns { parts: names.into_iter().map(Part::Name).collect() }
     }
 
+    /// A selection of columns by their numbers, from 0.
+    pub(crate) fn of_numbers(numbers: impl IntoIterator<Item = usize>) -> Self {
+        Columns { parts: numbers.into_iter().map(Part::Number).collect() }
+    }
+
     /// The selection of one column, by digits as its number, or else by its name.
     pub(crate) fn of_label(label: &str) -> Self {
         let is_number = !label.is_empty() && label.bytes().all(|b| b.is_ascii_digit());

@@ -19,7 +19,9 @@ pub use place::{FilePlace, Place};
 pub use raster::RasterError;
 pub use stream::StreamRowError;
 
-use display::{Abbreviated, Printable, columns, format_of, names, names_or_extensions, not_built};
+use display::{
+    Abbreviated, Printable, columns, format_of, if_missing, names, names_or_extensions, not_built,
+};
 use place::Row;
 
 /// Why points could not be read or a file could not be written.
@@ -287,7 +289,8 @@ pub enum Error {
     },
     /// A number is NaN, infinite, or too large for its type.
     #[error(
-        "{place}: the value is {value}, and all coordinates must be finite: repair or remove that row"
+        "{place}: the value is {value}, and all coordinates must be finite: repair or remove that row{}",
+        if_missing(value)
     )]
     NonFinite {
         /// Where.
@@ -311,11 +314,21 @@ pub enum Error {
     },
     /// A value is missing (null).
     #[error(
-        "{place}: the value is missing (null), and all coordinates must be given: fill or remove that row"
+        "{place}: the value is missing (null), and all coordinates must be given: fill it in, or leave out such rows with --missing drop"
     )]
     Missing {
         /// Where.
         place: Place,
+    },
+    /// Rows that lack a value are left out, and that leaves none.
+    #[error(
+        "{path}: each of its {rows} rows lacks a value, so that none is left: choose the columns that are coordinates"
+    )]
+    NoCompleteRows {
+        /// The file.
+        path: String,
+        /// The number of rows.
+        rows: u64,
     },
     /// An integer that no `f64` holds exactly.
     #[error("{place}: the integer {value} is not exact as f64: scale or shift that column")]
@@ -341,7 +354,7 @@ pub enum Error {
     },
     /// A field of the first row looks like a value that went wrong, so the row is neither a header nor a point.
     #[error(
-        "{path}: row 1 (line {line}), column {column} (counted from 0) holds `{value}`, which is no number and hardly a name: repair the value, or say with --header whether the row is a header"
+        "{path}: row 1 (line {line}), column {column} (counted from 0) holds `{value}`, which is no number and hardly a name: repair the value, say with --header whether the row is a header, or leave out rows that lack a value with --missing drop"
     )]
     DoubtfulHeader {
         /// The file.

@@ -98,6 +98,12 @@ pub enum Format {
     Wkt,
     /// Laser scans as the American Society for Photogrammetry and Remote Sensing has them, also compressed as LAZ.
     Las,
+    /// Clouds of the Point Cloud Library.
+    Pcd,
+    /// An archive of NumPy arrays.
+    Npz,
+    /// Points, lines and polygons of ESRI: the file `.shp`.
+    Shapefile,
 }
 
 impl Format {
@@ -182,7 +188,10 @@ impl Format {
 
     /// Returns true if its points can be those of one feature among several.
     pub(crate) fn has_features(self) -> bool {
-        matches!(self, Format::GeoJson | Format::Svg | Format::Wkt)
+        matches!(
+            self,
+            Format::GeoJson | Format::Svg | Format::Wkt | Format::Npz | Format::Shapefile
+        )
     }
 
     /// Returns true if a mesh in it can have simplices of so many vertices; a format of surfaces alone has triangles.

@@ -7,13 +7,16 @@ use std::path::{Path, PathBuf};
 use bytes::Bytes;
 use taut_points::PointSource;
 
+use crate::describe::{ColumnDescription, ColumnKind};
 use crate::device::refuse_device;
 use crate::error::shown_path;
 use crate::filter::Filter;
 use crate::joined;
-use crate::read::{self, Decoded};
+use crate::missing::{Dropped, drop_rows};
+use crate::read::{self, Decoded, numeric};
 use crate::{
-    Columns, Compression, Content, Error, FilterError, Format, Place, ReadOptions, compress, labels,
+    Columns, Compression, Content, Error, FilterError, Format, Missing, Place, ReadOptions,
+    compress, labels,
 };
 
 /// Points of a file, and what is known of it.
@@ -30,6 +33,8 @@ pub struct Input {
     pub path: String,
     /// The column of the file for each coordinate, where some were selected.
     pub(crate) numbers: Option<Vec<usize>>,
+    /// The rows that were left out of one file.
+    pub(crate) dropped: Dropped,
     /// The files of a folder, in order; empty for one file.
     pub(crate) parts: Vec<Part>,
 }
@@ -42,6 +47,8 @@ pub(crate) struct Part {
     pub(crate) path: String,
     /// As of an [`Input`].
     pub(crate) numbers: Option<Vec<usize>>,
+    /// The rows that were left out.
+    pub(crate) dropped: Dropped,
 }
 
 impl std::fmt::Debug for Input {
@@ -62,20 +69,36 @@ impl Input {
     pub(crate) fn of_mesh(source: Box<dyn PointSource>, format: Format, path: String) -> Self {
         let names = ["ax", "ay", "az", "bx", "by", "bz", "cx", "cy", "cz"];
         let columns = names.map(str::to_owned).to_vec();
-        Input { source, columns, labels: vec![], format, path, numbers: None, parts: vec![] }
+        let (labels, numbers, dropped, parts) = (vec![], None, Dropped::default(), vec![]);
+        Input { source, columns, labels, format, path, numbers, dropped, parts }
+    }
+
+    /// The number of rows that were left out because they lack a value.
+    pub fn dropped_rows(&self) -> u64 {
+        let parts: u64 = self.parts.iter().map(|part| part.dropped.count()).sum();
+        self.dropped.count() + parts
+    }
+
+    /// The number in the file of a row of the points, both from 0; in a folder that in its own file.
+    pub fn row_in_file(&self, row: u64) -> u64 {
+        let part = self.parts.partition_point(|part| part.start <= row).checked_sub(1);
+        match part.and_then(|part| self.parts.get(part)) {
+            Some(part) => part.dropped.in_file(row - part.start),
+            None => self.dropped.in_file(row),
+        }
     }
 
     /// Where coordinate `column` of point `row` (both from 0, as solvers count) stands in the file.
     pub fn describe_cell(&self, row: u64, column: usize) -> Place {
         let part = self.parts.partition_point(|part| part.start <= row).checked_sub(1);
-        let (path, start, numbers) = match part.and_then(|part| self.parts.get(part)) {
-            Some(part) => (&part.path, part.start, &part.numbers),
-            None => (&self.path, 0, &self.numbers),
+        let (path, numbers) = match part.and_then(|part| self.parts.get(part)) {
+            Some(part) => (&part.path, &part.numbers),
+            None => (&self.path, &self.numbers),
         };
         let number = numbers.as_ref().and_then(|numbers| numbers.get(column).copied());
         Place {
             path: path.clone(),
-            row: (row - start).saturating_add(1),
+            row: self.row_in_file(row).saturating_add(1),
             line: None,
             column: number.unwrap_or(column),
             name: self.columns.get(column).cloned(),
@@ -225,6 +248,30 @@ pub(crate) fn open_filtered(
     open_medium(medium, name, &display, options, filter)
 }
 
+/// The columns of a text that hold words: all but those of numbers.
+pub(crate) fn text_columns(
+    path: &Path,
+    options: &ReadOptions,
+    format: Format,
+) -> Result<Vec<ColumnDescription>, Error> {
+    let (medium, display) = Medium::open(path)?;
+    let (_, medium) = medium.decompressed(&display, Format::of_path(path).1, true)?;
+    let job = Job { path: &display, format, options };
+    let found = numeric::columns(&job, medium.stream())?;
+    let others = (0..found.first.len()).filter(|column| !found.numbers.contains(column));
+    Ok(others
+        .map(|column| ColumnDescription {
+            name: match found.has_header {
+                true => found.first[column].clone(),
+                false => column.to_string(),
+            },
+            kind: ColumnKind::Text,
+            missing: found.words[column][1],
+            range: None,
+        })
+        .collect())
+}
+
 /// Refuses a device as standard input, which no path would name.
 fn refuse_device_at_stdin() -> Result<(), Error> {
     #[cfg(unix)]
@@ -292,10 +339,14 @@ fn open_medium(
     if let Some(label) = label.filter(|_| !format.has_text_labels()) {
         decoded = labels::split(decoded, &label, display, with_label.is_some())?;
     }
+    let mut dropped = Dropped::default();
+    if options.missing == Missing::Drop {
+        (decoded, dropped) = drop_rows(&job, decoded)?;
+    }
     if !filter.keeps_all() && !format.filters_as_it_reads() {
         decoded = filter.apply(&job, decoded).map_err(nothing_kept)?;
     }
     let Decoded { source, columns, numbers, labels } = decoded;
     let (path, parts) = (display.to_owned(), vec![]);
-    Ok(Input { source, columns, labels, format, path, numbers, parts })
+    Ok(Input { source, columns, labels, format, path, numbers, dropped, parts })
 }

@@ -11,6 +11,7 @@ use taut_points::{PointSource, Points, ReadError, Rows, ScalarKind, Scratch};
 use crate::error::shown_path;
 use crate::filter::Filter;
 use crate::input::{Input, Part};
+use crate::missing::Dropped;
 use crate::{Error, FilterError, ReadOptions, input};
 
 /// Points of several sources, one behind the other.
@@ -145,9 +146,9 @@ pub(crate) fn open(
             }
             _ => {}
         }
-        let Input { source, columns, labels, format, path: name, numbers, .. } = opened?;
+        let Input { source, columns, labels, format, path: name, numbers, dropped, .. } = opened?;
         let start = starts.last().copied().unwrap_or(0);
-        parts.push(Part { start, path: name.clone(), numbers: numbers.clone() });
+        parts.push(Part { start, path: name.clone(), numbers: numbers.clone(), dropped });
         starts.push(start + source.len());
         match &mut whole {
             None => {
@@ -158,6 +159,7 @@ pub(crate) fn open(
                     format,
                     path: name,
                     numbers,
+                    dropped: Dropped::default(),
                     parts: vec![],
                 })
             }

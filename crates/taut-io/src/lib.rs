@@ -6,9 +6,11 @@
 //! | points of bytes in memory | [`open_bytes`] | the same |
 //! | rows of numbers as they come, none of them kept | [`RowStream`] | the same |
 //! | points with a label each | [`open`] with [`ReadOptions::label`] | the same; labels of text files may be any text |
+//! | what a file holds, column by column | [`describe`] | missing values and equal rows are counted |
 //! | a file | [`create`] | the earlier file stays as it was until [`AtomicFile::commit`] |
 //! | a folder of files | [`create_folder`] | the earlier folder stays as it was until [`AtomicFolder::commit`] |
 //! | points as a file | [`write_points`] | block by block, so the points may be larger than memory |
+//! | a table of results as a file | [`table_file`] | numbers are read back to the same bits |
 //! | curves of the plane as a file | [`write_polylines`] | loops within loops are holes where a format knows them |
 //! | lines with a height each as GeoJSON, place by place | [`LineFile`] | lines may be larger than memory |
 //! | a raster as `.npy` or ESRI ASCII, cells in any order | [`RasterFile`] | the raster may be larger than memory |
@@ -43,6 +45,7 @@ mod columns;
 mod compress;
 mod create;
 mod cursor;
+mod describe;
 mod device;
 mod error;
 mod filter;
@@ -52,6 +55,7 @@ mod joined;
 mod labels;
 mod limits;
 mod mesh;
+mod missing;
 mod npy_header;
 mod number;
 mod options;
@@ -71,6 +75,7 @@ pub use create::{
     AtomicFile, AtomicFolder, ScratchFolder, check_folder, check_writable, create, create_folder,
     remove_unfinished,
 };
+pub use describe::{ColumnDescription, ColumnKind, Description, describe};
 pub use device::refuse_device;
 pub use error::{Error, FilePlace, FilterError, Place, RasterError, StreamRowError};
 pub use format::{Compression, Content, Format};
@@ -80,11 +85,11 @@ pub use mesh::{
     Encoding, Mesh, MeshOptions, MeshView, SimplexSource, SpooledSimplices, mesh_file, open_mesh,
     open_mesh_bytes, open_triangles, write_mesh,
 };
-pub use options::{Bounds, Feature, Header, RawLayout, ReadOptions, Thinning};
+pub use options::{Bounds, Decimal, Feature, Header, Missing, RawLayout, ReadOptions, Thinning};
 pub use polylines::{LineFile, polylines_file, write_polylines};
 pub use raster::{RasterFile, RasterHeader, check_raster};
 pub use space::free_bytes;
 pub use spill::spill_bytes;
 pub use stream::{RowForm, RowStream};
 pub use taut_mesh::Polyline;
-pub use write::write_points;
+pub use write::{Column, Table, table_file, table_formats, write_points};

@@ -13,6 +13,12 @@ pub struct ReadOptions {
     pub format: Option<Format>,
     /// The columns that are coordinates, in this order; by default all (of parquet and arrow: all numeric ones).
     pub columns: Option<Columns>,
+    /// True to take, of the columns of a text file, those that hold numbers alone, and to pass over all others. Not beside `columns`.
+    pub numeric: bool,
+    /// What becomes of rows that lack a value. Default [`Missing::Refuse`].
+    pub missing: Missing,
+    /// The mark before the decimals of numbers in text. Default [`Decimal::Point`].
+    pub decimal: Decimal,
     /// A column of labels, by name or by number from 0: no coordinate, whatever the selection. In CSV, TSV and whitespace labels are
     /// any text; in other formats they are numbers. They are in [`Input::labels`](crate::Input::labels).
     pub label: Option<String>,
@@ -112,6 +118,31 @@ impl std::str::FromStr for Feature {
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         Ok(text.parse().map_or_else(|_| Feature::Name(text.to_owned()), Feature::Number))
     }
+}
+
+/// What becomes of rows that lack the value of a coordinate.
+///
+/// A value is missing if it is NaN, null, or in text nothing or one of the words that tables have for it: `NA`, `N/A`, `#N/A`,
+/// `<NA>`, `null`, `none`, `NaN`, `?`, `.` and `-`, in either case.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Missing {
+    /// They are an error, which names the first.
+    #[default]
+    Refuse,
+    /// They are left out. Places are told by the rows of the file all the same.
+    Drop,
+    /// They are kept, with NaN for what is missing: for those who count it.
+    Keep,
+}
+
+/// The mark before the decimals of numbers in text.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Decimal {
+    /// `1.5`
+    #[default]
+    Point,
+    /// `1,5`. A number with a point is refused then: the point could part thousands.
+    Comma,
 }
 
 /// States whether the first row of a text file holds the names of the columns.

@@ -7,19 +7,27 @@ mod chains;
 mod columnar;
 mod delimited;
 mod geojson;
+#[cfg(feature = "arrow")]
+mod geoparquet;
 mod las;
 mod lines;
 mod meshes;
 mod npy;
+mod npz;
+pub(crate) mod numeric;
 #[cfg(feature = "arrow")]
 mod parquet;
+mod pcd;
 pub(crate) mod quiet;
 mod raw;
 mod rows;
+mod shapefile;
 mod svg;
 #[cfg(feature = "arrow")]
 pub(crate) mod thrift;
 mod tsplib;
+#[cfg(feature = "arrow")]
+mod wkb;
 mod wkt;
 mod xyz;
 
@@ -58,7 +66,8 @@ pub(crate) struct Decoded {
 
 /// The format whose files begin with these bytes.
 pub(crate) fn format_of_magic(bytes: &[u8]) -> Option<Format> {
-    const MAGIC: [(&[u8], Format); 7] = [
+    const MAGIC: [(&[u8], Format); 8] = [
+        (&[0, 0, 0x27, 0x0a, 0, 0, 0, 0], Format::Shapefile),
         (b"LASF", Format::Las),
         (npy_header::MAGIC, Format::Npy),
         (b"PAR1", Format::Parquet),
@@ -76,7 +85,7 @@ pub(crate) fn format_of_magic(bytes: &[u8]) -> Option<Format> {
 
 pub(crate) fn read(job: &Job<'_>, medium: Medium, filter: &mut Filter) -> Result<Decoded, Error> {
     match job.format {
-        Format::Csv | Format::Tsv | Format::Whitespace => delimited::read(job, medium.stream()),
+        Format::Csv | Format::Tsv | Format::Whitespace => delimited::read(job, medium),
         Format::Tsplib => tsplib::read(job, medium.stream()),
         Format::Xyz => xyz::read(job, medium.stream()),
         Format::Ply | Format::Obj | Format::Off | Format::Stl => meshes::read(job, medium),
@@ -84,6 +93,9 @@ pub(crate) fn read(job: &Job<'_>, medium: Medium, filter: &mut Filter) -> Result
         Format::Wkt => wkt::read(job, medium.stream()),
         Format::Svg => svg::read(job, medium.stream()),
         Format::Las => las::read(job, medium, filter),
+        Format::Pcd => pcd::read(job, medium.stream()),
+        Format::Npz => npz::read(job, medium),
+        Format::Shapefile => shapefile::read(job, medium.stream()),
         Format::Npy => read_npy(job, medium),
         Format::Raw => read_raw(job, medium),
         #[cfg(feature = "arrow")]

@@ -6,6 +6,7 @@
 #[cfg(feature = "arrow")]
 mod columnar;
 mod npy;
+mod table;
 mod text;
 
 use std::io::Write;
@@ -19,6 +20,8 @@ use crate::error::shown_path;
 use crate::format::format_to_write;
 use crate::space::{check_space, least_bytes};
 use crate::{Compression, Content, Error, Format};
+
+pub use table::{Column, Table, table_file, table_formats};
 
 /// Bytes gathered before they are written.
 const PIECE: usize = 1 << 18;

@@ -6,6 +6,7 @@
 //! | the curves through points without noise, vertices the points themselves | [`curve()`] with [`CurveMethod::HnnCrust`] and its kin | exactly the edges of the curve, for samples as dense as the method asks for | O(n log n) |
 //! | a short tour through all points | [`curve()`] with [`CurveMethod::Tour`] | a lower bound beside it | near O(n log n) |
 //! | the surface that points of space were sampled from, vertices the points themselves | [`surface()`] | Delaunay facets with an empty ball each, so it nowhere meets itself; where it is no surface is named | O(n log n), and the triangulation |
+//! | what triangles of another program are on points | [`given_surface()`] | as they stand, with what proves them | O(n log n) |
 //!
 //! Not for: curves that cross themselves or branch.
 #![forbid(unsafe_code)]
@@ -19,5 +20,5 @@ pub use curve::{CurveMethod, CurveOptions, CurveThesisOptions, Ends, curve};
 pub use error::{Error, Span};
 pub use surface::{
     Denoise, HullOptions, Positions, SurfaceMethod, SurfaceMode, SurfaceOptions, alpha,
-    looks_one_sided, surface, thesis,
+    given_surface, looks_one_sided, surface, thesis,
 };

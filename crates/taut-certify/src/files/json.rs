@@ -21,6 +21,6 @@ impl<A: FileAnswer> FileSolution<A> {
     /// # Errors
     /// The error that `out` returns.
     pub fn write_json(&self, out: impl io::Write) -> io::Result<()> {
-        write_document(A::KIND, &self.answer, &self.certificate, &self.trace, out)
+        write_document(A::KIND, (&self.answer, &self.certificate, &self.trace), None, out)
     }
 }

@@ -9,6 +9,8 @@ use crate::effort::Effort;
 use crate::exit::Outcome;
 use crate::input::choice::choice;
 use crate::input::reading::{Opened, Points, Reading};
+use crate::input::units::UnitOptions;
+use crate::output::tables::{self, TableFiles, Tables};
 use crate::pipeline::{self, Find, Input, Output, OutputOptions};
 use crate::reports;
 use crate::watch::Watch;
@@ -55,7 +57,11 @@ pub(crate) struct Args {
     #[command(flatten)]
     kernel: kernel::KernelArgs,
     #[command(flatten)]
+    tables: TableFiles,
+    #[command(flatten)]
     output: OutputOptions,
+    #[command(flatten)]
+    units: UnitOptions,
     #[command(flatten)]
     reading: Reading,
     #[command(flatten)]
@@ -74,12 +80,30 @@ impl Find for Args {
         self.output.output()
     }
 
+    fn check_options(&self) -> anyhow::Result<()> {
+        self.units.check(&[("--balls", self.balls), ("--ellipsoids", self.ellipsoids)])?;
+        self.output().refuse_other_formats(&self.points.path)
+    }
+
+    fn open(&self, _: &Watch) -> anyhow::Result<Opened> {
+        let opened = self.reading.open(&self.points.path)?;
+        if self.balls || self.ellipsoids { Ok(opened) } else { self.units.apply(opened) }
+    }
+
     fn solve(&self, points: &Opened, watch: &Watch) -> anyhow::Result<(Solution<Ball>, ())> {
         let solve = |monitor: &Monitor<'_>| {
             ball(points.source(), &BallOptions { monitor: *monitor, ..self.options() })
         };
         let found = watch.during("solving", solve).map_err(|error| points.explain(error))?;
         Ok((found, ()))
+    }
+
+    fn table_files(&self) -> Option<(&TableFiles, &'static [&'static str])> {
+        Some((&self.tables, &["support"]))
+    }
+
+    fn tables(&self, found: &Solution<Ball>, points: &Opened) -> Tables {
+        vec![("support", tables::rows(points, &found.certificate.support))]
     }
 
     fn outcome(&self, found: &Solution<Ball>) -> Outcome {
@@ -90,7 +114,10 @@ impl Find for Args {
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<Outcome> {
         match self.kernel.of(self)? {
-            Some(kernel) => pipeline::run(&kernel),
+            Some(kernel) => {
+                self.units.check(&[("--kernel", true)])?;
+                pipeline::run(&kernel)
+            }
             None => pipeline::run(self),
         }
     }

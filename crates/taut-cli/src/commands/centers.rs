@@ -5,12 +5,16 @@ use taut::certify::Centers;
 use taut::certify::Placement;
 use taut::{CentersMethod, CentersOptions, Monitor, Solution, centers};
 
+use taut_io::{Column, Table};
+
 use crate::commands::ball::items;
 use crate::commands::elbow::{self, Range};
 use crate::effort::Effort;
 use crate::exit::Outcome;
 use crate::input::choice::choice;
 use crate::input::reading::{Opened, Points, Reading};
+use crate::input::units::UnitOptions;
+use crate::output::tables::{self, TableFiles, Tables};
 use crate::pipeline::{self, Find, Input, Output, OutputOptions};
 use crate::reports;
 use crate::watch::Watch;
@@ -20,6 +24,8 @@ use crate::watch::Watch;
 #[command(after_help = "\
 The search takes time exponential in k: seconds for ten centers in the plane, and for twenty a --max-nodes or a larger \
 --epsilon is wise. farthest-first takes any number of centers, and stream files larger than memory.
+With -o the extension chooses: .json has answer and certificate, .csv, .npy, .parquet and the like the centers alone. In tables \
+rows count from 0.
 Exit: 0 reached · 1 the check failed · 2 bad input or usage, nothing written ·
       3 stopped early by the budget of nodes, of the search or of its proof, or where rounding
         hides the gap that was asked for; the gap reached is reported
@@ -35,10 +41,10 @@ pub(crate) struct Args {
     #[arg(short, long = "k", value_name = "K", required_unless_present = "elbow")]
     k: Option<usize>,
     /// Instead of one k all of a range, both ends included: a table of radius and lower bound by k; -o writes it as CSV,
-    /// --draw plots it
+    /// or as its extension says, --draw plots it
     #[arg(
         long, value_name = "K1..K2", value_parser = elbow::range,
-        conflicts_with_all = ["k", "json", "assignment"]
+        conflicts_with_all = ["k", "assignment", "files"]
     )]
     elbow: Option<Range>,
     /// Proved relative gap to reach, in [0, 1): radius ≤ (1 + ε) · least; 0 is exact to rounding
@@ -76,7 +82,11 @@ pub(crate) struct Args {
     #[arg(long)]
     assignment: bool,
     #[command(flatten)]
+    tables: TableFiles,
+    #[command(flatten)]
     output: OutputOptions,
+    #[command(flatten)]
+    units: UnitOptions,
     #[command(flatten)]
     reading: Reading,
     #[command(flatten)]
@@ -97,9 +107,18 @@ impl Find for Args {
 
     fn check_options(&self) -> anyhow::Result<()> {
         self.check_method()?;
+        self.units.check(&self.rows_are_more())?;
         match self.elbow {
             Some(_) => self.output().refuse_pictures_as_json(),
-            None => self.output().refuse_other_formats(&self.points.path),
+            None => self.output().refuse_but_tables(&self.points.path),
+        }
+    }
+
+    fn open(&self, _: &Watch) -> anyhow::Result<Opened> {
+        let opened = self.reading.open(&self.points.path)?;
+        match self.rows_are_more().iter().any(|(_, is)| *is) {
+            true => Ok(opened),
+            false => self.units.apply(opened),
         }
     }
 
@@ -113,9 +132,45 @@ impl Find for Args {
         Ok((found, ()))
     }
 
+    fn table_files(&self) -> Option<(&TableFiles, &'static [&'static str])> {
+        Some((&self.tables, &["centers", "assignment", "outliers", "core-set"]))
+    }
+
+    fn tables(&self, found: &Solution<Centers>, points: &Opened) -> Tables {
+        tables_of(found, points)
+    }
+
     fn outcome(&self, found: &Solution<Centers>) -> Outcome {
         reports::outcome(found.trace.stop, found.certificate.gap, self.epsilon)
     }
+}
+
+/// The tables of an answer: an assignment is there if it was asked for.
+fn tables_of(found: &Solution<Centers>, points: &Opened) -> Tables {
+    let answer = &found.answer;
+    let numbers = (0..answer.centers.len() as u64).collect();
+    let centers = Table::new().with("center", Column::Whole(numbers));
+    let centers = match answer.rows.is_empty() {
+        true => centers,
+        false => {
+            let row = |&row: &u64| points.row(row) - 1;
+            centers.with("row", Column::Whole(answer.rows.iter().map(row).collect()))
+        }
+    };
+    let mut all = vec![
+        ("centers", tables::with_places(centers, points, &answer.centers)),
+        ("outliers", tables::rows(points, &answer.outliers)),
+        ("core-set", tables::rows(points, &found.certificate.core_set)),
+    ];
+    if !answer.assignment.is_empty() {
+        let every: Vec<u64> = (0..answer.assignment.len() as u64).collect();
+        let center = answer.assignment.iter().map(|&center| center.into()).collect();
+        all.push((
+            "assignment",
+            tables::rows(points, &every).with("center", Column::Whole(center)),
+        ));
+    }
+    all
 }
 
 impl Args {
@@ -123,7 +178,9 @@ impl Args {
         match &self.elbow {
             Some(range) => {
                 self.check_options()?;
-                elbow::run(range, &|points| self.options_for(points), self.input(), self.output())
+                let open = |watch: &Watch| self.open(watch);
+                let options = |points: &Opened| self.options_for(points);
+                elbow::run(range, &open, &options, self.input(), self.output())
             }
             None => pipeline::run(self),
         }
@@ -144,10 +201,20 @@ impl Args {
             outliers: self.outliers,
             weights: self.weights,
             max_nodes: self.max_nodes,
-            assignment: self.assignment,
+            assignment: self.assignment || self.tables.has("assignment"),
             // The threads are those of the pool, which reading and checking use as well.
             ..CentersOptions::default()
         }
+    }
+
+    /// The options by which a row is more than a point.
+    fn rows_are_more(&self) -> [(&'static str, bool); 4] {
+        [
+            ("--balls", self.balls),
+            ("--ellipsoids", self.ellipsoids),
+            ("--weights", self.weights),
+            ("--group", self.group.is_some()),
+        ]
     }
 
     /// Returns what some methods do not do, in the words of the command line.
@@ -158,7 +225,7 @@ impl Args {
             ("--ellipsoids", self.ellipsoids),
             ("--weights", self.weights),
             ("--outliers", self.outliers > 0),
-            ("--assignment", self.assignment),
+            ("--assignment", self.assignment || self.tables.has("assignment")),
             ("--group", self.group.is_some()),
         ];
         let (names, knows) = match self.method {

@@ -8,15 +8,18 @@ use taut::certify::Centers;
 use taut::certify::Stop;
 use taut::{CentersOptions, Items, Solution, centers};
 use taut_draw::{ElbowStep, elbow_figure};
+use taut_io::{Column, Format, Table};
 
 use crate::clock::Clock;
 use crate::exit::Outcome;
 use crate::input::reading::Opened;
 use crate::output::numbers::{count, counted, exact, gap, short};
 use crate::output::picture::{self, Drawing, PictureOptions};
+use crate::output::tables::{self, is_table};
 use crate::output::writing::Outputs;
-use crate::pipeline::{Input, Output, check};
+use crate::pipeline::{Input, Output, check, names_json};
 use crate::reports::{self, Field, noun};
+use crate::watch::Watch;
 
 /// From the first k to the last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -95,22 +98,24 @@ fn carry_over(rows: &mut [Row]) {
 /// Opens, solves and checks for each k, writes and says.
 pub(crate) fn run(
     range: &Range,
+    open: &dyn Fn(&Watch) -> anyhow::Result<Opened>,
     options_for: &dyn Fn(&Opened) -> anyhow::Result<CentersOptions<'static>>,
     input: Input<'_>,
     output: Output<'_>,
 ) -> anyhow::Result<Outcome> {
     let picture = output.check_files(input.path, &[])?;
     if let Some(out) = output.out
-        && out.extension().is_some_and(|extension| extension == "json")
+        && !(is_table(out) || names_json(out))
     {
         bail!(
-            "{}: -o writes the table of --elbow as CSV; the answer of one k is JSON",
-            out.display()
+            "{}: -o writes the table of --elbow as .json, {}; name one of these",
+            out.display(),
+            tables::extensions()
         );
     }
     let watch = input.effort.start()?;
     let mut clock = Clock::start();
-    let points = input.reading.open(input.path)?;
+    let points = open(&watch)?;
     let options = options_for(&points)?;
     clock.lap("reading");
     let mut rows = Vec::new();
@@ -148,13 +153,21 @@ pub(crate) fn run(
         .transpose()?;
     let mut outputs = Outputs::default();
     if let Some(out) = output.out {
-        outputs.add(out, csv(&rows).as_bytes())?;
+        let is_json = out.extension().is_some_and(|name| name.eq_ignore_ascii_case("json"));
+        match Format::of_path(out) {
+            _ if is_json => outputs.add(out, json(&rows).as_bytes())?,
+            // The gap is left empty where there is none, which no column of numbers can be.
+            (Some(Format::Csv), None) | (None, _) => outputs.add(out, csv(&rows).as_bytes())?,
+            _ => outputs.add_table(out, &rows_as_table(&rows))?,
+        }
     }
     if let (Some(path), Some(drawn)) = (output.draw, drawn) {
         outputs.add(path, &drawn)?;
     }
     // Where the table goes to standard output, nothing else does.
-    if !output.is_standard_output() && !input.effort.quiet {
+    if !output.is_standard_output() && output.json {
+        outputs.print(&json(&rows));
+    } else if !output.is_standard_output() && !input.effort.quiet {
         outputs.print(&format!("{title}\n{}", table(&rows, options.epsilon)));
         let fields: Vec<Field> = [end_of(&rows, range), Some(verified), Some(clock.field())]
             .into_iter()
@@ -225,6 +238,32 @@ fn csv(rows: &[Row]) -> String {
         text += &format!("{k},{radius},{lower_bound},{gap},{stop},{nodes},{core_set}\n");
     }
     text
+}
+
+/// The table as a list of objects.
+fn json(rows: &[Row]) -> String {
+    let row = |row: &Row| {
+        let Row { step: ElbowStep { k, radius, lower_bound }, stop, nodes, core_set } = row;
+        serde_json::json!({
+            "k": k, "radius": radius, "lower_bound": lower_bound, "gap": row.gap(),
+            "stop": name_of(*stop), "nodes": nodes, "core_set": core_set,
+        })
+    };
+    format!("{:#}\n", serde_json::Value::Array(rows.iter().map(row).collect()))
+}
+
+/// The table in columns; the gap is NaN where there is none.
+fn rows_as_table(rows: &[Row]) -> Table {
+    let whole = |value: fn(&Row) -> u64| Column::Whole(rows.iter().map(value).collect());
+    let real = |value: fn(&Row) -> f64| Column::Real(rows.iter().map(value).collect());
+    Table::new()
+        .with("k", whole(|row| row.step.k))
+        .with("radius", real(|row| row.step.radius))
+        .with("lower_bound", real(|row| row.step.lower_bound))
+        .with("gap", real(|row| row.gap().unwrap_or(f64::NAN)))
+        .with("stop", Column::Text(rows.iter().map(|row| name_of(row.stop).to_owned()).collect()))
+        .with("nodes", whole(|row| row.nodes))
+        .with("core_set", whole(|row| row.core_set as u64))
 }
 
 /// The word that the JSON of an answer has for it.

@@ -12,6 +12,7 @@ use crate::effort::Effort;
 use crate::exit::Outcome;
 use crate::input::choice::choice;
 use crate::input::reading::{Opened, Points, Reading};
+use crate::output::tables::{self, TableFiles, Tables};
 use crate::pipeline::{self, Find, Input, Output, OutputOptions};
 use crate::reports;
 use crate::watch::Watch;
@@ -52,6 +53,8 @@ pub(crate) struct Args {
     #[arg(long, value_name = "N", default_value_t = EllipsoidOptions::default().seed)]
     seed: u64,
     #[command(flatten)]
+    tables: TableFiles,
+    #[command(flatten)]
     output: OutputOptions,
     #[command(flatten)]
     robust: Robust,
@@ -85,6 +88,14 @@ impl Find for Enclosing<'_> {
         Ok((found, ()))
     }
 
+    fn table_files(&self) -> Option<(&TableFiles, &'static [&'static str])> {
+        Some((&self.0.tables, &["support"]))
+    }
+
+    fn tables(&self, found: &Solution<Ellipsoid>, points: &Opened) -> Tables {
+        vec![("support", tables::rows(points, &found.certificate.support))]
+    }
+
     fn outcome(&self, found: &Solution<Ellipsoid>) -> Outcome {
         reports::outcome(found.trace.stop, found.certificate.gap, self.0.epsilon)
     }
@@ -115,6 +126,14 @@ impl Find for RobustSolver<'_> {
         };
         let found = watch.during("solving", solve).map_err(|error| points.explain(error))?;
         Ok((found, ()))
+    }
+
+    fn table_files(&self) -> Option<(&TableFiles, &'static [&'static str])> {
+        Some((&self.0.tables, &["outliers"]))
+    }
+
+    fn tables(&self, found: &Solution<RobustEllipsoid>, points: &Opened) -> Tables {
+        vec![("outliers", tables::rows(points, &found.answer.flagged))]
     }
 
     fn outcome(&self, found: &Solution<RobustEllipsoid>) -> Outcome {

@@ -41,7 +41,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "T", allow_negative_numbers = true)]
     thickness: Option<f64>,
     /// Number of clusters, clouds or towns, at least 1 [default: 5; √N / 4, at least 10; √(N / 50), at least 8]
-    #[arg(long, value_name = "K")]
+    #[arg(long = "clusters", alias = "count", value_name = "K")]
     count: Option<u64>,
     /// Standard deviation of a cluster, at least 0 [default: 0.05]
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
@@ -66,7 +66,12 @@ pub(crate) struct Args {
     #[arg(long, value_name = "SHAPE", value_parser = shapes())]
     shape: Option<String>,
     /// Share of the points of a curve that have nothing to do with it, from 0 to 1 [default: 0]
-    #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
+    #[arg(
+        long = "outlier-share",
+        alias = "outliers",
+        value_name = "SHARE",
+        allow_negative_numbers = true
+    )]
     outliers: Option<f64>,
     /// Make balls: a last column of radii, equal:R, uniform:A:B or exponential:MEAN
     #[arg(long, value_name = "LAW")]

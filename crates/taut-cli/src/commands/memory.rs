@@ -16,8 +16,8 @@ use crate::exit::Outcome;
 /// Sort, transpose and sample more than memory holds; order points; count cache misses.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-`sort` and `transpose` stay within a limit on memory. Subcommands is written appears whole or not at all.
-Example: taut memory sort records.bin --width 32 --memory 256M -o sorted.bin")]
+`sort` and `transpose` stay within a limit on memory. What is written appears whole or not at all.
+Example: taut memory sort records.bin --item-bytes 32 --memory 256M -o sorted.bin")]
 pub(crate) struct Args {
     #[command(subcommand)]
     what: Subcommands,

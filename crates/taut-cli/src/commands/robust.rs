@@ -17,7 +17,13 @@ pub(crate) struct Robust {
     robust: Option<RobustMethod>,
     /// About which part of the points is kept: mcd and mve take 0.5, where most outliers are borne, to 1; trim takes
     /// what is above 0 up to 1 [default: 0.5; trim 0.9]
-    #[arg(long, value_name = "PART", requires = "robust", allow_negative_numbers = true)]
+    #[arg(
+        long = "keep",
+        alias = "coverage",
+        value_name = "PART",
+        requires = "robust",
+        allow_negative_numbers = true
+    )]
     coverage: Option<f64>,
     /// Part of normal points that the ellipsoid of mcd and mve is to hold, in [0.5, 1) [default: 0.975]
     #[arg(long, value_name = "PART", requires = "robust", allow_negative_numbers = true)]

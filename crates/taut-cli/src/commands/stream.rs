@@ -27,13 +27,13 @@ const WRITE_BYTES: usize = 1 << 16;
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Points come once, from standard input, as lines of numbers or, with --raw, as little-endian f64. The stream must say where no \
-more points will come: --sorted x promises that x never falls. With --cells L the box is cut into 2^L cells along each axis, and \
+more points will come: --sorted x promises that x never falls. With --depth L the box is cut into 2^L cells along each axis, and \
 a row of NaN and a number, nan,17 in the plane and nan,17,0 in space, says that cell 17 is complete; cells are counted along x \
 first. Points are numbered from 0 in the order they come; such rows are not counted.
 Simplices leave as lines of the numbers of their vertices, positively oriented, or with --raw-out as little-endian u64. Of equal \
 points the first stands for all. The summary goes to standard error.
 Exit: 0 done · 2 bad input or usage: what was finished before has left
-Example: sort -g points.csv | taut stream --within 0,0,1,1 --sorted x > triangles.csv
+Example: sort -g points.csv | taut stream --box 0,0,1,1 --sorted x > triangles.csv
 See: docs/delaunay.md for the order of points, and taut delaunay for points in files")]
 pub(crate) struct Args {
     /// Where points come from; - is standard input
@@ -41,7 +41,8 @@ pub(crate) struct Args {
     points: PathBuf,
     /// A box that holds all points: the smallest coordinates, then the largest
     #[arg(
-        long,
+        long = "box",
+        alias = "within",
         value_name = "X,Y,..",
         value_delimiter = ',',
         allow_negative_numbers = true,
@@ -52,7 +53,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "AXIS", value_parser = ["x", "y", "z"], required_unless_present = "cells")]
     sorted: Option<String>,
     /// Points come cell by cell, of 2^L along each axis, and the stream says which are complete
-    #[arg(long, value_name = "L", conflicts_with = "sorted")]
+    #[arg(long = "depth", alias = "cells", value_name = "L", conflicts_with = "sorted")]
     cells: Option<u32>,
     /// Most memory, at least 32M
     #[arg(long, value_name = "SIZE", default_value = MEMORY_DEFAULT, value_parser = size::parse)]
@@ -72,7 +73,7 @@ impl Args {
         match self.within.len() {
             4 => self.run_in::<2>(),
             6 => self.run_in::<3>(),
-            n => bail!("--within has {n} numbers: 4 are a box of the plane, 6 one of space"),
+            n => bail!("--box has {n} numbers: 4 are a box of the plane, 6 one of space"),
         }
     }
 
@@ -193,7 +194,7 @@ fn fields(totals: &Totals, counts: StreamCounts) -> Vec<Field> {
         Field::new("simplices", count(totals.simplices)).remark(first),
         Field::new("hull", counted(totals.hull, "facet")),
         Field::new("unfinished", count(counts.front_most)).remark("sites at most"),
-        Field::new("hash", totals.fingerprint.to_string())
+        Field::new("fingerprint", totals.fingerprint.to_string())
             .remark("of the simplices, whatever their order"),
     ]
 }

@@ -61,7 +61,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "RADIUS", allow_negative_numbers = true)]
     alpha: Option<f64>,
     /// Of thesis and hull, by which part of its radius the sphere of a triangle is shrunk before it has to be empty [default: 2e-5]
-    #[arg(long, value_name = "REAL", allow_negative_numbers = true)]
+    #[arg(long = "shrink", alias = "epsilon", value_name = "REAL", allow_negative_numbers = true)]
     epsilon: Option<f64>,
     /// Of thesis, the angle in radians below which two triangles at an edge are on slivers [default: π/12]
     #[arg(long, value_name = "ANGLE", allow_negative_numbers = true)]
@@ -154,13 +154,15 @@ impl Args {
             ("open", self.open),
             ("closed", self.closed),
             ("alpha", self.alpha.is_some()),
-            ("epsilon", self.epsilon.is_some()),
+            ("shrink", self.epsilon.is_some()),
             ("sliver-angle", self.sliver_angle.is_some()),
             ("forbidden-angle", self.forbidden_angle.is_some()),
             ("priority", self.priority.is_some()),
             ("restarts", self.restarts),
         ];
         check_method_options(self.method.name(), &options, |option, method| {
+            // The library knows what a sphere is shrunk by under another name.
+            let option = if option == "shrink" { "epsilon" } else { option };
             SurfaceOptions::methods_of(option).contains(method)
         })
     }

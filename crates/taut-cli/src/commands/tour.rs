@@ -36,16 +36,16 @@ use stations::{STATIONS, Station, Tool};
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Exit: 0 each answer verified · 1 a check failed
-Example: taut tour --open")]
+Example: taut tour --browse")]
 pub(crate) struct Args {
     /// The page
     #[arg(short, long, value_name = "FILE", default_value = "tour.html")]
     out: PathBuf,
     /// Show the page in the browser
-    #[arg(long)]
+    #[arg(long = "browse", alias = "open")]
     open: bool,
     /// Write the samples to this folder too, to try the commands of the page
-    #[arg(long, value_name = "DIR")]
+    #[arg(long = "sample-folder", alias = "samples", value_name = "FOLDER")]
     samples: Option<PathBuf>,
     #[command(flatten)]
     effort: Effort,
@@ -116,7 +116,9 @@ impl Args {
             bail!("{name}: the tour is a page of HTML; name it .html");
         }
         if self.open && writing::is_stream(&self.out) {
-            bail!("--open shows a file, but the page goes to standard output: name a file with -o");
+            bail!(
+                "--browse shows a file, but the page goes to standard output: name a file with -o"
+            );
         }
         if let Some(folder) = &self.samples {
             std::fs::create_dir_all(folder)
@@ -416,7 +418,7 @@ fn page(sections: Vec<Section>) -> String {
                 outliers it proves all but that no other half of the points lies closer together."
             .to_owned(),
         sections,
-        footer: format!("Made by taut {}: taut tour. The samples: taut tour --samples DIR.", env!("CARGO_PKG_VERSION")),
+        footer: format!("Made by taut {}: taut tour. The samples: taut tour --sample-folder FOLDER.", env!("CARGO_PKG_VERSION")),
     })
 }
 

@@ -6,8 +6,7 @@ use std::sync::Arc;
 
 use anyhow::{anyhow, bail};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use taut::certify::Fault;
-use taut::certify::Violation;
+use taut::certify::{Fault, ReadingChoice, ScaleChoice, Violation};
 use taut::enclose::Error as SolveError;
 use taut::inscribe::Error as InscribeError;
 use taut::points::{InputError, ReadError, ScalarKind, shown_number};
@@ -19,9 +18,11 @@ use taut_io::{
 use crate::input::heights::HeightColumn;
 use crate::input::obstacles::Obstacles;
 use crate::input::size;
+use crate::input::table::{NUMERIC, TableOptions};
+use crate::input::units;
 use crate::output::numbers::{bytes, coordinates};
 use crate::output::writing;
-use crate::reports::Field;
+use crate::reports::{Field, remark_of_rows, share};
 use crate::watch::Watch;
 
 #[derive(Clone, Debug, clap::Args)]
@@ -30,9 +31,12 @@ pub(crate) struct Reading {
     /// Format of the points; `taut formats` lists them [default: told by the name]
     #[arg(long, value_name = "F", value_parser = formats(Format::reads), hide_possible_values = true)]
     format: Option<Format>,
-    /// Columns that are coordinates, by name, number from 0 or range: x,y,z or 0-2,5 or 1- [default: all]
+    /// Columns that are coordinates, by name, number from 0 or range: x,y,z or 0-2,5 or 1-; or `numeric`, those of a text file that hold
+    /// numbers alone [default: all]
     #[arg(long, value_name = "LIST")]
-    columns: Option<Columns>,
+    columns: Option<String>,
+    #[command(flatten)]
+    table: TableOptions,
     /// Of a GeoJSON, WKT or SVG file the feature to read, by its number from 0 or its name: in GeoJSON the property `name`, in SVG
     /// the id of a path [default: the only one]
     #[arg(long, value_name = "NAME|NUMBER")]
@@ -56,7 +60,7 @@ pub(crate) struct Reading {
     #[arg(long, value_name = "D")]
     raw_dim: Option<usize>,
     /// Type of a coordinate in a raw file, little-endian
-    #[arg(long, value_name = "TYPE", value_parser = scalar())]
+    #[arg(long = "type", alias = "raw-type", value_name = "TYPE", value_parser = scalar())]
     raw_type: Option<ScalarKind>,
     /// Bytes before the first coordinate in a raw file [default: 0]
     #[arg(long, value_name = "BYTES")]
@@ -111,18 +115,22 @@ impl Reading {
         Self { height: height.map(str::to_owned), ..self.clone() }
     }
 
-    fn options(&self) -> anyhow::Result<ReadOptions> {
+    pub(crate) fn options(&self) -> anyhow::Result<ReadOptions> {
         let raw = match (self.raw_dim, self.raw_type) {
             (Some(dim), Some(scalar)) => {
                 Some(RawLayout { dim, scalar, offset: self.raw_offset.unwrap_or(0) })
             }
             (None, None) if self.raw_offset.is_none() => None,
-            _ => return Err(anyhow!("a raw file needs both --raw-dim D and --raw-type f32|f64")),
+            _ => return Err(anyhow!("a raw file needs both --raw-dim D and --type f32|f64")),
         };
+        let columns = self.columns.as_deref().filter(|columns| *columns != NUMERIC);
         Ok(ReadOptions {
             format: self.format.or(raw.map(|_| Format::Raw)),
-            columns: self.columns.clone(),
-            label: None,
+            numeric: self.columns.as_deref() == Some(NUMERIC),
+            columns: columns.map(str::parse).transpose()?,
+            label: self.table.id.clone(),
+            missing: self.table.missing(),
+            decimal: self.table.decimal(),
             header: self.header,
             memory: self.memory,
             feature: self.select.clone(),
@@ -139,7 +147,21 @@ impl Reading {
         if path == Path::new("-") && std::io::stdin().is_terminal() {
             writing::print_error("reading points from the terminal; Ctrl-D ends them");
         }
-        Ok(Opened::of(taut_io::open(path, &self.options()?)?))
+        let opened = Opened::of(taut_io::open(path, &self.options()?)?);
+        opened.chosen(self.choice(), self.table.units.as_ref())
+    }
+
+    /// Returns what was chosen, for the JSON of an answer.
+    fn choice(&self) -> Option<ReadingChoice> {
+        let choice = ReadingChoice { columns: self.columns.clone(), ..self.table.choice() };
+        (choice != ReadingChoice::default()).then_some(choice)
+    }
+
+    /// The same, with what was chosen for an answer where nothing else is asked for.
+    pub(crate) fn as_for(&self, choice: Option<&ReadingChoice>) -> Self {
+        let Some(choice) = choice else { return self.clone() };
+        let columns = self.columns.clone().or_else(|| choice.columns.clone());
+        Self { columns, table: self.table.as_for(choice), ..self.clone() }
     }
 
     /// The same, but says before how much disk the points of a laser scan take while the work lasts, and refuses what surely does
@@ -183,6 +205,9 @@ impl Reading {
         names: &[String],
     ) -> anyhow::Result<Opened> {
         let mut options = self.options()?;
+        if options.label.is_some() {
+            bail!("--id names points of answers, not of classes: leave it out");
+        }
         options.label = label.map(str::to_owned);
         if options.columns.is_none() && !names.is_empty() {
             let columns = Some(Columns::of_names(names.iter().cloned()));
@@ -231,15 +256,41 @@ impl Reading {
 /// Points that were opened, and what is known of their file.
 pub(crate) struct Opened {
     input: Input,
-    /// What is known of how they were made of other points.
-    origin: Option<Field>,
+    /// What is known of how they were read, or made of other points.
+    notes: Vec<Field>,
+    /// The choices that were made when they were read.
+    choice: Option<ReadingChoice>,
     /// The points with their heights, where one column is a height.
     heights: Option<HeightColumn>,
 }
 
 impl Opened {
     fn of(input: Input) -> Self {
-        Opened { input, origin: None, heights: None }
+        let notes = missing_rows(&input).into_iter().collect();
+        Opened { input, notes, choice: None, heights: None }
+    }
+
+    /// The same points, with how they were chosen, and in units if there are some.
+    fn chosen(
+        mut self,
+        choice: Option<ReadingChoice>,
+        units: Option<&ScaleChoice>,
+    ) -> anyhow::Result<Self> {
+        self.choice = choice;
+        match units {
+            Some(units) => self.in_units(units.clone()),
+            None => Ok(self),
+        }
+    }
+
+    /// The same points with each column divided by its unit.
+    pub(crate) fn in_units(mut self, scale: ScaleChoice) -> anyhow::Result<Self> {
+        let names = self.names(self.input.source.dim());
+        self.notes.push(units::note(&scale, &names));
+        let scaled = units::Scaled::new(self.input.source, scale.units.clone());
+        self.input.source = Box::new(scaled.map_err(|why| anyhow!("{}: {why}", self.input.path))?);
+        self.choice.get_or_insert_default().scale = Some(scale);
+        Ok(self)
     }
 
     pub(crate) fn of_bytes(bytes: &[u8], name: &str) -> anyhow::Result<Self> {
@@ -247,14 +298,43 @@ impl Opened {
         Ok(Opened::of(input))
     }
 
-    /// The same points, with what is known of how they were made of others.
-    pub(crate) fn made(self, origin: Field) -> Self {
-        Opened { origin: Some(origin), ..self }
+    /// The same points, with one thing more that is known of how they were made.
+    pub(crate) fn noted(mut self, note: Field) -> Self {
+        self.notes.push(note);
+        self
     }
 
-    /// What is known of how the points were made of others.
-    pub(crate) fn origin(&self) -> Option<Field> {
-        self.origin.clone()
+    /// What is known of how the points were read, or made of others.
+    pub(crate) fn notes(&self) -> Vec<Field> {
+        self.notes.clone()
+    }
+
+    /// The choices that were made when they were read, for the JSON of an answer.
+    pub(crate) fn choice(&self) -> Option<ReadingChoice> {
+        self.choice.clone()
+    }
+
+    /// Has fields name rows by their numbers in the file and, where rows have names, by these.
+    pub(crate) fn name_rows(&self, fields: &mut [Field]) {
+        if self.input.dropped_rows() == 0 && self.labels().is_empty() {
+            return;
+        }
+        for field in fields.iter_mut().filter(|field| !field.rows.is_empty()) {
+            let own = remark_of_rows(&field.rows, |row| row.saturating_add(1).to_string());
+            let named = remark_of_rows(&field.rows, |row| self.row_name(row));
+            if let (Some(remark), Some(own), Some(named)) = (&mut field.remark, own, named) {
+                *remark = remark.replacen(&own, &named, 1);
+            }
+        }
+    }
+
+    /// The number of a row in the file, from 1, and its name if it has one.
+    pub(crate) fn row_name(&self, row: u64) -> String {
+        let name = usize::try_from(row).ok().and_then(|row| self.labels().get(row));
+        match name {
+            Some(name) => format!("{} ({name})", self.row(row)),
+            None => self.row(row).to_string(),
+        }
     }
 
     /// The same file with other points.
@@ -437,9 +517,9 @@ impl Opened {
         }
     }
 
-    /// The number of a row in the file.
-    fn row(&self, row: u64) -> u64 {
-        self.input.describe_cell(row, 0).row
+    /// The number of a row in the file, from 1.
+    pub(crate) fn row(&self, row: u64) -> u64 {
+        self.input.row_in_file(row).saturating_add(1)
     }
 
     /// Numbers of rows in the file; of many, the first few.
@@ -458,9 +538,10 @@ impl Opened {
     /// A coordinate that is NaN or infinite.
     pub(crate) fn not_finite(&self, row: u64, column: usize, value: f64) -> anyhow::Error {
         anyhow!(
-            "{}: the value is {value}, and all coordinates must be finite: repair or remove that row, or \
+            "{}: the value is {value}, and all coordinates must be finite: repair or remove that row{}, or \
              choose other columns with --columns",
-            self.input.describe_cell(row, column)
+            self.input.describe_cell(row, column),
+            if value.is_nan() { ", leave out such rows with --missing drop" } else { "" }
         )
     }
 
@@ -469,7 +550,7 @@ impl Opened {
         let points = self.name();
         match violation.fault(self.input.source.len()) {
             // Points count from 0, rows of a file from 1.
-            Fault::Row(row) => format!("{points}, row {}: {violation}", self.row(row)),
+            Fault::Row(row) => format!("{points}, row {}: {violation}", self.row_name(row)),
             Fault::Points => format!("{points} does not belong to {answer}: {violation}"),
             Fault::Answer => format!("{answer}: {violation}"),
         }
@@ -483,6 +564,18 @@ impl Opened {
             other => anyhow!("{}: {other}", self.name()),
         }
     }
+}
+
+/// Says how many rows were left out because they lack a value.
+fn missing_rows(input: &Input) -> Option<Field> {
+    let dropped = input.dropped_rows();
+    let all = input.source.len() + dropped;
+    (dropped > 0).then(|| {
+        Field::new("missing", share(dropped, all)).remark(format!(
+            "row{} left out, as a value is missing; rows are numbered as in the file",
+            if dropped == 1 { "" } else { "s" }
+        ))
+    })
 }
 
 /// Returns what a library says of an option, under the name that the command line gives it.

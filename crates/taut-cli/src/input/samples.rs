@@ -59,7 +59,7 @@ impl Samples {
         let text = rings(&found, opened.name())?;
         let name = format!("the polygon through {}.csv", opened.name());
         let polygon = Opened::of_bytes(text.as_bytes(), &name)?;
-        Ok(polygon.made(said(&found, verdict.doubt.map(|doubt| doubt.to_string()))))
+        Ok(polygon.noted(said(&found, verdict.doubt.map(|doubt| doubt.to_string()))))
     }
 
     /// The file of the polygon, if it is asked for.

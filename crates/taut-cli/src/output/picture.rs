@@ -31,14 +31,14 @@ pub(crate) struct PictureOptions {
     #[arg(long, value_name = "NAME", default_value = "light", value_parser = themes())]
     theme: Theme,
     /// Width, pixels, from 240 to 10000
-    #[arg(long, value_name = "PX", default_value_t = DrawOptions::default().width)]
+    #[arg(long = "image-width", alias = "width", value_name = "PX", default_value_t = DrawOptions::default().width)]
     width: f64,
     /// Height without the caption, pixels, from 180 to 10000
-    #[arg(long, value_name = "PX", default_value_t = DrawOptions::default().height)]
+    #[arg(long = "image-height", alias = "height", value_name = "PX", default_value_t = DrawOptions::default().height)]
     height: f64,
     /// Pixels of a PNG for each pixel of width, from 0.1 to 10
     #[cfg(feature = "png")]
-    #[arg(long, value_name = "REAL", default_value_t = 2.0)]
+    #[arg(long = "image-scale", alias = "scale", value_name = "REAL", default_value_t = 2.0)]
     scale: f32,
     /// Most points drawn, at least 1; the support is always drawn
     #[arg(long, value_name = "N", default_value_t = DrawOptions::default().max_points)]

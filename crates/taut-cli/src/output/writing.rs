@@ -9,8 +9,8 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{anyhow, bail};
 use taut::Solution;
-use taut::certify::Answer;
-use taut_io::{AtomicFile, AtomicFolder, Error};
+use taut::certify::{Answer, ReadingChoice};
+use taut_io::{AtomicFile, AtomicFolder, Error, Table};
 
 use crate::watch::interrupted;
 
@@ -75,9 +75,16 @@ pub(crate) struct Outputs {
     files: Vec<AtomicFile>,
     folders: Vec<AtomicFolder>,
     words: Vec<u8>,
+    /// How the points of the answers were read.
+    reading: Option<ReadingChoice>,
 }
 
 impl Outputs {
+    /// Outputs of answers about points that were read in some way.
+    pub(crate) fn of_reading(reading: Option<ReadingChoice>) -> Self {
+        Outputs { reading, ..Outputs::default() }
+    }
+
     /// Prepares the file `path`; `-` is standard output.
     pub(crate) fn add(&mut self, path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
         if is_stream(path) {
@@ -102,7 +109,7 @@ impl Outputs {
         found: &Solution<A>,
     ) -> anyhow::Result<()> {
         if is_stream(path) {
-            self.words.extend_from_slice((found.to_json() + "\n").as_bytes());
+            self.print_json(found);
             return Ok(());
         }
         if interrupted() {
@@ -110,12 +117,28 @@ impl Outputs {
         }
         let mut file = taut_io::create(path)?;
         found
-            .write_json(&mut file)
+            .write_json_with(self.reading.as_ref(), &mut file)
             .and_then(|()| file.write_all(b"\n"))
             .and_then(|()| file.flush())
             .map_err(|source| failed(file.path(), &source))?;
         self.hold(file);
         Ok(())
+    }
+
+    /// Prepares the file `path` with a table.
+    pub(crate) fn add_table(&mut self, path: &Path, table: &Table) -> anyhow::Result<()> {
+        if interrupted() {
+            bail!("interrupted: {} is as it was", path.display());
+        }
+        self.hold(taut_io::table_file(table, path)?);
+        Ok(())
+    }
+
+    /// Prints the JSON of an answer.
+    pub(crate) fn print_json<A: Answer>(&mut self, found: &Solution<A>) {
+        let written = found.write_json_with(self.reading.as_ref(), &mut self.words);
+        debug_assert!(written.is_ok(), "memory takes all that is written");
+        self.words.push(b'\n');
     }
 
     /// Keeps a file that is complete, until all of them are.

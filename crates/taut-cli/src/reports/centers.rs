@@ -153,6 +153,7 @@ impl Report<'_, Centers> {
             if !remarks.is_empty() {
                 field = field.remark(remarks.join(", "));
             }
+            field.rows = answer.rows.get(j).copied().into_iter().collect();
             fields.push(field);
         }
         if answer.centers.len() > SHOWN_CENTERS_MAX {

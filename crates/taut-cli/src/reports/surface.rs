@@ -40,9 +40,9 @@ impl Summary for Surface {
             fields.push(Field::new("boundary loops", count(topology.boundary_loops)));
         }
         fields.push(match topology.genus {
-            Some(genus) => Field::new("handles", count(genus)),
+            Some(genus) => Field::new("genus", count(genus)),
             None => {
-                Field::new("handles", "not defined").remark("a part is no surface with two sides")
+                Field::new("genus", "not defined").remark("a part is no surface with two sides")
             }
         });
         for (name, wrong) in [
@@ -108,7 +108,7 @@ impl Summary for Surface {
             shown("delaunay", verdict.is_delaunay, empty_balls),
         ];
         if let Some(genus) = verdict.genus {
-            fields.insert(3, Field::proved("handles", count(genus)));
+            fields.insert(3, Field::proved("genus", count(genus)));
         }
         if verdict.displacement > 0.0 {
             fields.push(

@@ -58,7 +58,7 @@ impl Summary for Triangulation {
             Field::new("dimension", hull_dimension.map_or("–".to_owned(), |d| d.to_string()))
                 .remark(span),
             verified,
-            Field::new("hash", certificate.fingerprint.to_string())
+            Field::new("fingerprint", certificate.fingerprint.to_string())
                 .remark("of the simplices, whatever their order"),
         ]
     }
@@ -95,7 +95,7 @@ pub(crate) fn claims_of_triangulation(
                 .remark("facets with both simplices on one sphere"),
             Field::new("refined", count(verdict.refined))
                 .remark("signs that double precision left open, decided exactly"),
-            Field::proved("hash", verdict.fingerprint.to_string())
+            Field::proved("fingerprint", verdict.fingerprint.to_string())
                 .remark("of the simplices, whatever their order"),
         ],
     }

@@ -115,7 +115,7 @@ fn raw_files_are_read_with_their_layout() {
         .taut("ball points.bin --raw-dim 2 --raw-type f32 --raw-offset 4 --epsilon 0")
         .ends(0)
         .stdout_has(&["3 points in 2 dimensions", "\n  center    (1, 0)\n"]);
-    folder.taut("ball points.bin --raw-dim 2").ends(2).stderr_has(&["--raw-type"]);
+    folder.taut("ball points.bin --raw-dim 2").ends(2).stderr_has(&["--type"]);
 }
 
 #[test]

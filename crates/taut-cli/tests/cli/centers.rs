@@ -435,7 +435,6 @@ fn wrong_input_and_options_are_named_and_nothing_is_written() {
         ("towns.csv -k 2 --weights --balls", &["--weights", "--balls"]),
         ("towns.csv -k 2 --elbow 1..3", &["--elbow"]),
         ("towns.csv --elbow 3..1", &["such as 2..8"]),
-        ("towns.csv --elbow 1..3", &["found.json", "CSV"]),
         ("nan.csv -k 2", &["nan.csv", "row 4", "`y`", "NaN"]),
         ("hole.csv -k 2 --balls", &["hole.csv", "`r`", "-2", "at least 0"]),
         ("light.csv -k 1 --weights", &["light.csv", "`w`", "weight is 0", "more than 0"]),

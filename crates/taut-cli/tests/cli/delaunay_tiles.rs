@@ -28,14 +28,14 @@ fn a_folder_gets_tiles_with_the_hash_of_the_triangulation_in_memory() {
     ]);
     assert_eq!(run.err, "");
     let expected = folder.taut("delaunay points.npy").ends(0);
-    assert_eq!(field(&run.out, "hash"), field(&expected.out, "hash"));
+    assert_eq!(field(&run.out, "fingerprint"), field(&expected.out, "fingerprint"));
     assert_eq!(folder.files(), ["points.npy", "tiles"]);
     let verified = folder.taut("verify tiles points.npy").ends(0).stdout_has(&[
         "Verified: the Delaunay triangulation of 3000 points in the plane\n",
         "\n  sites      3000; proved: distinct points\n",
         "; proved: neighbors, sites and counts of each agree with what all tiles together are\n",
     ]);
-    assert_eq!(field(&verified.out, "hash"), field(&expected.out, "hash"));
+    assert_eq!(field(&verified.out, "fingerprint"), field(&expected.out, "fingerprint"));
     let quiet = folder.taut("verify tiles points.npy -q --memory 64M --scratch .").ends(0);
     assert_eq!((quiet.out.as_str(), quiet.err.as_str()), ("", ""));
 }
@@ -93,7 +93,7 @@ fn points_that_do_not_fit_go_to_tiles() {
     assert!(run.err.contains("of disk will be taken while 300,000 points"), "{}", run.err);
     assert_eq!(folder.files(), ["mesh.ply", "points.npy"]);
     let verified = folder.taut("verify mesh.ply points.npy").ends(0);
-    assert_eq!(field(&verified.out, "hash"), field(&run.out, "hash"));
+    assert_eq!(field(&verified.out, "fingerprint"), field(&run.out, "fingerprint"));
     folder.taut("delaunay points.npy --memory 64M -o tiles").ends(0);
     assert!(folder.path("tiles/manifest.txt").is_file());
     folder.taut("delaunay points.npy --memory 200M -o mesh.json -q").ends(0);

@@ -17,7 +17,7 @@ fn lines(points: &[[f64; 2]]) -> String {
 
 /// What the summary says of the hash.
 fn hash(text: &str) -> String {
-    let line = text.lines().find(|line| line.trim().starts_with("hash")).unwrap_or_default();
+    let line = text.lines().find(|line| line.trim().starts_with("fingerprint")).unwrap_or_default();
     line.split_whitespace().nth(1).unwrap_or_default().trim_end_matches(';').to_owned()
 }
 

@@ -170,7 +170,7 @@ fn options_of_other_methods_are_refused() {
     let folder = folder();
     for (options, said) in [
         ("--alpha 0.1", "--alpha is of --method thesis and alpha and hull, not of tree"),
-        ("--epsilon 7", "--epsilon is of --method thesis and hull, not of tree"),
+        ("--shrink 7", "--shrink is of --method thesis and hull, not of tree"),
         ("--restarts", "--restarts is of --method thesis, not of tree"),
         ("--method alpha --open", "--open is of --method tree, not of alpha"),
         ("--method thesis --closed", "--closed is of --method tree, not of thesis"),

@@ -1,4 +1,4 @@
-// The page's two hands: words for the mark under the pointer, and scenes of space that can be turned.
+// What a page does by itself: words for the mark under the pointer, flat pictures that are moved and saved, scenes of space that are turned.
 "use strict";
 (() => {
   const tip = document.getElementById("tip");
@@ -28,15 +28,69 @@
   };
   const mark = (list) => ({ at: [list[0], list[1]], id: list[2], words: list.slice(3) });
 
+  // A picture as a file of its own: the colors of the page go with it, its fonts do not.
+  const save = (svg, name) => {
+    const copy = svg.cloneNode(true), style = document.createElementNS("http://www.w3.org/2000/svg", "style");
+    style.textContent = document.querySelector("style").textContent.replace(/@font-face\s*\{[^}]*\}/g, "");
+    copy.prepend(style);
+    const url = URL.createObjectURL(new Blob([new XMLSerializer().serializeToString(copy)], { type: "image/svg+xml" }));
+    const link = document.createElement("a");
+    link.href = url; link.download = name; link.click();
+    setTimeout(() => URL.revokeObjectURL(url), 1000);
+  };
+  const hint = (figure, text, saved) => {
+    const line = document.createElement("div"), button = document.createElement("button");
+    line.className = "hint"; line.textContent = text + " ";
+    button.type = "button"; button.textContent = "Save picture"; button.addEventListener("click", saved);
+    line.append(button); figure.querySelector(".sheet").after(line);
+  };
+  const file = (figure, end) => figure.querySelector("h3").textContent.toLowerCase().replace(/[^a-z0-9]+/g, "-").slice(0, 60) + end;
+
   for (const figure of document.querySelectorAll("figure.flat")) {
     const { names, marks } = data(figure), svg = figure.querySelector(".sheet svg");
-    const all = marks.map(mark), box = svg.viewBox.baseVal;
+    const all = marks.map(mark), box = svg.viewBox.baseVal, whole = [box.x, box.y, box.width, box.height];
+    const place = (event) => {
+      const at = svg.getBoundingClientRect(), unit = box.width / at.width;
+      return [box.x + (event.clientX - at.left) * unit, box.y + (event.clientY - at.top) * unit, unit];
+    };
+    const view = (x, y, width) => {
+      const height = width * whole[3] / whole[2];
+      box.width = width; box.height = height;
+      box.x = Math.min(whole[0] + whole[2] - width, Math.max(whole[0], x));
+      box.y = Math.min(whole[1] + whole[3] - height, Math.max(whole[1], y));
+      svg.style.touchAction = width < whole[2] ? "none" : "pan-y";
+    };
+    const enlarge = (factor, [x, y]) => {
+      const width = Math.min(whole[2], Math.max(whole[2] / 40, box.width / factor)), part = width / box.width;
+      view(x - (x - box.x) * part, y - (y - box.y) * part, width);
+    };
+    const middle = () => [box.x + box.width / 2, box.y + box.height / 2];
+    let held = null;
+    svg.setAttribute("tabindex", "0");
+    svg.addEventListener("pointerdown", (event) => { held = place(event); svg.setPointerCapture(event.pointerId); hide(); });
+    for (const end of ["pointerup", "pointercancel"]) svg.addEventListener(end, () => { held = null; });
     svg.addEventListener("pointermove", (event) => {
-      const at = svg.getBoundingClientRect(), zoom = box.width / at.width;
-      const found = nearest(all, (event.clientX - at.left) * zoom, (event.clientY - at.top) * zoom, 12 * zoom);
+      const [x, y, unit] = place(event);
+      if (held) { view(box.x + held[0] - x, box.y + held[1] - y, box.width); return; }
+      const found = nearest(all, x, y, 12 * unit);
       if (found) show(words(names, found), event); else hide();
     });
     svg.addEventListener("pointerleave", hide);
+    // The wheel scrolls the page until the picture was clicked.
+    svg.addEventListener("wheel", (event) => {
+      if (document.activeElement !== svg && !event.ctrlKey) return;
+      event.preventDefault(); enlarge(Math.exp(-event.deltaY * .0015), place(event));
+    }, { passive: false });
+    svg.addEventListener("keydown", (event) => {
+      const step = box.width / 10, keys = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step] };
+      if (keys[event.key]) view(box.x + keys[event.key][0], box.y + keys[event.key][1], box.width);
+      else if (event.key === "+" || event.key === "=") enlarge(1.3, middle());
+      else if (event.key === "-") enlarge(1 / 1.3, middle());
+      else if (event.key === "0") view(whole[0], whole[1], whole[2]);
+      else return;
+      event.preventDefault();
+    });
+    hint(figure, "Click and wheel to zoom, drag to move; arrow keys, + and − do the same, 0 goes back.", () => save(svg, file(figure, ".svg")));
   }
 
   const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -57,10 +111,12 @@
     const scene = data(figure), canvas = figure.querySelector("canvas"), pen = canvas.getContext("2d");
     const eye = scene.eye, perspective = scene.perspective, count = scene.layers.reduce((n, l) => n + l.marks.length, 0);
     let azimuth = scene.azimuth, elevation = scene.elevation, zoom = 1, marks = [], queued = false, moving = false, rest = 0;
-    const solids = scene.layers.filter((l) => l.kind === "surface").map(surfaces.decode), sheet = document.createElement("canvas");
+    const off = new Set(), shown = () => scene.layers.filter((l) => !off.has(l));
+    const bodies = scene.layers.filter((l) => l.kind === "surface").map((l) => [l, surfaces.decode(l)]), sheet = document.createElement("canvas");
 
     const draw = () => {
       queued = false;
+      const layers = shown(), solids = bodies.filter(([l]) => !off.has(l)).map(([, body]) => body);
       const css = getComputedStyle(document.documentElement), color = (name) => css.getPropertyValue("--" + name).trim();
       const w = canvas.clientWidth || scene.width, h = w * scene.height / scene.width, dpr = devicePixelRatio || 1;
       canvas.width = Math.round(w * dpr); canvas.height = Math.round(h * dpr);
@@ -81,7 +137,7 @@
       };
       marks = [];
 
-      for (const layer of scene.layers) if (layer.kind === "spheres") {
+      for (const layer of layers) if (layer.kind === "spheres") {
         const wired = layer.marks.length <= scene.wired, ink = color(layer.tone);
         const balls = layer.marks.map((m) => ({ c: turned(m.at), r: m.size, m })).sort((a, b) => a.c[2] - b.c[2]);
         pen.strokeStyle = ink; pen.setLineDash(layer.look === "dashed" ? [6, 5] : []);
@@ -136,7 +192,7 @@
       const hidden = (v, at) => seen !== null && seen.hides(at[0] * fine, at[1] * fine, perspective ? grow(v[2]) : 1 + v[2] / eye, reach);
 
       const pieces = [];
-      for (const layer of scene.layers) {
+      for (const layer of layers) {
         if (layer.kind === "points" || layer.kind === "crosses") for (const m of layer.marks) {
           const v = turned(m.at), at = pixel(v);
           pieces.push({ z: v[2], layer, at, hidden: hidden(v, at), size: m.size * grow(v[2]) * Math.sqrt(zoom) });
@@ -191,7 +247,7 @@
     };
     const redraw = () => { if (!queued) { queued = true; requestAnimationFrame(draw); } };
     const move = () => {
-      if (solids.length) { moving = true; clearTimeout(rest); rest = setTimeout(() => { moving = false; redraw(); }, 160); }
+      if (bodies.length) { moving = true; clearTimeout(rest); rest = setTimeout(() => { moving = false; redraw(); }, 160); }
       redraw();
     };
     const rotate = (dx, dy) => {
@@ -232,6 +288,24 @@
       else if (event.key === "0") { azimuth = scene.azimuth; elevation = scene.elevation; zoom = 1; redraw(); }
       else return;
       event.preventDefault();
+    });
+    // An entry of the legend hides its layer, and shows it again.
+    for (const entry of figure.querySelectorAll(".legend li")) {
+      const layer = scene.layers[entry.dataset.layer], toggle = () => {
+        if (off.has(layer)) off.delete(layer); else off.add(layer);
+        for (const other of figure.querySelectorAll(".legend li")) {
+          const is = off.has(scene.layers[other.dataset.layer]);
+          other.classList.toggle("off", is); other.setAttribute("aria-pressed", String(!is));
+        }
+        redraw();
+      };
+      entry.tabIndex = 0; entry.setAttribute("role", "button"); entry.setAttribute("aria-pressed", "true");
+      entry.addEventListener("click", toggle);
+      entry.addEventListener("keydown", (event) => { if (event.key === "Enter" || event.key === " ") { event.preventDefault(); toggle(); } });
+    }
+    hint(figure, "Click an entry above to hide it.", () => {
+      const link = document.createElement("a");
+      link.href = canvas.toDataURL("image/png"); link.download = file(figure, ".png"); link.click();
     });
     addEventListener("resize", redraw);
     document.fonts.ready.then(redraw);

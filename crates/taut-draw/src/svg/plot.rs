@@ -210,7 +210,9 @@ impl AxisScale {
         match self.scale {
             Scale::Linear if self.whole => {
                 let width = (self.span.high - self.span.low) * self.span.unit;
-                linear(&self.span, most.min((width as usize).max(1)))
+                // Each of a few whole numbers has its tick, such as passes and centers.
+                let steps = (width as usize).max(1);
+                linear(&self.span, if steps <= WHOLE_TICKS_MAX { steps } else { most.min(steps) })
             }
             Scale::Linear => linear(&self.span, most),
             Scale::Log => logarithmic(&self.span, most),
@@ -218,6 +220,9 @@ impl AxisScale {
         }
     }
 }
+
+/// Whole numbers along an axis that have a tick each, at most.
+const WHOLE_TICKS_MAX: usize = 12;
 
 fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     let (low, high) = values

@@ -208,12 +208,17 @@ fn entry(layer: &Layer3) -> Entry<'_> {
 /// The legend of a scene as HTML, for the viewer, which draws none.
 pub(crate) fn legend(scene: &Scene3) -> String {
     let mut out = String::from("<ul class=\"legend\">");
-    for entry in scene.layers.iter().flat_map(entries).filter(|entry| !entry.name.is_empty()) {
+    let entries =
+        scene.layers.iter().enumerate().flat_map(|(number, layer)| {
+            entries(layer).into_iter().map(move |entry| (number, entry))
+        });
+    for (number, entry) in entries.filter(|(_, entry)| !entry.name.is_empty()) {
         let mut canvas = Canvas::new(1.0, true);
         frame::key(&mut canvas, &entry, [11.0, 7.0]);
         let (key, name) = (canvas.into_body(), escape(entry.name));
-        out +=
-            &format!("<li><svg viewBox=\"0 0 22 14\" aria-hidden=\"true\">{key}</svg>{name}</li>");
+        out += &format!(
+            "<li data-layer=\"{number}\"><svg viewBox=\"0 0 22 14\" aria-hidden=\"true\">{key}</svg>{name}</li>"
+        );
     }
     out + "</ul>\n"
 }

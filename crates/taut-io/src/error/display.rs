@@ -10,6 +10,14 @@ pub(super) fn names(usable: impl Fn(Format) -> bool) -> String {
     names.collect::<Vec<_>>().join(", ")
 }
 
+/// Returns what else to do about a value that is missing.
+pub(super) fn if_missing(value: &str) -> &'static str {
+    match value.eq_ignore_ascii_case("nan") {
+        true => ", or leave out such rows with --missing drop",
+        false => "",
+    }
+}
+
 /// Returns what cannot be told of a file.
 pub(super) fn format_of(content: Content) -> &'static str {
     match content {

@@ -35,7 +35,7 @@ const fn entry(
 }
 
 /// Every format, in the order of [`Format`].
-pub(super) const TABLE: [Entry; 23] = [
+pub(super) const TABLE: [Entry; 26] = [
     entry(
         Format::Csv,
         "csv",
@@ -133,7 +133,11 @@ pub(super) const TABLE: [Entry; 23] = [
         "parquet",
         &["parquet", "pq"],
         &[
-            (Points, Both, "Apache Parquet, numeric columns or one list column"),
+            (
+                Points,
+                Both,
+                "Apache Parquet, numeric columns or one list column; the geometries of GeoParquet",
+            ),
             (Triangulation, Both, "Apache Parquet, columns v0, v1, … of ids, without coordinates"),
         ],
     ),
@@ -220,6 +224,32 @@ pub(super) const TABLE: [Entry; 23] = [
             Points,
             Read,
             "LAS and LAZ of laser scans: x, y, z by the scale and offset of the file",
+        )],
+    ),
+    entry(
+        Format::Pcd,
+        "pcd",
+        &["pcd"],
+        &[(
+            Points,
+            Read,
+            "clouds of the Point Cloud Library: ascii, binary and compressed; x, y, z",
+        )],
+    ),
+    entry(
+        Format::Npz,
+        "npz",
+        &["npz"],
+        &[(Points, Read, "archive of NumPy arrays; --select chooses one")],
+    ),
+    entry(
+        Format::Shapefile,
+        "shapefile",
+        &["shp"],
+        &[(
+            Points,
+            Read,
+            "points, or the vertices of lines and polygons; --select chooses one shape",
         )],
     ),
 ];

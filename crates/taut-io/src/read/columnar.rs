@@ -12,7 +12,7 @@ use taut_points::{Scalar, ScalarKind};
 use super::Decoded;
 use crate::input::Job;
 use crate::sink::Sink;
-use crate::{Error, Place};
+use crate::{Error, Missing, Place};
 
 /// Which columns of a schema are coordinates.
 pub(super) struct Plan {
@@ -134,7 +134,7 @@ impl Plan {
         let dim = columns.len();
         let mut points = vec![T::from_f64(0.0); columns[0].len() * dim];
         for (j, column) in columns.iter().enumerate() {
-            let values = numbers::<T>(column)
+            let values = numbers::<T>(column, job.options.missing)
                 .map_err(|fault| fault.at(job, first, 1, self.numbers[j], &self.names[j]))?;
             for (point, value) in points.chunks_exact_mut(dim).zip(values) {
                 point[j] = value;
@@ -188,7 +188,7 @@ impl Plan {
             _ => column.as_list::<i32>().values(),
         };
         let child = child.slice(ends[0], ends[ends.len() - 1] - ends[0]);
-        let values = numbers::<T>(&child)
+        let values = numbers::<T>(&child, job.options.missing)
             .map_err(|fault| fault.at(job, first, dim, fault.index % dim, &self.names[0]))?;
         Ok((dim, values))
     }
@@ -221,8 +221,9 @@ impl Fault {
 }
 
 /// The values of a numeric column.
-fn numbers<T: Scalar>(array: &ArrayRef) -> Result<Vec<T>, Fault> {
-    match array.data_type() {
+fn numbers<T: Scalar>(array: &ArrayRef, missing: Missing) -> Result<Vec<T>, Fault> {
+    let array = &Values { array, missing };
+    match array.array.data_type() {
         DataType::Float16 => convert::<Float16Type, T>(array, |value| Ok(value.to_f64())),
         DataType::Float32 => convert::<Float32Type, T>(array, |value| Ok(value.into())),
         DataType::Float64 => convert::<Float64Type, T>(array, Ok),
@@ -238,17 +239,28 @@ fn numbers<T: Scalar>(array: &ArrayRef) -> Result<Vec<T>, Fault> {
     }
 }
 
+/// The values of a column, and what becomes of rows that lack one.
+struct Values<'a> {
+    array: &'a ArrayRef,
+    missing: Missing,
+}
+
 fn convert<P: ArrowPrimitiveType, T: Scalar>(
-    array: &ArrayRef,
+    values: &Values<'_>,
     widen: impl Fn(P::Native) -> Result<f64, i128>,
 ) -> Result<Vec<T>, Fault> {
-    let array = array.as_primitive::<P>();
-    if let Some(index) = (0..array.len()).find(|&index| array.is_null(index)) {
+    let (array, drops) = (values.array.as_primitive::<P>(), values.missing != Missing::Refuse);
+    if !drops && let Some(index) = (0..array.len()).find(|&index| array.is_null(index)) {
         return Err(Fault { index, kind: Kind::Null });
     }
     let mut values = Vec::with_capacity(array.len());
     for (index, &native) in array.values().iter().enumerate() {
+        if drops && array.is_null(index) {
+            values.push(T::from_f64(f64::NAN));
+            continue;
+        }
         match widen(native) {
+            Ok(value) if drops && value.is_nan() => values.push(T::from_f64(value)),
             Ok(value) if value.is_finite() => values.push(T::from_f64(value)),
             Ok(value) => return Err(Fault { index, kind: Kind::NonFinite(value) }),
             Err(value) => return Err(Fault { index, kind: Kind::Inexact(value) }),

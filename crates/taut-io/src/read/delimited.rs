@@ -6,26 +6,53 @@
 //! with both names and numbers is refused, and so is one with a field that looks like a value that went wrong.
 
 use std::borrow::Cow;
-use std::io::BufRead;
+use std::io::{BufRead, BufReader, Cursor, Seek};
 
 use super::Decoded;
 use super::lines::Lines;
-use super::rows::{Delimiter, Rows, is_number, shown, split};
-use crate::input::Job;
+use super::rows::{Delimiter, Rows, is_missing, is_number_with, shown, split};
+use super::{Seekable, numeric};
+use crate::input::{Job, Medium};
 use crate::labels;
 use crate::sink::Sink;
-use crate::{Columns, Error, Format, Header};
+use crate::{Columns, Decimal, Error, Format, Header, Missing, ReadOptions};
 
-pub(super) fn read(job: &Job<'_>, stream: Box<dyn BufRead>) -> Result<Decoded, Error> {
+/// Reads the rows; where the columns of numbers are to be found first, twice.
+pub(super) fn read(job: &Job<'_>, medium: Medium) -> Result<Decoded, Error> {
+    if !job.options.numeric {
+        return read_rows(job, medium.stream());
+    }
+    let (found, stream) = match medium.seekable(job)? {
+        Seekable::Bytes(bytes) => {
+            let found = numeric::columns(job, Box::new(Cursor::new(bytes.clone())))?;
+            let stream: Box<dyn BufRead> = Box::new(Cursor::new(bytes));
+            (found, stream)
+        }
+        Seekable::File(mut file) => {
+            let failed = |source| Error::reading(job.path, source);
+            file.rewind().map_err(failed)?;
+            let twin = file.try_clone().map_err(failed)?;
+            let found = numeric::columns(job, Box::new(BufReader::new(twin)))?;
+            file.rewind().map_err(failed)?;
+            let stream: Box<dyn BufRead> = Box::new(BufReader::new(file));
+            (found, stream)
+        }
+    };
+    let options = ReadOptions {
+        columns: Some(Columns::of_numbers(found.numbers)),
+        header: if found.has_header { Header::Present } else { Header::Absent },
+        numeric: false,
+        ..job.options.clone()
+    };
+    read_rows(&Job { options: &options, path: job.path, format: job.format }, stream)
+}
+
+fn read_rows(job: &Job<'_>, stream: Box<dyn BufRead>) -> Result<Decoded, Error> {
     let mut lines = Lines::new(stream, job);
     let Some((line, text)) = lines.next_data()? else {
         return Err(Error::NoRows { path: job.path.to_owned() });
     };
-    let delimiter = match job.format {
-        Format::Tsv => Delimiter::Byte(b'\t'),
-        Format::Whitespace => Delimiter::White,
-        _ => find_delimiter(text),
-    };
+    let delimiter = delimiter(job, text);
     let first = split(text, delimiter);
     let mut rows = Rows::new(job, delimiter, 0, first.len());
     let label = job.options.label.as_deref().map(Columns::of_label);
@@ -62,18 +89,32 @@ pub(super) fn read(job: &Job<'_>, stream: Box<dyn BufRead>) -> Result<Decoded, E
     Ok(Decoded { source: sink.finish()?, columns, numbers, labels: rows.labels })
 }
 
-fn find_delimiter(line: &[u8]) -> Delimiter {
-    const CANDIDATES: [Delimiter; 4] =
-        [Delimiter::Byte(b','), Delimiter::Byte(b';'), Delimiter::Byte(b'\t'), Delimiter::White];
-    let numeric =
-        |&delimiter: &Delimiter| split(line, delimiter).iter().all(|field| is_number(field));
-    if let Some(found) = CANDIDATES.into_iter().find(numeric) {
+/// The delimiter of the columns, by the first row of data.
+pub(super) fn delimiter(job: &Job<'_>, line: &[u8]) -> Delimiter {
+    match job.format {
+        Format::Tsv => Delimiter::Byte(b'\t'),
+        Format::Whitespace => Delimiter::White,
+        _ => find_delimiter(line, job.options.decimal),
+    }
+}
+
+fn find_delimiter(line: &[u8], decimal: Decimal) -> Delimiter {
+    let [comma, semicolon, tab] = [b',', b';', b'\t'].map(Delimiter::Byte);
+    // Commas before decimals part columns only where numbers are quoted.
+    let candidates = match decimal {
+        Decimal::Point => [comma, semicolon, tab, Delimiter::White],
+        Decimal::Comma => [semicolon, tab, Delimiter::White, comma],
+    };
+    let numeric = |&delimiter: &Delimiter| {
+        split(line, delimiter).iter().all(|field| is_number_with(field, decimal))
+    };
+    if let Some(found) = candidates.into_iter().find(numeric) {
         return found;
     }
     // Spaces are the last resort only: they stand inside names and labels.
     let fields = |delimiter: Delimiter| split(line, delimiter).len();
-    let mut best = CANDIDATES[0];
-    for other in &CANDIDATES[1..3] {
+    let mut best = candidates[0];
+    for other in candidates[1..].iter().filter(|other| **other != Delimiter::White) {
         if fields(*other) > fields(best) {
             best = *other;
         }
@@ -89,8 +130,11 @@ fn is_header(job: &Job<'_>, first: &[Cow<'_, [u8]>], line: u64) -> Result<bool, 
         Header::Absent => return Ok(false),
         Header::Auto => {}
     }
+    let is_number = |field: &[u8]| is_number_with(field, job.options.decimal);
+    let is_gap = |field: &[u8]| job.options.missing != Missing::Refuse && is_missing(field);
     // All fields count, selected or not: a label beside numbers is no name, but `1O`, `NA` and a gap are no names either.
-    if let Some(column) = first.iter().position(|field| is_failed_value(field)) {
+    let is_failed = |field: &[u8]| is_failed_with(field, job.options.decimal) && !is_gap(field);
+    if let Some(column) = first.iter().position(|field| is_failed(field)) {
         return match columns {
             // An unselected hole beside numbers does no harm: what is selected decides alone.
             Some(columns) if !columns.has_names() && all_numbers(job, columns, first)? => Ok(false),
@@ -112,7 +156,8 @@ fn is_header(job: &Job<'_>, first: &[Cow<'_, [u8]>], line: u64) -> Result<bool, 
         Some(columns) => Columns::resolve(columns, job.path, &[], first.len())?,
         None => (0..first.len()).collect(),
     };
-    let text = numbers.iter().copied().find(|&column| !is_number(&first[column]));
+    let is_text = |field: &[u8]| !is_number(field) && !is_gap(field);
+    let text = numbers.iter().copied().find(|&column| is_text(&first[column]));
     let value = numbers.iter().copied().find(|&column| is_number(&first[column]));
     match (text, value) {
         (None, _) => Ok(false),
@@ -140,12 +185,16 @@ fn is_header_beside(
         Header::Auto if label.has_names() => return Ok(true),
         Header::Auto => {}
     }
+    let is_number = |field: &[u8]| is_number_with(field, job.options.decimal);
+    let is_gap = |field: &[u8]| job.options.missing != Missing::Refuse && is_missing(field);
     let label = label.resolve(job.path, &[], first.len())?[0];
     let others = || (0..first.len()).filter(|&column| column != label);
-    let text = others().find(|&column| !is_number(&first[column]));
+    let is_text = |field: &[u8]| !is_number(field) && !is_gap(field);
+    let is_failed = |field: &[u8]| is_failed_with(field, job.options.decimal) && !is_gap(field);
+    let text = others().find(|&column| is_text(&first[column]));
     let Some(column) = text else { return Ok(false) };
     let (path, value) = (job.path.to_owned(), shown(&first[column]));
-    if let Some(column) = others().find(|&column| is_failed_value(&first[column])) {
+    if let Some(column) = others().find(|&column| is_failed(&first[column])) {
         return Err(Error::DoubtfulHeader { path, line, column, value: shown(&first[column]) });
     }
     match others().any(|column| is_number(&first[column])) {
@@ -158,7 +207,9 @@ fn is_header_beside(
 fn holds_names(job: &Job<'_>, columns: &Columns, first: &[Cow<'_, [u8]>]) -> bool {
     let names: Vec<String> =
         first.iter().map(|name| String::from_utf8_lossy(name).into_owned()).collect();
-    let may_be_name = |field: &[u8]| !is_number(field) && !is_failed_value(field);
+    let decimal = job.options.decimal;
+    let may_be_name =
+        |field: &[u8]| !is_number_with(field, decimal) && !is_failed_with(field, decimal);
     let numbers = columns.resolve(job.path, &names, first.len());
     numbers.is_ok_and(|numbers| numbers.iter().all(|&column| may_be_name(&first[column])))
 }
@@ -166,13 +217,18 @@ fn holds_names(job: &Job<'_>, columns: &Columns, first: &[Cow<'_, [u8]>]) -> boo
 /// Tests whether all selected fields are numbers.
 fn all_numbers(job: &Job<'_>, columns: &Columns, first: &[Cow<'_, [u8]>]) -> Result<bool, Error> {
     let numbers = columns.resolve(job.path, &[], first.len())?;
-    Ok(numbers.iter().all(|&column| is_number(&first[column])))
+    Ok(numbers.iter().all(|&column| is_number_with(&first[column], job.options.decimal)))
 }
 
 /// Tests whether a field is no number but begins as one, or is what tables write where a number is missing.
 pub(crate) fn is_failed_value(field: &[u8]) -> bool {
+    is_failed_with(field, Decimal::Point)
+}
+
+/// The same with another mark before the decimals.
+fn is_failed_with(field: &[u8], decimal: Decimal) -> bool {
     const MISSING_WORDS: [&[u8]; 6] = [b"", b"NA", b"N/A", b"null", b"none", b"?"];
     let starts = matches!(field.first(), Some(b'0'..=b'9' | b'+' | b'-' | b'.'));
-    !is_number(field)
+    !is_number_with(field, decimal)
         && (starts || MISSING_WORDS.iter().any(|missing| field.eq_ignore_ascii_case(missing)))
 }

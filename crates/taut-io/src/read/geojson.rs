@@ -9,7 +9,7 @@
 //! the height, is left out.
 //! *Reference.* RFC 7946.
 
-mod json;
+pub(super) mod json;
 
 use std::io::BufRead;
 

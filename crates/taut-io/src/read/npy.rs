@@ -14,7 +14,7 @@ use crate::input::Job;
 use crate::limits;
 use crate::npy_header::{self, NpyHeader};
 use crate::sink::Sink;
-use crate::{Error, Format, Place};
+use crate::{Error, Format, Missing, Place};
 
 /// Values read at a time.
 const CHUNK: usize = 1 << 13;
@@ -319,7 +319,8 @@ impl<'a, T: Scalar> Decoder<'a, T> {
             let value = self.header.value(raw);
             let exact = value.is_ok();
             let (Ok(value) | Err(value)) = value.map_err(|integer| integer as f64);
-            if !(exact && value.is_finite()) && self.selected(place(at).1) {
+            let is_gap = value.is_nan() && self.job.options.missing != Missing::Refuse;
+            if !(exact && value.is_finite()) && !is_gap && self.selected(place(at).1) {
                 let (row, column) = place(at);
                 let path = self.job.path.to_owned();
                 let place = Place { path, row: row + 1, line: None, column, name: None };

@@ -8,7 +8,7 @@ use parquet::schema::types::SchemaDescriptor;
 use taut_points::Blocks;
 
 use super::columnar::Plan;
-use super::{Decoded, Seekable, first_line, guarded, thrift};
+use super::{Decoded, Seekable, first_line, geoparquet, guarded, thrift};
 use crate::input::{Job, Medium};
 use crate::{Error, FilePlace, Format};
 
@@ -27,7 +27,16 @@ fn read_chunks<R: ChunkReader + 'static>(job: &Job<'_>, chunks: R) -> Result<Dec
         problem,
     };
     let builder = thrift::open(chunks).map_err(|e| damaged(first_line(&e)))?;
-    let plan = Plan::new(job, builder.schema())?;
+    let schema = builder.schema().clone();
+    let geometries = geoparquet::column(&schema).filter(|_| job.options.columns.is_none());
+    if let Some(number) = geometries {
+        let mask = ProjectionMask::roots(builder.parquet_schema(), [number]);
+        let batches = builder.with_projection(mask).build().map_err(|e| damaged(first_line(&e)))?;
+        let batches = batches
+            .map(|batch| batch.map_err(|e| damaged(first_line(&e))) as Result<RecordBatch, Error>);
+        return geoparquet::read(job, (number, schema.field(number).name().as_str()), batches);
+    }
+    let plan = Plan::new(job, &schema)?;
     let mut held = plan.numbers.clone();
     held.sort_unstable();
     held.dedup();

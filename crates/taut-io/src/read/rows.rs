@@ -11,7 +11,7 @@ use memchr::memchr;
 use crate::input::Job;
 use crate::number::{self, NumberError};
 use crate::sink::Sink;
-use crate::{Error, Place};
+use crate::{Decimal, Error, Missing, Place};
 
 /// The delimiter of the columns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -87,7 +87,33 @@ fn skip_white(mut text: &[u8], delimiter: Delimiter) -> &[u8] {
 
 /// Returns true if a field is written as a number; NaN, infinities and what is too small for an `f64` are numbers too.
 pub(super) fn is_number(field: &[u8]) -> bool {
-    number::parse(field.trim_ascii()) != Err(NumberError::NotANumber)
+    is_number_with(field, Decimal::Point)
+}
+
+/// The same with another mark before the decimals.
+pub(super) fn is_number_with(field: &[u8], decimal: Decimal) -> bool {
+    parse_with(field.trim_ascii(), decimal) != Err(NumberError::NotANumber)
+}
+
+/// Reads a word with the given mark before its decimals.
+fn parse_with(word: &[u8], decimal: Decimal) -> Result<f64, NumberError> {
+    match decimal {
+        Decimal::Point => number::parse(word),
+        // A point could part thousands.
+        Decimal::Comma if word.contains(&b'.') => Err(NumberError::NotANumber),
+        Decimal::Comma => {
+            let word: Vec<u8> = word.iter().map(|&b| if b == b',' { b'.' } else { b }).collect();
+            number::parse(&word)
+        }
+    }
+}
+
+/// Tests whether a field is what tables write where a value is missing.
+pub(crate) fn is_missing(field: &[u8]) -> bool {
+    const WORDS: [&[u8]; 10] =
+        [b"", b"NA", b"N/A", b"#N/A", b"<NA>", b"null", b"none", b"?", b".", b"-"];
+    let field = field.trim_ascii();
+    WORDS.iter().any(|word| field.eq_ignore_ascii_case(word))
 }
 
 /// Appends the numbers of a row to `out`; false (and some rubbish in `out`) when it is not all plain finite numbers.
@@ -168,7 +194,8 @@ impl<'a> Rows<'a> {
         sink: &mut Sink<'_, f64>,
     ) -> Result<(), Error> {
         self.row.clear();
-        let plain = self.skip == 0 && self.numbers.is_none();
+        let plain =
+            self.skip == 0 && self.numbers.is_none() && self.job.options.decimal == Decimal::Point;
         if plain && walk(line, self.delimiter, &mut self.row) && self.row.len() == self.width {
             return sink.push(&self.row);
         }
@@ -208,7 +235,14 @@ impl<'a> Rows<'a> {
             let column = self.numbers.as_ref().map_or(at, |numbers| numbers[at]);
             let text = &fields[column];
             let place = || place_in(column);
-            match number::parse(text.trim_ascii()) {
+            let decimal = self.job.options.decimal;
+            let drops = self.job.options.missing != Missing::Refuse;
+            match parse_with(text.trim_ascii(), decimal) {
+                // The row is left out later.
+                Ok(value) if drops && value.is_nan() => self.row.push(value),
+                Err(NumberError::NotANumber) if drops && is_missing(text) => {
+                    self.row.push(f64::NAN);
+                }
                 Ok(value) if value.is_finite() => self.row.push(value),
                 Ok(_) => return Err(Error::NonFinite { place: place(), value: shown(text) }),
                 Err(NumberError::Underflow) => {
@@ -218,7 +252,7 @@ impl<'a> Rows<'a> {
                     return Err(Error::NotANumber {
                         place: place(),
                         value: shown(text),
-                        hint: hint(text),
+                        hint: hint(text, decimal),
                     });
                 }
             }
@@ -228,11 +262,17 @@ impl<'a> Rows<'a> {
 }
 
 /// Returns what to do about a field that is no number.
-fn hint(text: &[u8]) -> &'static str {
-    let comma = text.contains(&b',') && text.iter().all(|b| b"0123456789,+-eE".contains(b));
+fn hint(text: &[u8], decimal: Decimal) -> &'static str {
+    let has = |mark| text.contains(&mark) && text.iter().all(|b| b"0123456789,.+-eE".contains(b));
     match text {
-        [] => "fill in the missing value, or remove that row",
-        _ if comma => "write the decimal point as `.`",
+        [] => "fill in the missing value, or leave out such rows with --missing drop",
+        _ if is_missing(text) => {
+            "it stands for a missing value: leave out such rows with --missing drop, or fill it in"
+        }
+        _ if decimal == Decimal::Comma && has(b'.') => {
+            "with --decimal , there is no point in numbers"
+        }
+        _ if has(b',') => "write the decimal point as `.`, or say --decimal ,",
         _ => "repair it, or select the columns that are coordinates",
     }
 }

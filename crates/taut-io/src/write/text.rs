@@ -53,19 +53,24 @@ fn header(columns: &[String], delimiter: u8) -> Option<Vec<u8>> {
         if j > 0 {
             line.push(delimiter);
         }
-        let plain = !name.is_empty()
-            && name
-                .bytes()
-                .all(|b| b != delimiter && !b.is_ascii_whitespace() && !b"\"#,;".contains(&b));
-        match plain {
-            true => line.extend_from_slice(name.as_bytes()),
-            false => {
-                line.push(b'"');
-                line.extend_from_slice(name.replace('"', "\"\"").as_bytes());
-                line.push(b'"');
-            }
-        }
+        name_to_text(name, delimiter, &mut line);
     }
     line.push(b'\n');
     Some(line)
+}
+
+/// Appends a name, in quotes where it holds what could be taken for something else.
+pub(super) fn name_to_text(name: &str, delimiter: u8, line: &mut Vec<u8>) {
+    let plain = !name.is_empty()
+        && name
+            .bytes()
+            .all(|b| b != delimiter && !b.is_ascii_whitespace() && !b"\"#,;".contains(&b));
+    match plain {
+        true => line.extend_from_slice(name.as_bytes()),
+        false => {
+            line.push(b'"');
+            line.extend_from_slice(name.replace('"', "\"\"").as_bytes());
+            line.push(b'"');
+        }
+    }
 }

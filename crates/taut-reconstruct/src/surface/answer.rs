@@ -72,11 +72,11 @@ impl Sites {
     }
 
     /// In the coordinates in which exact signs are true.
-    fn exact(&self) -> &[Point] {
+    pub(super) fn exact(&self) -> &[Point] {
         self.exact.as_ref().unwrap_or(&self.points)
     }
 
-    fn row(&self, site: u32) -> u32 {
+    pub(super) fn row(&self, site: u32) -> u32 {
         self.rows[site as usize]
     }
 }
@@ -162,7 +162,7 @@ pub(super) fn finish(
 }
 
 /// The rows that no triangle has. Where parts touch, or have a boundary, being inside is not a matter of closed parts.
-fn unused(facets: &Facets, sites: &Sites, is_surface: bool) -> Unused {
+pub(super) fn unused(facets: &Facets, sites: &Sites, is_surface: bool) -> Unused {
     let mut is_used = vec![false; sites.points.len()];
     let used = facets.triangles.as_flattened();
     used.iter().for_each(|&site| is_used[site as usize] = true);
@@ -178,7 +178,7 @@ fn unused(facets: &Facets, sites: &Sites, is_surface: bool) -> Unused {
     rows
 }
 
-fn numbers(found: &Topology) -> SurfaceTopology {
+pub(super) fn numbers(found: &Topology) -> SurfaceTopology {
     let components = found.components.iter().map(|one| SurfaceComponent {
         first_triangle: one.first_triangle,
         vertices: one.vertices as u64,

@@ -24,6 +24,7 @@ mod dual_edges;
 mod facing;
 mod filter;
 mod flats;
+mod given;
 mod labeled;
 mod lanes;
 mod merged_labelings;
@@ -65,6 +66,7 @@ use labeled::surface_of_labels;
 use scaled::Scale;
 use thesis::{ThesisOptions, thesis_surface};
 
+pub use given::given_surface;
 pub use one_sided::looks_one_sided;
 pub use options::{Denoise, HullOptions, Positions, SurfaceMethod, SurfaceMode, SurfaceOptions};
 

@@ -8,6 +8,7 @@ use taut::{BallMethod, Monitor, Solution};
 use super::Args;
 use crate::exit::Outcome;
 use crate::input::reading::Opened;
+use crate::output::tables::{self, TableFiles, Tables};
 use crate::pipeline::{Find, Input, Output};
 use crate::reports;
 use crate::watch::Watch;
@@ -129,6 +130,14 @@ impl Find for WithKernel<'_> {
         };
         let found = watch.during("solving", solve).map_err(|error| points.explain(error))?;
         Ok((found, ()))
+    }
+
+    fn table_files(&self) -> Option<(&TableFiles, &'static [&'static str])> {
+        Some((&self.args.tables, &["support"]))
+    }
+
+    fn tables(&self, found: &Solution<KernelBall>, points: &Opened) -> Tables {
+        vec![("support", tables::rows(points, &found.answer.support))]
     }
 
     fn outcome(&self, found: &Solution<KernelBall>) -> Outcome {

@@ -40,10 +40,10 @@ pub(super) struct Args {
     scaling: Option<Scaling>,
     /// Width of Gaussian kernels: auto, or theta=, theta-squared=, gamma=, sigma= or scale= with a number, for
     /// exp(−d²/θ), exp(−d²/θ²), exp(−γd²), exp(−d²/2σ²), and γ = number/variance [default: auto, or by inner folds]
-    #[arg(long, value_name = "WIDTH")]
+    #[arg(long = "kernel-width", alias = "width", value_name = "WIDTH")]
     width: Option<Width>,
     /// How balls divide the space [default: power; voronoi for whitened-ball]
-    #[arg(long, value_name = "NAME", value_parser = choice::<Cells>())]
+    #[arg(long = "rule", alias = "cells", value_name = "NAME", value_parser = choice::<Cells>())]
     cells: Option<Cells>,
     /// Share of the points of a class that may be outside its ball, in (0, 1] [default: none; 0.05 for svdd]
     #[arg(long, value_name = "REAL", allow_negative_numbers = true)]

@@ -14,8 +14,8 @@ use crate::reports::Field;
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Alpha complex")]
 pub(super) struct Alpha {
-    /// Count what has a circumradius of at most ALPHA, a length, and write it with the two options below
-    #[arg(long = "alpha", value_name = "ALPHA", value_parser = length, allow_negative_numbers = true)]
+    /// Count what has a circumradius of at most RADIUS, a length, and write it with the two options below
+    #[arg(long = "alpha", value_name = "RADIUS", value_parser = length, allow_negative_numbers = true)]
     radius: Option<f64>,
     /// Write the simplices of the alpha complex as a mesh
     #[arg(long, value_name = "FILE", requires = "radius")]

@@ -330,7 +330,7 @@ fn fields(
             None => format!("{} for a while, on the disk", bytes(size)),
         }),
         verified,
-        Field::new("hash", totals.fingerprint.to_string())
+        Field::new("fingerprint", totals.fingerprint.to_string())
             .remark("of the simplices, whatever their order"),
     ]
 }

@@ -31,7 +31,7 @@ enroll (FTE). The second half of the figures is for people from whom nothing was
 Intervals come from draws of people.
 Exit: 0 done · 2 bad input or usage, nothing written
 Example: taut hand evaluate scans --labels scans/truth.csv --draw rates.svg
-         taut hand evaluate --synthetic 70x10 --seed 1 --table features.csv")]
+         taut hand evaluate --synthetic 70x10 --seed 1 --feature-table features.csv")]
 pub(super) struct Args {
     /// Scans in PNG, JPEG or TIFF, JSON of `taut hand measure`, folders of these, or one table of features
     #[arg(value_name = "PATH")]
@@ -76,7 +76,7 @@ pub(super) struct Args {
     #[arg(long, help_heading = "Writing")]
     json: bool,
     /// Write a table of all features, from which the command starts much faster
-    #[arg(long, value_name = "FILE", help_heading = "Writing")]
+    #[arg(long = "feature-table", alias = "table", value_name = "FILE", help_heading = "Writing")]
     table: Option<PathBuf>,
     /// Draw error rates over thresholds, as .svg, .png or .html
     #[arg(long, value_name = "FILE", help_heading = "Writing")]

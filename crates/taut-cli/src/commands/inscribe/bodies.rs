@@ -84,10 +84,10 @@ pub(super) struct Search {
     #[arg(long)]
     close_holes: bool,
     /// How many facets one search may place, move, or try to move, at least 1; more of these events cover more [default: 200000]
-    #[arg(long, value_name = "N")]
+    #[arg(long = "max-events", alias = "events", value_name = "N")]
     events: Option<u64>,
     /// Where the random choices begin
-    #[arg(long, value_name = "S", default_value_t = BodiesOptions::default().seed)]
+    #[arg(long, value_name = "N", default_value_t = BodiesOptions::default().seed)]
     seed: u64,
     /// Estimate how much of the mesh the bodies hide, by about this many random lines, from 1000 to 10⁹
     #[arg(long, value_name = "LINES")]

@@ -56,7 +56,12 @@ pub(super) struct Ellipse {
     #[arg(long, value_name = "REAL", allow_negative_numbers = true)]
     fatness: Option<f64>,
     /// Of thesis and five-point, the largest angle between normals where ellipse and ring touch, in degrees below 90 [default: 45]
-    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
+    #[arg(
+        long = "contact-angle",
+        alias = "angle",
+        value_name = "DEGREES",
+        allow_negative_numbers = true
+    )]
     angle: Option<f64>,
     /// Of thesis and five-point, the seed of the order and of the perturbation of the samples [default: 1]
     #[arg(long, value_name = "N")]

@@ -12,6 +12,7 @@ use crate::effort::Effort;
 use crate::exit::Outcome;
 use crate::input::choice::choice;
 use crate::input::reading::{Opened, Points, Reading};
+use crate::output::tables::{self, is_table};
 use crate::output::writing::Outputs;
 use crate::pipeline::{self, Find, Input, Output};
 use crate::watch::Watch;
@@ -21,7 +22,7 @@ use crate::watch::Watch;
 #[command(after_help = "\
 The order depends on the set of points alone; equal points are side by side, the first row first.
 Exit: 0 done · 1 the check failed · 2 bad input or usage, nothing written
-Example: taut memory order points.csv -o order.json --points sorted.csv &&
+Example: taut memory order points.csv -o order.json --ordered sorted.csv &&
          taut verify order.json points.csv")]
 pub(super) struct Args {
     #[command(flatten)]
@@ -32,11 +33,15 @@ pub(super) struct Args {
     /// Do without the independent check
     #[arg(long)]
     no_verify: bool,
-    /// Write the numbers of the rows in order, from 0, and the certificate as JSON; - is standard output
+    /// Write the numbers of the rows in order, from 0: .json with the certificate, or a table as .csv, .npy, .parquet and the like; - is
+    /// JSON on standard output
     #[arg(short, long, value_name = "FILE", help_heading = "Writing")]
     out: Option<PathBuf>,
+    /// Print the JSON instead of the summary
+    #[arg(long, help_heading = "Writing")]
+    json: bool,
     /// Write the points in that order, in the format that the name tells
-    #[arg(long = "points", value_name = "FILE", help_heading = "Writing")]
+    #[arg(long = "ordered", alias = "points", value_name = "FILE", help_heading = "Writing")]
     sorted: Option<PathBuf>,
     #[command(flatten)]
     reading: Reading,
@@ -53,11 +58,11 @@ impl Find for Args {
     }
 
     fn output(&self) -> Output<'_> {
-        Output { no_verify: self.no_verify, out: self.out.as_deref(), json: false, draw: None }
+        Output { no_verify: self.no_verify, out: self.out.as_deref(), json: self.json, draw: None }
     }
 
     fn check_options(&self) -> anyhow::Result<()> {
-        Ok(())
+        self.output().refuse_but_tables(&self.points.path)
     }
 
     fn side_files(&self) -> Vec<&Path> {
@@ -82,8 +87,12 @@ impl Find for Args {
         outputs: &mut Outputs,
         monitor: &Monitor<'_>,
     ) -> anyhow::Result<()> {
-        if let Some(path) = &self.out {
-            outputs.add_json(path, found)?;
+        match &self.out {
+            Some(path) if is_table(path) => {
+                outputs.add_table(path, &tables::rows(points, &found.answer.rows))?;
+            }
+            Some(path) => outputs.add_json(path, found)?,
+            None => {}
         }
         if let Some(path) = &self.sorted {
             let names = points.names(points.source().dim());

@@ -25,7 +25,7 @@ pub(super) struct Args {
     #[arg(short, long = "of", value_name = "N")]
     n: u64,
     /// The number of draws, at most N
-    #[arg(short, long = "draw", value_name = "K")]
+    #[arg(short, long = "draws", alias = "draw", value_name = "K")]
     k: u64,
     /// Chooses the numbers
     #[arg(long, value_name = "N", default_value_t = 0)]

@@ -37,7 +37,7 @@ pub(super) struct Args {
     #[arg(short, value_name = "LIST", value_delimiter = ',')]
     n: Vec<u64>,
     /// Sizes of the memory
-    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = size::parse, default_value = "4K,16K,64K,256K")]
+    #[arg(long = "memory-sizes", alias = "memory", value_name = "LIST", value_delimiter = ',', value_parser = size::parse, default_value = "4K,16K,64K,256K")]
     memory: Vec<u64>,
     /// Sizes of its blocks, powers of two
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = size::parse, default_value = "64")]
@@ -52,7 +52,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value_t = 1)]
     base: usize,
     /// A figure of the thesis instead: 36 to 38, 40 to 43, or 46 to 50
-    #[arg(long, value_name = "N", conflicts_with_all = ["algorithm", "n", "memory", "block", "policy", "ways", "base"])]
+    #[arg(long = "thesis-figure", alias = "figure", value_name = "N", conflicts_with_all = ["algorithm", "n", "memory", "block", "policy", "ways", "base"])]
     figure: Option<u32>,
 
     /// Write the counts as CSV; - is standard output

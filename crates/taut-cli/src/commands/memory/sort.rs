@@ -21,10 +21,10 @@ use crate::output::writing;
 #[command(after_help = "\
 Records with equal keys keep their order. Before it takes its name the output is read again and proved to be in order \
 and to hold the records that were read, by a hash of 128 bits of all of them; `taut verify` reads the input once more, \
-too. Without --resume nothing is left behind, however the process ends; with it the input must be the same file, \
+too. Without --checkpoint nothing is left behind, however the process ends; with it the input must be the same file, \
 unchanged.
 Exit: 0 done · 1 the check failed, nothing written · 2 bad input or usage, nothing written
-Example: taut memory sort records.bin --width 32 --key 0:8 --kind u64 -o sorted.bin \\
+Example: taut memory sort records.bin --item-bytes 32 --sort-key 0:8 --kind u64 -o sorted.bin \\
              --certificate sorted.json
          taut verify sorted.json records.bin sorted.bin")]
 pub(super) struct Args {
@@ -34,10 +34,10 @@ pub(super) struct Args {
     #[arg(short, long, value_name = "FILE")]
     out: PathBuf,
     /// Bytes of a record, at least 1
-    #[arg(long, value_name = "BYTES")]
+    #[arg(long = "item-bytes", alias = "width", value_name = "BYTES")]
     width: usize,
     /// The bytes of a record that are the key, as START:END [default: the first eight; of --kind bytes all]
-    #[arg(long, value_name = "RANGE", value_parser = key::parse)]
+    #[arg(long = "sort-key", alias = "key", value_name = "RANGE", value_parser = key::parse)]
     key: Option<Range<usize>>,
     /// The type of the key: numbers have the least significant byte first
     #[arg(long, value_enum, default_value = "u64")]
@@ -49,7 +49,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "FOLDER")]
     scratch: Option<PathBuf>,
     /// Keep what was done in this file until the output is there; go on from it if it is there
-    #[arg(long, value_name = "FILE", conflicts_with = "scratch")]
+    #[arg(long = "checkpoint", alias = "resume", value_name = "FILE", conflicts_with = "scratch")]
     resume: Option<PathBuf>,
     #[command(flatten)]
     proof: Proof,

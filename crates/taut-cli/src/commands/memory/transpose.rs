@@ -29,7 +29,7 @@ Exit: 0 done · 1 the check failed, nothing written (but with --samples) ·
       2 bad input or usage, nothing written
 Example: taut memory transpose matrix.npy -o columns.npy --certificate columns.json
          taut verify columns.json matrix.npy columns.npy
-         taut memory transpose matrix.bin --rows 1000000 --columns 300 --width 8 -o columns.bin")]
+         taut memory transpose matrix.bin --row-count 1000000 --column-count 300 --item-bytes 8 -o columns.bin")]
 pub(super) struct Args {
     /// The matrix
     input: PathBuf,
@@ -37,22 +37,22 @@ pub(super) struct Args {
     #[arg(short, long, value_name = "FILE", help_heading = "Writing")]
     out: PathBuf,
     /// Rows of the matrix, unless it is .npy
-    #[arg(long, value_name = "N")]
+    #[arg(long = "row-count", alias = "rows", value_name = "N")]
     rows: Option<u64>,
     /// Columns of the matrix, unless it is .npy
-    #[arg(long, value_name = "N")]
+    #[arg(long = "column-count", alias = "columns", value_name = "N")]
     columns: Option<u64>,
     /// Bytes of an element, at least 1 [default: 8, or as the .npy file says]
-    #[arg(long, value_name = "BYTES")]
+    #[arg(long = "item-bytes", alias = "width", value_name = "BYTES")]
     width: Option<usize>,
     /// Bytes of the file before the first element [default: 0, or as the .npy file says]
-    #[arg(long, value_name = "BYTES")]
+    #[arg(long = "raw-offset", alias = "offset", value_name = "BYTES")]
     offset: Option<u64>,
     /// Most memory to use for elements
     #[arg(long, value_name = "SIZE", value_parser = size::parse, default_value = "256M")]
     memory: u64,
     /// Compare so many elements, drawn at random, rather than all; 0 compares none
-    #[arg(long, value_name = "N", conflicts_with = "certificate")]
+    #[arg(long = "compare", alias = "samples", value_name = "N", conflicts_with = "certificate")]
     samples: Option<u64>,
     /// Chooses the elements that are compared
     #[arg(long, value_name = "N", default_value_t = 0)]
@@ -113,7 +113,7 @@ impl Args {
     fn raw(&self) -> anyhow::Result<Job> {
         let (Some(rows), Some(columns)) = (self.rows, self.columns) else {
             bail!(
-                "{}: this is no .npy file: say what it holds with --rows N and --columns N",
+                "{}: this is no .npy file: say what it holds with --row-count N and --column-count N",
                 self.input.display()
             );
         };

@@ -173,7 +173,7 @@ pub(super) const STATIONS: &[Station] = &[
         file: "pawn.csv",
         bytes: include_bytes!("../../../samples/pawn.csv"),
         tool: Tool::Bodies(4),
-        command: "taut inscribe dops pawn.csv --count 4 --events 20000 --draw pawn.html",
+        command: "taut inscribe dops pawn.csv --count 4 --max-events 20000 --draw pawn.html",
         doctored: true,
     },
     Station {

@@ -57,7 +57,10 @@ pub(super) fn stop() -> anyhow::Result<Stop> {
         field("finished by parts", format!("{} triangles", count(early))),
         field("went up", format!("{} cities", count(parts.front))),
         field("finished at the root", format!("{} triangles", count(late))),
-        field("hash", format!("{hash}, that of the triangulation in memory, which is verified")),
+        field(
+            "fingerprint",
+            format!("{hash}, that of the triangulation in memory, which is verified"),
+        ),
     ];
     let text = "The cities once more, cut into eight parts, as if memory held no more than one of them. A triangle is finished \
                 where it is found if its circle meets no box with cities of other parts; it is written and forgotten. Only the \

@@ -133,7 +133,7 @@ fn what_is_no_matrix_is_refused_by_name() {
         folder.taut(&format!("memory transpose {missing}")).ends(2).stderr_has(&named);
     }
     folder.put("a.bin", [0; 16]);
-    folder.taut("memory transpose a.bin -o b.bin").ends(2).stderr_has(&["a.bin", "--rows N"]);
+    folder.taut("memory transpose a.bin -o b.bin").ends(2).stderr_has(&["a.bin", "--row-count N"]);
     folder
         .taut("memory transpose a.bin --rows 1 --columns 2 -o b.npy")
         .ends(2)

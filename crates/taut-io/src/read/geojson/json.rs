@@ -14,7 +14,7 @@ const LIST_BYTES: u64 = 4 * size_of::<(String, Value)>() as u64;
 
 /// A value.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Value {
+pub(in crate::read) enum Value {
     Null,
     Bool,
     Number(f64),
@@ -26,7 +26,7 @@ pub(super) enum Value {
 
 /// Why a text is refused.
 #[derive(Debug, PartialEq)]
-pub(super) enum Refusal {
+pub(in crate::read) enum Refusal {
     /// It is no JSON: the line and what is wrong.
     NotJson(String),
     /// Its values take more than the memory allowed for them: the bytes counted so far.
@@ -34,7 +34,7 @@ pub(super) enum Refusal {
 }
 
 /// Reads one value as long as the text, of at most `memory` bytes.
-pub(super) fn parse(text: &[u8], memory: u64) -> Result<Value, Refusal> {
+pub(in crate::read) fn parse(text: &[u8], memory: u64) -> Result<Value, Refusal> {
     let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
     let mut parser = Parser { text, at: 0, held: 0, memory };
     let found = parser.value(0).and_then(|value| {

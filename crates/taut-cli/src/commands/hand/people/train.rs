@@ -40,7 +40,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "REAL", default_value_t = MatcherOptions::default().fmr_max)]
     fmr: f64,
     /// Scans of each person that make a template in the measurement; the others are compared with it
-    #[arg(long, value_name = "N", default_value_t = MatcherOptions::default().enrolled)]
+    #[arg(long = "template-scans", alias = "scans", value_name = "N", default_value_t = MatcherOptions::default().enrolled)]
     scans: usize,
     /// Where the scans are from, in words that the matcher keeps
     #[arg(long, value_name = "WORDS", default_value = "scans of unknown origin")]
@@ -61,7 +61,7 @@ impl Args {
             bail!("option `--fmr` is {}: expected a number from 0, below 1", self.fmr);
         }
         if !(1..SCANS_MAX as usize).contains(&self.scans) {
-            bail!("option `--scans` is {}: expected from 1 to 999", self.scans);
+            bail!("option `--template-scans` is {}: expected from 1 to 999", self.scans);
         }
         let files = self.files()?;
         let paths: Vec<PathBuf> = files.iter().map(|file| file.1.clone()).collect();
