@@ -37,9 +37,9 @@
 
 mod affine;
 mod canonical;
-mod cells;
 mod error;
 mod flat;
+mod geometry;
 mod kernel;
 #[cfg(test)]
 mod numbers;
@@ -48,12 +48,14 @@ mod order;
 pub mod outofcore;
 mod plane;
 mod query;
+mod records;
 mod rounds;
 mod simplex;
 mod sites;
 mod solution;
 mod space;
 pub mod terrain;
+mod threads;
 mod triangulation;
 mod vector;
 

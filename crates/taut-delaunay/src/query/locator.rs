@@ -1,10 +1,11 @@
 //! Where a point lies, and which site is nearest.
 
 use std::cell::Cell;
+use std::collections::HashSet;
 
 use taut_predicates::Sign;
 
-use crate::cells::{Geometry, InPlane, InSpace, Index, conflicts, star_of};
+use crate::geometry::{Geometry, InPlane, InSpace, Index, conflicts};
 use crate::simplex::{GHOST, Slots, decode};
 use crate::{Complex, Triangulation};
 
@@ -222,5 +223,23 @@ macro_rules! questions {
         }
     };
 }
+/// The simplices at vertex `v`, one of which is `t`.
+fn star_of<const V: usize>(simplices: &Slots<V>, t: u32, v: u32, star: &mut Vec<u32>) {
+    star.clear();
+    star.push(t);
+    let mut seen = HashSet::from([t]);
+    let mut next = 0;
+    while next < star.len() {
+        let simplex = &simplices[star[next] as usize];
+        for i in 0..V {
+            let (neighbor, _) = decode(simplex.neighbors[i]);
+            if simplex.vertices[i] != v && seen.insert(neighbor) {
+                star.push(neighbor);
+            }
+        }
+        next += 1;
+    }
+}
+
 questions!(2, 3, InPlane);
 questions!(3, 4, InSpace);

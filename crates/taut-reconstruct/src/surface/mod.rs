@@ -159,7 +159,8 @@ fn solve(
 ) -> Result<Solution<Surface>, Error> {
     let view = Points::new(points.as_flattened(), 3);
     let Ok(view) = view else { return Err(Error::Flat { points: 0, span: Span::Nothing }) };
-    let space = Space::build(&view, &in_one_cell(monitor))?;
+    let space =
+        Space::build(&view, &DelaunayOptions { monitor: *monitor, ..DelaunayOptions::default() })?;
     check_span(&space)?;
     let sites = Sites::of(&space, rows);
     let (mode, facets, cells) = match options.method {
@@ -226,10 +227,4 @@ fn of_alpha(space: &Space, radius: Option<f64>) -> Result<(Promise, Facets), Err
     // A radius without end says nothing, and no JSON holds it.
     let mode = if radius.is_finite() { Promise::Alpha { radius } } else { Promise::Closed };
     Ok((mode, facets))
-}
-
-/// Returns how samples of surfaces are triangulated. Their simplices reach from one side of a body to the other, and so through all cells that
-/// threads could share: 10⁶ points of dc take two threads with a cell each half as long again as one thread alone.
-fn in_one_cell<'a>(monitor: &Monitor<'a>) -> DelaunayOptions<'a> {
-    DelaunayOptions { cells: Some(1), monitor: *monitor, ..DelaunayOptions::default() }
 }

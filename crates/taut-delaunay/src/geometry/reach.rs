@@ -67,16 +67,6 @@ impl Reach<3> {
 }
 
 impl<const D: usize> Reach<D> {
-    /// Returns true if the sphere certainly stays within `√clearance_squared` of each of its vertices.
-    #[inline(always)]
-    pub(crate) fn within(&self, clearance_squared: f64) -> bool {
-        let power = if D == 2 { self.size * self.size } else { self.size * self.size * self.size };
-        // The diameter is |β|/|α|; a flat simplex, where both are rounding, is left to the exact test.
-        -self.alpha > power * (1.0 / (1 << 20) as f64)
-            && square(self.beta) * (1.0 + 1.0 / (1 << 16) as f64)
-                < clearance_squared * self.alpha * self.alpha
-    }
-
     /// An upper bound of the form over the box `low..=high`, rounding included; coordinates are `filtered`.
     #[inline(always)]
     pub(crate) fn most(&self, low: [f64; D], high: [f64; D]) -> f64 {
@@ -119,11 +109,5 @@ impl<const D: usize> Reach<D> {
             .map(move |code: usize| {
                 std::array::from_fn(|i| if code >> i & 1 == 1 { high[i] } else { low[i] })
             })
-    }
-
-    /// The form at `q`, rounding not included: larger is deeper inside.
-    pub(crate) fn depth(&self, q: [f64; D]) -> f64 {
-        let q = difference(q, self.origin);
-        self.alpha * square(q) + dot(self.beta, q)
     }
 }

@@ -1,18 +1,23 @@
-//! The operations on simplices that the cells need, in the plane and in space.
+//! Where simplices conflict, in the plane and in space: with a point exactly, and with a box on the safe side. For what asks
+//! a finished mesh: the tree merge of `outofcore`, and locators.
 
-use std::ops::Index;
+mod index;
+mod reach;
+
+use std::ops::Index as At;
 
 use taut_predicates::{Sign, plane, space};
 
-use super::index::Bounds;
-use super::reach::Reach;
+pub(crate) use index::{Bounds, Index};
+use reach::Reach;
+
 use crate::affine::{Span, span_of_plane, span_of_space};
-use crate::kernel::Kernel;
 use crate::simplex::{GHOST, Simplex, decode};
+use crate::threads::Together;
 
 /// The plane or space, for code that serves both.
 pub(crate) trait Geometry<const D: usize, const V: usize>: Sized {
-    type Mesh: Kernel<D, V> + Send + Sync;
+    type Mesh: Together<D, V> + Send + Sync;
 
     /// Where a positive simplex conflicts.
     fn reach(corners: [[f64; D]; V]) -> Reach<D>;
@@ -97,7 +102,7 @@ pub(crate) fn corners<const D: usize, const V: usize>(
 /// Tests whether `q` conflicts with simplex `t` of a mesh, ghosts included: beyond the hull, or on a hull facet's plane and in
 /// conflict with the finite simplex behind it.
 pub(crate) fn conflicts<const D: usize, const V: usize, G: Geometry<D, V>>(
-    simplices: &(impl Index<usize, Output = Simplex<V>> + ?Sized),
+    simplices: &(impl At<usize, Output = Simplex<V>> + ?Sized),
     t: u32,
     site: impl Fn(u32) -> [f64; D] + Copy,
     q: [f64; D],

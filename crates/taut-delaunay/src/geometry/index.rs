@@ -1,7 +1,7 @@
 //! Boxes over runs of sites along the Hilbert curve: which sites lie where, without a search structure of its own.
 //!
 //! Idea: sites are in Hilbert order, so any run of them is compact; boxes over 64 sites, over 8 such boxes, and so on,
-//! are an implicit tree. This is the first of the three functions of the cells (build the index, assign, triangulate).
+//! are an implicit tree.
 //! Guarantee: a query visits every run whose box it does not rule out. O(n) to build, about a byte per site.
 
 use std::ops::Range;
@@ -35,11 +35,6 @@ impl<const D: usize> Bounds<D> {
         }
     }
 
-    /// Tests whether a point is in the box.
-    pub(crate) fn holds(&self, p: [f64; D]) -> bool {
-        (0..D).all(|i| self.low[i] <= p[i] && p[i] <= self.high[i])
-    }
-
     /// The squared distance of the two boxes; 0 if they meet.
     pub(crate) fn distance_squared(&self, other: &Self) -> f64 {
         (0..D)
@@ -52,11 +47,6 @@ impl<const D: usize> Bounds<D> {
     /// The squared distance of a point; 0 inside.
     pub(crate) fn distance_squared_to(&self, p: [f64; D]) -> f64 {
         self.distance_squared(&Self { low: p, high: p })
-    }
-
-    /// The longest side.
-    pub(crate) fn extent(&self) -> f64 {
-        (0..D).map(|i| self.high[i] - self.low[i]).fold(0.0, f64::max)
     }
 }
 
@@ -112,36 +102,6 @@ impl<const D: usize> Index<D> {
         let count = if node.level == 0 { 0 } else { self.levels[level].len() };
         let begin = node.place << FAN_OUT_BITS;
         (begin..count.min(begin + (1 << FAN_OUT_BITS))).map(move |place| Node { level, place })
-    }
-
-    /// The level whose nodes are about `count`.
-    pub(crate) fn level_of_about(&self, count: usize) -> impl Iterator<Item = Node> + use<D> {
-        let level =
-            self.levels.iter().position(|l| l.len() <= count).unwrap_or(self.levels.len() - 1);
-        (0..self.levels[level].len()).map(move |place| Node { level, place })
-    }
-
-    /// Visits the leaves whose boxes, and all boxes above, `keep` does not rule out, until `leaf` says stop.
-    ///
-    /// `open` is scratch.
-    pub(crate) fn visit(
-        &self,
-        open: &mut Vec<Node>,
-        mut keep: impl FnMut(&Self, Node) -> bool,
-        mut leaf: impl FnMut(Node) -> bool,
-    ) {
-        open.clear();
-        open.push(self.root());
-        while let Some(node) = open.pop() {
-            if !keep(self, node) {
-                continue;
-            }
-            if node.level > 0 {
-                open.extend(self.children(node));
-            } else if leaf(node) {
-                return;
-            }
-        }
     }
 
     /// Visits leaves from about the nearest to `q` to the farthest, as long as `open` does not rule them out.
