@@ -57,11 +57,14 @@ pub(crate) fn insert_all_together<const D: usize, const V: usize, K: Together<D,
     let least = sites_per_thread.unwrap_or(K::SITES_MIN).max(1);
     let threads = rayon::current_num_threads().min(Owners::THREADS_MAX);
     let is_shared = |sites: usize| threads > 1 && sites / threads >= least;
+    // Where a thread ended it begins.
+    let mut turns = [false, true].into_iter().cycle();
+    let mut how = || (threads, turns.next().unwrap_or(false));
     match order {
         InsertionOrder::Strided => {
             for round in strided_rounds(count) {
                 if is_shared(round.len as usize) {
-                    insert_round(kernel, round.len, |i| round.nth(i), started, threads, monitor)?;
+                    insert_round(kernel, round.len, |i| round.nth(i), started, how(), monitor)?;
                 } else {
                     feed(kernel, (0..round.len).map(|i| round.nth(i)), started, monitor)?;
                 }
@@ -75,7 +78,7 @@ pub(crate) fn insert_all_together<const D: usize, const V: usize, K: Together<D,
             for round in sites.chunk_by(|a, b| a.0 == b.0) {
                 if is_shared(round.len()) {
                     let nth = |i: u32| round[i as usize].1;
-                    insert_round(kernel, round.len() as u32, nth, started, threads, monitor)?;
+                    insert_round(kernel, round.len() as u32, nth, started, how(), monitor)?;
                 } else {
                     feed(kernel, round.iter().map(|&(_, site)| site), started, monitor)?;
                 }

@@ -13,8 +13,9 @@ use crate::kernel::Counters;
 use crate::records::Record;
 use crate::simplex::{DEAD_MARK, GHOST, decode};
 
-/// Steps beside other threads, at most: more than a walk takes from one site of a round to the next.
-const STEPS_MAX: u64 = 1 << 14;
+/// Steps beside other threads, at most: along a line of sites a walk may have as many as there are sites, but it could go in a
+/// circle while triangles change.
+const STEPS_MAX: u64 = 1 << 24;
 
 /// The triangle (d, b, a) that was found, d being at place `facet`, and its minors.
 #[derive(Clone, Copy)]

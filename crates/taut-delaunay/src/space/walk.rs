@@ -15,9 +15,9 @@ use super::Site;
 use super::cavity::{FACETS, ghost_place};
 use super::signs::{Judge, Signs, rows};
 
-/// Steps beside other threads, at most. In a mesh that stands still a walk along a line of sites may have as many steps as
-/// there are sites, but the sites of a round come one after another.
-const STEPS_MAX: u64 = 1 << 14;
+/// Steps beside other threads, at most: along a line of sites a walk may have as many as there are sites, but it could go in a
+/// circle while simplices change.
+const STEPS_MAX: u64 = 1 << 24;
 
 /// A simplex in conflict with q, reached from any live one, and its vertices.
 #[inline(always)]

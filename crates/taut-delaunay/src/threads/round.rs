@@ -74,16 +74,17 @@ const FULL: u8 = 1;
 const IN_EACH_OTHERS_WAY: u8 = 2;
 const STOPPED: u8 = 3;
 
-/// Inserts the sites `nth(0)`, … `nth(count − 1)` but those of `started`, on so many threads.
+/// Inserts the sites `nth(0)`, … `nth(count − 1)` but those of `started`, on so many threads, each along its run of them or
+/// backward.
 pub(crate) fn insert_round<const D: usize, const V: usize, K: Together<D, V>>(
     kernel: &mut K,
     count: u32,
     nth: impl Fn(u32) -> u32 + Sync,
     started: &[u32; V],
-    threads: usize,
+    (threads, backward): (usize, bool),
     monitor: &Monitor<'_>,
 ) -> Result<(), Error> {
-    let runs = Runs::new(count, threads);
+    let runs = Runs::new(count, threads, backward);
     let mut left: Vec<u32> = Vec::new();
     loop {
         let why = AtomicU8::new(GO_ON);
@@ -97,7 +98,7 @@ pub(crate) fn insert_round<const D: usize, const V: usize, K: Together<D, V>>(
                     && let Some(block) = runs.take(thread)
                 {
                     sites.clear();
-                    sites.extend(block.map(&nth).filter(|site| !started.contains(site)));
+                    sites.extend(block.places().map(&nth).filter(|site| !started.contains(site)));
                     let done = K::insert_beside(&view, worker, &mut holder, &sites, &mut progress);
                     if let Inserted::Full(at) = done {
                         progress.deferred.extend(&sites[at..]);

@@ -1,7 +1,8 @@
 //! Which thread inserts which sites of a round.
 //!
-//! Idea: each thread has a run of the curve and takes blocks from its front, so that the walk from site to site is short; a
-//! thread that has done its run takes blocks from the back of the run that has most left.
+//! Idea: each thread has a run of the curve and goes along it, so that the walk from site to site is short; it ends where it begins in
+//! the next round, as rounds go along the curve in turns. A thread that has done its run helps with the run that has most left, from
+//! its other end.
 
 use std::ops::Range;
 use std::sync::atomic::AtomicU64;
@@ -9,9 +10,30 @@ use std::sync::atomic::Ordering::Relaxed;
 
 /// Sites that a thread takes at once.
 const BLOCK: u32 = 1024;
+/// A run of which less is left is nobody else's: on a line of sites the walk to its end has as many steps as there are sites.
+const HELP_MIN: u32 = 4 * BLOCK;
+
+/// Places of a round, and whether they are gone through from the last to the first.
+pub(super) struct Block {
+    places: Range<u32>,
+    backward: bool,
+}
+
+impl Block {
+    /// The places in their order.
+    pub(super) fn places(&self) -> impl Iterator<Item = u32> {
+        let Range { start, end } = self.places;
+        let backward = self.backward;
+        (start..end).map(move |place| if backward { end - 1 - (place - start) } else { place })
+    }
+}
 
 /// The places of a round that nobody has taken yet, a run for each thread.
-pub(super) struct Runs(Vec<AtomicU64>);
+pub(super) struct Runs {
+    runs: Vec<AtomicU64>,
+    /// The direction in which threads go along their own runs.
+    backward: bool,
+}
 
 /// A run in one number, so that it can be exchanged.
 fn packed(run: Range<u32>) -> u64 {
@@ -22,42 +44,52 @@ fn unpacked(run: u64) -> Range<u32> {
     (run >> 32) as u32..run as u32
 }
 
+/// Takes a block from one end of a run that has at least so many places.
+fn take(run: &AtomicU64, least: u32, backward: bool) -> Option<Block> {
+    let split = |run: Range<u32>| {
+        let block = BLOCK.min(run.len() as u32);
+        if backward {
+            (run.end - block..run.end, run.start..run.end - block)
+        } else {
+            (run.start..run.start + block, run.start + block..run.end)
+        }
+    };
+    let rest = |run: u64| {
+        let run = unpacked(run);
+        (run.len() as u32 >= least).then(|| packed(split(run).1))
+    };
+    let before = run.fetch_update(Relaxed, Relaxed, rest).ok()?;
+    Some(Block { places: split(unpacked(before)).0, backward })
+}
+
 impl Runs {
     /// Places 0 to `count` for so many threads.
-    pub(super) fn new(count: u32, threads: usize) -> Self {
+    pub(super) fn new(count: u32, threads: usize, backward: bool) -> Self {
         let cut = |i: usize| (u64::from(count) * i as u64 / threads as u64) as u32;
-        Runs((0..threads).map(|i| AtomicU64::new(packed(cut(i)..cut(i + 1)))).collect())
+        let run = |i: usize| AtomicU64::new(packed(cut(i)..cut(i + 1)));
+        Runs { runs: (0..threads).map(run).collect(), backward }
     }
 
     /// The next block for a thread; none if all is taken.
-    pub(super) fn take(&self, thread: usize) -> Option<Range<u32>> {
-        let front = |run: u64| {
-            let run = unpacked(run);
-            (!run.is_empty()).then(|| packed(run.start + BLOCK.min(run.len() as u32)..run.end))
-        };
-        if let Ok(run) = self.0[thread].fetch_update(Relaxed, Relaxed, front) {
-            let run = unpacked(run);
-            return Some(run.start..run.start + BLOCK.min(run.len() as u32));
+    pub(super) fn take(&self, thread: usize) -> Option<Block> {
+        if let Some(block) = take(&self.runs[thread], 1, self.backward) {
+            return Some(block);
         }
-        let back = |run: u64| {
-            let run = unpacked(run);
-            (!run.is_empty()).then(|| packed(run.start..run.end - BLOCK.min(run.len() as u32)))
-        };
         loop {
-            let longest = self.0.iter().max_by_key(|run| unpacked(run.load(Relaxed)).len())?;
-            if unpacked(longest.load(Relaxed)).is_empty() {
-                return None;
+            let left = |run: &&AtomicU64| unpacked(run.load(Relaxed)).len() as u32;
+            let longest = self.runs.iter().max_by_key(left)?;
+            if let Some(block) = take(longest, HELP_MIN, !self.backward) {
+                return Some(block);
             }
-            if let Ok(run) = longest.fetch_update(Relaxed, Relaxed, back) {
-                let run = unpacked(run);
-                return Some(run.end - BLOCK.min(run.len() as u32)..run.end);
+            if left(&longest) < HELP_MIN {
+                return None;
             }
         }
     }
 
     /// What nobody has taken.
     pub(super) fn rest(&self) -> impl Iterator<Item = u32> {
-        self.0.iter().flat_map(|run| unpacked(run.load(Relaxed)))
+        self.runs.iter().flat_map(|run| unpacked(run.load(Relaxed)))
     }
 }
 
@@ -68,11 +100,13 @@ mod tests {
     #[test]
     fn each_place_is_taken_once() {
         for (count, threads) in [(0, 1), (1, 3), (1000, 2), (5000, 3), (100_000, 8)] {
-            let runs = Runs::new(count, threads);
+            let runs = Runs::new(count, threads, count % 2 == 1);
             let mut taken: Vec<u32> = Vec::new();
-            // The last thread is the first to be done.
-            for turn in (0..threads).rev().cycle().take(40 * threads) {
-                taken.extend(runs.take(turn).into_iter().flatten());
+            // The last thread is the first to be done, and helps the others.
+            for turn in (0..threads).rev() {
+                for _ in 0..30 {
+                    taken.extend(runs.take(turn).iter().flat_map(Block::places));
+                }
             }
             taken.extend(runs.rest());
             taken.sort_unstable();
