@@ -35,6 +35,12 @@ impl<const D: usize> Bounds<D> {
         }
     }
 
+    /// Tests whether a point is in the box.
+    #[cfg(test)]
+    pub(crate) fn holds(&self, p: [f64; D]) -> bool {
+        (0..D).all(|i| self.low[i] <= p[i] && p[i] <= self.high[i])
+    }
+
     /// The squared distance of the two boxes; 0 if they meet.
     pub(crate) fn distance_squared(&self, other: &Self) -> f64 {
         (0..D)

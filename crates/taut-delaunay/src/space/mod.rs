@@ -34,8 +34,9 @@ use std::sync::atomic::{AtomicU8, AtomicU32};
 use taut_predicates::Separate;
 
 use crate::kernel::{Counters, Kernel, Settings, TooMany};
-use crate::records::{Record, Records, zeros};
+use crate::records::{Records, zeros};
 use crate::simplex::{DEAD_MARK, GHOST, Simplex, code};
+use crate::threads::Record;
 use crate::threads::{Alone, Hold, Holder, Inserted, OwnSlots, Owners, Progress, Room, Together};
 use cavity::{Cavity, FACETS};
 use lanes::Level;
@@ -282,7 +283,7 @@ impl Together<3, 4> for Mesh {
 
     fn unite(&mut self) {
         for worker in &mut self.workers {
-            worker.slots.give_back(&mut self.next, self.records.all());
+            worker.slots.give_back(&self.next, self.records.all());
         }
         self.records.set_len(*self.next.get_mut() as usize);
     }

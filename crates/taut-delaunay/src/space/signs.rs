@@ -9,7 +9,7 @@ use std::ops::{Add, Mul, Sub};
 use taut_predicates::{Exact, MulAdd, Separate, Sign, Stages, space};
 
 use crate::kernel::Settings;
-use crate::records::Record;
+use crate::threads::Record;
 
 use super::cavity::{FACETS, Facet, ghost_place};
 use super::{Site, row};

@@ -10,8 +10,8 @@
 //! nobody can foresee for each corner, or a chain of stores that feed the next loads: 4 to 15 % of everything on uniform
 //! points, and no gain on a torus either.
 
-use crate::records::Record;
 use crate::simplex::{Simplex, code, decode};
+use crate::threads::Record;
 
 use super::cavity::Facet;
 use super::row;

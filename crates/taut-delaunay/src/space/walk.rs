@@ -8,8 +8,8 @@
 //! out is a branch that nobody can foresee: one per simplex is enough.
 
 use crate::kernel::Counters;
-use crate::records::Record;
 use crate::simplex::{DEAD_MARK, decode};
+use crate::threads::Record;
 
 use super::Site;
 use super::cavity::{FACETS, ghost_place};

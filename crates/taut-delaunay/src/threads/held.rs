@@ -1,10 +1,10 @@
 //! Who holds which vertex.
 
 use std::sync::atomic::Ordering::{Acquire, Relaxed, Release};
-use std::sync::atomic::{AtomicBool, AtomicU8};
 
 use crate::records::zeros;
 use crate::simplex::GHOST;
+use crate::threads::atomics::{AtomicBool, AtomicU8, spin_loop};
 
 /// The vertices that a thread holds while it changes the mesh around them.
 pub(crate) trait Hold {
@@ -103,9 +103,9 @@ pub(crate) struct Holder<'a> {
 }
 
 /// Vertices that a thread keeps, at most, before it gives all of them back.
-const HELD_MAX: usize = 512;
+const HELD_MAX: usize = if cfg!(loom) { 3 } else { 512 };
 /// How often a thread looks whether a vertex is free again: about as long as an insertion takes.
-const LOOKS_MAX: u32 = 200;
+const LOOKS_MAX: u32 = if cfg!(loom) { 1 } else { 200 };
 
 impl Holder<'_> {
     /// Gives all vertices back.
@@ -127,7 +127,7 @@ impl Hold for Holder<'_> {
             if vertex == GHOST {
                 continue;
             }
-            #[cfg(test)]
+            #[cfg(all(test, not(loom)))]
             delays::some();
             let owner = &self.owners[vertex as usize];
             if owner.load(Relaxed) == self.me {
@@ -144,7 +144,7 @@ impl Hold for Holder<'_> {
 
     #[inline(always)]
     fn done(&mut self) {
-        #[cfg(test)]
+        #[cfg(all(test, not(loom)))]
         delays::some();
         if self.held.len() > HELD_MAX || self.is_wanted.load(Relaxed) {
             self.release();
@@ -161,13 +161,13 @@ impl Hold for Holder<'_> {
                 0 => return,
                 other => self.wanted[usize::from(other)].0.store(true, Relaxed),
             }
-            std::hint::spin_loop();
+            spin_loop();
         }
     }
 }
 
 /// In tests threads are held up at every vertex, so that they meet in all ways.
-#[cfg(test)]
+#[cfg(all(test, not(loom)))]
 mod delays {
     use std::cell::Cell;
     use std::time::Duration;

@@ -21,7 +21,9 @@
 //!
 //! `held` says who holds what, `slots` where new simplices go, `runs` who inserts which sites, `round` does it.
 
+pub(crate) mod atomics;
 mod held;
+mod record;
 mod round;
 mod runs;
 mod slots;
@@ -29,5 +31,6 @@ mod slots;
 mod tests;
 
 pub(crate) use held::{Alone, Hold, Holder, Owners};
+pub(crate) use record::Record;
 pub(crate) use round::{Inserted, Progress, Together, insert_round};
 pub(crate) use slots::{OwnSlots, Room};

@@ -5,11 +5,12 @@
 //! its other end.
 
 use std::ops::Range;
-use std::sync::atomic::AtomicU64;
 use std::sync::atomic::Ordering::Relaxed;
 
+use crate::threads::atomics::AtomicU64;
+
 /// Sites that a thread takes at once.
-const BLOCK: u32 = 1024;
+const BLOCK: u32 = if cfg!(loom) { 1 } else { 1024 };
 /// A run of which less is left is nobody else's: on a line of sites the walk to its end has as many steps as there are sites.
 const HELP_MIN: u32 = 4 * BLOCK;
 
@@ -93,7 +94,7 @@ impl Runs {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, not(loom)))]
 mod tests {
     use super::*;
 

@@ -1,13 +1,13 @@
 //! Slots for new simplices: each thread takes them in pieces, so that they seldom ask each other.
 
 use std::ops::Range;
-use std::sync::atomic::AtomicU32;
 use std::sync::atomic::Ordering::Relaxed;
 
-use crate::records::Record;
+use crate::threads::Record;
+use crate::threads::atomics::AtomicU32;
 
 /// Slots that a thread takes at once.
-const PIECE: u32 = 1024;
+const PIECE: u32 = if cfg!(loom) { 2 } else { 1024 };
 
 /// The slots that nobody has taken yet, from `next` on to the end of the records.
 #[derive(Clone, Copy)]
@@ -100,13 +100,9 @@ impl OwnSlots {
     }
 
     /// Gives back what was taken last and not used, if nobody took any after it; marks the rest as dead.
-    pub(crate) fn give_back<const V: usize>(
-        &mut self,
-        next: &mut AtomicU32,
-        records: &[Record<V>],
-    ) {
-        if *next.get_mut() == self.fresh.end {
-            *next.get_mut() = self.fresh.start;
+    pub(crate) fn give_back<const V: usize>(&mut self, next: &AtomicU32, records: &[Record<V>]) {
+        if next.load(Relaxed) == self.fresh.end {
+            next.store(self.fresh.start, Relaxed);
             self.fresh = 0..0;
         } else {
             self.bury(records);

@@ -9,11 +9,11 @@ use std::ops::{Add, Mul, Sub};
 
 use taut_points::{InstructionSet, instruction_set};
 
-use crate::records::Record;
 use crate::space::cavity::Facet;
 use crate::space::pairs::{self, Pair};
 use crate::space::signs::{Lane, Number, Signs, in_sphere, orientation};
 use crate::space::{Site, View, Worker, insert_with, row, whole};
+use crate::threads::Record;
 use crate::threads::{Hold, Inserted, Progress};
 
 /// Proof that the processor has AVX2 and FMA: there is no other way to make one than to ask it.
