@@ -56,7 +56,7 @@ impl Plane {
     ///
     /// O(n log n) expected for any input with [`InsertionOrder::Random`](crate::InsertionOrder::Random); the default is
     /// no slower on any set of `bench delaunay plane plane-cliffs`, but has no such bound. About 70 bytes a point beyond
-    /// the input on one thread, 110 on two.
+    /// the input on one thread, 75 on two.
     ///
     /// # Errors
     /// [`Error::Input`] if points do not have two coordinates, [`Error::Input`],
@@ -101,7 +101,7 @@ impl Space {
     ///
     /// O(n log n + simplices) expected with [`InsertionOrder::Random`](crate::InsertionOrder::Random), and in practice
     /// with the default. There are about 7n tetrahedra for points of a volume or of a surface, n²/2 at worst. About 260
-    /// bytes a point of a volume beyond the input on one thread, 370 on two.
+    /// bytes a point of a volume beyond the input on one thread, 270 on two.
     ///
     /// # Errors
     /// [`Error::Input`] if points do not have three coordinates, [`Error::Input`],
