@@ -85,6 +85,42 @@ fn what_a_walk_came_to_is_whole_once_it_is_held() {
     });
 }
 
+/// The same for a slot that became free in one insertion and is taken in a later one, by a simplex that has no vertex of the former.
+/// While it is written, its new site is held, and nothing of what was there before.
+#[test]
+fn a_slot_that_is_used_again_is_whole_once_it_is_held() {
+    const LATER: Simplex<3> = Simplex { vertices: [0, 4, 5], neighbors: [20, 21, 22] };
+    loom::model(|| {
+        let owners = Arc::new(Owners::new(6));
+        let record = Arc::new(Record::default());
+        record.set(OLD);
+        let writer = {
+            let (owners, record) = (Arc::clone(&owners), Arc::clone(&record));
+            thread::spawn(move || {
+                let mut holder = owners.holder(0);
+                if holder.hold(OLD.vertices) {
+                    record.kill();
+                    holder.release();
+                    if holder.hold([0]) && holder.hold([4, 5]) {
+                        record.set(LATER);
+                    }
+                }
+                holder.release();
+            })
+        };
+        let mut holder = owners.holder(1);
+        let vertices = record.vertices();
+        let is_dead = vertices[0] == u32::MAX - 1;
+        if !is_dead && holder.hold(vertices) && record.vertices() == vertices {
+            let expected = [OLD, LATER].into_iter().find(|simplex| simplex.vertices == vertices);
+            let expected = expected.expect("half of each is no simplex");
+            assert_eq!(record.neighbors(), expected.neighbors);
+        }
+        holder.release();
+        writer.join().unwrap();
+    });
+}
+
 /// The same for a slot that was never in use, which a walk may come to before it sees what was written.
 #[test]
 fn a_slot_that_was_never_used_is_no_simplex() {

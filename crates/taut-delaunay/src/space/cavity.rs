@@ -65,7 +65,7 @@ impl Cavity {
     }
 
     /// Finds all simplices in conflict with q, from `start`, which must be one and held; holds the others. `marks` are
-    /// all zero before and after. Returns how many tests it took, or nothing if another thread holds one of them.
+    /// all zero before and after. Returns how many tests it took, and false if another thread holds one of them.
     #[inline(always)]
     pub(super) fn carve<S: Signs, H: Hold>(
         &mut self,
@@ -77,7 +77,7 @@ impl Cavity {
         hold: &mut H,
         q: &Site,
         start: u32,
-    ) -> Option<u64> {
+    ) -> (u64, bool) {
         let marks = &marks[..simplices.len()];
         let (mut inside, mut listed, mut seen, mut tested) = (1, 0, 0, 0);
         if self.inside.len() < 64 {
@@ -142,7 +142,7 @@ impl Cavity {
             marks[t as usize].store(0, Relaxed);
         }
         marks[start as usize].store(0, Relaxed);
-        all_held.then_some(seen as u64)
+        (seen as u64, all_held)
     }
 
     /// Lists the facets between the cavity and the rest.

@@ -370,22 +370,18 @@ fn find<S: Signs, H: Hold>(
         if !hold.hold([site])
             || !hold.hold(vertices)
             || simplices[start as usize].vertices() != vertices
-            || !is_in_conflict(signs, view, judge, start, vertices, q)
+            || !is_in_conflict(signs, view, judge, counters, start, vertices, q)
         {
             hold.give_way();
             return false;
         }
     }
-    match cavity.carve(signs, sites, simplices, marks, judge, hold, q, start) {
-        Some(tests) => {
-            counters.conflict_tests += tests;
-            true
-        }
-        None => {
-            hold.give_way();
-            false
-        }
+    let (tests, all_held) = cavity.carve(signs, sites, simplices, marks, judge, hold, q, start);
+    counters.conflict_tests += tests;
+    if !all_held {
+        hold.give_way();
     }
+    all_held
 }
 
 /// Tests whether a simplex that a walk beside other threads came to is in conflict with q. A finite one is, as its facets were
@@ -395,12 +391,16 @@ fn is_in_conflict<S: Signs>(
     signs: S,
     view: &View<'_>,
     judge: &mut Judge,
+    counters: &mut Counters,
     t: u32,
     vertices: [u32; 4],
     q: &Site,
 ) -> bool {
-    cavity::ghost_place(vertices).is_none()
-        || judge.conflicts(signs, view.sites, view.simplices, &[t; 8][..S::WIDTH], 1, q) != 0
+    if cavity::ghost_place(vertices).is_none() {
+        return true;
+    }
+    counters.conflict_tests += 1;
+    judge.conflicts(signs, view.sites, view.simplices, &[t; 8][..S::WIDTH], 1, q) != 0
 }
 
 /// Tries again to [`find`] the cavity of q, from other simplices if there is none any more where the walk begins.
