@@ -46,16 +46,18 @@ pub(crate) fn insert_all<const D: usize, const V: usize, K: Kernel<D, V>>(
     }
 }
 
-/// The same on several threads of the current pool, in orders that have rounds: the larger ones are shared among threads.
+/// The same on several threads of the current pool, in orders that have rounds: the larger ones are shared among threads, 255 at
+/// most.
 pub(crate) fn insert_all_together<const D: usize, const V: usize, K: Together<D, V>>(
     kernel: &mut K,
     started: &[u32; V],
     options: &DelaunayOptions<'_>,
+    threads: usize,
 ) -> Result<(), Error> {
     let DelaunayOptions { order, seed, sites_per_thread, ref monitor, .. } = *options;
     let count = kernel.site_count();
     let least = sites_per_thread.unwrap_or(K::SITES_MIN).max(1);
-    let threads = rayon::current_num_threads().min(Owners::THREADS_MAX);
+    let threads = threads.min(Owners::THREADS_MAX);
     let is_shared = |sites: usize| threads > 1 && sites / threads >= least;
     // Where a thread ended it begins.
     let mut turns = [false, true].into_iter().cycle();

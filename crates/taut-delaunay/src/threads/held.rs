@@ -170,6 +170,7 @@ impl Hold for Holder<'_> {
 #[cfg(all(test, not(loom)))]
 mod delays {
     use std::cell::Cell;
+    use std::sync::atomic::Ordering::Relaxed;
     use std::time::Duration;
 
     thread_local! {
@@ -177,6 +178,9 @@ mod delays {
     }
 
     pub(super) fn some() {
+        if crate::threads::round::in_turn::ON.load(Relaxed) {
+            return;
+        }
         let mut state = STATE.get();
         if state == 0 {
             // Each thread has a stack of its own.

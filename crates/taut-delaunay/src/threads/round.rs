@@ -91,6 +91,8 @@ pub(crate) fn insert_round<const D: usize, const V: usize, K: Together<D, V>>(
         let deferred: Vec<Vec<u32>> = {
             let (view, owners, workers) = kernel.share(threads);
             let work = |(thread, worker): (usize, &mut K::Worker)| {
+                #[cfg(test)]
+                let begin = std::time::Instant::now();
                 let mut holder = owners.holder(thread);
                 let mut progress = Progress::default();
                 let mut sites = Vec::new();
@@ -115,6 +117,8 @@ pub(crate) fn insert_round<const D: usize, const V: usize, K: Together<D, V>>(
                     }
                 }
                 holder.release();
+                #[cfg(test)]
+                in_turn::note(thread, begin.elapsed());
                 progress.deferred
             };
             workers.par_iter_mut().with_max_len(1).enumerate().map(work).collect()
@@ -137,4 +141,29 @@ pub(crate) fn insert_round<const D: usize, const V: usize, K: Together<D, V>>(
     }
     monitor.points((left.len() - deferred) as u64);
     Ok(())
+}
+
+/// For the time that more threads than there are processors would take: the parts of threads are done one after the other, and timed.
+#[cfg(test)]
+pub(super) mod in_turn {
+    use std::sync::Mutex;
+    use std::sync::atomic::AtomicBool;
+    use std::sync::atomic::Ordering::Relaxed;
+    use std::time::Duration;
+
+    /// While this holds, threads do their own runs only, and are not held up.
+    pub(in super::super) static ON: AtomicBool = AtomicBool::new(false);
+
+    /// For each round the times of its threads.
+    pub(in super::super) static ROUNDS: Mutex<Vec<Vec<Duration>>> = Mutex::new(Vec::new());
+
+    pub(super) fn note(thread: usize, time: Duration) {
+        if ON.load(Relaxed) {
+            let mut rounds = ROUNDS.lock().expect("nobody panics here");
+            if thread == 0 {
+                rounds.push(Vec::new());
+            }
+            rounds.last_mut().expect("thread 0 is the first").push(time);
+        }
+    }
 }

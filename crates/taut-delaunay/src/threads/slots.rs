@@ -38,7 +38,7 @@ impl Room<'_> {
         const LOOKS: u32 = 64;
         let taken = u64::from(self.next.load(Relaxed));
         let slot =
-            |i: u32| (u64::from(first.wrapping_add(i.wrapping_mul(STEP))) * taken >> 32) as u32;
+            |i: u32| ((u64::from(first.wrapping_add(i.wrapping_mul(STEP))) * taken) >> 32) as u32;
         std::iter::once(first).chain((1..LOOKS).map(slot)).find(has).unwrap_or(first)
     }
 }

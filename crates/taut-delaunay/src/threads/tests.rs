@@ -1,9 +1,16 @@
 //! Small sets by several threads that are held up at every vertex, beside one thread.
 
+use std::sync::atomic::Ordering::Relaxed;
 use std::time::{Duration, Instant};
 
-use taut_points::Points;
+use taut_points::{Distribution, Monitor, Points, generate};
 
+use super::round::in_turn;
+use crate::affine::Span;
+use crate::geometry::{Geometry, InPlane, InSpace};
+use crate::kernel::Kernel;
+use crate::rounds::insert_all_together;
+use crate::sites::Sites;
 use crate::{DelaunayOptions, delaunay};
 
 /// Seeded numbers (SplitMix64; Steele, Lea and Flood, OOPSLA 2014).
@@ -89,4 +96,52 @@ fn soak() {
     let seed = std::env::var("TAUT_SOAK_SEED").ok().and_then(|s| s.parse().ok());
     let done = compare(seed.unwrap_or(2), 3000, |_| Instant::now() > end);
     println!("{done} sets, each the same");
+}
+
+/// The time of a build on this many threads, if each had a processor of its own, beside that on one: of each round the part that took
+/// longest, and all that one thread does. Parts are done in turn, so that no thread gets into another's way.
+fn path<const D: usize, const V: usize, G: Geometry<D, V>>(n: usize, threads: usize) -> [f64; 2] {
+    let values: Vec<f64> =
+        generate(Distribution::Uniform, n, D, 5).expect("parameters are in range");
+    let points = Points::new(&values, D).expect("whole rows");
+    let monitor = Monitor::silent();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread");
+    let build = |threads: usize| {
+        pool.install(|| {
+            let begin = Instant::now();
+            let sites = Sites::<D>::new(&points, true, &monitor).expect("finite");
+            let Span::Full(start) = G::span(&sites.coordinates) else { panic!("points span all") };
+            let ordered = begin.elapsed();
+            let begin = Instant::now();
+            let mut mesh = G::Mesh::new(sites.coordinates, sites.settings);
+            mesh.start(start);
+            let options = DelaunayOptions::default();
+            insert_all_together(&mut mesh, &start, &options, threads).expect("few simplices");
+            assert!(!mesh.simplices().is_empty());
+            [ordered.as_secs_f64(), begin.elapsed().as_secs_f64()]
+        })
+    };
+    in_turn::ON.store(true, Relaxed);
+    let [_, one] = build(1);
+    in_turn::ROUNDS.lock().expect("nobody panics").clear();
+    let [_, all] = build(threads);
+    let rounds = std::mem::take(&mut *in_turn::ROUNDS.lock().expect("nobody panics"));
+    in_turn::ON.store(false, Relaxed);
+    let sum: f64 = rounds.iter().flatten().map(Duration::as_secs_f64).sum();
+    let longest: f64 =
+        rounds.iter().map(|parts| parts.iter().max().map_or(0.0, Duration::as_secs_f64)).sum();
+    [one, all - sum + longest]
+}
+
+/// `cargo test --release -p taut-delaunay --lib threads::tests::critical_path -- --ignored --nocapture`
+#[test]
+#[ignore = "takes a minute, and prints times"]
+fn critical_path() {
+    println!("| points | threads | insertion on one thread over the longest path |\n|---|---|---|");
+    for threads in [2, 8, 16, 64] {
+        let [one, longest] = path::<2, 3, InPlane>(1_000_000, threads);
+        println!("| plane 10⁶ | {threads} | {:.1} |", one / longest);
+        let [one, longest] = path::<3, 4, InSpace>(1_000_000, threads);
+        println!("| space 10⁶ | {threads} | {:.1} |", one / longest);
+    }
 }
