@@ -11,8 +11,8 @@ pub struct DelaunayOptions<'a> {
     pub order: InsertionOrder,
     /// Seeds the random orders; the others do without.
     pub seed: u64,
-    /// Threads share the rounds of an order that have at least so many sites for each; `None` takes what was measured: 1500 in
-    /// space, 20,000 in the plane. The answer does not depend on it.
+    /// So many threads have a part in a round of an order that each has at least so many sites; `None` takes what was measured:
+    /// 1500 in space, 4000 in the plane. The answer does not depend on it.
     pub sites_per_thread: Option<usize>,
     /// True if vector instructions are used where the machine has them. The answer does not depend on it.
     pub vectors: bool,

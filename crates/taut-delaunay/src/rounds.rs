@@ -58,15 +58,17 @@ pub(crate) fn insert_all_together<const D: usize, const V: usize, K: Together<D,
     let count = kernel.site_count();
     let least = sites_per_thread.unwrap_or(K::SITES_MIN).max(1);
     let threads = threads.min(Owners::THREADS_MAX);
-    let is_shared = |sites: usize| threads > 1 && sites / threads >= least;
+    // So many threads have a part in a round of `sites`.
+    let sharing = |sites: usize| threads.min(sites / least);
     // Where a thread ended it begins.
     let mut turns = [false, true].into_iter().cycle();
-    let mut how = || (threads, turns.next().unwrap_or(false));
     match order {
         InsertionOrder::Strided => {
             for round in strided_rounds(count) {
-                if is_shared(round.len as usize) {
-                    insert_round(kernel, round.len, |i| round.nth(i), started, how(), monitor)?;
+                let threads = sharing(round.len as usize);
+                if threads > 1 {
+                    let how = (threads, turns.next().unwrap_or(false));
+                    insert_round(kernel, round.len, |i| round.nth(i), started, how, monitor)?;
                 } else {
                     feed(kernel, (0..round.len).map(|i| round.nth(i)), started, monitor)?;
                 }
@@ -78,9 +80,11 @@ pub(crate) fn insert_all_together<const D: usize, const V: usize, K: Together<D,
             let mut sites: Vec<(u32, u32)> = (0..count).map(|i| (u32::MAX - level(i), i)).collect();
             sites.sort_unstable();
             for round in sites.chunk_by(|a, b| a.0 == b.0) {
-                if is_shared(round.len()) {
+                let threads = sharing(round.len());
+                if threads > 1 {
                     let nth = |i: u32| round[i as usize].1;
-                    insert_round(kernel, round.len() as u32, nth, started, how(), monitor)?;
+                    let how = (threads, turns.next().unwrap_or(false));
+                    insert_round(kernel, round.len() as u32, nth, started, how, monitor)?;
                 } else {
                     feed(kernel, round.iter().map(|&(_, site)| site), started, monitor)?;
                 }

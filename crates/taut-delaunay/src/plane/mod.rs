@@ -224,7 +224,7 @@ impl Together<2, 3> for Mesh {
     type View<'a> = Shared<'a>;
     type Worker = Worker;
 
-    const SITES_MIN: usize = 20_000;
+    const SITES_MIN: usize = 4000;
 
     fn share(&mut self, threads: usize) -> (Shared<'_>, &Owners, &mut [Worker]) {
         if threads > 1 && self.owners.len() < self.sites.len() {
