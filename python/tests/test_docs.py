@@ -57,17 +57,30 @@ def test_short_names_are_those_of_all_inscribed_shapes():
         assert getattr(inscribe, name) is getattr(taut, f"inscribed_{name}")
 
 
-NAMES = ["ball", "bodies", "centers", "circle", "classify", "curve", "delaunay", "ellipsoid", "robust", "sphere-tree"]
-OF_MEMORY = ["matrix", "order", "sample", "sort"]
-PAGES = ["README.md", *(f"docs/{page}.md" for page in NAMES), *(f"docs/memory/{page}.md" for page in OF_MEMORY)]
+ROOT = Path(__file__).parents[2]
+PAGES = sorted(str(page.relative_to(ROOT)) for page in [ROOT / "README.md", *ROOT.glob("docs/**/*.md")] if "```pycon" in page.read_text(encoding="utf-8"))
 
 
 @pytest.mark.parametrize("page", PAGES)
 def test_examples_of_the_pages_run(page):
-    text = (Path(__file__).parents[2] / page).read_text(encoding="utf-8")
+    text = (ROOT / page).read_text(encoding="utf-8")
     blocks = re.findall(r"```pycon\n(.*?)```", text, re.DOTALL)
     assert blocks
     runner = doctest.DocTestRunner(optionflags=FLAGS)
     for block in blocks:
         runner.run(doctest.DocTestParser().get_doctest(block, {}, page, page, 0))
     assert runner.summarize().failed == 0
+
+
+def test_examples_are_in_blocks_that_run():
+    assert len(PAGES) > 20
+    for page in [ROOT / "README.md", *ROOT.glob("docs/**/*.md")]:
+        assert "```python\n>>>" not in page.read_text(encoding="utf-8"), page
+
+
+def test_the_comparison_names_what_there_is():
+    rows = [line for line in (ROOT / "docs/compare.md").read_text(encoding="utf-8").splitlines() if line.startswith("|")]
+    names = {name for row in rows for name in re.findall(r"`taut\.([\w.]+)`", row.split("|")[2])}
+    assert len(names) > 25
+    for name in names:
+        assert name in taut.__all__, name

@@ -1,12 +1,12 @@
 //! Sorted files, transposed files, samples and orders: what the solvers make is confirmed, and nothing that was changed.
 
-#[path = "files/order.rs"]
+#[path = "certified/order.rs"]
 mod order;
-#[path = "files/sample.rs"]
+#[path = "certified/sample.rs"]
 mod sample;
-#[path = "files/sort.rs"]
+#[path = "certified/sort.rs"]
 mod sort;
-#[path = "files/transpose.rs"]
+#[path = "certified/transpose.rs"]
 mod transpose;
 
 use std::io::Cursor;
