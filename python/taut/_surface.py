@@ -7,6 +7,7 @@ from typing import Literal
 from numpy.typing import ArrayLike
 
 from . import _native
+from ._answers.surface import Surface
 from ._arrays import as_rows
 from ._solution import Solution
 
@@ -30,7 +31,7 @@ def surface(
     priority: Priority = "circumcentre-distance",
     restarts: bool = False,
     threads: int | None = None,
-) -> Solution:
+) -> Solution[Surface]:
     """The surface that points of space were sampled from: triangles between them, and whether they are a surface.
 
     Parameters

@@ -30,6 +30,9 @@ pub(crate) trait Geometry<const D: usize, const V: usize>: Sized {
 
     fn orientation(corners: [[f64; D]; V]) -> Sign;
 
+    /// Tests whether `q` lies inside (positive), on (zero) or outside the sphere of a positive simplex.
+    fn in_sphere(corners: [[f64; D]; V], q: [f64; D]) -> Sign;
+
     /// The affine hull of distinct sites.
     fn span(sites: &[[f64; D]]) -> Span<V>;
 }
@@ -54,6 +57,10 @@ impl Geometry<2, 3> for InPlane {
 
     fn orientation([a, b, c]: [[f64; 2]; 3]) -> Sign {
         plane::orient(a, b, c)
+    }
+
+    fn in_sphere([a, b, c]: [[f64; 2]; 3], q: [f64; 2]) -> Sign {
+        plane::in_circle(a, b, c, q)
     }
 
     fn span(sites: &[[f64; 2]]) -> Span<3> {
@@ -83,6 +90,10 @@ impl Geometry<3, 4> for InSpace {
 
     fn orientation([a, b, c, d]: [[f64; 3]; 4]) -> Sign {
         space::orient(a, b, c, d)
+    }
+
+    fn in_sphere([a, b, c, d]: [[f64; 3]; 4], q: [f64; 3]) -> Sign {
+        space::in_sphere(a, b, c, d, q)
     }
 
     fn span(sites: &[[f64; 3]]) -> Span<4> {

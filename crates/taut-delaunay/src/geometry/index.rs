@@ -57,6 +57,7 @@ impl<const D: usize> Bounds<D> {
 }
 
 /// The boxes, leaves first.
+#[derive(Clone)]
 pub(crate) struct Index<const D: usize> {
     levels: Vec<Vec<Bounds<D>>>,
     sites: usize,
