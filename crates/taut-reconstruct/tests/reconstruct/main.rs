@@ -15,6 +15,7 @@ mod surface_any;
 mod surface_bytes;
 mod surface_data;
 mod surface_laws;
+mod surface_noise;
 mod surface_original;
 mod surface_shapes;
 mod thesis_data;
