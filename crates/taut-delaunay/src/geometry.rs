@@ -13,11 +13,11 @@ use reach::Reach;
 
 use crate::affine::{Span, span_of_plane, span_of_space};
 use crate::simplex::{GHOST, Simplex, decode};
-use crate::threads::Together;
+use crate::threads::SharedMesh;
 
 /// The plane or space, for code that serves both.
 pub(crate) trait Geometry<const D: usize, const V: usize>: Sized {
-    type Mesh: Together<D, V> + Send + Sync;
+    type Mesh: SharedMesh<D, V> + Send + Sync;
 
     /// Where a positive simplex conflicts.
     fn reach(corners: [[f64; D]; V]) -> Reach<D>;

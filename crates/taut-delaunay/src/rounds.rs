@@ -8,10 +8,10 @@
 //! Reference: Amenta, Choi, Rote, *Incremental constructions con BRIO*, 2003, for random rounds and
 //! for blocks of a random order that are located first (Local RIC).
 
-use taut_points::Monitor;
+use taut_points::{InputError, Monitor};
 
 use crate::kernel::{Kernel, TooMany};
-use crate::threads::{Owners, Together, insert_round};
+use crate::threads::{Owners, SharedMesh, insert_round};
 use crate::{DelaunayOptions, Error, InsertionOrder};
 
 /// Sites between two looks at the monitor.
@@ -48,7 +48,7 @@ pub(crate) fn insert_all<const D: usize, const V: usize, K: Kernel<D, V>>(
 
 /// The same on several threads of the current pool, in orders that have rounds: the larger ones are shared among threads, 255 at
 /// most.
-pub(crate) fn insert_all_together<const D: usize, const V: usize, K: Together<D, V>>(
+pub(crate) fn insert_all_in_parallel<const D: usize, const V: usize, K: SharedMesh<D, V>>(
     kernel: &mut K,
     started: &[u32; V],
     options: &DelaunayOptions<'_>,
@@ -56,7 +56,11 @@ pub(crate) fn insert_all_together<const D: usize, const V: usize, K: Together<D,
 ) -> Result<(), Error> {
     let DelaunayOptions { order, seed, sites_per_thread, ref monitor, .. } = *options;
     let count = kernel.site_count();
-    let least = sites_per_thread.unwrap_or(K::SITES_MIN).max(1);
+    let least = sites_per_thread.unwrap_or(K::SITES_MIN);
+    if least == 0 {
+        let (value, expected) = ("0".into(), "at least 1");
+        return Err(InputError::Option { name: "sites_per_thread", value, expected }.into());
+    }
     let threads = threads.min(Owners::THREADS_MAX);
     // So many threads have a part in a round of `sites`.
     let sharing = |sites: usize| threads.min(sites / least);

@@ -8,7 +8,7 @@ use crate::flat::star_of_apex;
 use crate::geometry::{Geometry, InPlane, InSpace};
 use crate::kernel::{Counters, Kernel};
 use crate::plane::constrained::{Constrained, ConstraintError, Segment, constrain};
-use crate::rounds::insert_all_together;
+use crate::rounds::insert_all_in_parallel;
 use crate::simplex::{GHOST, Simplex, Slots, decode};
 use crate::sites::{Scale, Sites};
 use crate::{DelaunayOptions, Error};
@@ -173,7 +173,7 @@ fn full<const D: usize, const V: usize, G: Geometry<D, V>>(
     // The kernel takes the coordinates, so that they are there once; what it does not give back is gathered again.
     let mut mesh = G::Mesh::new(std::mem::take(&mut sites.coordinates), sites.settings);
     mesh.start(start);
-    insert_all_together(&mut mesh, &start, options, rayon::current_num_threads())?;
+    insert_all_in_parallel(&mut mesh, &start, options, rayon::current_num_threads())?;
     let (simplices, coordinates, counters) = mesh.finish();
     sites.coordinates = coordinates.unwrap_or_default();
     Ok(Built { complex: Complex::Full, slots: Slots::of(simplices), counters })
@@ -187,7 +187,7 @@ fn flat(sites: &Sites<3>, on: [u32; 3], options: &DelaunayOptions<'_>) -> Result
     let start = [on[0], on[1], on[2], top];
     let mut mesh = <InSpace as Geometry<3, 4>>::Mesh::new(coordinates, sites.settings);
     mesh.start(start);
-    insert_all_together(&mut mesh, &start, options, rayon::current_num_threads())?;
+    insert_all_in_parallel(&mut mesh, &start, options, rayon::current_num_threads())?;
     let (simplices, _, counters) = mesh.finish();
     let triangles = Slots::of(star_of_apex(&simplices, top));
     Ok(Built { complex: Complex::Flat(triangles), slots: Slots::default(), counters })

@@ -33,7 +33,7 @@ fn cavities_with_a_vertex_in_common_are_carved_one_after_the_other() {
                         done += 1;
                         holder.done();
                     } else {
-                        holder.give_way();
+                        holder.back_off();
                     }
                 }
                 holder.release();

@@ -173,8 +173,7 @@ impl Find for Args {
         let found = watch
             .during("ordering", |monitor| built.solution(source, monitor))
             .map_err(|error| points.explain(error))?;
-        let is_listed = self.alpha.radius().is_some() || self.voronoi.is_some();
-        let built = if is_listed { built.renumbered() } else { built };
+        let built = if self.alpha.radius().is_some() { built.renumbered() } else { built };
         let complex = self.alpha.complex(&built);
         let exports = match &built {
             Built::Plane(plane)

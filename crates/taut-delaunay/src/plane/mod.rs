@@ -33,7 +33,7 @@ use crate::kernel::{Counters, Kernel, Settings, TooMany};
 use crate::records::Records;
 use crate::simplex::{GHOST, Simplex, code};
 use crate::threads::Record;
-use crate::threads::{Alone, Hold, Holder, Inserted, OwnSlots, Owners, Progress, Room, Together};
+use crate::threads::{Alone, Hold, Holder, Inserted, OwnSlots, Owners, Progress, Room, SharedMesh};
 use dig::{Edge, Sink, dig};
 use seen::{PointOffset, View};
 use star::Star;
@@ -111,9 +111,9 @@ impl Sink for Notes {
 }
 
 impl Notes {
-    /// Tells them again, and forgets them.
+    /// Repeats them, and forgets them.
     #[inline(always)]
-    fn tell(&mut self, sink: &mut impl Sink) {
+    fn replay(&mut self, sink: &mut impl Sink) {
         self.entered.drain(..).for_each(|triangle| sink.enter(triangle));
         self.rim.drain(..).for_each(|(behind, edge, end)| sink.rim(behind, edge, end));
     }
@@ -180,7 +180,7 @@ impl Kernel<2, 3> for Mesh {
             let (view, _, workers) = self.share(1);
             let progress = &mut Progress::default();
             let done = dispatch::insert(&view, &mut workers[0], &mut Alone, left, progress);
-            self.unite();
+            self.end_sharing();
             match done {
                 Inserted::All => return Ok(()),
                 Inserted::Full(at) => left = &left[at..],
@@ -201,9 +201,10 @@ impl Kernel<2, 3> for Mesh {
     fn locate(&mut self, q: [f64; 2], hint: u32) -> u32 {
         let view = View::new(&self.sites, q, self.settings.filtered);
         let Worker { exact, counters, .. } = &mut self.workers[0];
-        walk::<Separate, false>(&view, self.records.all(), hint, exact, counters)
-            .expect("a walk ends in a mesh that stands still")
-            .triangle
+        match walk::<Separate, false>(&view, self.records.all(), hint, exact, counters) {
+            Ok(found) => found.triangle,
+            Err(triangle) => triangle,
+        }
     }
 
     fn finish(self) -> (Vec<Simplex<3>>, Option<Vec<[f64; 2]>>, Counters) {
@@ -220,7 +221,7 @@ impl Kernel<2, 3> for Mesh {
     }
 }
 
-impl Together<2, 3> for Mesh {
+impl SharedMesh<2, 3> for Mesh {
     type View<'a> = Shared<'a>;
     type Worker = Worker;
 
@@ -230,10 +231,13 @@ impl Together<2, 3> for Mesh {
         if threads > 1 && self.owners.len() < self.sites.len() {
             self.owners = Owners::new(self.sites.len());
         }
-        while self.workers.len() < threads {
-            let last = self.workers[0].last;
-            self.workers.push(Worker { last, ..Worker::new(self.settings) });
-            self.records.grow((self.records.all().len() + Room::SPARE).min(TRIANGLES_MAX));
+        let more = threads.saturating_sub(self.workers.len());
+        if more > 0 {
+            let (last, settings) = (self.workers[0].last, self.settings);
+            let worker = || Worker { last, ..Worker::new(settings) };
+            self.workers.extend(std::iter::repeat_with(worker).take(more));
+            let len = self.records.all().len() + more * Room::SPARE;
+            self.records.grow(len.min(TRIANGLES_MAX).max(self.records.all().len()));
         }
         let shared = Shared {
             sites: &self.sites,
@@ -244,7 +248,7 @@ impl Together<2, 3> for Mesh {
         (shared, &self.owners, &mut self.workers[..threads])
     }
 
-    fn unite(&mut self) {
+    fn end_sharing(&mut self) {
         for worker in &mut self.workers {
             worker.slots.give_back(&self.next, self.records.all());
         }
@@ -260,7 +264,7 @@ impl Together<2, 3> for Mesh {
         Ok(())
     }
 
-    fn insert_beside(
+    fn insert_concurrently(
         view: &Shared<'_>,
         worker: &mut Worker,
         holder: &mut Holder<'_>,
@@ -272,7 +276,7 @@ impl Together<2, 3> for Mesh {
 }
 
 /// Attempts to insert a site beside other threads before it is left for the end of the round.
-const ATTEMPTS_EACH: usize = 3;
+const ATTEMPTS_EACH: usize = 4;
 
 /// Inserts sites in this order.
 #[inline(always)]
@@ -301,6 +305,7 @@ fn insert_with<M: MulAdd, H: Hold>(
         } else {
             let Worker { last, exact, counters, .. } = &mut *worker;
             walk::<M, false>(&view, triangles, *last, exact, counters)
+                .ok()
                 .expect("a walk ends in a mesh that stands still")
         };
         let Worker { last, slots, exact, counters, pending, free, notes } = &mut *worker;
@@ -308,7 +313,7 @@ fn insert_with<M: MulAdd, H: Hold>(
         free.extend([high, low]);
         let mut star = Star::new(site, triangles, free, &found, view.see::<M>(next));
         if H::SHARED {
-            notes.tell(&mut star);
+            notes.replay(&mut star);
         } else {
             dig::<M, _, _>(&view, triangles, hold, found, pending, exact, counters, &mut star);
         }
@@ -334,22 +339,25 @@ fn find<M: MulAdd, H: Hold>(
 ) -> Option<LocatedTriangle> {
     let Worker { last, exact, counters, pending, notes, .. } = worker;
     let triangles = shared.triangles;
-    for _ in 0..=ATTEMPTS_EACH {
+    for _ in 0..ATTEMPTS_EACH {
         progress.attempts += 1;
-        if let Some(found) = walk::<M, true>(view, triangles, *last, exact, counters) {
-            // Where the walk ended is a good beginning for the next attempt.
-            *last = found.triangle;
-            if is_triangle(found.vertices)
-                && hold.hold([site])
-                && hold.hold(found.vertices)
-                && found.is_at(triangles)
-                && dig::<M, _, _>(view, triangles, hold, found, pending, exact, counters, notes)
-            {
-                return Some(found);
+        match walk::<M, true>(view, triangles, *last, exact, counters) {
+            Err(at) => *last = at,
+            Ok(found) => {
+                // Where the walk ended is a good beginning for the next attempt.
+                *last = found.triangle;
+                if is_triangle(found.vertices)
+                    && hold.hold([site])
+                    && hold.hold(found.vertices)
+                    && found.is_at(triangles)
+                    && dig::<M, _, _>(view, triangles, hold, found, pending, exact, counters, notes)
+                {
+                    return Some(found);
+                }
+                notes.clear();
             }
-            hold.give_way();
-            notes.clear();
         }
+        hold.back_off();
         progress.failed += 1;
         let is_live = |&t: &u32| is_triangle(triangles[t as usize].vertices());
         *last = shared.room.some_of(*last, is_live);

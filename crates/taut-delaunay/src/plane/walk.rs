@@ -15,7 +15,7 @@ use crate::threads::Record;
 
 /// Steps beside other threads, at most: along a line of sites a walk may have as many as there are sites, but it could go in a
 /// circle while triangles change.
-const STEPS_MAX: u64 = 1 << 24;
+const STEPS_MAX: u64 = 1 << 20;
 
 /// The triangle (d, b, a) that was found, d being at place `facet`, and its minors.
 #[derive(Clone, Copy)]
@@ -48,7 +48,7 @@ pub(super) fn is_triangle([first, second, third]: [u32; 3]) -> bool {
 }
 
 /// The way from a triangle to the one that holds q, or to a ghost. Beside other threads it may come to a dead slot, or not end
-/// in reasonable time: then there is no answer, and else it is one only if the triangle [`is_at`](LocatedTriangle::is_at) its
+/// in reasonable time: then it says where it stands, and else it is one only if the triangle [`is_at`](LocatedTriangle::is_at) its
 /// place once it is held.
 #[inline(always)]
 pub(super) fn walk<M: MulAdd, const SHARED: bool>(
@@ -57,7 +57,7 @@ pub(super) fn walk<M: MulAdd, const SHARED: bool>(
     from: u32,
     exact: &mut Exact,
     counters: &mut Counters,
-) -> Option<LocatedTriangle> {
+) -> Result<LocatedTriangle, u32> {
     // As if the first triangle had been entered through the edge opposite its vertex 0; that edge is looked at once.
     let mut triangle = from;
     let vertices = triangles[triangle as usize].vertices();
@@ -67,7 +67,7 @@ pub(super) fn walk<M: MulAdd, const SHARED: bool>(
     let mut facet = 0;
     let vertices = triangles[triangle as usize].vertices();
     if SHARED && (!is_triangle(vertices) || vertices.contains(&GHOST)) {
-        return None;
+        return Err(triangle);
     }
     let [_, b, a] = vertices;
     let (mut a_id, mut b_id) = (a, b);
@@ -85,7 +85,7 @@ pub(super) fn walk<M: MulAdd, const SHARED: bool>(
         let t = &triangles[triangle as usize];
         let d_id = t.vertex(facet);
         if SHARED && (d_id == DEAD_MARK || steps > STEPS_MAX) {
-            return None;
+            return Err(triangle);
         }
         let d = view.see::<M>(d_id);
         let (ad, db) = (minor::<M>(a, d), minor::<M>(d, b));
@@ -99,7 +99,7 @@ pub(super) fn walk<M: MulAdd, const SHARED: bool>(
             counters.walk_steps += steps;
             counters.orientations += 2 * steps + 1;
             let vertices = [d_id, b_id, a_id];
-            return Some(LocatedTriangle { triangle, facet, vertices, a, b, d, ba, ad, db });
+            return Ok(LocatedTriangle { triangle, facet, vertices, a, b, d, ba, ad, db });
         }
     }
 }

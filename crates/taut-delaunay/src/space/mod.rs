@@ -37,7 +37,7 @@ use crate::kernel::{Counters, Kernel, Settings, TooMany};
 use crate::records::{Records, zeros};
 use crate::simplex::{DEAD_MARK, GHOST, Simplex, code};
 use crate::threads::Record;
-use crate::threads::{Alone, Hold, Holder, Inserted, OwnSlots, Owners, Progress, Room, Together};
+use crate::threads::{Alone, Hold, Holder, Inserted, OwnSlots, Owners, Progress, Room, SharedMesh};
 use cavity::{Cavity, FACETS};
 use lanes::Level;
 use signs::{Judge, Scalar, Signs, Unfiltered};
@@ -199,7 +199,7 @@ impl Kernel<3, 4> for Mesh {
             let (view, _, workers) = self.share(1);
             let progress = &mut Progress::default();
             let done = lanes::insert(&view, &mut workers[0], &mut Alone, left, progress);
-            self.unite();
+            self.end_sharing();
             match done {
                 Inserted::All => return Ok(()),
                 Inserted::Full(at) => left = &left[at..],
@@ -227,7 +227,9 @@ impl Kernel<3, 4> for Mesh {
             let signs = Scalar::<Separate>(PhantomData);
             walk::walk::<_, false>(signs, sites, records, judge, counters, q, hint)
         };
-        found.expect("a walk ends in a mesh that stands still").0
+        match found {
+            Ok((t, _)) | Err(t) => t,
+        }
     }
 
     fn finish(self) -> (Vec<Simplex<4>>, Option<Vec<[f64; 3]>>, Counters) {
@@ -254,7 +256,7 @@ impl Mesh {
     }
 }
 
-impl Together<3, 4> for Mesh {
+impl SharedMesh<3, 4> for Mesh {
     type View<'a> = View<'a>;
     type Worker = Worker;
 
@@ -265,10 +267,12 @@ impl Together<3, 4> for Mesh {
         if threads > 1 && self.owners.len() < count {
             self.owners = Owners::new(count);
         }
-        while self.workers.len() < threads {
-            let last = self.workers[0].last;
-            self.workers.push(Worker { last, ..Worker::new(count, self.settings) });
-            self.enlarge(self.records.all().len() + Room::SPARE);
+        let more = threads.saturating_sub(self.workers.len());
+        if more > 0 {
+            let (last, settings) = (self.workers[0].last, self.settings);
+            let worker = || Worker { last, ..Worker::new(count, settings) };
+            self.workers.extend(std::iter::repeat_with(worker).take(more));
+            self.enlarge(self.records.all().len() + more * Room::SPARE);
         }
         let end = self.records.all().len().min(self.limit) as u32;
         let view = View {
@@ -281,11 +285,19 @@ impl Together<3, 4> for Mesh {
         (view, &self.owners, &mut self.workers[..threads])
     }
 
-    fn unite(&mut self) {
+    fn end_sharing(&mut self) {
         for worker in &mut self.workers {
             worker.slots.give_back(&self.next, self.records.all());
         }
         self.records.set_len(*self.next.get_mut() as usize);
+        // Another thread may have destroyed what a thread made last.
+        let is_live = |t: u32| walk::is_simplex(self.records.all()[t as usize].vertices());
+        let live = self.workers.iter().map(|worker| worker.last).find(|&t| is_live(t));
+        let live = live.or_else(|| (0..self.records.len() as u32).find(|&t| is_live(t)));
+        let live = live.expect("a mesh has simplices");
+        for worker in self.workers.iter_mut().filter(|worker| !is_live(worker.last)) {
+            worker.last = live;
+        }
     }
 
     fn grow(&mut self) -> Result<(), TooMany> {
@@ -298,7 +310,7 @@ impl Together<3, 4> for Mesh {
         Ok(())
     }
 
-    fn insert_beside(
+    fn insert_concurrently(
         view: &View<'_>,
         worker: &mut Worker,
         holder: &mut Holder<'_>,
@@ -310,7 +322,7 @@ impl Together<3, 4> for Mesh {
 }
 
 /// Attempts to insert a site beside other threads before it is left for the end of the round.
-const ATTEMPTS_EACH: usize = 3;
+const ATTEMPTS_EACH: usize = 4;
 
 /// Inserts sites in this order; the path of the signs is the caller's choice.
 #[inline(always)]
@@ -327,6 +339,7 @@ fn insert_with<S: Signs, H: Hold>(
         if let Some(&soon) = sites.get(i + 4) {
             signs.fetch(view.sites.as_ptr().wrapping_add(row(soon)));
         }
+        progress.attempts += 1;
         // It fails only beside other threads.
         if !find(signs, view, worker, hold, site)
             && !find_again(signs, view, worker, hold, site, progress)
@@ -334,7 +347,6 @@ fn insert_with<S: Signs, H: Hold>(
             progress.deferred.push(site);
             continue;
         }
-        progress.attempts += u64::from(H::SHARED);
         let is_placed = replace(view, worker, site);
         hold.done();
         if !is_placed {
@@ -363,7 +375,14 @@ fn find<S: Signs, H: Hold>(
     } else {
         walk::walk::<S, false>(signs, sites, simplices, judge, counters, q, *last)
     };
-    let Some((start, vertices)) = found else { return false };
+    let (start, vertices) = match found {
+        Ok(found) => found,
+        Err(at) => {
+            *last = at;
+            hold.back_off();
+            return false;
+        }
+    };
     if H::SHARED {
         // Where the walk ended is a good beginning for the next attempt.
         *last = start;
@@ -372,14 +391,14 @@ fn find<S: Signs, H: Hold>(
             || simplices[start as usize].vertices() != vertices
             || !is_in_conflict(signs, view, judge, counters, start, vertices, q)
         {
-            hold.give_way();
+            hold.back_off();
             return false;
         }
     }
     let (tests, all_held) = cavity.carve(signs, sites, simplices, marks, judge, hold, q, start);
     counters.conflict_tests += tests;
     if !all_held {
-        hold.give_way();
+        hold.back_off();
     }
     all_held
 }
@@ -414,14 +433,15 @@ fn find_again<S: Signs, H: Hold>(
     site: u32,
     progress: &mut Progress,
 ) -> bool {
-    for _ in 0..ATTEMPTS_EACH {
+    progress.failed += 1;
+    for _ in 1..ATTEMPTS_EACH {
         progress.attempts += 1;
-        progress.failed += 1;
         let is_live = |&t: &u32| walk::is_simplex(view.simplices[t as usize].vertices());
         worker.last = view.room.some_of(worker.last, is_live);
         if find(signs, view, worker, hold, site) {
             return true;
         }
+        progress.failed += 1;
     }
     false
 }

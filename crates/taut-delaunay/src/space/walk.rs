@@ -3,7 +3,7 @@
 //! *Guarantee.* It ends: with exact signs, the simplices that are crossed lie one behind the other as seen from the
 //! point, and a Delaunay triangulation has no cycles in that order (Edelsbrunner, Combinatorica 10(3), 1990). What it
 //! returns is in conflict with the point: the simplex that holds it, or a ghost whose facet it lies beyond. Beside other
-//! threads that change the mesh there is no such promise: it may end at a dead slot or go on and on, and then returns nothing.
+//! threads that change the mesh there is no such promise: it may end at a dead slot or go on and on, and then says where it stands.
 //! *Trap.* The facet by which a simplex was entered is not asked again. All other facets are asked at once, as the way
 //! out is a branch that nobody can foresee: one per simplex is enough.
 
@@ -17,9 +17,10 @@ use super::signs::{Judge, Signs, rows};
 
 /// Steps beside other threads, at most: along a line of sites a walk may have as many as there are sites, but it could go in a
 /// circle while simplices change.
-const STEPS_MAX: u64 = 1 << 24;
+const STEPS_MAX: u64 = 1 << 20;
 
-/// A simplex in conflict with q, reached from any live one, and its vertices.
+/// A simplex in conflict with q, reached from any live one, and its vertices; or where a walk beside other threads stands that came
+/// to a slot without a simplex, or was long.
 #[inline(always)]
 pub(super) fn walk<S: Signs, const SHARED: bool>(
     signs: S,
@@ -29,7 +30,7 @@ pub(super) fn walk<S: Signs, const SHARED: bool>(
     counters: &mut Counters,
     q: &Site,
     hint: u32,
-) -> Option<(u32, [u32; 4])> {
+) -> Result<(u32, [u32; 4]), u32> {
     let mut t = hint;
     // Facets that are not known to have q on their inner side.
     let mut unknown = 0b1111;
@@ -43,11 +44,11 @@ pub(super) fn walk<S: Signs, const SHARED: bool>(
         steps += 1;
         if SHARED && (!is_simplex(vertices) || steps > STEPS_MAX) {
             counters.walk_steps += steps;
-            return None;
+            return Err(t);
         }
         if ghost_place(vertices).is_some() {
             counters.walk_steps += steps;
-            return Some((t, vertices));
+            return Ok((t, vertices));
         }
         counters.orientations += u64::from(u32::count_ones(unknown));
         let corners = rows(sites, vertices);
@@ -63,12 +64,13 @@ pub(super) fn walk<S: Signs, const SHARED: bool>(
             }
             if beyond == 0 {
                 counters.walk_steps += steps;
-                return Some((t, vertices));
+                return Ok((t, vertices));
             }
         }
         let (next, entry) = decode(simplex.neighbor(beyond.trailing_zeros() as usize));
         t = next;
-        unknown = 0b1111 & !(1 << entry);
+        // Beside other threads it may be another facet than the one that was crossed: then all four are asked, for these vertices.
+        unknown = if SHARED { 0b1111 } else { 0b1111 & !(1 << entry) };
     }
 }
 

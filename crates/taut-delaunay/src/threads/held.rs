@@ -18,7 +18,7 @@ pub(crate) trait Hold {
     fn done(&mut self);
 
     /// Gives all vertices back, and waits for the one that another thread holds, but not for long.
-    fn give_way(&mut self);
+    fn back_off(&mut self);
 }
 
 /// The only thread holds everything.
@@ -36,7 +36,7 @@ impl Hold for Alone {
     fn done(&mut self) {}
 
     #[inline(always)]
-    fn give_way(&mut self) {}
+    fn back_off(&mut self) {}
 }
 
 /// Who holds what.
@@ -103,7 +103,7 @@ pub(crate) struct Holder<'a> {
 }
 
 /// Vertices that a thread keeps, at most, before it gives all of them back.
-const HELD_MAX: usize = if cfg!(loom) { 3 } else { 512 };
+const HELD_MAX: usize = if cfg!(any(loom, test)) { 3 } else { 512 };
 /// How often a thread looks whether a vertex is free again: about as long as an insertion takes.
 const LOOKS_MAX: u32 = if cfg!(loom) { 1 } else { 200 };
 
@@ -152,7 +152,7 @@ impl Hold for Holder<'_> {
     }
 
     #[cold]
-    fn give_way(&mut self) {
+    fn back_off(&mut self) {
         self.release();
         let Some(vertex) = self.missing.take() else { return };
         let owner = &self.owners[vertex as usize];

@@ -32,5 +32,5 @@ mod tests;
 
 pub(crate) use held::{Alone, Hold, Holder, Owners};
 pub(crate) use record::Record;
-pub(crate) use round::{Inserted, Progress, Together, insert_round};
+pub(crate) use round::{Inserted, Progress, SharedMesh, insert_round};
 pub(crate) use slots::{OwnSlots, Room};

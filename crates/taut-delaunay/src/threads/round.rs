@@ -38,7 +38,7 @@ pub(crate) struct Progress {
 }
 
 /// A mesh that several threads insert into.
-pub(crate) trait Together<const D: usize, const V: usize>: Kernel<D, V> {
+pub(crate) trait SharedMesh<const D: usize, const V: usize>: Kernel<D, V> {
     /// All that threads share.
     type View<'a>: Sync
     where
@@ -53,13 +53,13 @@ pub(crate) trait Together<const D: usize, const V: usize>: Kernel<D, V> {
     fn share(&mut self, threads: usize) -> (Self::View<'_>, &Owners, &mut [Self::Worker]);
 
     /// Ends what [`share`](Self::share) began.
-    fn unite(&mut self);
+    fn end_sharing(&mut self);
 
     /// Makes room for more simplices.
     fn grow(&mut self) -> Result<(), TooMany>;
 
     /// Inserts sites, as one of several threads.
-    fn insert_beside(
+    fn insert_concurrently(
         view: &Self::View<'_>,
         worker: &mut Self::Worker,
         holder: &mut Holder<'_>,
@@ -71,12 +71,12 @@ pub(crate) trait Together<const D: usize, const V: usize>: Kernel<D, V> {
 /// Why threads stop before all is inserted.
 const GO_ON: u8 = 0;
 const FULL: u8 = 1;
-const IN_EACH_OTHERS_WAY: u8 = 2;
+const CONTENTION: u8 = 2;
 const STOPPED: u8 = 3;
 
 /// Inserts the sites `nth(0)`, … `nth(count − 1)` but those of `started`, on so many threads, each along its run of them or
 /// backward.
-pub(crate) fn insert_round<const D: usize, const V: usize, K: Together<D, V>>(
+pub(crate) fn insert_round<const D: usize, const V: usize, K: SharedMesh<D, V>>(
     kernel: &mut K,
     count: u32,
     nth: impl Fn(u32) -> u32 + Sync,
@@ -101,7 +101,8 @@ pub(crate) fn insert_round<const D: usize, const V: usize, K: Together<D, V>>(
                 {
                     sites.clear();
                     sites.extend(block.places().map(&nth).filter(|site| !started.contains(site)));
-                    let done = K::insert_beside(&view, worker, &mut holder, &sites, &mut progress);
+                    let done =
+                        K::insert_concurrently(&view, worker, &mut holder, &sites, &mut progress);
                     if let Inserted::Full(at) = done {
                         progress.deferred.extend(&sites[at..]);
                         why.store(FULL, Relaxed);
@@ -113,7 +114,7 @@ pub(crate) fn insert_round<const D: usize, const V: usize, K: Together<D, V>>(
                     if progress.attempts > ATTEMPTS_MIN
                         && progress.failed * FAILED_SHARE > progress.attempts
                     {
-                        why.store(IN_EACH_OTHERS_WAY, Relaxed);
+                        why.store(CONTENTION, Relaxed);
                     }
                 }
                 holder.release();
@@ -124,7 +125,7 @@ pub(crate) fn insert_round<const D: usize, const V: usize, K: Together<D, V>>(
             workers.par_iter_mut().with_max_len(1).enumerate().map(work).collect()
         };
         left.extend(deferred.into_iter().flatten());
-        kernel.unite();
+        kernel.end_sharing();
         match why.into_inner() {
             FULL => kernel.grow()?,
             STOPPED => monitor.check()?,

@@ -10,9 +10,15 @@ use std::sync::atomic::Ordering::Relaxed;
 use crate::threads::atomics::AtomicU64;
 
 /// Sites that a thread takes at once.
-const BLOCK: u32 = if cfg!(loom) { 1 } else { 1024 };
+const BLOCK: u32 = if cfg!(loom) {
+    1
+} else if cfg!(test) {
+    4
+} else {
+    256
+};
 /// A run of which less is left is nobody else's: on a line of sites the walk to its end has as many steps as there are sites.
-const HELP_MIN: u32 = 4 * BLOCK;
+const HELP_MIN: u32 = if cfg!(loom) { 4 } else { 16 * BLOCK };
 
 /// Places of a round, and whether they are gone through from the last to the first.
 pub(super) struct Block {

@@ -7,7 +7,7 @@ use crate::threads::Record;
 use crate::threads::atomics::AtomicU32;
 
 /// Slots that a thread takes at once.
-const PIECE: u32 = if cfg!(loom) { 2 } else { 1024 };
+const PIECE: u32 = if cfg!(any(loom, test)) { 2 } else { 1024 };
 
 /// The slots that nobody has taken yet, from `next` on to the end of the records.
 #[derive(Clone, Copy)]
@@ -76,7 +76,7 @@ impl OwnSlots {
         if self.fresh.end == more.start && !self.fresh.is_empty() {
             self.fresh.end = more.end;
         } else {
-            self.bury(records);
+            self.mark_dead(records);
             self.fresh = more;
         }
         true
@@ -105,12 +105,12 @@ impl OwnSlots {
             next.store(self.fresh.start, Relaxed);
             self.fresh = 0..0;
         } else {
-            self.bury(records);
+            self.mark_dead(records);
         }
     }
 
     /// Marks the fresh slots as dead.
-    fn bury<const V: usize>(&mut self, records: &[Record<V>]) {
+    fn mark_dead<const V: usize>(&mut self, records: &[Record<V>]) {
         for slot in std::mem::take(&mut self.fresh) {
             records[slot as usize].kill();
             self.free.push(slot);

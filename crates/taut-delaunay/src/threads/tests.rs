@@ -9,7 +9,7 @@ use super::round::in_turn;
 use crate::affine::Span;
 use crate::geometry::{Geometry, InPlane, InSpace};
 use crate::kernel::Kernel;
-use crate::rounds::insert_all_together;
+use crate::rounds::insert_all_in_parallel;
 use crate::sites::Sites;
 use crate::{DelaunayOptions, delaunay};
 
@@ -116,7 +116,7 @@ fn path<const D: usize, const V: usize, G: Geometry<D, V>>(n: usize, threads: us
             let mut mesh = G::Mesh::new(sites.coordinates, sites.settings);
             mesh.start(start);
             let options = DelaunayOptions::default();
-            insert_all_together(&mut mesh, &start, &options, threads).expect("few simplices");
+            insert_all_in_parallel(&mut mesh, &start, &options, threads).expect("few simplices");
             assert!(!mesh.simplices().is_empty());
             [ordered.as_secs_f64(), begin.elapsed().as_secs_f64()]
         })

@@ -1,4 +1,4 @@
-//! The answer is a function of the point set: not of the order of rows, of threads, of cells, of insertion.
+//! The answer is a function of the point set: not of the order of rows, of threads, of insertion.
 
 use std::f64::consts::TAU;
 

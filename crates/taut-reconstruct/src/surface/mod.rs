@@ -204,6 +204,11 @@ fn solve(
     let space =
         Space::build(&view, &DelaunayOptions { monitor: *monitor, ..DelaunayOptions::default() })?;
     check_span(&space)?;
+    // The labels of cells number them themselves.
+    let space = match options.method {
+        SurfaceMethod::Tree(_) => space,
+        _ => space.renumbered(),
+    };
     let sites = Sites::of(&space, rows);
     let (mode, facets, cells) = match options.method {
         SurfaceMethod::Tree(mode) => {
