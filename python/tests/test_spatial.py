@@ -234,7 +234,9 @@ class TestDropIns:
         for row in range(len(points)):
             mine, other = ours.regions[ours.point_region[row]], theirs.regions[theirs.point_region[row]]
             assert sorted(number[mine]) == sorted(other)
-        mine = {tuple(sorted(pair)): sorted(number[v]) for pair, v in ours.ridge_dict.items()}
+        # Qhull leaves out the ridges with one vertex that is not at infinity.
+        most = points.shape[1]
+        mine = {tuple(sorted(pair)): sorted(number[v]) for pair, v in ours.ridge_dict.items() if len(v) >= most}
         other = {tuple(sorted(pair)): sorted(v) for pair, v in theirs.ridge_dict.items()}
         assert mine == other
 

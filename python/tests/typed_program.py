@@ -19,7 +19,7 @@ def shapes_around(points: Floats) -> float:
     far: Floats = robust.answer.distances(points)
     kernel: taut.Solution[taut.KernelBall] = taut.kernel_ball(points[:20])
     balls: taut.Solution[taut.Ball] = taut.ball_of_balls(points, np.ones(len(points)))
-    dop: taut.Solution[taut.BoundingDop] = taut.bounding_dop(points)
+    dop: taut.Solution[taut.BoundingDop] = taut.bounding_dop(np.column_stack([points, points[:, 0]]))
     assert inside.all() and ellipsoid.answer.contains(points).all() and len(many) == 2 and balls.answer.radius > 1
     assert len(far) == len(distances) and kernel.kind == "kernel-ball" and dop.kind == "bounding-dop"
     volume: float = ellipsoid.answer.log_volume

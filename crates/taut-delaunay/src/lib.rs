@@ -3,7 +3,7 @@
 //! | you want | call | promise | cost |
 //! |---|---|---|---|
 //! | the simplices with their certificate | [`delaunay()`] | exact for every finite input; the same bytes for any number of threads | O(n log n) |
-//! | a triangulation to walk around in | [`Plane::build`], [`Space::build`] | a function of the point set alone | O(n log n) |
+//! | a triangulation to walk around in | [`Plane::build`], [`Space::build`] | the set of simplices is a function of the point set alone, their numbers after [`Triangulation::renumbered`] | O(n log n) |
 //! | the nearest site, the simplex at a point, Voronoi cells, natural neighbors | [`Triangulation::locator`] | the simplex exactly, areas to rounding | O(log n) a question |
 //! | more points than memory holds | [`outofcore::delaunay_to_folder`] | the same simplices, as tiles in a folder, within a limit on memory | about twice the time in memory |
 //! | the same for many points at a time, in rows and canonical numbers; the Voronoi diagram | [`TriangulationIndex`] | simplices and ties exactly | O(log n) a question, O(simplices) |

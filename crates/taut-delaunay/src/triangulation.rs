@@ -40,7 +40,7 @@ pub enum Complex {
 /// alone; [`row`](Self::row) gives the smallest input row of a site. Where more than D + 1 sites lie on a sphere, the
 /// simplices are those of a perturbation that depends on coordinates alone, so the set of simplices is a function of the
 /// point set. The numbers of simplices depend on how it was built, with several threads on which of them came first;
-/// [`solution`](Self::solution) puts them in canonical order.
+/// [`renumbered`](Self::renumbered) and [`solution`](Self::solution) put them in canonical order.
 #[derive(Clone, Debug)]
 pub struct Triangulation<const D: usize, const V: usize> {
     pub(crate) sites: Sites<D>,

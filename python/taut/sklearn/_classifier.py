@@ -85,5 +85,6 @@ class BallClassifier(ClassifierMixin, BaseEstimator):  # type: ignore[misc]
 
     def predict(self, X: ArrayLike) -> NDArray[Any]:
         """The label of each row."""
-        found: NDArray[Any] = self.classes_[self._scores(X).argmax(axis=1)]
+        best = self._scores(X).argmax(axis=1)
+        found: NDArray[Any] = self.classes_[best]
         return found

@@ -35,7 +35,8 @@ class _Enclosing(OutlierMixin, BaseEstimator):  # type: ignore[misc]
         rows = rows_to_fit(self, X)
         self.solution_ = self._solve(rows)
         if share == "auto":
-            self.offset_ = -self._border()
+            # By the last digits a row on the border may be beyond it.
+            self.offset_ = -max(self._border(), float(self._size(rows).max()))
         else:
             self.offset_ = float(np.percentile(-self._size(rows), 100 * share))
         return self

@@ -200,7 +200,7 @@ class Triangulation:
         >>> from taut.spatial import Triangulation
         >>> starts, rows, weights = Triangulation([[0, 0], [2, 0], [2, 2], [0, 2]]).natural_coordinates([[1, 0.5]])
         >>> [float(round(weights[rows == row].sum(), 6)) for row in range(4)]
-        [0.4375, 0.4375, 0.0625, 0.0625]
+        [0.375, 0.375, 0.125, 0.125]
         """
         return self._kept.natural_coordinates(self._places(places))
 

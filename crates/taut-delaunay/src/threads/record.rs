@@ -72,8 +72,8 @@ impl<const V: usize> Record<V> {
         self.vertices[0].store(DEAD_MARK, Relaxed);
     }
 
-    /// The addresses of the vertices and of the neighbors, for vector instructions. To read there, all but atomically, hold
-    /// the simplex.
+    /// The addresses of the vertices and of the neighbors, for vector instructions. A caller that reads there without
+    /// atomic instructions must hold the simplex, or one across a facet.
     #[inline(always)]
     pub(crate) fn addresses(&self) -> [*const u32; 2] {
         [self.vertices.as_ptr().cast(), self.neighbors.as_ptr().cast()]

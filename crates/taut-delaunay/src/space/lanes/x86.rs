@@ -1,7 +1,8 @@
-//! Four and eight numbers at a time, on x86-64: one of the two files of this crate with `unsafe` code.
+//! Four and eight numbers at a time, on x86-64, with `unsafe` code.
 //!
 //! *Guarantee.* What is called here needs a processor that has the instructions, and a value of [`Avx2`] or [`Avx512`] is
-//! the proof: only asking the processor makes one. Addresses come from slices; the rows of a group are checked together.
+//! the proof: only asking the processor makes one. Addresses come from slices; the rows of a group are checked together. No other
+//! thread changes a simplex of a group: its vertices are held, or those of a facet across which it was reached.
 #![allow(unsafe_code)]
 
 use std::arch::x86_64::*;
