@@ -305,7 +305,6 @@ fn insert_with<M: MulAdd, H: Hold>(
         } else {
             let Worker { last, exact, counters, .. } = &mut *worker;
             walk::<M, false>(&view, triangles, *last, exact, counters)
-                .ok()
                 .expect("a walk ends in a mesh that stands still")
         };
         let Worker { last, slots, exact, counters, pending, free, notes } = &mut *worker;
