@@ -74,6 +74,7 @@ impl<const V: usize> Record<V> {
 
     /// The addresses of the vertices and of the neighbors, for vector instructions. A caller that reads there without
     /// atomic instructions must hold the simplex, or one across a facet.
+    #[cfg(target_arch = "x86_64")]
     #[inline(always)]
     pub(crate) fn addresses(&self) -> [*const u32; 2] {
         [self.vertices.as_ptr().cast(), self.neighbors.as_ptr().cast()]
