@@ -36,7 +36,9 @@ def test_all_checks_of_scikit_learn_pass(estimator):
     failed = {check["check_name"]: check["exception"] for check in checks if check["status"] == "failed"}
     assert failed == {}
     assert sum(check["status"] == "passed" for check in checks) >= 35
-    assert [check["check_name"] for check in checks if check["status"] == "skipped"] in ([], ["check_array_api_input"])
+    # Without pandas, or a library of other arrays.
+    skipped = {check["check_name"] for check in checks if check["status"] == "skipped"}
+    assert {name for name in skipped if not name.endswith(("_array_api_input", "_data_not_an_array"))} == set()
 
 
 def spoiled(seed, n, d, share):

@@ -89,7 +89,7 @@ fn what_a_walk_came_to_is_whole_once_it_is_held() {
 /// While it is written, its new site is held, and nothing of what was there before.
 #[test]
 fn a_slot_that_is_used_again_is_whole_once_it_is_held() {
-    const LATER: Simplex<3> = Simplex { vertices: [0, 4, 5], neighbors: [20, 21, 22] };
+    const SUCCESSOR: Simplex<3> = Simplex { vertices: [0, 4, 5], neighbors: [20, 21, 22] };
     loom::model(|| {
         let owners = Arc::new(Owners::new(6));
         let record = Arc::new(Record::default());
@@ -102,7 +102,7 @@ fn a_slot_that_is_used_again_is_whole_once_it_is_held() {
                     record.kill();
                     holder.release();
                     if holder.hold([0]) && holder.hold([4, 5]) {
-                        record.set(LATER);
+                        record.set(SUCCESSOR);
                     }
                 }
                 holder.release();
@@ -112,7 +112,7 @@ fn a_slot_that_is_used_again_is_whole_once_it_is_held() {
         let vertices = record.vertices();
         let is_dead = vertices[0] == u32::MAX - 1;
         if !is_dead && holder.hold(vertices) && record.vertices() == vertices {
-            let expected = [OLD, LATER].into_iter().find(|simplex| simplex.vertices == vertices);
+            let expected = [OLD, SUCCESSOR].into_iter().find(|simplex| simplex.vertices == vertices);
             let expected = expected.expect("half of each is no simplex");
             assert_eq!(record.neighbors(), expected.neighbors);
         }

@@ -236,7 +236,7 @@ impl SharedMesh<2, 3> for Mesh {
             let (last, settings) = (self.workers[0].last, self.settings);
             let worker = || Worker { last, ..Worker::new(settings) };
             self.workers.extend(std::iter::repeat_with(worker).take(more));
-            let len = self.records.all().len() + more * Room::SPARE;
+            let len = self.records.all().len() + more * Room::SLOTS_SPARE;
             self.records.grow(len.min(TRIANGLES_MAX).max(self.records.all().len()));
         }
         let shared = Shared {
@@ -260,7 +260,7 @@ impl SharedMesh<2, 3> for Mesh {
         if len >= TRIANGLES_MAX {
             return Err(TooMany);
         }
-        self.records.grow((len + len / 8 + Room::SPARE).min(TRIANGLES_MAX));
+        self.records.grow((len + len / 8 + Room::SLOTS_SPARE).min(TRIANGLES_MAX));
         Ok(())
     }
 

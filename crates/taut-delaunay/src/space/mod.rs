@@ -272,7 +272,7 @@ impl SharedMesh<3, 4> for Mesh {
             let (last, settings) = (self.workers[0].last, self.settings);
             let worker = || Worker { last, ..Worker::new(count, settings) };
             self.workers.extend(std::iter::repeat_with(worker).take(more));
-            self.enlarge(self.records.all().len() + more * Room::SPARE);
+            self.enlarge(self.records.all().len() + more * Room::SLOTS_SPARE);
         }
         let end = self.records.all().len().min(self.limit) as u32;
         let view = View {
@@ -306,7 +306,7 @@ impl SharedMesh<3, 4> for Mesh {
             return Err(TooMany);
         }
         // An eighth at a time: doubling would be the peak of the whole build.
-        self.enlarge(len + len / 8 + Room::SPARE);
+        self.enlarge(len + len / 8 + Room::SLOTS_SPARE);
         Ok(())
     }
 

@@ -18,7 +18,7 @@ pub(crate) struct Room<'a> {
 
 impl Room<'_> {
     /// Slots that a thread may have taken and not used when another finds none.
-    pub(crate) const SPARE: usize = PIECE as usize;
+    pub(crate) const SLOTS_SPARE: usize = PIECE as usize;
 
     /// Takes a piece of at least `least` slots, if there is one.
     fn take(self, least: u32) -> Option<Range<u32>> {
