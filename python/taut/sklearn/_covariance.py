@@ -30,7 +30,7 @@ def consistency_factor(level: float, features: int) -> float:
 class MinCovDet(EmpiricalCovariance):  # type: ignore[misc]
     """Robust location and covariance: the minimum covariance determinant, as `sklearn.covariance.MinCovDet`.
 
-    Attributes mean what they mean there, and ``covariance_`` is scaled as there. The search is another one: faster, the same on
+    Attributes mean what they mean there, and ``covariance_`` is scaled as there. The search is another one: the same on
     every run, and with a determinant that is no larger in all comparisons made (docs/python.md).
 
     Parameters

@@ -85,7 +85,7 @@ def _refuse_flat(points: Floats, dimension: int | None) -> None:
 
 
 class Delaunay(_Native, scipy.spatial.Delaunay):  # type: ignore[misc]
-    """`scipy.spatial.Delaunay`, exact and faster.
+    """`scipy.spatial.Delaunay`, exact.
 
     Differences: the numbers of simplices, and where more than d + 1 points are on a sphere the choice among equally good simplices;
     `find_simplex` is exact, without a tolerance at the hull.
@@ -193,7 +193,7 @@ class Delaunay(_Native, scipy.spatial.Delaunay):  # type: ignore[misc]
 
 
 class Voronoi(_Native, scipy.spatial.Voronoi):  # type: ignore[misc]
-    """`scipy.spatial.Voronoi`, exact and faster.
+    """`scipy.spatial.Voronoi`, exact.
 
     Vertices are merged where they are one exactly, not to a tolerance. Region 0 is empty, and that of row i of distinct points is
     i + 1; equal rows have one region.
