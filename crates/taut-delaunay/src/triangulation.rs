@@ -56,7 +56,7 @@ impl Plane {
     ///
     /// O(n log n) expected for any input with [`InsertionOrder::Random`](crate::InsertionOrder::Random); the default is
     /// no slower on any set of `bench delaunay plane plane-cliffs`, but has no such bound. About 70 bytes a point beyond
-    /// the input on one thread, 75 on two.
+    /// the input on one thread and on two.
     ///
     /// # Errors
     /// [`Error::Input`] if points do not have two coordinates, [`Error::Input`],
