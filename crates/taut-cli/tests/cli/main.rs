@@ -33,6 +33,7 @@ mod meshes;
 mod near;
 mod other_programs;
 mod outputs;
+mod pages;
 mod pictures;
 mod places;
 mod robust;
