@@ -320,7 +320,7 @@ impl<'a, T: Scalar> Decoder<'a, T> {
             let exact = value.is_ok();
             let (Ok(value) | Err(value)) = value.map_err(|integer| integer as f64);
             let is_gap = value.is_nan() && self.job.options.missing != Missing::Refuse;
-            if !(exact && value.is_finite()) && !is_gap && self.selected(place(at).1) {
+            if !(is_gap || exact && value.is_finite()) && self.selected(place(at).1) {
                 let (row, column) = place(at);
                 let path = self.job.path.to_owned();
                 let place = Place { path, row: row + 1, line: None, column, name: None };

@@ -7,14 +7,14 @@
 //! `taut-delaunay` is said to have no ball, although it has one.
 
 use taut_certify::{Solution, Surface, SurfaceCertificate, SurfaceMethod, SurfaceMode, Trace};
-use taut_delaunay::{Complex, Space};
+use taut_delaunay::{Complex, DelaunayOptions, Space};
 use taut_mesh::{TriangleMesh, self_intersections, topology};
 use taut_points::{InputError, Monitor, PointSource, Points, Scratch, hash_points};
 
 use super::answer::{Facets, Sites, numbers, unused};
 use super::cells::Cells;
 use super::witness::{located, witnesses};
-use super::{coordinates, in_one_cell};
+use super::coordinates;
 use crate::{Error, Span};
 
 /// Returns triangles on the rows of `source` as a surface with its certificate, as they stand.
@@ -59,7 +59,8 @@ pub fn given_surface(
     let points_hash = hash_points(source, monitor)?;
     let view = Points::new(given.as_flattened(), 3);
     let Ok(view) = view else { return Err(Error::Flat { points: 0, span: Span::Nothing }) };
-    let space = Space::build(&view, &in_one_cell(monitor))?;
+    let how = DelaunayOptions { monitor: *monitor, ..DelaunayOptions::default() };
+    let space = Space::build(&view, &how)?.renumbered();
     let sites = Sites::of(&space, None);
     let triangles = on_sites(triangles, &space, given.len());
     let spans = matches!(space.complex(), Complex::Full);
