@@ -38,7 +38,8 @@ pub(crate) fn sort_file(
     let kind = one_of("kind", kind, KeyKind::NAMES)?;
     let key = whole::<usize>("key", &key.0, SIZE)?..whole::<usize>("key", &key.1, SIZE)?;
     let layout = RecordLayout { width: whole("width", width, "1 to 16777216 bytes")?, key, kind };
-    let options = FileSortOptions { memory: whole("memory", memory, SIZE)?, scratch, resume };
+    let memory = whole("memory", memory, SIZE)?;
+    let options = FileSortOptions { memory, scratch, resume, ..FileSortOptions::default() };
     let found = interruptible(py, |monitor| sort(&input, &output, &layout, &options, monitor))?
         .map_err(raise)?;
     Ok(FoundFile(sorted(&layout, &found).into()))

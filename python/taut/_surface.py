@@ -12,7 +12,7 @@ from ._arrays import as_rows
 from ._solution import Solution
 
 SurfaceMethod = Literal["tree", "thesis", "alpha", "hull"]
-Priority = Literal["circumcentre-distance", "circumradius", "empty-ball"]
+Priority = Literal["circumcenter-distance", "circumradius", "empty-ball"]
 
 
 def surface(
@@ -28,7 +28,7 @@ def surface(
     epsilon: float = 2e-5,
     sliver_angle: float | None = None,
     forbidden_angle: float | None = None,
-    priority: Priority = "circumcentre-distance",
+    priority: Priority = "circumcenter-distance",
     restarts: bool = False,
     threads: int | None = None,
 ) -> Solution[Surface]:
@@ -63,8 +63,8 @@ def surface(
         Of "thesis": the angle below which two triangles at an edge are on slivers, by default pi/12.
     forbidden_angle : float in [0, pi/2], optional
         Of "thesis": the least angle between two triangles, by default pi/4.
-    priority : str, default "circumcentre-distance"
-        Of "thesis", what the front prefers: "circumcentre-distance", "circumradius" or "empty-ball".
+    priority : str, default "circumcenter-distance"
+        Of "thesis", what the front prefers: "circumcenter-distance", "circumradius" or "empty-ball".
     restarts : bool, default False
         Of "thesis": whether another front starts where no triangle reaches.
     threads : int in [1, 1024], optional

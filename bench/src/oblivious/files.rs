@@ -111,6 +111,7 @@ fn sort(
         let answer = SortedFile {
             records: *records,
             width: RECORD_BYTES as u64,
+            header: 0,
             key: [0, 8],
             key_kind: KeyKind::U64,
         };

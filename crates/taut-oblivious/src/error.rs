@@ -45,7 +45,7 @@ pub enum Error {
     Partial {
         /// Which file.
         path: String,
-        /// Its length.
+        /// Its length behind what is no record.
         bytes: u64,
         /// Bytes of a record.
         width: usize,

@@ -96,6 +96,7 @@ pub fn sorted(layout: &RecordLayout, found: &FileSort) -> FileSolution<SortedFil
     let answer = SortedFile {
         records: found.certificate.records,
         width: layout.width as u64,
+        header: found.header,
         key: [layout.key.start as u64, layout.key.end as u64],
         key_kind: match layout.kind {
             Kind::U64 => KeyKind::U64,
@@ -104,7 +105,8 @@ pub fn sorted(layout: &RecordLayout, found: &FileSort) -> FileSolution<SortedFil
             Kind::Bytes => KeyKind::Bytes,
         },
     };
-    let certificate = SortCertificate { hash: Hash128(found.certificate.hash) };
+    let hash = found.certificate.hash.wrapping_add(found.header_hash);
+    let certificate = SortCertificate { hash: Hash128(hash) };
     let counters = [
         ("bytes_read", found.bytes_read),
         ("bytes_written", found.bytes_written),

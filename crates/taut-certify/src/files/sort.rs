@@ -38,6 +38,9 @@ pub struct SortedFile {
     pub records: u64,
     /// Bytes of a record, 1 to 2²⁴.
     pub width: u64,
+    /// Bytes before the first record, 0 to 2²⁴, which are no records and the same in input and output.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub header: u64,
     /// The bytes of a record that are the key: the first, and the one after the last.
     pub key: [u64; 2],
     /// The meaning of these bytes.
@@ -48,12 +51,18 @@ pub struct SortedFile {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "the certificate of a sorted file: an object with hash")]
 pub struct SortCertificate {
-    /// Sum of the hashes of all records, modulo 2¹²⁸, of the input and of the output.
+    /// Sum of the hashes of all records, modulo 2¹²⁸, of the input and of the output; the bytes before the first record, if there are
+    /// some, are one more.
     pub hash: Hash128,
 }
 
-/// Widest record.
+/// Widest record, and most bytes before the first.
 const WIDTH_MAX: u64 = 1 << 24;
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde calls it with a reference")]
+fn is_zero(value: &u64) -> bool {
+    *value == 0
+}
 
 impl FileAnswer for SortedFile {
     type Certificate = SortCertificate;
@@ -73,7 +82,8 @@ impl FileAnswer for SortedFile {
         ];
         let mut sources: Vec<Source<'_>> = sources.into_iter().flatten().collect();
         for source in &sources {
-            let expected = u128::from(self.records) * u128::from(self.width);
+            let records = u128::from(self.records) * u128::from(self.width);
+            let expected = u128::from(self.header) + records;
             if u128::from(source.length) != expected {
                 let (file, found) = (source.which, source.length);
                 return Err(FileViolation::Length { file, found, expected }.into());
@@ -92,10 +102,13 @@ impl FileAnswer for SortedFile {
 
 impl SortedFile {
     fn sound(&self) -> Result<(), FileViolation> {
-        let Self { width, key: [start, end], key_kind, .. } = *self;
+        let Self { width, header, key: [start, end], key_kind, .. } = *self;
         let wrong = |what, value, expected| Err(FileViolation::Number { what, value, expected });
         if !(1..=WIDTH_MAX).contains(&width) {
             return wrong("width", width.to_string(), "1 to 16777216 bytes");
+        }
+        if header > WIDTH_MAX {
+            return wrong("header", header.to_string(), "0 to 16777216 bytes");
         }
         if start >= end || end > width {
             return wrong("key", format!("{start}:{end}"), "some bytes within the record");
@@ -116,7 +129,12 @@ impl SortedFile {
         let key = self.key[0] as usize..self.key[1] as usize;
         let mut before = vec![0; key.len()];
         let (mut hash, mut number) = (Hash128::default(), 0);
-        source.items(0, self.width as usize, monitor, |record| {
+        if self.header > 0 {
+            let mut header = vec![0; self.header as usize];
+            source.read_at(0, &mut header)?;
+            hash.add([&header, &[]]);
+        }
+        source.items(self.header, self.width as usize, monitor, |record| {
             hash.add([record, &[]]);
             if ordered {
                 let now = &record[key.clone()];

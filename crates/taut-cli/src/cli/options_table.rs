@@ -12,7 +12,36 @@ use clap::{Arg, ArgAction, Command, CommandFactory};
 const MARKS: [&str; 2] = ["<!-- begin of the table -->\n", "<!-- end of the table -->\n"];
 
 /// Names that several subcommands have with other words of help, and the one meaning that all of these state.
-const MEANINGS: &[(&str, &str)] = &[];
+const MEANINGS: &[(&str, &str)] = &[
+    ("alpha", "Radius of the alpha shape or of the alpha complex"),
+    ("balls", "Rows are balls, a center and a radius each"),
+    ("directions", "Directions of the facets of a dop"),
+    ("dpi", "Dots per inch of scans"),
+    ("draw", "Draw the answer, as .svg, .png or .html"),
+    ("ellipsoids", "Rows are ellipsoids, a center and the lower triangle of the shape matrix each"),
+    ("epsilon", "Proved gap to reach, or to accept"),
+    ("folds", "Folds of a cross-validation"),
+    ("format", "Format of the points"),
+    ("item-bytes", "Bytes of a record or of an element"),
+    ("json", "Print JSON instead of words or CSV"),
+    ("k", "How many: centers, or nearest rows"),
+    ("label", "Column of the labels"),
+    ("max-passes", "Most reads of all points"),
+    ("memory", "Most memory"),
+    ("method", "The way to find the answer"),
+    ("model", "The file of the model, which training writes and others read"),
+    ("no-verify", "Do without the independent check"),
+    ("nu", "Share of the points that may be outside a ball"),
+    ("open", "Leave open where samples end"),
+    ("out", "Where to write; the extension chooses the format"),
+    ("raw-offset", "Bytes of the file before the first number"),
+    ("sample-count", "Points that a method of the thesis draws"),
+    ("scores", "Tell the scores as well"),
+    ("scratch", "Folder for temporary files"),
+    ("seed", "Chooses what is random"),
+    ("thesis-steps", "Steps of Algorithm 11 of the thesis"),
+    ("type", "Type of a coordinate, f32 or f64"),
+];
 
 /// An option of a subcommand.
 struct Use {

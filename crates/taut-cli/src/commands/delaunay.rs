@@ -63,7 +63,7 @@ pub(crate) struct Args {
 
     /// Write the simplices: .json with the certificate, or a mesh as .ply, .obj, .off, .vtu or .parquet; - is JSON on
     /// standard output; a folder gets tiles
-    #[arg(short, long, value_name = "FILE|FOLDER", help_heading = "Writing")]
+    #[arg(short, long, value_name = "FILE", help_heading = "Writing")]
     out: Option<PathBuf>,
     /// Print the JSON instead of the summary
     #[arg(long, help_heading = "Writing")]

@@ -124,7 +124,9 @@ impl Find for RobustSolver<'_> {
         let solve = |monitor: &Monitor<'_>| {
             robust_ellipsoid(points.source(), &RobustOptions { monitor: *monitor, ..self.1 })
         };
-        let found = watch.during("solving", solve).map_err(|error| points.explain(error))?;
+        let found = watch
+            .during("solving", solve)
+            .map_err(|error| points.explain_option(error, ["coverage", "keep"]))?;
         Ok((found, ()))
     }
 

@@ -143,7 +143,7 @@ impl Args {
         // All that other distributions take; noise is shared.
         let foreign = [
             ("thickness", self.thickness.is_some()),
-            ("count", self.count.is_some()),
+            ("clusters", self.count.is_some()),
             ("spread", self.spread.is_some()),
             ("vertices", self.vertices.is_some()),
             ("side", self.side.is_some()),
@@ -197,11 +197,23 @@ impl Args {
     }
 }
 
+/// The name that the command line gives to a parameter of a distribution.
+fn option_of(parameter: &str) -> &str {
+    match parameter {
+        "count" => "clusters",
+        "outliers" => "outlier-share",
+        other => other,
+    }
+}
+
 /// Returns what the generator refused, under the name that the command line gives it.
 fn refused(error: Error) -> anyhow::Error {
     match error {
-        Error::Parameter { name, value, expected } => wrong_option(name, &value, expected),
+        Error::Parameter { name, value, expected } => {
+            wrong_option(option_of(name), &value, expected)
+        }
         Error::Foreign { name, owner, distribution } => {
+            let name = option_of(name);
             anyhow!("--{name} belongs to {owner}, not to {distribution}: leave it out")
         }
         Error::ZeroDimension => wrong_option("dim", "0", "a dimension of at least 1"),

@@ -16,11 +16,11 @@ use crate::exit::Outcome;
 Example: taut hand synthesize scans --people 3 --scans 2
          taut hand measure scans/person-0000-scan-00.png --draw hand.svg
          taut hand key -o key
-         taut hand enrol --create --store people --key key --person Ada \\
+         taut hand enroll --create --store people --key key --person Ada \\
              scans/person-0000-scan-0[0-2].png
          taut hand verify --store people --key key --person Ada scans/person-0000-scan-03.png
          taut hand evaluate --synthetic 20x6
-See: taut hand measure --help, taut hand synthesize --help, taut hand enrol --help,
+See: taut hand measure --help, taut hand synthesize --help, taut hand enroll --help,
      taut hand evaluate --help")]
 pub(crate) struct Args {
     #[command(subcommand)]

@@ -7,6 +7,8 @@ mod simulate;
 mod sort;
 mod transpose;
 
+use std::path::Path;
+
 use clap::Subcommand;
 
 pub(crate) use simulate::panel;
@@ -42,4 +44,9 @@ impl Args {
             Subcommands::Simulate(args) => args.run(),
         }
     }
+}
+
+/// Returns true if a file is a NumPy array by its name.
+fn is_npy(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("npy"))
 }

@@ -19,6 +19,9 @@ use crate::output::writing::{self, Outputs};
 use crate::pipeline::{self, Find, Input, Output};
 use crate::watch::Watch;
 
+/// The name that the library has for what `--shrink` says.
+const SHRINK: &str = "epsilon";
+
 /// Find the surface that points of space were sampled from: triangles between the points, and whether they are a surface.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
@@ -69,7 +72,7 @@ pub(crate) struct Args {
     /// Of thesis, the least angle in radians between two triangles [default: π/4]
     #[arg(long, value_name = "ANGLE", allow_negative_numbers = true)]
     forbidden_angle: Option<f64>,
-    /// Of thesis, what the front prefers [default: circumcentre-distance]
+    /// Of thesis, what the front prefers [default: circumcenter-distance]
     #[arg(long, value_name = "NAME", value_parser = choice::<Priority>())]
     priority: Option<Priority>,
     /// Of thesis, start another front where no triangle reaches
@@ -122,7 +125,9 @@ impl Find for Args {
         let solve = |monitor: &Monitor<'_>| {
             surface(points.source(), &SurfaceOptions { monitor: *monitor, ..self.options() })
         };
-        let found = watch.during("solving", solve).map_err(|error| points.explain(error))?;
+        let found = watch
+            .during("solving", solve)
+            .map_err(|error| points.explain_option(error, [SHRINK, "shrink"]))?;
         Ok((found, ()))
     }
 
@@ -161,8 +166,7 @@ impl Args {
             ("restarts", self.restarts),
         ];
         check_method_options(self.method.name(), &options, |option, method| {
-            // The library knows what a sphere is shrunk by under another name.
-            let option = if option == "shrink" { "epsilon" } else { option };
+            let option = if option == "shrink" { SHRINK } else { option };
             SurfaceOptions::methods_of(option).contains(method)
         })
     }

@@ -402,6 +402,20 @@ impl Opened {
         }
     }
 
+    /// Returns the same, with another name for an option: that of the library, and that of the command line.
+    pub(crate) fn explain_option(
+        &self,
+        error: impl Into<taut::Error>,
+        [library, own]: [&str; 2],
+    ) -> anyhow::Error {
+        match error.into() {
+            taut::Error::Input(InputError::Option { name, value, expected }) if name == library => {
+                wrong_option(own, &value, expected)
+            }
+            other => self.explain(other),
+        }
+    }
+
     /// Returns what any solver refuses.
     fn explain_input(&self, error: InputError) -> anyhow::Error {
         match error {

@@ -177,11 +177,15 @@ impl FileSummary for SortedFile {
             true => "those of the input",
             false => "those of the certificate",
         };
-        let fields = vec![
+        let mut fields = vec![
             Field::proved("key", key).remark("no key is below the one before it"),
             Field::proved("records", records).remark(BY_HASH),
             Field::new("equal keys", "order not proved"),
         ];
+        if found.answer.header > 0 {
+            let header = counted(found.answer.header, "byte");
+            fields.insert(2, Field::new("header", header).remark("as it was, by the same hash"));
+        }
         (title, fields)
     }
 }

@@ -163,7 +163,11 @@ pub(crate) fn worth_drawing(figures: Vec<Figure>) -> Vec<Figure> {
 
 fn explain(error: DrawError) -> anyhow::Error {
     match error {
-        DrawError::Option { name, value, expected } => wrong_option(name, &value, expected),
+        DrawError::Option { name, value, expected } => {
+            let is_of_image = ["width", "height", "scale"].contains(&name);
+            let name = if is_of_image { format!("image-{name}") } else { name.to_owned() };
+            wrong_option(&name, &value, expected)
+        }
         other => other.into(),
     }
 }

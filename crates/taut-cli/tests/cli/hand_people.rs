@@ -1,4 +1,4 @@
-//! `taut hand key`, `train`, `enrol`, `verify`, `identify`, `list`, `unlock` and `delete`.
+//! `taut hand key`, `train`, `enroll`, `verify`, `identify`, `list`, `unlock` and `delete`.
 
 use serde_json::json;
 
@@ -10,10 +10,10 @@ fn folder() -> TestFolder {
     folder.taut("hand synthesize scans --people 3 --scans 4 --clean --seed 3 --quiet").ends(0);
     folder.taut("hand key -o key").ends(0);
     folder
-        .taut(&format!("hand enrol --create --failures 2 {STORE} --person Ada {}", scans(0)))
+        .taut(&format!("hand enroll --create --failures 2 {STORE} --person Ada {}", scans(0)))
         .ends(0)
         .stdout_has(&["Enrolled as person number 1 by 3 scans\n"]);
-    let run = folder.taut(&format!("hand enrol {STORE} --person Grace {} --json", scans(1)));
+    let run = folder.taut(&format!("hand enroll {STORE} --person Grace {} --json", scans(1)));
     assert_eq!(run.ends(0).json(), json!({ "number": 2, "scans": 3 }));
     folder
 }
@@ -94,14 +94,17 @@ fn keys_stores_and_manifests_that_do_not_fit_are_refused() {
     folder.taut("hand list --store people --key key").ends(0).stdout_has(&["2 enrolled"]);
     folder.put("people", &kept[..kept.len() / 2]);
     refused("--store people --key key", "");
-    let line = format!("hand enrol --create {STORE} --person Ada {}", scans(0));
+    let line = format!("hand enroll --create {STORE} --person Ada {}", scans(0));
     folder.taut(&line).ends(2).stderr_has(&["manifest exists"]);
     folder
-        .taut(&format!("hand enrol --create --store people --key key --person Ada {}", scans(0)))
+        .taut(&format!("hand enroll --create --store people --key key --person Ada {}", scans(0)))
         .ends(2)
         .stderr_has(&["people exists"]);
     folder
-        .taut(&format!("hand enrol --store people --key key --person Ada {} text.png", image(0, 0)))
+        .taut(&format!(
+            "hand enroll --store people --key key --person Ada {} text.png",
+            image(0, 0)
+        ))
         .ends(2)
         .stderr_has(&["text.png"]);
 }
@@ -130,9 +133,9 @@ fn a_matcher_is_learned_from_a_folder() {
     assert_eq!((&matcher["format"], &matcher["source"]), (&json!("taut-matcher"), &json!("tests")));
     let image = image(1, 0);
     folder.taut("hand key -o key").ends(0);
-    let enrol = format!("hand enrol --create --store s --key key --person A {image} --model");
-    folder.taut(&format!("{enrol} key")).ends(2).stderr_has(&["key: this is no model of taut"]);
-    folder.taut(&format!("{enrol} matcher.json")).ends(0);
+    let enroll = format!("hand enroll --create --store s --key key --person A {image} --model");
+    folder.taut(&format!("{enroll} key")).ends(2).stderr_has(&["key: this is no model of taut"]);
+    folder.taut(&format!("{enroll} matcher.json")).ends(0);
     folder.taut("hand list --store s --key key").ends(0).stdout_has(&["matcher of tests"]);
     folder
         .taut("hand train . -o m.json")
@@ -169,8 +172,8 @@ fn a_failed_enrollment_leaves_no_new_store() {
     folder.taut("hand key -o key").ends(0);
     let files = folder.files();
     let others = format!("{} {} {}", image(0, 0), image(0, 1), image(1, 0));
-    let enrol = format!("hand enrol --create {STORE} --person Ada");
-    folder.taut(&format!("{enrol} {others}")).ends(2);
+    let enroll = format!("hand enroll --create {STORE} --person Ada");
+    folder.taut(&format!("{enroll} {others}")).ends(2);
     assert_eq!(folder.files(), files);
-    folder.taut(&format!("{enrol} {}", scans(0))).ends(0);
+    folder.taut(&format!("{enroll} {}", scans(0))).ends(0);
 }

@@ -44,10 +44,12 @@ fn what_cannot_be_sorted_is_named_and_nothing_is_written() {
     folder.put("sorted.bin", "before");
     for (options, said) in [
         ("records.bin --width 16", &["records.bin", "100 bytes", "16"][..]),
-        ("records.bin --width 0", &["width", "0"]),
-        ("records.bin --width 10 --key 4:20", &["key", "4..20"]),
+        ("records.bin --item-bytes 0", &["`--item-bytes` is 0"]),
+        ("records.bin --item-bytes 10 --sort-key 4:20", &["`--sort-key` is 4..20"]),
         ("records.bin --width 10 --key 3:8", &["key", "eight bytes"]),
         ("records.bin --width 10 --memory 1K", &["memory", "1024"]),
+        ("records.bin", &["records.bin", "--item-bytes BYTES"]),
+        ("points.parquet", &["taut convert points.parquet"]),
         ("missing.bin --width 10", &["missing.bin: no such file or folder"]),
     ] {
         folder.taut(&format!("memory sort {options} -o sorted.bin")).ends(2).stderr_has(said);

@@ -53,11 +53,14 @@ pub struct FileSortOptions {
     /// the same file, unchanged, and what those runs were made of is read again and compared by a hash. None by default:
     /// nothing outlives the process. None is made for a file that fits into memory.
     pub resume: Option<PathBuf>,
+    /// Bytes of the input before its first record, at most 2²⁴: they are no records, and the output begins with them as well.
+    /// Default 0.
+    pub header: u64,
 }
 
 impl Default for FileSortOptions {
     fn default() -> Self {
-        Self { memory: 256 << 20, scratch: None, resume: None }
+        Self { memory: 256 << 20, scratch: None, resume: None, header: 0 }
     }
 }
 
@@ -77,6 +80,10 @@ pub struct FileSort {
     /// The records that were read. If they did not fit, those that came back from the runs for the output were found to be
     /// the same. Nobody has read the output: the checker of `taut-certify` does.
     pub certificate: Multiset,
+    /// Bytes before the first record.
+    pub header: u64,
+    /// The hash of these bytes, as of one more record; 0 where there are none.
+    pub header_hash: u128,
     /// Runs that the input was cut into; 1 if it fitted.
     pub runs: u64,
     /// Runs that an earlier process had left, of those.

@@ -13,8 +13,8 @@ use taut_points::{InputError, Monitor, PointSource, Points, Scratch, hash_points
 
 use super::answer::{Facets, Sites, numbers, unused};
 use super::cells::Cells;
-use super::witness::{located, witnesses};
 use super::coordinates;
+use super::witness::{located, witnesses};
 use crate::{Error, Span};
 
 /// Returns triangles on the rows of `source` as a surface with its certificate, as they stand.

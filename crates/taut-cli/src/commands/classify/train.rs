@@ -101,7 +101,12 @@ impl Args {
                 value,
                 expected,
             }) => {
-                let name = if name == "steps" { "thesis-steps" } else { name };
+                let name = match name {
+                    "steps" => "thesis-steps",
+                    "width" => "kernel-width",
+                    "cells" => "rule",
+                    other => other,
+                };
                 wrong_option(name, &value, expected)
             }
             other => other.into(),

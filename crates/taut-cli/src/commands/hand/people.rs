@@ -14,8 +14,8 @@ use crate::exit::Outcome;
 pub(super) enum Subcommands {
     Key(key::Args),
     Train(train::Args),
-    #[command(alias = "enroll")]
-    Enrol(enroll::Args),
+    #[command(alias = "enrol")]
+    Enroll(enroll::Args),
     Verify(find::VerifyArgs),
     Identify(find::IdentifyArgs),
     List(manage::ListArgs),
@@ -28,7 +28,7 @@ impl Subcommands {
         match self {
             Self::Key(args) => args.run(),
             Self::Train(args) => args.run(),
-            Self::Enrol(args) => args.run(),
+            Self::Enroll(args) => args.run(),
             Self::Verify(args) => args.run(),
             Self::Identify(args) => args.run(),
             Self::List(args) => args.run(),

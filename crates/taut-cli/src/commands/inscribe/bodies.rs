@@ -120,7 +120,7 @@ fn segment(text: &str) -> Result<[[f64; 3]; 2], String> {
 /// Explains why no bodies were found; of a mesh with holes also which option closes them.
 fn explain(mesh: &Opened, error: Error) -> anyhow::Error {
     let is_open = matches!(error, Error::Open { .. });
-    let explained = mesh.explain(error);
+    let explained = mesh.explain_option(error, ["events", "max-events"]);
     if is_open { anyhow!("{explained} with --close-holes") } else { explained }
 }
 
@@ -153,7 +153,7 @@ impl Search {
     pub(super) fn of_events(&self) -> [(&'static str, bool); 4] {
         [
             ("at", !self.at.is_empty()),
-            ("events", self.events.is_some()),
+            ("max-events", self.events.is_some()),
             ("hidden", self.hidden.is_some()),
             ("merge-within", self.merge_within.is_some()),
         ]

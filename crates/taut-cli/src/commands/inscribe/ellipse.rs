@@ -94,7 +94,7 @@ impl Find for Ellipse {
         let given = [
             ("sample-count", self.sample_count.is_some()),
             ("fatness", self.fatness.is_some()),
-            ("angle", self.angle.is_some()),
+            ("contact-angle", self.angle.is_some()),
             ("seed", self.seed.is_some()),
         ];
         check_method_options(self.method.name(), &given, |_, method: &EllipseMethod| {
@@ -111,7 +111,9 @@ impl Find for Ellipse {
             let options = EllipseOptions { monitor: *monitor, ..self.options() };
             inscribed_ellipse(ring.source(), &options)
         };
-        let found = watch.during("solving", solve).map_err(|error| ring.explain(error))?;
+        let found = watch
+            .during("solving", solve)
+            .map_err(|error| ring.explain_option(error, ["angle", "contact-angle"]))?;
         Ok((found, ()))
     }
 

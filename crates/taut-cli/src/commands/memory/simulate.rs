@@ -24,11 +24,11 @@ use crate::output::writing::{self, Outputs};
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 The counts are exact and the same on every machine: addresses are simulated, too. A memory of M bytes holds blocks of \
-B bytes; formulas are in words of 8 bytes, without a constant factor. --figure N counts again what figures 36 to 50 of \
+B bytes; formulas are in words of 8 bytes, without a constant factor. --thesis-figure N counts again what figures 36 to 50 of \
 the thesis measured, in the caches of its machines.
 Exit: 0 done · 2 bad input or usage, nothing written
-Example: taut memory simulate transpose -n 512 --memory 4K,16K,64K --block 64,512 --draw misses.svg
-         taut memory simulate --figure 36 --draw figure.svg")]
+Example: taut memory simulate transpose -n 512 --memory-sizes 4K,16K,64K --block 64,512 --draw misses.svg
+         taut memory simulate --thesis-figure 36 --draw figure.svg")]
 pub(super) struct Args {
     /// The algorithm
     #[arg(value_name = "ALGORITHM", value_parser = algorithms(), required_unless_present = "figure")]
@@ -111,7 +111,7 @@ impl Args {
 
     fn wanted(&self) -> anyhow::Result<Wanted> {
         let Some(algorithm) = self.algorithm.as_deref().and_then(Algorithm::named) else {
-            bail!("name an algorithm, or a figure with --figure");
+            bail!("name an algorithm, or a figure with --thesis-figure");
         };
         let sizes = match self.n.is_empty() {
             true => vec![algorithm.usual_size()],

@@ -3,15 +3,19 @@
 use std::ops::Range;
 use std::path::PathBuf;
 
+use anyhow::{anyhow, bail};
 use taut::certify::AnyFileSolution;
 use taut::files::sorted;
+use taut::oblivious::Error;
 use taut::oblivious::external::{
     FileSort, FileSortOptions, KeyKind, RecordLayout, sort_file_pending,
 };
+use taut_io::{Format, NpyArray};
 
-use super::key;
+use super::{is_npy, key};
 use crate::effort::Effort;
 use crate::exit::Outcome;
+use crate::input::reading::wrong_option;
 use crate::input::size;
 use crate::output::files::{Proof, are_files};
 use crate::output::writing;
@@ -19,6 +23,8 @@ use crate::output::writing;
 /// Sort a file of records of fixed width by their key, which may be larger than memory.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
+An .npy file says itself what it holds: its rows are sorted by their first number, and the output is one of the same shape. Another \
+file holds records of --item-bytes from its first byte on.
 Records with equal keys keep their order. Before it takes its name the output is read again and proved to be in order \
 and to hold the records that were read, by a hash of 128 bits of all of them; `taut verify` reads the input once more, \
 too. Without --checkpoint nothing is left behind, however the process ends; with it the input must be the same file, \
@@ -26,22 +32,23 @@ unchanged.
 Exit: 0 done · 1 the check failed, nothing written · 2 bad input or usage, nothing written
 Example: taut memory sort records.bin --item-bytes 32 --sort-key 0:8 --kind u64 -o sorted.bin \\
              --certificate sorted.json
-         taut verify sorted.json records.bin sorted.bin")]
+         taut verify sorted.json records.bin sorted.bin
+         taut memory sort points.npy -o sorted.npy")]
 pub(super) struct Args {
     /// The records, one after the other
     input: PathBuf,
     /// Where to write them
     #[arg(short, long, value_name = "FILE")]
     out: PathBuf,
-    /// Bytes of a record, at least 1
+    /// Bytes of a record, at least 1 [default: those of a row of an .npy file]
     #[arg(long = "item-bytes", alias = "width", value_name = "BYTES")]
-    width: usize,
+    width: Option<usize>,
     /// The bytes of a record that are the key, as START:END [default: the first eight; of --kind bytes all]
     #[arg(long = "sort-key", alias = "key", value_name = "RANGE", value_parser = key::parse)]
     key: Option<Range<usize>>,
-    /// The type of the key: numbers have the least significant byte first
-    #[arg(long, value_enum, default_value = "u64")]
-    kind: Kind,
+    /// The type of the key: numbers have the least significant byte first [default: u64, or as the .npy file says]
+    #[arg(long, value_enum)]
+    kind: Option<Kind>,
     /// Most memory to use for records
     #[arg(long, value_name = "SIZE", value_parser = size::parse, default_value = "256M")]
     memory: u64,
@@ -73,16 +80,20 @@ enum Kind {
 
 impl Args {
     pub(super) fn run(&self) -> anyhow::Result<Outcome> {
-        let layout = self.layout();
-        let memory = usize::try_from(self.memory).unwrap_or(usize::MAX);
-        let options =
-            FileSortOptions { memory, scratch: self.scratch.clone(), resume: self.resume.clone() };
         are_files(&[&self.input, &self.out])?;
         self.proof.look_at(&self.out, &[&self.input])?;
+        let (layout, header) = match is_npy(&self.input) {
+            true => self.npy()?,
+            false => (self.raw()?, 0),
+        };
+        let memory = usize::try_from(self.memory).unwrap_or(usize::MAX);
+        let (scratch, resume) = (self.scratch.clone(), self.resume.clone());
+        let options = FileSortOptions { memory, scratch, resume, header };
         let watch = self.effort.start()?;
         let written = watch.during("sorting", |monitor| {
             sort_file_pending(&self.input, &self.out, &layout, &options, monitor)
-        })?;
+        });
+        let written = written.map_err(explain)?;
         let found = written.found.clone();
         let solution = AnyFileSolution::Sort(sorted(&layout, &found));
         let outcome = self.proof.finish(&solution, written, &self.out, &watch)?;
@@ -95,15 +106,76 @@ impl Args {
         Ok(Outcome::Done)
     }
 
-    fn layout(&self) -> RecordLayout {
-        let kind = match self.kind {
+    fn raw(&self) -> anyhow::Result<RecordLayout> {
+        let name = self.input.display();
+        if let Some(format @ (Format::Parquet | Format::Arrow)) = Format::of_path(&self.input).0 {
+            bail!(
+                "{name}: {format} has columns, not records: make an .npy file of it with taut convert {name} -o FILE.npy"
+            );
+        }
+        if is_npy(&self.out) {
+            bail!(
+                "{}: the records of a raw file have no header: name it otherwise",
+                self.out.display()
+            );
+        }
+        let width = self.width.ok_or_else(|| {
+            anyhow!(
+                "{name}: this is no .npy file: say how long a record is with --item-bytes BYTES"
+            )
+        })?;
+        Ok(self.layout(width, self.kind.unwrap_or(Kind::U64)))
+    }
+
+    /// Rows of an array as records, and the bytes before them.
+    fn npy(&self) -> anyhow::Result<(RecordLayout, u64)> {
+        let array = NpyArray::open(&self.input)?;
+        let name = self.input.display();
+        if self.width.is_some() {
+            bail!(
+                "--item-bytes belongs to raw files: {name} says itself what it holds; leave it out"
+            );
+        }
+        if !is_npy(&self.out) {
+            bail!("{}: the rows of an .npy file make one: name it .npy", self.out.display());
+        }
+        let row = match &array.shape[..] {
+            [] => bail!("{name} is a single number: rows are sorted"),
+            [_, others @ ..] if array.fortran && !others.is_empty() => bail!(
+                "{name}: its elements lie column by column (Fortran order): write rows with numpy.ascontiguousarray"
+            ),
+            [_, others @ ..] => others,
+        };
+        let width = row.iter().try_fold(array.width, |width, &axis| {
+            usize::try_from(axis).ok().and_then(|axis| width.checked_mul(axis))
+        });
+        let width = width
+            .filter(|&width| width > 0)
+            .ok_or_else(|| anyhow!("{name}: its rows have no bytes, or too many"))?;
+        let kind = match (self.kind, &*array.dtype) {
+            (Some(kind), _) => kind,
+            (None, "<f8") => Kind::F64,
+            (None, "<i8") => Kind::I64,
+            (None, "<u8") => Kind::U64,
+            (None, "|u1") => Kind::Bytes,
+            (None, text) if text.starts_with("|S") => Kind::Bytes,
+            (None, other) => bail!(
+                "{name}: rows of type {other} have no order here; there is one for <f8, <i8, <u8, |u1 and |S: convert it, or say what \
+                 the bytes of the key are with --kind"
+            ),
+        };
+        Ok((self.layout(width, kind), array.offset))
+    }
+
+    fn layout(&self, width: usize, kind: Kind) -> RecordLayout {
+        let usual = if kind == Kind::Bytes { 0..width } else { 0..8 };
+        let kind = match kind {
             Kind::U64 => KeyKind::U64,
             Kind::I64 => KeyKind::I64,
             Kind::F64 => KeyKind::F64,
             Kind::Bytes => KeyKind::Bytes,
         };
-        let usual = if self.kind == Kind::Bytes { 0..self.width } else { 0..8 };
-        RecordLayout { width: self.width, key: self.key.clone().unwrap_or(usual), kind }
+        RecordLayout { width, key: self.key.clone().unwrap_or(usual), kind }
     }
 
     fn summary(&self, layout: &RecordLayout, found: &FileSort) -> String {
@@ -131,5 +203,21 @@ impl Args {
             found.bytes_written,
             found.certificate.hash,
         )
+    }
+}
+
+/// The error with options by their names on the command line.
+fn explain(error: Error) -> anyhow::Error {
+    match error {
+        Error::Option { name, value, expected } => {
+            let name = match name {
+                "width" => "item-bytes",
+                "key" => "sort-key",
+                "resume" => "checkpoint",
+                other => other,
+            };
+            wrong_option(name, &value, expected)
+        }
+        other => other.into(),
     }
 }

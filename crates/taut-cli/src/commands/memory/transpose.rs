@@ -22,10 +22,10 @@ use crate::watch::Watch;
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 An .npy file says itself what it holds: elements of any fixed width, in C or Fortran order; its transpose is one in C \
-order. Another file holds the elements row by row, after --offset bytes of something else, which are left out. Before \
-the output takes its name both files are read again from end to end and compared; with --samples only so many elements \
+order. Another file holds the elements row by row, after --raw-offset bytes of something else, which are left out. Before \
+the output takes its name both files are read again from end to end and compared; with --compare only so many elements \
 are, once the output is there.
-Exit: 0 done · 1 the check failed, nothing written (but with --samples) ·
+Exit: 0 done · 1 the check failed, nothing written (but with --compare) ·
       2 bad input or usage, nothing written
 Example: taut memory transpose matrix.npy -o columns.npy --certificate columns.json
          taut verify columns.json matrix.npy columns.npy
@@ -132,10 +132,10 @@ impl Args {
         let array = NpyArray::open(&self.input)?;
         let name = self.input.display();
         let given = [
-            ("rows", self.rows.is_some()),
-            ("columns", self.columns.is_some()),
-            ("width", self.width.is_some()),
-            ("offset", self.offset.is_some()),
+            ("row-count", self.rows.is_some()),
+            ("column-count", self.columns.is_some()),
+            ("item-bytes", self.width.is_some()),
+            ("raw-offset", self.offset.is_some()),
         ];
         if let Some((option, _)) = given.iter().find(|(_, is_given)| *is_given) {
             bail!(
@@ -217,9 +217,4 @@ impl Args {
             found.bytes_read, found.bytes_written, found.tiles,
         )
     }
-}
-
-/// Returns true if a file is a NumPy array by its name.
-fn is_npy(path: &Path) -> bool {
-    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("npy"))
 }

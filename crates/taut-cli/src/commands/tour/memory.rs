@@ -24,7 +24,7 @@ pub(super) fn stop() -> anyhow::Result<Stop> {
         heading: HEADING.to_owned(),
         text: text.to_owned(),
         command:
-            "taut memory simulate multiply -n 64 --memory 2K,8K,32K --block 64 --draw misses.html"
+            "taut memory simulate multiply -n 64 --memory-sizes 2K,8K,32K --block 64 --draw misses.html"
                 .to_owned(),
         fields: fields.collect(),
         figures: panel.plots.into_iter().map(Figure::Plot).collect(),

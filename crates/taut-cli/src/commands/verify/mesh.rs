@@ -115,9 +115,8 @@ impl MeshOnPoints {
         }
         let prepare =
             |monitor: &Monitor<'_>| given_surface(source, simplices.as_chunks().0, monitor);
-        let mut found = watch
-            .during("preparing", prepare)
-            .map_err(|error| self.points.explain(error))?;
+        let mut found =
+            watch.during("preparing", prepare).map_err(|error| self.points.explain(error))?;
         let judged = match judge(&found, &self.points, watch)? {
             // It is claimed first, as it costs least where it is so.
             Err(Violation::Surface(SurfaceViolation::NotOutward { .. })) => {

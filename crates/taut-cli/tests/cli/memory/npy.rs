@@ -147,3 +147,63 @@ fn what_is_no_matrix_is_refused_by_name() {
         .ends(0)
         .stdout_has(&["Verified: 2 × 1, the transpose"]);
 }
+
+#[test]
+fn rows_of_arrays_are_sorted_by_their_header() {
+    let folder = TestFolder::new();
+    let rows: Vec<[f64; 3]> = words(900)
+        .as_chunks::<3>()
+        .0
+        .iter()
+        .map(|row| row.map(|word| word as i64 as f64))
+        .collect();
+    let bytes = |rows: &[[f64; 3]]| -> Vec<u8> {
+        rows.as_flattened().iter().flat_map(|value| value.to_le_bytes()).collect()
+    };
+    let mut sorted = rows.clone();
+    sorted.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    folder.put("in.npy", npy("<f8", false, "(300, 3)", &bytes(&rows)));
+    folder
+        .taut("memory sort in.npy -o out.npy --certificate out.json")
+        .ends(0)
+        .stdout_has(&["300 records of 24 bytes in order of bytes 0 to 7"]);
+    assert!(folder.bytes("out.npy") == npy("<f8", false, "(300, 3)", &bytes(&sorted)));
+    folder.taut("verify out.json in.npy out.npy").ends(0).stdout_has(&[
+        "Verified: 300 records of 24 bytes in order",
+        "as f64; no key is below",
+        "\n  header      128 bytes; as it was, by the same hash\n",
+    ]);
+    // Another header is another file, and so is another number.
+    for at in [70, 150] {
+        let mut wrong = folder.bytes("out.npy");
+        wrong[at] ^= 1;
+        folder.put("wrong.npy", wrong);
+        folder.taut("verify out.json wrong.npy").ends(1);
+    }
+    // By the second column, and numbers of one axis.
+    sorted.sort_by(|a, b| a[1].total_cmp(&b[1]));
+    folder.taut("memory sort in.npy -o out.npy --sort-key 8:16 --quiet").ends(0);
+    assert!(folder.bytes("out.npy")[128..] == bytes(&sorted));
+    let whole: Vec<u8> = [3i64, -1, 2].into_iter().flat_map(i64::to_le_bytes).collect();
+    folder.put("whole.npy", npy("<i8", true, "(3,)", &whole));
+    folder.taut("memory sort whole.npy -o whole.npy --quiet").ends(2);
+    folder.taut("memory sort whole.npy -o less.npy --quiet").ends(0);
+    let less: Vec<u8> = [-1i64, 2, 3].into_iter().flat_map(i64::to_le_bytes).collect();
+    assert!(folder.bytes("less.npy") == npy("<i8", true, "(3,)", &less));
+    folder.put("small.npy", npy("<f4", false, "(2, 2)", &[0; 16]));
+    folder.put("columns.npy", npy("<f8", true, "(2, 2)", &[0; 32]));
+    folder.put("none.npy", npy("<f8", false, "(2, 0)", &[]));
+    folder.put("large.npy", npy("<f8", false, "(0, 4294967296, 4294967296)", &[]));
+    folder.put("one.npy", npy("<f8", false, "()", &[0; 8]));
+    for (line, said) in [
+        ("small.npy -o x.npy", "rows of type <f4 have no order"),
+        ("columns.npy -o x.npy", "Fortran order"),
+        ("none.npy -o x.npy", "its rows have no bytes, or too many"),
+        ("large.npy -o x.npy", "its rows have no bytes, or too many"),
+        ("one.npy -o x.npy", "is a single number"),
+        ("in.npy -o x.bin", "name it .npy"),
+        ("in.npy -o x.npy --item-bytes 8", "leave it out"),
+    ] {
+        folder.taut(&format!("memory sort {line}")).ends(2).stderr_has(&[said]);
+    }
+}

@@ -31,6 +31,8 @@ pub(super) fn within<I: Store, O: Store + Sync + Send>(
     maker.make(0, output, 0, monitor)?;
     Ok(FileSort {
         certificate,
+        header: 0,
+        header_hash: 0,
         runs: plan.runs(),
         runs_resumed: 0,
         bytes_read: input.bytes_read,
@@ -122,6 +124,8 @@ pub(super) fn beyond<I: Store, R: Store + Send + Sync, O: Store + Send + Sync>(
     }
     Ok(FileSort {
         certificate,
+        header: 0,
+        header_hash: 0,
         runs: plan.runs(),
         runs_resumed: done,
         bytes_read: input.bytes_read + runs.bytes_read,

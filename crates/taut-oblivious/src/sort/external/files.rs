@@ -13,6 +13,7 @@ use std::time::UNIX_EPOCH;
 
 use taut_points::Monitor;
 
+use super::digest;
 use super::engine;
 use super::journal::{Journal, Origin};
 use super::layout::RecordLayout;
@@ -21,6 +22,9 @@ use super::plan::Plan;
 use super::{FileSort, FileSortOptions};
 use crate::error::Error;
 use crate::store::{self, Draft, Pending, Store};
+
+/// Bytes before the first record, at most.
+const HEADER_MAX: u64 = 1 << 24;
 
 /// Sorts a file; `open` makes of each file, by its name in errors, what is read and written.
 pub(super) fn sort<F: Store + Borrow<File> + Send + Sync>(
@@ -44,18 +48,27 @@ pub(super) fn sort<F: Store + Borrow<File> + Send + Sync>(
     }
     let (file, about) = at(input, store::open(input))?;
     let width = layout.width as u64;
-    if about.len() % width != 0 {
-        let path = input.display().to_string();
-        return Err(Error::Partial { path, bytes: about.len(), width: layout.width });
+    if options.header > HEADER_MAX {
+        let (value, expected) = (options.header.to_string(), "at most 16777216 bytes");
+        return Err(Error::Option { name: "header", value, expected });
     }
-    let plan = Plan::new(layout, about.len() / width, options.memory)?;
+    let Some(bytes) = about.len().checked_sub(options.header) else {
+        let (value, expected) = (options.header.to_string(), "at most the bytes of the input");
+        return Err(Error::Option { name: "header", value, expected });
+    };
+    if bytes % width != 0 {
+        let path = input.display().to_string();
+        return Err(Error::Partial { path, bytes, width: layout.width });
+    }
+    let plan = Plan::new(layout, bytes / width, options.memory)?;
     let medium = |file, path: String| Medium::new(open(file, &path), path);
     let mut from = medium(file, input.display().to_string());
     let to = output.display().to_string();
     let draft = at(output, Draft::beside(output, |file| open(file, &to)))?;
     let mut to = Medium::new(draft, to);
+    let header_hash = copy_header(options.header, &mut from, &mut to)?;
     let mut kept = None;
-    let found = if plan.fits() {
+    let mut found = if plan.fits() {
         // Runs that are kept are those of a sort with less memory.
         if let Some(path) = options.resume.as_ref().filter(|path| path.exists()) {
             return Err(Journal::other(&path.display().to_string()));
@@ -65,7 +78,7 @@ pub(super) fn sort<F: Store + Borrow<File> + Send + Sync>(
         let file = at(path, open_or_create(path))?;
         let length = at(path, file.metadata())?.len();
         let mut runs = medium(file, path.display().to_string());
-        let journal = Journal::open(&plan, origin(&about), length, &mut runs)?;
+        let journal = Journal::open(&plan, origin(&about), options.header, length, &mut runs)?;
         let found = engine::beyond(&plan, &mut from, &mut runs, Some(&journal), &mut to, monitor)?;
         kept = Some((path.clone(), runs.into_store()));
         found
@@ -76,7 +89,25 @@ pub(super) fn sort<F: Store + Borrow<File> + Send + Sync>(
         let mut runs = medium(file, format!("runs in {}", folder.display()));
         engine::beyond(&plan, &mut from, &mut runs, None, &mut to, monitor)?
     };
+    (found.header, found.header_hash) = (options.header, header_hash);
     Ok(Pending::new(found, to.into_store(), output, kept))
+}
+
+/// Copies what is before the first record, and has both files begin behind it; the hash of it.
+fn copy_header<I: Store, O: Store>(
+    length: u64,
+    from: &mut Medium<I>,
+    to: &mut Medium<O>,
+) -> Result<u128, Error> {
+    if length == 0 {
+        return Ok(0);
+    }
+    let mut header = vec![0; length as usize];
+    from.read(&mut header, 0)?;
+    to.write(&header, 0)?;
+    from.start_at(length);
+    to.start_at(length);
+    Ok(digest::hash(&header))
 }
 
 /// Returns what tells a file from others, as far as the system says.

@@ -19,10 +19,10 @@ use crate::store::{PAGE, Store};
 
 const SLOT_BYTES: usize = 128;
 /// The magic number at the start of the file; the last byte is the version.
-const MAGIC: u64 = u64::from_le_bytes(*b"tautrun\x03");
+const MAGIC: u64 = u64::from_le_bytes(*b"tautrun\x04");
 
 /// The words that tell one sort from another.
-type Identity = [u64; 10];
+type Identity = [u64; 11];
 
 /// The data of the system that identify a file: when it was modified, when anything about it changed, and its
 /// number, in any unit. Not the number of its device, which may be another one when the machine has started again.
@@ -43,6 +43,7 @@ impl Journal {
     pub(super) fn open<S: Store>(
         plan: &Plan,
         origin: Origin,
+        header: u64,
         length: u64,
         file: &mut Medium<S>,
     ) -> Result<Self, Error> {
@@ -56,8 +57,9 @@ impl Journal {
         let [width, start, end, chunk] =
             [layout.width, layout.key.start, layout.key.end, plan.chunk].map(|size| size as u64);
         let [modified, changed, number] = origin;
+        let records = plan.records;
         let identity =
-            [MAGIC, plan.records, modified, changed, number, width, start, end, kind, chunk];
+            [MAGIC, records, modified, changed, number, width, start, end, kind, chunk, header];
         let (runs, certificate) = (plan.runs(), Multiset::default());
         let mut journal = Self { identity, runs, made_of: vec![], certificate };
         let (first, mut slot) = (journal.slot(&identity), [0; SLOT_BYTES]);

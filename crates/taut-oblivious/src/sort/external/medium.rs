@@ -15,11 +15,19 @@ pub(super) struct Medium<S> {
     past_cache: bool,
     /// True if the file is set to that just now.
     is_past: bool,
+    /// Where the file begins for whoever reads and writes.
+    start: u64,
 }
 
 impl<S: Store> Medium<S> {
     pub(super) fn new(store: S, path: String) -> Self {
-        Self { store, path, bytes_read: 0, bytes_written: 0, past_cache: false, is_past: false }
+        let (bytes_read, bytes_written, start) = (0, 0, 0);
+        Self { store, path, bytes_read, bytes_written, past_cache: false, is_past: false, start }
+    }
+
+    /// Has all places count from this byte on.
+    pub(super) fn start_at(&mut self, start: u64) {
+        self.start = start;
     }
 
     /// Has whole pages go past the system's cache, as far as the system can.
@@ -38,6 +46,7 @@ impl<S: Store> Medium<S> {
     /// Fills `bytes` from a place.
     pub(super) fn read(&mut self, bytes: &mut [u8], offset: u64) -> Result<(), Error> {
         self.bytes_read += bytes.len() as u64;
+        let offset = self.start + offset;
         let (address, length) = (bytes.as_ptr().addr(), bytes.len());
         let some = |store: &S, part: Range<usize>| {
             let at = offset + part.start as u64;
@@ -48,6 +57,7 @@ impl<S: Store> Medium<S> {
 
     pub(super) fn write(&mut self, bytes: &[u8], offset: u64) -> Result<(), Error> {
         self.bytes_written += bytes.len() as u64;
+        let offset = self.start + offset;
         let (address, length) = (bytes.as_ptr().addr(), bytes.len());
         let some = |store: &S, part: Range<usize>| {
             let at = offset + part.start as u64;
@@ -92,7 +102,7 @@ impl<S: Store> Medium<S> {
     }
 
     pub(super) fn reserve(&self, bytes: u64) -> Result<(), Error> {
-        self.store.reserve(bytes).map_err(|error| self.error(error))
+        self.store.reserve(self.start + bytes).map_err(|error| self.error(error))
     }
 
     pub(super) fn sync(&self) -> Result<(), Error> {
@@ -102,7 +112,7 @@ impl<S: Store> Medium<S> {
     /// These bytes will be read soon: the system may bring them to its cache.
     pub(super) fn soon(&self, offset: u64, bytes: u64) {
         if !self.past_cache {
-            self.store.soon(offset, bytes);
+            self.store.soon(self.start + offset, bytes);
         }
     }
 

@@ -119,6 +119,7 @@ fn verify(
     let answer = SortedFile {
         records: certificate.records,
         width: layout.width as u64,
+        header: 0,
         key: [layout.key.start as u64, layout.key.end as u64],
         key_kind: match layout.kind {
             KeyKind::U64 => taut_certify::KeyKind::U64,

@@ -18,6 +18,17 @@ fn sorted(
     key: [usize; 2],
     kind: KeyKind,
 ) -> (AnyFileSolution, Vec<u8>) {
+    sorted_behind(0, input, width, key, kind)
+}
+
+/// The same of records behind some bytes.
+fn sorted_behind(
+    header: u64,
+    input: &[u8],
+    width: usize,
+    key: [usize; 2],
+    kind: KeyKind,
+) -> (AnyFileSolution, Vec<u8>) {
     let folder = tempfile::tempdir().unwrap();
     let (from, to) = (folder.path().join("from"), folder.path().join("to"));
     std::fs::write(&from, input).unwrap();
@@ -28,15 +39,17 @@ fn sorted(
         KeyKind::Bytes => external::KeyKind::Bytes,
     };
     let layout = RecordLayout { width, key: key[0]..key[1], kind: theirs };
-    let options = FileSortOptions { memory: 64 << 10, ..Default::default() };
+    let options = FileSortOptions { memory: 64 << 10, header, ..Default::default() };
     let found = sort_file(&from, &to, &layout, &options, &Monitor::silent()).unwrap();
     let answer = SortedFile {
         records: found.certificate.records,
         width: width as u64,
+        header,
         key: key.map(|byte| byte as u64),
         key_kind: kind,
     };
-    let certificate = SortCertificate { hash: Hash128(found.certificate.hash) };
+    let hash = found.certificate.hash.wrapping_add(found.header_hash);
+    let certificate = SortCertificate { hash: Hash128(hash) };
     let solution = FileSolution { answer, certificate, trace: Trace::default() };
     (AnyFileSolution::Sort(solution), std::fs::read(&to).unwrap())
 }
@@ -97,6 +110,33 @@ fn other_bytes_are_seen() {
     let lost = [&output[24..], &output[output.len() - 24..]].concat();
     assert!(matches!(judge(&found, None, &lost), Err(FileViolation::Hash { .. })), "one twice");
     assert!(matches!(judge(&found, None, &output[24..]), Err(FileViolation::Length { .. })));
+}
+
+/// In memory and beyond: what is before the first record stays there, and no byte of it is another one.
+#[test]
+fn a_header_is_copied_and_judged() {
+    for (count, header) in [(300, 128), (4000, 77), (4000, 4096), (0, 5)] {
+        let before: Vec<u8> = (0..header).map(|byte| byte as u8).collect();
+        let input = [&before[..], &records(count)].concat();
+        let (found, output) = sorted_behind(header, &input, 24, [8, 16], KeyKind::U64);
+        let plain = sorted(&input[before.len()..], 24, [8, 16], KeyKind::U64).1;
+        assert!(output == [&before[..], &plain].concat(), "{count} {header}");
+        assert!(judge(&found, Some(&input), &output).unwrap().compared);
+        let mut other = output.clone();
+        other[3] ^= 1;
+        assert!(matches!(judge(&found, None, &other), Err(FileViolation::Hash { .. })));
+        assert!(judge(&found, Some(&other), &output).is_err());
+        let bare = judge(&found, None, &plain);
+        assert!(matches!(bare, Err(FileViolation::Length { .. })), "{bare:?}");
+    }
+    let input = [&[7; 40][..], &records(30)].concat();
+    let (found, output) = sorted_behind(40, &input, 24, [8, 16], KeyKind::U64);
+    no_change_is_confirmed(
+        &found,
+        None,
+        &output,
+        &[("header", &["0", "39", "64", "18446744073709551615", "-1"])],
+    );
 }
 
 /// Signs of two neighbors, and the pairs of bits that a weak hash mixes alike.

@@ -65,7 +65,7 @@ pub enum Priority {
 }
 
 choice! { "priority", Priority {
-    CircumcenterDistance = "circumcentre-distance",
+    CircumcenterDistance = "circumcenter-distance",
         "a circumcenter near that of the triangle before";
     Circumradius = "circumradius", "a small circle";
     EmptyBall = "empty-ball", "a small empty ball";

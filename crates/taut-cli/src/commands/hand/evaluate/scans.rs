@@ -168,7 +168,7 @@ impl Scans {
         let head = lines.next().map(|line| fields_of(line.1)).unwrap_or_default();
         let expected = TABLE_HEAD.map(str::to_owned).into_iter().chain(hand_columns());
         if !head.iter().cloned().eq(expected) {
-            bail!("{name}: this is no table that `taut hand evaluate --table` wrote");
+            bail!("{name}: this is no table that `taut hand evaluate --feature-table` wrote");
         }
         let mut named = vec![];
         for (row, line) in lines.filter(|line| !line.1.is_empty()) {

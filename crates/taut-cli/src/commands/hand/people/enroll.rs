@@ -1,4 +1,4 @@
-//! `taut hand enrol`.
+//! `taut hand enroll`.
 
 use std::path::PathBuf;
 
@@ -23,7 +23,7 @@ hands: `taut hand train` learns one from scans of your scanner, and --model take
 other users of the machine may see the command while it runs.
 Exit: 0 enrolled · 2 bad input or usage, or an image that gives no reliable features;
         nobody is enrolled
-Example: taut hand enrol --create --store people --key key --person Ada \\
+Example: taut hand enroll --create --store people --key key --person Ada \\
              ada-1.png ada-2.png ada-3.png")]
 pub(crate) struct Args {
     /// Scans of one hand of the person, in PNG, JPEG or TIFF

@@ -105,7 +105,7 @@ fn described(number: u32) -> Option<Figure> {
 pub(super) fn figure(number: u32) -> anyhow::Result<(Vec<Counted>, Vec<Plot>)> {
     let Some(figure) = described(number) else {
         bail!(
-            "option `--figure` is {number}: expected 36 to 38, 40 to 43, or 46 to 50; figure 39 is code, 44 and 45 show a \
+            "option `--thesis-figure` is {number}: expected 36 to 38, 40 to 43, or 46 to 50; figure 39 is code, 44 and 45 show a \
              tree (docs/memory/figures.md)"
         );
     };

@@ -75,7 +75,7 @@ pub(super) fn counted(wanted: &Wanted) -> anyhow::Result<Vec<Counted>> {
     if let Some(shape) = shapes.iter().find(|shape| shape.memory < shape.block) {
         let CacheShape { memory, block, .. } = *shape;
         let expected = format!("at least a block, {block} bytes");
-        return Err(wrong_option("memory", &memory.to_string(), &expected));
+        return Err(wrong_option("memory-sizes", &memory.to_string(), &expected));
     }
     let mut rows = Vec::new();
     for &n in &wanted.sizes {

@@ -192,9 +192,10 @@ fn an_input_that_changed_unseen_is_found_out() {
         let [mut input, mut runs, mut output] =
             [(Disk::with(input), "input"), (Disk::with(kept), "runs"), (Disk::default(), "output")]
                 .map(|(disk, path)| Medium::new(disk, path.into()));
-        let found = Journal::open(&plan, [1, 2, 3], kept.len() as u64, &mut runs).and_then(|j| {
-            engine::beyond(&plan, &mut input, &mut runs, Some(&j), &mut output, &monitor)
-        });
+        let found =
+            Journal::open(&plan, [1, 2, 3], 0, kept.len() as u64, &mut runs).and_then(|j| {
+                engine::beyond(&plan, &mut input, &mut runs, Some(&j), &mut output, &monitor)
+            });
         let [runs, output] =
             [runs, output].map(|m| m.into_store().bytes.into_inner().expect("no panic"));
         (found, runs, output)

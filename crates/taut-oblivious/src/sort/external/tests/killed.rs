@@ -16,7 +16,7 @@ fn sorts_slowly_where_it_is_told() {
     let Some(folder) = std::env::var_os(FOLDER) else { return };
     let path = |name: &str| PathBuf::from(&folder).join(name);
     let resume = std::env::var_os(RESUME).map(|_| path("runs"));
-    let options = FileSortOptions { memory: MEMORY_MIN, resume, scratch: None };
+    let options = FileSortOptions { memory: MEMORY_MIN, resume, ..Default::default() };
     // Each block is said, and then waits for a while.
     let report = |records: u64| {
         println!("block {records}");
@@ -60,8 +60,11 @@ fn killed_at_any_block_the_old_output_stands_and_nothing_is_left() {
     }
     kill_after(&folder, 100, true);
     assert_eq!(folder.names(), ["in", "out", "runs"]);
-    let options =
-        FileSortOptions { memory: MEMORY_MIN, resume: Some(folder.path("runs")), scratch: None };
+    let options = FileSortOptions {
+        memory: MEMORY_MIN,
+        resume: Some(folder.path("runs")),
+        ..Default::default()
+    };
     let found = folder.sort_with(&whole_number(32), &options, &Monitor::silent()).expect("sorted");
     assert!(found.runs_resumed > 3, "{found:?}");
     assert!(

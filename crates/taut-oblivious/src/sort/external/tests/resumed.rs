@@ -5,7 +5,7 @@ use super::*;
 const N: u64 = 40_000;
 
 fn options(folder: &Folder) -> FileSortOptions {
-    FileSortOptions { memory: MEMORY_MIN, resume: Some(folder.path("runs")), scratch: None }
+    FileSortOptions { memory: MEMORY_MIN, resume: Some(folder.path("runs")), ..Default::default() }
 }
 
 /// Sorts until so many records were told of.
