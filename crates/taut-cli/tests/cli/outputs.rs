@@ -135,3 +135,35 @@ fn old_names_of_options_are_still_understood() {
     let help = folder.taut("memory order --help").ends(0).out;
     assert!(help.contains("--ordered") && !help.contains("--points"), "{help}");
 }
+
+/// The libraries have other names for some options.
+#[test]
+fn errors_name_options_as_the_command_line_does() {
+    let folder = TestFolder::new();
+    folder.taut("generate normal -n 40 -d 3 -o points.npy").ends(0);
+    folder.put("ring.csv", "0,0\n4,0\n4,3\n0,3\n");
+    folder.put("labels.csv", "x,y,kind\n0,0,a\n1,0,a\n0,5,b\n1,5,b\n");
+    for (line, said) in [
+        ("surface points.npy --method hull --shrink 2", "`--shrink` is 2"),
+        ("surface points.npy --shrink 0.1", "--shrink is of --method "),
+        ("ellipsoid points.npy --robust mcd --keep 2", "`--keep` is 2"),
+        (
+            "inscribe ellipse ring.csv --method thesis --contact-angle 100",
+            "`--contact-angle` is 100",
+        ),
+        ("inscribe ellipse ring.csv --contact-angle 10", "--contact-angle is of --method "),
+        ("ball points.npy --draw b.svg --image-width 1", "`--image-width` is 1"),
+        ("generate clusters -n 5 -d 2 --clusters 0 -o x.csv", "`--clusters` is 0"),
+        ("generate normal -n 5 -d 2 --clusters 3 -o x.csv", "--clusters belongs to"),
+        ("generate curve -n 5 --shape circle --outlier-share 2 -o x.csv", "`--outlier-share` is 2"),
+        ("inscribe dops points.npy --method thesis --max-events 9", "--max-events is of --method "),
+        ("memory simulate transpose -n 8 --memory-sizes 16 --block 64", "`--memory-sizes` is 16"),
+        ("memory simulate --thesis-figure 44", "`--thesis-figure` is 44"),
+        ("memory transpose points.npy -o x.npy --row-count 3", "--row-count belongs to raw files"),
+    ] {
+        folder.taut(line).ends(2).stderr_has(&[said]);
+    }
+    let line = "classify train labels.csv --label kind --method svdd --kernel-width gamma=-1";
+    let run = folder.taut(&format!("{line} --model m.json")).ends(2);
+    assert!(run.err.contains("--kernel-width"), "{}", run.err);
+}

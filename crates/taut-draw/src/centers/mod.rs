@@ -12,7 +12,7 @@ mod groups;
 mod nearest;
 
 use taut_certify::{Centers, CentersCertificate, Solution};
-use taut_points::PointSource;
+use taut_points::{PointSource, gather};
 
 use self::groups::WithoutColumn;
 use self::nearest::Nearest;
@@ -30,7 +30,7 @@ const PROJECTION_ITEM_WEIGHT: f64 = 1e-4;
 /// About this many items of each group are looked at for that; more would take long in high dimensions and change little.
 const PROJECTION_ITEM_COUNT: usize = 64;
 
-/// The tones of the items of groups, by the number of their center.
+/// The tones of items, by the number of their center.
 const CLUSTER_TONES: [Tone; 4] = [Tone::Point, Tone::Second, Tone::Fourth, Tone::Muted];
 
 /// The noun for the steps between two pairs of bounds.
@@ -70,6 +70,9 @@ pub fn centers_figures(
     };
     let input = Input::read(&nearest, &question, source, options)?;
     let clusters = match column {
+        None if answer.centers.len() > 1 => {
+            nearest.centers_of(&gather(source, &input.item_pass.ids)?, certificate.items)
+        }
         None => vec![],
         Some(column) => {
             let ids = &input.item_pass.ids;
@@ -140,7 +143,7 @@ struct Picture<'a> {
     certificate: &'a CentersCertificate,
     nearest: Nearest,
     input: Input<'a>,
-    /// For each item drawn the center of its group; none where each item stands for itself.
+    /// For each item drawn its center, or that of its group; none where there is one center.
     clusters: Vec<usize>,
 }
 
@@ -259,7 +262,7 @@ impl<'a> Picture<'a> {
         Ok(layers)
     }
 
-    /// The items of which nothing else is said, in a tone by the center of their group; tones come again after some centers.
+    /// The items of which nothing else is said, in a tone by their center; tones come again after some centers.
     fn clustered(&self, others: &[u64]) -> Result<Vec<Layer<'static>>, Error> {
         let tones = CLUSTER_TONES.len().min(self.answer.centers.len());
         (0..tones)

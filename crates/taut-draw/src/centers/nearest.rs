@@ -51,6 +51,17 @@ impl Nearest {
         }
     }
 
+    /// For each row the center from which it reaches least far.
+    pub(super) fn centers_of(&self, rows: &[f64], items: Items) -> Vec<usize> {
+        let columns = if self.weights { self.dim + 1 } else { items.columns(self.dim) };
+        let center = |row: &[f64]| {
+            let reaches = (0..self.centers.len() / self.dim)
+                .map(|center| (center, self.reach_from(center, row, items)));
+            reaches.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(center, _)| center)
+        };
+        rows.chunks_exact(columns).map(center).collect()
+    }
+
     /// The centers from the middle of all, in units.
     pub(super) fn offsets(&self) -> impl Iterator<Item = Vec<f64>> + '_ {
         self.centers

@@ -12,9 +12,9 @@ use std::fmt::Write as _;
 
 use crate::number::px;
 use crate::style::classes;
-use crate::svg::{Chrome, Hover, draw, legend};
+use crate::svg::{Chrome, Drawn, draw, legend};
 use crate::text::{escape, json};
-use crate::{Figure, Theme, Views};
+use crate::{Figure, Layer3, Scene3, Shape3, Theme, Views};
 
 /// A report: what [`to_html`] writes as one file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -64,6 +64,9 @@ impl Field {
 const LEAD_SIZE: [f64; 2] = [740.0, 560.0];
 /// The same for figures that stand side by side.
 const BESIDE_SIZE: [f64; 2] = [540.0, 330.0];
+
+/// Scenes of space of more marks have no picture for readers without scripts.
+const STILL_MARKS_MAX: usize = 2000;
 
 /// The page as one HTML file that needs nothing else: figures inline, scenes of space to be turned by hand.
 ///
@@ -181,7 +184,6 @@ fn figure(out: &mut String, figure: &Figure, [width, height]: [f64; 2]) {
         Figure::Plot(plot) => (plot.width, plot.height) = (width, height.min(BESIDE_SIZE[1])),
     }
     let (title, caption) = (escape(figure.title()), escape(figure.caption()));
-    let (svg, _, hovers) = draw(&sized, Chrome::Bare);
     let kind = if matches!(figure, Figure::Space(_)) { "space" } else { "flat" };
     let _ = writeln!(out, "<figure class=\"{kind}\">\n<h3>{title}</h3>");
     match &sized {
@@ -189,31 +191,55 @@ fn figure(out: &mut String, figure: &Figure, [width, height]: [f64; 2]) {
             let _ = writeln!(
                 out,
                 "{}<div class=\"sheet\"><canvas width=\"{w}\" height=\"{h}\" tabindex=\"0\" role=\"img\" \
-                 aria-label=\"{title}. {caption}\"></canvas></div>\n<noscript>{svg}</noscript>\n\
+                 aria-label=\"{title}. {caption}\"></canvas></div>\n<noscript>{}</noscript>\n\
                  <div class=\"hint\">Drag to turn, pinch or click and wheel to zoom; arrow keys, + and − do the \
                  same, 0 goes back.</div>\n<script type=\"application/json\" class=\"data\">{}</script>",
                 legend(scene),
+                still(&sized, scene),
                 space::data(scene),
                 w = px(scene.width),
                 h = px(scene.height),
             );
         }
-        Figure::Plane(scene) => flat(out, &svg, &[&scene.x.name, &scene.y.name], &hovers),
+        Figure::Plane(scene) => flat(out, &sized, &[&scene.x.name, &scene.y.name]),
         Figure::Views(Views { scene, .. }) => {
             let names = [&scene.axes[0].name, &scene.axes[1].name, &scene.axes[2].name];
-            flat(out, &svg, &names.map(String::as_str), &hovers);
+            flat(out, &sized, &names.map(String::as_str));
         }
-        Figure::Plot(plot) => flat(out, &svg, &[&plot.x.name, &plot.y.name], &hovers),
+        Figure::Plot(plot) => flat(out, &sized, &[&plot.x.name, &plot.y.name]),
     }
     let _ = writeln!(out, "<figcaption>{caption}</figcaption>\n</figure>");
 }
 
-fn flat(out: &mut String, svg: &str, names: &[&str], hovers: &[Hover]) {
+/// A picture of space where no script runs, if it costs neither much time nor much room.
+fn still(figure: &Figure, scene: &Scene3) -> String {
+    let marks = |layer: &Layer3| match &layer.shape {
+        Shape3::Points(points) => points.len(),
+        Shape3::Crosses(places) => places.len(),
+        Shape3::Spheres(spheres) => spheres.len(),
+        Shape3::Polylines(chains) => chains.iter().map(Vec::len).sum(),
+        Shape3::Mesh(mesh) => mesh.triangles.len(),
+        // Its image is drawn sample by sample.
+        Shape3::Surface(_) => usize::MAX,
+    };
+    let all = scene.layers.iter().map(marks).fold(0, usize::saturating_add);
+    match all <= STILL_MARKS_MAX {
+        true => draw(figure, Chrome::Bare).document,
+        false => {
+            "<p>A script of this page draws this scene, but scripts do not run here.</p>".into()
+        }
+    }
+}
+
+fn flat(out: &mut String, figure: &Figure, names: &[&str]) {
+    let Drawn { document, hovers, ends } = draw(figure, Chrome::Bare);
     let names: Vec<_> = names.iter().map(|name| json(name)).collect();
     let _ = write!(
         out,
-        "<div class=\"sheet\">{svg}</div>\n<script type=\"application/json\" class=\"data\">{{\"names\":[{}],\"marks\":[",
-        names.join(",")
+        "<div class=\"sheet\">{}</div>\n<script type=\"application/json\" class=\"data\">{{\"names\":[{}],\"ends\":{:?},\"marks\":[",
+        document,
+        names.join(","),
+        ends
     );
     for (i, hover) in hovers.iter().enumerate() {
         let id = hover.id.map_or_else(|| "null".to_owned(), |id| id.to_string());

@@ -34,11 +34,12 @@ fn place(p: [f64; 3]) -> String {
     format!("[{}]", p.map(number).join(","))
 }
 
+/// Place, size, number and words in one list: a page can have many.
 fn mark(at: [f64; 3], size: f64, id: Option<u64>, words: &[String]) -> String {
     let id = id.map_or_else(|| "null".to_owned(), |id| id.to_string());
     let words: Vec<_> = words.iter().map(|w| json(w)).collect();
-    let (at, size) = (place(at), number(size));
-    format!("{{\"at\":{at},\"size\":{size},\"id\":{id},\"words\":[{}]}}", words.join(","))
+    let all = at.map(number).into_iter().chain([number(size), id]).chain(words);
+    format!("[{}]", all.collect::<Vec<_>>().join(","))
 }
 
 fn layer(layer: &Layer3, stage: &Stage) -> String {

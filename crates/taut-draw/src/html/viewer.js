@@ -44,11 +44,23 @@
     button.type = "button"; button.textContent = "Save picture"; button.addEventListener("click", saved);
     line.append(button); figure.querySelector(".sheet").after(line);
   };
+  // An element that switches something off and on; `turn` tells which.
+  const button = (element, turn) => {
+    const press = () => {
+      const is = turn();
+      element.classList.toggle("off", is); element.setAttribute("aria-pressed", String(!is));
+    };
+    element.setAttribute("tabindex", "0"); element.setAttribute("role", "button"); element.setAttribute("aria-pressed", "true");
+    element.addEventListener("click", press);
+    element.addEventListener("keydown", (event) => { if (event.key === "Enter" || event.key === " ") { event.preventDefault(); event.stopPropagation(); press(); } });
+  };
   const file = (figure, end) => figure.querySelector("h3").textContent.toLowerCase().replace(/[^a-z0-9]+/g, "-").slice(0, 60) + end;
 
   for (const figure of document.querySelectorAll("figure.flat")) {
-    const { names, marks } = data(figure), svg = figure.querySelector(".sheet svg");
+    const { names, ends, marks } = data(figure), svg = figure.querySelector(".sheet svg");
     const all = marks.map(mark), box = svg.viewBox.baseVal, whole = [box.x, box.y, box.width, box.height];
+    const off = new Set(), layer = all.map((_, i) => ends.findIndex((end) => i < end));
+    let shown = all;
     const place = (event) => {
       const at = svg.getBoundingClientRect(), unit = box.width / at.width;
       return [box.x + (event.clientX - at.left) * unit, box.y + (event.clientY - at.top) * unit, unit];
@@ -67,12 +79,12 @@
     const middle = () => [box.x + box.width / 2, box.y + box.height / 2];
     let held = null;
     svg.setAttribute("tabindex", "0");
-    svg.addEventListener("pointerdown", (event) => { held = place(event); svg.setPointerCapture(event.pointerId); hide(); });
+    svg.addEventListener("pointerdown", (event) => { if (event.target.closest("[data-entry]")) return; held = place(event); svg.setPointerCapture(event.pointerId); hide(); });
     for (const end of ["pointerup", "pointercancel"]) svg.addEventListener(end, () => { held = null; });
     svg.addEventListener("pointermove", (event) => {
       const [x, y, unit] = place(event);
       if (held) { view(box.x + held[0] - x, box.y + held[1] - y, box.width); return; }
-      const found = nearest(all, x, y, 12 * unit);
+      const found = nearest(shown, x, y, 12 * unit);
       if (found) show(words(names, found), event); else hide();
     });
     svg.addEventListener("pointerleave", hide);
@@ -90,6 +102,17 @@
       else return;
       event.preventDefault();
     });
+    // An entry of the legend hides its marks, and shows them again.
+    for (const entry of ends.length ? svg.querySelectorAll("[data-entry]") : []) {
+      const number = Number(entry.dataset.entry);
+      button(entry, () => {
+        const is = !off.delete(number);
+        if (is) off.add(number);
+        for (const marks of svg.querySelectorAll(`[data-of="${number}"]`)) marks.style.display = is ? "none" : "";
+        shown = all.filter((_, i) => !off.has(layer[i]));
+        return is;
+      });
+    }
     hint(figure, "Click and wheel to zoom, drag to move; arrow keys, + and − do the same, 0 goes back.", () => save(svg, file(figure, ".svg")));
   }
 
@@ -108,7 +131,9 @@
   })));
 
   const view = (figure) => {
-    const scene = data(figure), canvas = figure.querySelector("canvas"), pen = canvas.getContext("2d");
+    const scene = data(figure);
+    for (const l of scene.layers) l.marks = l.marks.map((m) => ({ at: m.slice(0, 3), size: m[3], id: m[4], words: m.slice(5) }));
+    const canvas = figure.querySelector("canvas"), pen = canvas.getContext("2d");
     const eye = scene.eye, perspective = scene.perspective, count = scene.layers.reduce((n, l) => n + l.marks.length, 0);
     let azimuth = scene.azimuth, elevation = scene.elevation, zoom = 1, marks = [], queued = false, moving = false, rest = 0;
     const off = new Set(), shown = () => scene.layers.filter((l) => !off.has(l));

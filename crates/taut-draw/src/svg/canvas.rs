@@ -23,6 +23,8 @@ pub(super) struct Canvas {
     pub(super) size: [f64; 2],
     /// Marks for the pointer.
     pub(super) hovers: Vec<Hover>,
+    /// The number of these after each layer that an entry of the legend can hide.
+    pub(super) ends: Vec<usize>,
     /// True if marks carry titles of their own; a page shows their words itself.
     pub(super) titled: bool,
 }
@@ -54,6 +56,7 @@ impl Canvas {
             cut: 0,
             size: [0.0; 2],
             hovers: Vec::new(),
+            ends: Vec::new(),
             titled: false,
         }
     }
@@ -66,6 +69,33 @@ impl Canvas {
 
     pub(super) fn close(&mut self) {
         self.body.push_str("</g>\n");
+    }
+
+    /// Opens the marks of a layer, which its entry in the legend of a page hides.
+    pub(super) fn open_layer(&mut self, number: usize, chrome: Chrome) {
+        if chrome == Chrome::Bare {
+            let _ = write!(self.body, "<g data-of=\"{number}\">");
+        }
+    }
+
+    pub(super) fn close_layer(&mut self, chrome: Chrome) {
+        if chrome == Chrome::Bare {
+            self.body.push_str("</g>");
+            self.ends.push(self.hovers.len());
+        }
+    }
+
+    /// Opens the entry of a layer in the legend.
+    pub(super) fn open_entry(&mut self, number: usize, chrome: Chrome) {
+        if chrome == Chrome::Bare {
+            let _ = write!(self.body, "<g data-entry=\"{number}\">");
+        }
+    }
+
+    pub(super) fn close_entry(&mut self, chrome: Chrome) {
+        if chrome == Chrome::Bare {
+            self.body.push_str("</g>");
+        }
     }
 
     pub(super) fn raw(&mut self, markup: &str) {

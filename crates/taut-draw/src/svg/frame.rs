@@ -83,19 +83,21 @@ pub(super) fn begin(
         canvas.text([margin, y], class, Anchor::Start, &line);
     }
     let mut x = margin;
-    let shown: Vec<_> = entries.iter().filter(|e| !e.name.is_empty()).collect();
+    let shown: Vec<_> = entries.iter().enumerate().filter(|(_, e)| !e.name.is_empty()).collect();
     if !shown.is_empty() {
         top += 12.0;
     }
-    for entry in shown {
+    for (number, entry) in shown {
         let name = fit(entry.name, room - KEY - 8.0, 12.5);
         let needed = KEY + 8.0 + width(&name, 12.5);
         if x > margin && x + needed > w - margin {
             x = margin;
             top += LINE + 2.0;
         }
+        canvas.open_entry(number, chrome);
         key(canvas, entry, [x + KEY / 2.0, top]);
         canvas.text([x + KEY + 7.0, top + 4.3], "t-legend", Anchor::Start, &name);
+        canvas.close_entry(chrome);
         x += needed + 20.0;
     }
     PlotArea { left: margin, top: top + 18.0, right: w - margin.max(16.0), bottom }

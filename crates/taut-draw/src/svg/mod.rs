@@ -25,7 +25,7 @@ pub(crate) use stage::{Stage, finite, stage};
 
 /// The figure as an SVG document: title, marks, legend and caption.
 pub fn to_svg(figure: &Figure, style: &Style) -> String {
-    draw(figure, Chrome::Full(style.theme)).0
+    draw(figure, Chrome::Full(style.theme)).document
 }
 
 /// A mark that answers to the pointer: its pixel, the number of its item, what is known of it.
@@ -40,12 +40,20 @@ pub(crate) struct Hover {
 /// Embedded images have this many pixels to each unit of a document: those of a fine screen.
 const PIXELS_PER_UNIT: f64 = 2.0;
 
-/// The document, its width and height, and its marks for the pointer.
-pub(crate) fn draw(figure: &Figure, chrome: Chrome) -> (String, [f64; 2], Vec<Hover>) {
+/// A figure as a document, and what a page does with it.
+pub(crate) struct Drawn {
+    pub(crate) document: String,
+    /// The marks for the pointer.
+    pub(crate) hovers: Vec<Hover>,
+    /// The number of these after each layer that can be hidden.
+    pub(crate) ends: Vec<usize>,
+}
+
+pub(crate) fn draw(figure: &Figure, chrome: Chrome) -> Drawn {
     let mut canvas = Canvas::new(PIXELS_PER_UNIT, true);
     fill(figure, chrome, &mut canvas);
     let document = canvas.document(figure.title(), figure.caption(), chrome);
-    (document, canvas.size, canvas.hovers)
+    Drawn { document, hovers: canvas.hovers, ends: canvas.ends }
 }
 
 /// A figure for a renderer that draws no images: a document, images to lay over it, and a document to lay over these.

@@ -27,8 +27,10 @@ pub(super) fn draw(scene: &Scene2, chrome: Chrome, canvas: &mut Canvas) {
     let [x, y] = spans;
     let x_ticks = linear(&x, ticks_along(room.right - room.left, apart[0]));
     frame::axes(canvas, room, [&scene.x, &scene.y], [&x, &y], [&x_ticks, &y_ticks]);
-    for layer in &scene.layers {
+    for (number, layer) in scene.layers.iter().enumerate() {
+        canvas.open_layer(number, chrome);
         marks(canvas, layer, &x, &y, [&scene.x, &scene.y]);
+        canvas.close_layer(chrome);
     }
 }
 

@@ -108,7 +108,8 @@ pub(super) fn draw(plot: &Plot, chrome: Chrome, canvas: &mut Canvas) {
         canvas.text(at, "t-level", anchor, label);
         canvas.close();
     }
-    for series in &plot.series {
+    for (number, series) in plot.series.iter().enumerate() {
+        canvas.open_layer(number, chrome);
         let name = series.tone.name();
         let places: Vec<_> =
             series.points.iter().filter_map(|p| Some((p, [x.at(p[0])?, y.at(p[1])?]))).collect();
@@ -141,6 +142,7 @@ pub(super) fn draw(plot: &Plot, chrome: Chrome, canvas: &mut Canvas) {
             canvas.hovers.push(hover(series.name.clone(), value, *at));
         }
         canvas.close();
+        canvas.close_layer(chrome);
     }
 }
 

@@ -50,6 +50,8 @@ fn the_page_draws_fronts_and_backs_and_what_is_hidden() {
     let part = 2.0 * (0.47_f64 * 560.0).powi(2) / (740.0 * 560.0);
     assert!((one["rest-part"] - part).abs() < 0.02, "{one:?}, {part}");
     assert_eq!([one["rest-blue"], one["rest-pale"]], [1.0, 0.0]);
+    // Its entry in the legend hides it.
+    assert_eq!(one["hidden-images"], 0.0);
     // Coarse while it moves.
     assert_eq!([one["rest-width"], one["moving-width"]], [800.0, 400.0]);
     assert!((0.9..1.01).contains(&(one["moving-part"] / one["rest-part"])));

@@ -6,8 +6,9 @@
 //! *Reference.* PKWARE, APPNOTE.TXT 6.3, sections 4.3 and 4.5; NumPy, `numpy.lib.format`.
 
 use std::fs::File;
-use std::io::{BufRead, BufReader, Cursor, Read, Seek, SeekFrom};
+use std::io::{self, BufRead, BufReader, Cursor, Read, Seek, SeekFrom};
 
+use flate2::Crc;
 use flate2::bufread::DeflateDecoder;
 
 use super::{Decoded, Seekable, npy};
@@ -28,6 +29,7 @@ struct Member {
     name: String,
     is_deflated: bool,
     packed: u64,
+    checksum: u32,
     /// Where its local header begins.
     at: u64,
 }
@@ -48,12 +50,37 @@ pub(super) fn read(job: &Job<'_>, medium: Medium) -> Result<Decoded, Error> {
     let begin = member.at.saturating_add(30 + lengths);
     archive.seek(SeekFrom::Start(begin)).map_err(|source| Error::reading(job.path, source))?;
     let packed = BufReader::new(archive.take(member.packed));
-    let mut stream: Box<dyn BufRead> = match member.is_deflated {
-        true => Box::new(BufReader::new(DeflateDecoder::new(packed))),
+    let stream: Box<dyn Read> = match member.is_deflated {
+        true => Box::new(DeflateDecoder::new(packed)),
         false => Box::new(packed),
     };
+    let other = damaged(job, "the checksum of the array is another one");
+    let (sum, expected) = (Crc::new(), member.checksum);
+    let summed = Summed { stream, sum, expected, other: Some(other) };
+    let mut stream: Box<dyn BufRead> = Box::new(BufReader::new(summed));
     let header = npy::header(job, &mut stream)?;
     npy::decode(job, &header, stream)
+}
+
+/// A stream that ends with an error where its bytes have another checksum than the archive says.
+struct Summed {
+    stream: Box<dyn Read>,
+    sum: Crc,
+    expected: u32,
+    /// The error, until it is given.
+    other: Option<Error>,
+}
+
+impl Read for Summed {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        let read = self.stream.read(bytes)?;
+        self.sum.update(&bytes[..read]);
+        let is_other = read == 0 && !bytes.is_empty() && self.sum.sum() != self.expected;
+        match self.other.take_if(|_| is_other) {
+            Some(other) => Err(io::Error::other(other)),
+            None => Ok(read),
+        }
+    }
 }
 
 fn damaged(job: &Job<'_>, problem: &str) -> Error {
@@ -144,7 +171,8 @@ fn members(job: &Job<'_>, archive: &mut dyn Archive) -> Result<Vec<Member>, Erro
                     "an array is encrypted, or packed in another way than by deflation",
                 ));
             }
-            members.push(Member { name: array.to_owned(), is_deflated: method == 8, packed, at });
+            let (name, is_deflated, checksum) = (array.to_owned(), method == 8, word(rest, 16));
+            members.push(Member { name, is_deflated, packed, checksum, at });
         }
         rest = &rest[end..];
     }

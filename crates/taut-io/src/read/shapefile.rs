@@ -49,6 +49,9 @@ pub(super) fn read(job: &Job<'_>, mut stream: Box<dyn BufRead>) -> Result<Decode
         return Err(damaged(job, FilePlace::File, "it does not begin as a .shp file"));
     }
     let has_z = matches!(word(&header, 32), 11 | 13 | 15 | 18);
+    let promised =
+        2 * u64::from(u32::from_be_bytes([header[24], header[25], header[26], header[27]]));
+    let mut found = HEADER_BYTES as u64;
     let (mut parts, mut number, mut has_parts): (Vec<Part>, u64, bool) = (vec![], 0, false);
     loop {
         let place = FilePlace::Element("shape", number);
@@ -91,6 +94,11 @@ pub(super) fn read(job: &Job<'_>, mut stream: Box<dyn BufRead>) -> Result<Decode
             }
         }
         number += 1;
+        found = found.saturating_add(8 + bytes);
+    }
+    if found < promised {
+        let problem = format!("its header promises {promised} bytes, but there are {found}");
+        return Err(damaged(job, FilePlace::File, problem));
     }
     if let Some(wanted) = wanted.filter(|&wanted| wanted >= number) {
         let problem = format!("there is no shape {wanted}: it has {number}, counted from 0");

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use proptest::prelude::*;
-use taut_io::{Content, Format, RawLayout, ReadOptions, open, open_bytes, write_points};
+use taut_io::{Content, Feature, Format, RawLayout, ReadOptions, open, open_bytes, write_points};
 use taut_points::{Distribution, Monitor, Points, ScalarKind, generate};
 
 use super::unpacks;
@@ -63,6 +63,54 @@ fn no_cut_of_an_arrow_stream_gives_points() {
             open_bytes(stream[..cut].to_vec(), "s.arrow", &ReadOptions::default()).is_err(),
             "{cut}"
         );
+    }
+}
+
+/// Files of other programs, cut anywhere and with any byte changed.
+#[test]
+fn no_cut_and_no_change_of_files_of_other_programs_ends_in_a_panic() {
+    let seeds = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/seeds");
+    if !seeds.exists() {
+        return println!("skipped: this package comes without its seeds");
+    }
+    for name in [
+        "pcd/binary.pcd",
+        "pcd/compressed.pcd",
+        "npz/stored.npz",
+        "npz/packed.npz",
+        "shapefile/heights.shp",
+        "shapefile/line.shp",
+        "shapefile/multi.shp",
+        "shapefile/polygons.shp",
+        "parquet/points.geo.parquet",
+        "parquet/polygon.geo.parquet",
+    ] {
+        if !Format::of_path(Path::new(name)).0.unwrap().reads(Content::Points) {
+            continue;
+        }
+        let whole = std::fs::read(seeds.join(name)).unwrap();
+        // The archive of two arrays is the one where a choice is needed.
+        let feature = name.contains("stored").then(|| Feature::Name("cloud".to_owned()));
+        let options = ReadOptions { feature, ..Default::default() };
+        let read = |bytes: Vec<u8>| open_bytes(bytes, name, &options);
+        let expected = super::values(&read(whole.clone()).unwrap());
+        for cut in 0..whole.len() {
+            let Err(refused) = read(whole[..cut].to_vec()) else {
+                panic!("{name} cut at {cut} of {}", whole.len())
+            };
+            assert!(refused.to_string().starts_with(name), "{cut}: {refused}");
+        }
+        for at in 0..whole.len() {
+            for bits in [1, 0x80, 0xff] {
+                let mut changed = whole.clone();
+                changed[at] ^= bits;
+                let Ok(found) = read(changed) else { continue };
+                let values = super::values(&found);
+                assert!(values.iter().all(|value| value.is_finite()), "{name}, byte {at}");
+                // Only archives have checksums.
+                assert!(!name.contains("npz") || values == expected, "{name}, byte {at}");
+            }
+        }
     }
 }
 

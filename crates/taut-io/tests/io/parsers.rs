@@ -4,14 +4,15 @@
 //! same bytes that differ.
 
 use taut_io::{
-    Content, Feature, Format, Header, Input, RawLayout, ReadOptions, open_bytes, open_mesh_bytes,
+    Content, Decimal, Feature, Format, Header, Input, Missing, RawLayout, ReadOptions, open_bytes,
+    open_mesh_bytes,
 };
 use taut_points::{Monitor, ScalarKind, Scratch, hash_points};
 
 type Parser = (&'static str, fn(&[u8]));
 
 /// Every parser by the name of its fuzz target.
-pub(crate) const ALL: [Parser; 21] = [
+pub(crate) const ALL: [Parser; 24] = [
     ("csv", csv),
     ("npy", npy),
     ("parquet", parquet),
@@ -23,6 +24,9 @@ pub(crate) const ALL: [Parser; 21] = [
     ("geojson", geojson),
     ("wkt", wkt),
     ("svg", svg),
+    ("pcd", pcd),
+    ("npz", npz),
+    ("shapefile", shapefile),
     ("ply", ply),
     ("obj", obj),
     ("off", off),
@@ -41,6 +45,14 @@ pub(crate) fn csv(bytes: &[u8]) {
         let all = read(bytes, format, ReadOptions::default());
         for header in [Header::Present, Header::Absent] {
             read(bytes, format, ReadOptions { header, ..Default::default() });
+        }
+        for (numeric, missing, decimal) in [
+            (true, Missing::Refuse, Decimal::Point),
+            (false, Missing::Drop, Decimal::Point),
+            (false, Missing::Refuse, Decimal::Comma),
+            (true, Missing::Drop, Decimal::Comma),
+        ] {
+            read(bytes, format, ReadOptions { numeric, missing, decimal, ..Default::default() });
         }
         // A selection of everything takes the slow way through each row, which must give the same points.
         let columns = Some("0-".parse().expect("a range"));
@@ -104,6 +116,25 @@ pub(crate) fn wkt(bytes: &[u8]) {
 
 pub(crate) fn svg(bytes: &[u8]) {
     features(bytes, Format::Svg);
+}
+
+pub(crate) fn pcd(bytes: &[u8]) {
+    read(bytes, Format::Pcd, ReadOptions::default());
+    let columns = Some("0-".parse().expect("a range"));
+    read(bytes, Format::Pcd, ReadOptions { columns, ..Default::default() });
+}
+
+/// The only array, and the first two of several.
+pub(crate) fn npz(bytes: &[u8]) {
+    read(bytes, Format::Npz, ReadOptions::default());
+    for number in [0, 1] {
+        let feature = Some(Feature::Number(number));
+        read(bytes, Format::Npz, ReadOptions { feature, ..Default::default() });
+    }
+}
+
+pub(crate) fn shapefile(bytes: &[u8]) {
+    features(bytes, Format::Shapefile);
 }
 
 /// With all columns and with some, where little memory is allowed, and feature by feature.

@@ -18,6 +18,9 @@ const context = () => new Proxy({ alpha: 1 }, {
 const canvas = () => ({ listeners: {}, clientWidth: 400, width: 0, height: 0, pen: context(),
   getContext(kind) { return kind === "2d" ? this.pen : null; },
   addEventListener(name, f) { this.listeners[name] = f; }, setPointerCapture() {} });
+const element = () => ({ dataset: { layer: "0" }, classList: { toggle() {} }, listeners: {}, append() {}, after() {}, setAttribute() {},
+  addEventListener(name, f) { this.listeners[name] = f; } });
+const entry = element();
 const colors = { answer: "#0072b2", second: "#b87f00", ground: "#ffffff" };
 const shown = canvas();
 global.ImageData = class { constructor(data, width, height) { Object.assign(this, { data, width, height }); } };
@@ -27,10 +30,11 @@ global.requestAnimationFrame = (f) => f();
 global.addEventListener = () => {};
 global.matchMedia = () => ({ addEventListener() {} });
 global.document = {
-  getElementById: () => ({ style: {} }), documentElement: {}, body: {}, activeElement: null, createElement: canvas,
+  getElementById: () => ({ style: {} }), documentElement: {}, body: {}, activeElement: null, createElement: (tag) => tag === "canvas" ? canvas() : element(),
   fonts: { ready: { then() {} } },
   querySelectorAll: (what) => what !== "figure.space" ? [] : scenes.slice(0, 1).map((textContent) => ({
-    querySelector: (part) => part === "canvas" ? shown : { textContent },
+    querySelector: (part) => part === "canvas" ? shown : { ...element(), textContent },
+    querySelectorAll: (what) => what === ".legend li" ? [entry] : [],
   })),
 };
 new Function(program)();
@@ -48,3 +52,6 @@ const tell = (when) => {
 tell("rest");
 shown.listeners.keydown({ key: "ArrowLeft", preventDefault() {} });
 tell("moving");
+images.length = 0;
+entry.listeners.click();
+console.log("hidden-images " + images.length);
