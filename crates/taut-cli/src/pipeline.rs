@@ -7,7 +7,6 @@ use std::path::{Path, PathBuf};
 
 use anyhow::bail;
 use taut::{Monitor, Solution};
-use taut_io::Format;
 
 use crate::clock::Clock;
 use crate::commands::verify::judge;
@@ -260,15 +259,6 @@ pub(crate) fn check<A: Summary>(
     }
 }
 
-/// Tests whether the name of a file is one for JSON: it has its extension, or none, or is no regular file.
-pub(crate) fn names_json(path: &Path) -> bool {
-    let is_other = path.metadata().is_ok_and(|there| !there.is_file() && !there.is_dir());
-    let extension = path.extension();
-    writing::is_stream(path)
-        || is_other
-        || extension.is_none_or(|extension| extension.eq_ignore_ascii_case("json"))
-}
-
 /// An answer was rejected, which has been reported.
 pub(crate) struct Rejected;
 
@@ -297,20 +287,16 @@ impl<'a> Output<'a> {
     /// Refuses any extension but that of JSON where JSON is written. That an output would replace the input is said first.
     pub(crate) fn refuse_other_formats(&self, input: &Path) -> anyhow::Result<()> {
         self.refuse_pictures_as_json()?;
-        let Some(out) = self.out.filter(|out| !names_json(out)) else { return Ok(()) };
+        let Some(out) = self.out.filter(|out| !writing::names_json(out)) else { return Ok(()) };
         writing::check_writable(&[out], &[input])?;
-        let shown = out.display();
-        match Format::of_path(out).0 {
-            Some(format) => bail!("{shown}: -o writes JSON, no {format} file: name it .json"),
-            None => bail!("{shown}: -o writes JSON: name it .json"),
-        }
+        writing::check_json(out, "-o")
     }
 
     /// The same where a table may be written as well.
     pub(crate) fn refuse_but_tables(&self, input: &Path) -> anyhow::Result<()> {
         match self.out {
             Some(out) if is_table(out) => Ok(()),
-            Some(out) if !names_json(out) && Picture::of_path(out).is_err() => {
+            Some(out) if !writing::names_json(out) && Picture::of_path(out).is_err() => {
                 writing::check_writable(&[out], &[input])?;
                 bail!(
                     "{}: -o writes JSON, or a table as {}; name one of these",

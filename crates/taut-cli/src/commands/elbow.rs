@@ -16,8 +16,8 @@ use crate::input::reading::Opened;
 use crate::output::numbers::{count, counted, exact, gap, short};
 use crate::output::picture::{self, Drawing, PictureOptions};
 use crate::output::tables::{self, is_table};
-use crate::output::writing::Outputs;
-use crate::pipeline::{Input, Output, check, names_json};
+use crate::output::writing::{Outputs, names_json};
+use crate::pipeline::{Input, Output, check};
 use crate::reports::{self, Field, noun};
 use crate::watch::Watch;
 

@@ -93,7 +93,7 @@ pub(crate) struct Args {
     )]
     epsilon: f64,
 
-    /// Where to write the rows, as CSV with a header; - is standard output
+    /// Where to write the rows: .csv with a header, or .json; - is standard output
     #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Writing")]
     out: PathBuf,
     /// Write JSON instead of CSV
@@ -119,6 +119,7 @@ impl Args {
             return Err(wrong_option("within", "NaN", "a number"));
         }
         writing::check_writable(&[&self.out], &inputs)?;
+        let as_json = writing::writes_json(&self.out, self.json, "csv")?;
         let watch = self.effort.start()?;
         let points = self.reading.open(&self.points.path)?;
         let other = other.map(|path| self.reading.open(path)).transpose()?;
@@ -128,7 +129,7 @@ impl Args {
             Some(other) => self.ask(&search, other, &watch)?,
         };
         let mut outputs = Outputs::default();
-        outputs.add(&self.out, table.text(self.json).as_bytes())?;
+        outputs.add(&self.out, table.text(as_json).as_bytes())?;
         outputs.finish()?;
         Ok(Outcome::Done)
     }

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{anyhow, bail};
 use taut::Solution;
 use taut::certify::{Answer, ReadingChoice};
-use taut_io::{AtomicFile, AtomicFolder, Error, Table};
+use taut_io::{AtomicFile, AtomicFolder, Error, Format, Table};
 
 use crate::watch::interrupted;
 
@@ -38,6 +38,40 @@ pub(crate) fn check_writable(outputs: &[&Path], inputs: &[&Path]) -> anyhow::Res
     // A folder that takes no new files says so only when one is made.
     let files = outputs.iter().filter(|output| !is_stream(output));
     Ok(files.copied().try_for_each(taut_io::check_writable)?)
+}
+
+/// Tests whether the name of a file is one for JSON: it has its extension, or none, or is no regular file.
+pub(crate) fn names_json(path: &Path) -> bool {
+    extension_of(path).is_none_or(|extension| extension == "json")
+}
+
+/// The extension of a file, in small letters; none of streams, devices and the like, which take anything.
+fn extension_of(path: &Path) -> Option<String> {
+    let is_other = path.metadata().is_ok_and(|there| !there.is_file() && !there.is_dir());
+    let extension = path.extension().filter(|_| !is_stream(path) && !is_other)?;
+    Some(extension.to_string_lossy().to_lowercase())
+}
+
+/// Refuses the extension of anything else where JSON is written.
+pub(crate) fn check_json(path: &Path, option: &str) -> anyhow::Result<()> {
+    let shown = path.display();
+    match Format::of_path(path).0 {
+        _ if names_json(path) => Ok(()),
+        Some(format) => bail!("{shown}: {option} writes JSON, no {format} file: name it .json"),
+        None => bail!("{shown}: {option} writes JSON: name it .json"),
+    }
+}
+
+/// Returns true if JSON is to be written, which the extension says, or else `is_asked`; refuses any other extension than that of
+/// the text that is written else.
+pub(crate) fn writes_json(path: &Path, is_asked: bool, text: &str) -> anyhow::Result<bool> {
+    match extension_of(path).as_deref() {
+        None => Ok(is_asked),
+        Some("json") => Ok(true),
+        Some(extension) if extension == text && !is_asked => Ok(false),
+        Some(_) if is_asked => check_json(path, "--json").map(|()| true),
+        Some(_) => bail!("{}: -o writes .{text} or .json; name one of these", path.display()),
+    }
 }
 
 /// Tests whether two outputs would end up in one place, there already or not.

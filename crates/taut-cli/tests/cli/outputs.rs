@@ -167,3 +167,26 @@ fn errors_name_options_as_the_command_line_does() {
     let run = folder.taut(&format!("{line} --model m.json")).ends(2);
     assert!(run.err.contains("--kernel-width"), "{}", run.err);
 }
+
+#[test]
+fn texts_are_json_where_their_name_or_an_option_says_so() {
+    let folder = TestFolder::new();
+    folder.put("points.csv", "0,0\n1,0\n0,2\n");
+    let counts = "memory simulate transpose -n 8 --memory-sizes 4K --block 64";
+    for (line, text) in [("near points.csv --diameter", "csv"), (counts, "csv")] {
+        let json = folder.taut(&format!("{line} --json")).ends(0).out;
+        serde_json::from_str::<serde_json::Value>(&json).unwrap();
+        folder.taut(&format!("{line} -o found.json")).ends(0);
+        assert_eq!(folder.text("found.json"), json, "{line}");
+        folder.taut(&format!("{line} -o found.{text}")).ends(0);
+        assert_ne!(folder.text(&format!("found.{text}")), json, "{line}");
+        folder.taut(&format!("{line} -o found.ply")).ends(2).stderr_has(&["found.ply", ".json"]);
+        let both = format!("{line} --json -o found.{text}");
+        folder.taut(&both).ends(2).stderr_has(&["--json writes JSON", "name it .json"]);
+    }
+    folder.put("records.bin", [3u64, 1, 2].map(u64::to_le_bytes).concat());
+    let sort =
+        "memory sort records.bin --item-bytes 8 -o sorted.bin --certificate sorted.json --json";
+    let json = folder.taut(sort).ends(0).out;
+    assert_eq!(json, folder.text("sorted.json"));
+}

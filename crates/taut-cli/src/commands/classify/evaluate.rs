@@ -46,7 +46,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "CLASS")]
     positive: Option<String>,
 
-    /// Where to write the report; - is standard output
+    /// Where to write the report, as .txt or .json; - is standard output
     #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Writing")]
     out: PathBuf,
     /// Write JSON instead of words
@@ -68,6 +68,7 @@ impl Args {
         let files: Vec<_> =
             [&self.out].into_iter().chain(&self.draw).map(PathBuf::as_path).collect();
         writing::check_writable(&files, &[&self.points.path, &self.model])?;
+        let as_json = writing::writes_json(&self.out, self.json, "txt")?;
         let picture = self.draw.as_deref().map(Picture::of_path).transpose()?;
         let model = model(&self.model)?;
         let watch = self.effort.start()?;
@@ -81,7 +82,7 @@ impl Args {
         let classes: Vec<Option<u32>> = found.iter().map(|found| found.class).collect();
         let matrix = Confusion::new(model.classes(), &truth, &classes).map_err(refused)?;
         let scores = comparisons(&found, &truth);
-        let text = match self.json {
+        let text = match as_json {
             true => self.json_of(&matrix, scores.as_ref(), &opened)?.to_string() + "\n",
             false => self.words_of(&model, &matrix, scores.as_ref(), &opened)?,
         };

@@ -29,7 +29,7 @@ pub(super) struct Args {
     #[arg(long)]
     scores: bool,
 
-    /// Where to write the classes, as CSV with a header; - is standard output
+    /// Where to write the classes: .csv with a header, or .json; - is standard output
     #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Writing")]
     out: PathBuf,
     /// Write JSON instead of CSV
@@ -44,6 +44,7 @@ pub(super) struct Args {
 impl Args {
     pub(super) fn run(&self) -> anyhow::Result<Outcome> {
         writing::check_writable(&[&self.out], &[&self.points.path, &self.model])?;
+        let as_json = writing::writes_json(&self.out, self.json, "csv")?;
         let model = model(&self.model)?;
         let watch = self.effort.start()?;
         let opened = self.reading.open_labeled(&self.points.path, None, model.columns())?;
@@ -51,8 +52,7 @@ impl Args {
         let points = table.points()?;
         let found = watch.during("predicting", |_| model.predict(points));
         let found = found.map_err(|error| explain(&opened, error))?;
-        let text =
-            if self.json { self.json_of(&model, &found) } else { self.csv_of(&model, &found) };
+        let text = if as_json { self.json_of(&model, &found) } else { self.csv_of(&model, &found) };
         let mut outputs = Outputs::default();
         outputs.add(&self.out, text.as_bytes())?;
         outputs.finish()?;

@@ -122,6 +122,7 @@ impl Args {
         let files: Vec<_> =
             [&self.model].into_iter().chain(&self.draw).map(PathBuf::as_path).collect();
         writing::check_writable(&files, &[&self.points.path])?;
+        writing::check_json(&self.model, "--model")?;
         let picture = self.draw.as_deref().map(Picture::of_path).transpose()?;
         let watch = self.effort.start()?;
         let opened = self.reading.open_labeled(&self.points.path, self.label.as_deref(), &[])?;

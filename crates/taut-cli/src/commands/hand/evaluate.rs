@@ -69,7 +69,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u64,
 
-    /// Where to write the report; - is standard output
+    /// Where to write the report, as .txt or .json; - is standard output
     #[arg(short, long, value_name = "FILE", default_value = "-", help_heading = "Writing")]
     out: PathBuf,
     /// Write JSON instead of words
@@ -96,6 +96,7 @@ impl Args {
         let files: Vec<_> = outputs.into_iter().flatten().map(PathBuf::as_path).collect();
         let inputs: Vec<_> = self.paths.iter().chain(&self.labels).map(PathBuf::as_path).collect();
         writing::check_writable(&files, &inputs)?;
+        let as_json = writing::writes_json(&self.out, self.json, "txt")?;
         let picture = self.draw.as_deref().map(Picture::of_path).transpose()?;
         let contenders = self.contenders()?;
         let watch = self.effort.start()?;
@@ -122,7 +123,7 @@ impl Args {
             far: self.far,
             heading: self.heading(),
         };
-        let text = if self.json { report.to_json() } else { report.to_words() };
+        let text = if as_json { report.to_json() } else { report.to_words() };
         let mut outputs = Outputs::default();
         outputs.add(&self.out, text.as_bytes())?;
         if let Some(table) = &self.table {

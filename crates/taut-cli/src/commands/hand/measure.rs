@@ -50,6 +50,9 @@ impl Args {
     pub(super) fn run(&self) -> anyhow::Result<Outcome> {
         let files: Vec<_> = self.out.iter().chain(&self.draw).map(PathBuf::as_path).collect();
         writing::check_writable(&files, &[&self.path])?;
+        if let Some(out) = &self.out {
+            writing::check_json(out, "-o")?;
+        }
         let picture = self.draw.as_deref().map(Picture::of_path).transpose()?;
         let hand = Hand::from_file(&self.path, &self.options())
             .map_err(|error| explain(&self.path, error))?;

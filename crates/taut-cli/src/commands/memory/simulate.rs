@@ -55,9 +55,12 @@ pub(super) struct Args {
     #[arg(long = "thesis-figure", alias = "figure", value_name = "N", conflicts_with_all = ["algorithm", "n", "memory", "block", "policy", "ways", "base"])]
     figure: Option<u32>,
 
-    /// Write the counts as CSV; - is standard output
+    /// Write the counts, as .csv or .json; - is standard output
     #[arg(short, long, value_name = "FILE", help_heading = "Writing")]
     out: Option<PathBuf>,
+    /// Print JSON instead of the table
+    #[arg(long, help_heading = "Writing")]
+    json: bool,
     /// Draw misses and formula; .svg and .png show one picture, .html all
     #[arg(long, value_name = "FILE", help_heading = "Writing")]
     draw: Option<PathBuf>,
@@ -79,6 +82,8 @@ impl Args {
         let outputs: Vec<&Path> =
             [&self.out, &self.draw].into_iter().flatten().map(|path| &**path).collect();
         writing::check_writable(&outputs, &[])?;
+        let to_file = self.out.as_deref().map(|out| writing::writes_json(out, self.json, "csv"));
+        let to_file = to_file.transpose()?;
         self.effort.start()?;
         let (rows, plots) = match self.figure {
             Some(number) => figure::figure(number)?,
@@ -90,8 +95,9 @@ impl Args {
             }
         };
         let mut outputs = Outputs::default();
-        if let Some(path) = &self.out {
-            outputs.add(path, csv(&rows).as_bytes())?;
+        if let (Some(path), Some(as_json)) = (&self.out, to_file) {
+            let text = if as_json { json(&rows) } else { csv(&rows) };
+            outputs.add(path, text.as_bytes())?;
         }
         if let (Some(path), Some(picture)) = (&self.draw, picture) {
             let drawing = Drawing {
@@ -102,8 +108,12 @@ impl Args {
             };
             outputs.add(path, &picture.draw(drawing, &PictureOptions::default())?)?;
         }
-        if !self.effort.quiet && self.out.as_deref().is_none_or(|out| !writing::is_stream(out)) {
-            outputs.print(&table(&rows));
+        if self.out.as_deref().is_none_or(|out| !writing::is_stream(out)) {
+            match (self.json, self.effort.quiet) {
+                (true, _) => outputs.print(&json(&rows)),
+                (false, true) => {}
+                (false, false) => outputs.print(&table(&rows)),
+            }
         }
         outputs.finish()?;
         Ok(Outcome::Done)
@@ -147,6 +157,17 @@ fn csv(rows: &[Counted]) -> String {
         );
     }
     text
+}
+
+fn json(rows: &[Counted]) -> String {
+    let row = |row: &Counted| {
+        let Counted { name, n, memory, block, policy, misses, write_backs, formula } = row;
+        serde_json::json!({
+            "algorithm": name, "n": n, "memory": memory, "block": block, "policy": policy.to_string(),
+            "misses": misses, "write_backs": write_backs, "formula": formula,
+        })
+    };
+    format!("{:#}\n", serde_json::Value::Array(rows.iter().map(row).collect()))
 }
 
 fn table(rows: &[Counted]) -> String {

@@ -38,7 +38,7 @@ pub(super) struct Args {
     /// The records, one after the other
     input: PathBuf,
     /// Where to write them
-    #[arg(short, long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE", help_heading = "Writing")]
     out: PathBuf,
     /// Bytes of a record, at least 1 [default: those of a row of an .npy file]
     #[arg(long = "item-bytes", alias = "width", value_name = "BYTES")]
@@ -58,6 +58,9 @@ pub(super) struct Args {
     /// Keep what was done in this file until the output is there; go on from it if it is there
     #[arg(long = "checkpoint", alias = "resume", value_name = "FILE", conflicts_with = "scratch")]
     resume: Option<PathBuf>,
+    /// Print what the file is said to be and its certificate as JSON instead of the summary
+    #[arg(long, help_heading = "Writing")]
+    json: bool,
     #[command(flatten)]
     proof: Proof,
 
@@ -100,8 +103,10 @@ impl Args {
         if outcome != Outcome::Done {
             return Ok(outcome);
         }
-        if !self.effort.quiet {
-            writing::print(self.summary(&layout, &found).as_bytes())?;
+        match (self.json, self.effort.quiet) {
+            (true, _) => writing::print((solution.to_json() + "\n").as_bytes())?,
+            (false, true) => {}
+            (false, false) => writing::print(self.summary(&layout, &found).as_bytes())?,
         }
         Ok(Outcome::Done)
     }

@@ -57,6 +57,7 @@ pub(crate) struct Args {
 impl Args {
     pub(super) fn run(&self) -> anyhow::Result<Outcome> {
         writing::check_writable(&[&self.out], &[])?;
+        writing::check_json(&self.out, "-o")?;
         if !(0.0..1.0).contains(&self.fmr) {
             bail!("option `--fmr` is {}: expected a number from 0, below 1", self.fmr);
         }
