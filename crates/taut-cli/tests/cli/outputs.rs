@@ -141,6 +141,7 @@ fn old_names_of_options_are_still_understood() {
 fn errors_name_options_as_the_command_line_does() {
     let folder = TestFolder::new();
     folder.taut("generate normal -n 40 -d 3 -o points.npy").ends(0);
+    folder.taut("ball points.npy -o b.json").ends(0);
     folder.put("ring.csv", "0,0\n4,0\n4,3\n0,3\n");
     folder.put("labels.csv", "x,y,kind\n0,0,a\n1,0,a\n0,5,b\n1,5,b\n");
     for (line, said) in [
@@ -152,7 +153,7 @@ fn errors_name_options_as_the_command_line_does() {
             "`--contact-angle` is 100",
         ),
         ("inscribe ellipse ring.csv --contact-angle 10", "--contact-angle is of --method "),
-        ("ball points.npy --draw b.svg --image-width 1", "`--image-width` is 1"),
+        ("draw b.json points.npy -o b.svg --image-width 1", "`--image-width` is 1"),
         ("generate clusters -n 5 -d 2 --clusters 0 -o x.csv", "`--clusters` is 0"),
         ("generate normal -n 5 -d 2 --clusters 3 -o x.csv", "--clusters belongs to"),
         ("generate curve -n 5 --shape circle --outlier-share 2 -o x.csv", "`--outlier-share` is 2"),
