@@ -189,7 +189,6 @@ def test_empty_arrays_have_a_type_and_a_shape():
 ELSEWHERE = {
     "answer.kernel.name": "answer.kernel",
     "answer.kernel.gamma": "answer.gamma",
-    "answer.flagged": "answer.outliers",
     "certificate.proof.by": "certificate.proof",
     "certificate.tour.lower": "certificate.tour_lower",
     "certificate.enclosure.certificate.gap": "certificate.gap",

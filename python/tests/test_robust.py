@@ -72,8 +72,8 @@ def test_answers_travel_and_lies_are_found(points):
     assert found.kind == "robust-ellipsoid"
     assert repr(found).startswith("Solution(kind='robust-ellipsoid', log_det=")
     document = json.loads(found.to_json())
-    assert document["answer"]["flagged"] == found.answer.outliers.tolist()
-    document["answer"]["flagged"].pop()
+    assert document["answer"]["outliers"] == found.answer.outliers.tolist()
+    document["answer"]["outliers"].pop()
     with pytest.raises(taut.Violation, match="point 199"):
         taut.verify(json.dumps(document), points)
     changed = points.copy()

@@ -183,14 +183,14 @@ pub(super) fn run_flags(context: &Context, out: &mut Outcome) -> Result<()> {
         let row = |program: &str, found: &Solution<RobustEllipsoid>| {
             json!({
                 "set": name, "program": program, "h": found.certificate.kept, "ln det": found.certificate.objective,
-                "weighed out": from_one(&found.certificate.weighed_out), "flagged": from_one(&found.answer.flagged),
+                "weighed out": from_one(&found.certificate.weighed_out), "flagged": from_one(&found.answer.outliers),
             })
         };
         table.push(row("taut", &ours));
         table.push(json!({
             "set": name, "program": "robustbase", "h": ours.certificate.kept, "flagged": published,
         }));
-        if from_one(&ours.answer.flagged) != published {
+        if from_one(&ours.answer.outliers) != published {
             others.push(name);
         }
         for peer in [PEER, PEER_OWN] {

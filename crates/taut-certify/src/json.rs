@@ -1,4 +1,5 @@
-//! One solution as one JSON document: `{ "schema", "kind", "answer", "certificate", "trace" }`.
+//! One solution as one JSON document: `{ "schema", "kind", "answer", "certificate", "trace" }`, and `"reading"` where the rows of its file
+//! were chosen.
 
 use std::io;
 

@@ -34,7 +34,7 @@ choice! { "method", RobustMethod {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(
     deny_unknown_fields,
-    expecting = "a robust ellipsoid: an object with center, matrix, factor, log_volume, scatter, log_det and flagged"
+    expecting = "a robust ellipsoid: an object with center, matrix, factor, log_volume, scatter, log_det and outliers"
 )]
 pub struct RobustEllipsoid {
     /// The d coordinates of the center c.
@@ -48,7 +48,7 @@ pub struct RobustEllipsoid {
     pub matrix: Vec<Vec<f64>>,
     /// F, r rows of d numbers, Q = FᵀF: a point is inside if and only if |F(x − c)| ≤ 1, where x − c is formed first.
     pub factor: Vec<Vec<f64>>,
-    /// The affine subspace in which most points lie exactly; absent when there is none. All points off it are flagged.
+    /// The affine subspace in which most points lie exactly; absent when there is none. All points off it are outliers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hull: Option<Hull>,
     /// The natural logarithm of the volume of the ellipsoid, of dimension r; 0 for a single point.
@@ -58,7 +58,8 @@ pub struct RobustEllipsoid {
     /// ln det S, of dimension r: where a hull is given, the determinant is that of S within it. 0 for r = 0.
     pub log_det: f64,
     /// Rows outside the ellipsoid or off the hull, ascending: the outliers.
-    pub flagged: Vec<u64>,
+    #[serde(alias = "flagged")]
+    pub outliers: Vec<u64>,
 }
 
 impl RobustEllipsoid {
@@ -161,7 +162,7 @@ pub struct RobustVerdict {
     pub kept: u64,
     /// Points on the hull; all of them where there is none.
     pub on_hull: u64,
-    /// By how much a point that is not flagged lies beyond the border, or one that is flagged within, in units of the
+    /// By how much a point that is no outlier lies beyond the border, or an outlier within, in units of the
     /// border: what evaluating |F(x − c)| in `f64` may be off by. 0 where the flags are exactly the points outside.
     pub flag_excess: f64,
     /// The tolerance of center, scatter, and the border of the points weighed out, in units of the border: 1e-9, more

@@ -50,7 +50,7 @@ pub use options::RobustOptions;
 /// order does not matter.
 ///
 /// *Exact fit.* When h points lie in a hyperplane, or a smaller subspace, that is reported, not refused: the answer has
-/// a [`hull`](RobustEllipsoid::hull), center and scatter are those of the points on it, and all others are flagged.
+/// a [`hull`](RobustEllipsoid::hull), center and scatter are those of the points on it, and all others are outliers.
 ///
 /// *Cost.* By `mcd`, for up to 4000 points: rankings of O(nd² log n), a thousand C-steps on up to 600 points, and some
 /// hundred C-steps of O(nd²) on all. Beyond, starts see a sample of 2000, and all points are read some hundred to two
@@ -67,7 +67,7 @@ pub use options::RobustOptions;
 /// (0..6).for_each(|i| values.extend([1000.0, f64::from(i)]));
 /// let points = taut_points::Points::new(&values, 2)?;
 /// let found = robust_ellipsoid(&points, &RobustOptions::default())?;
-/// assert_eq!(found.answer.flagged, [25, 26, 27, 28, 29, 30]);
+/// assert_eq!(found.answer.outliers, [25, 26, 27, 28, 29, 30]);
 /// assert!((found.answer.center[0] - 2.0).abs() < 1e-12);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -170,7 +170,7 @@ fn answer(
         (method, &placed.fit.enclosure)
     {
         let Ellipsoid { center, center_tail, matrix, factor, hull, log_volume } = ellipsoid.clone();
-        let flagged = certificate.left_out.clone();
+        let outliers = certificate.left_out.clone();
         return Ok(RobustEllipsoid {
             center,
             center_tail,
@@ -180,10 +180,10 @@ fn answer(
             log_volume,
             scatter,
             log_det,
-            flagged,
+            outliers,
         });
     }
-    let flagged = flagged(data, placed, (&center, &center_tail), &factor)?;
+    let outliers = outliers(data, placed, (&center, &center_tail), &factor)?;
     let hull = placed.flat.as_ref().map(|flat| Hull {
         basis: flat.basis.chunks_exact(dim).map(<[f64]>::to_vec).collect(),
         distance: flat.distance,
@@ -197,12 +197,12 @@ fn answer(
         log_volume,
         scatter,
         log_det,
-        flagged,
+        outliers,
     })
 }
 
 /// The rows outside the ellipsoid as it is returned, or off the hull.
-fn flagged(
+fn outliers(
     data: &mut PointReader<'_>,
     placed: &Placed,
     (center, tail): (&[f64], &[f64]),

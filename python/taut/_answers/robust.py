@@ -23,7 +23,7 @@ class RobustEllipsoid(Record):
     log_det : float
         ln det S; of dimension r where `hull` is given.
     outliers : ndarray of int64, shape (k,)
-        Row numbers outside the ellipsoid or off the hull, ascending; `flagged` in the JSON. Read-only.
+        Row numbers outside the ellipsoid or off the hull, ascending. Read-only.
     ellipsoid : Ellipsoid
         By "mcd" and "mve" the tolerance ellipsoid, by "trim" the smallest around the points kept.
     matrix, factor, hull, log_volume, rank
@@ -32,7 +32,7 @@ class RobustEllipsoid(Record):
 
     scatter: Floats = table(FLOAT, "center")
     log_det: float
-    outliers: RowNumbers = column(ROW, at="flagged")
+    outliers: RowNumbers = column(ROW)
     ellipsoid: Ellipsoid = one(Ellipsoid, at=ITSELF)
 
     @property

@@ -135,7 +135,7 @@ impl Find for RobustSolver<'_> {
     }
 
     fn tables(&self, found: &Solution<RobustEllipsoid>, points: &Opened) -> Tables {
-        vec![("outliers", tables::rows(points, &found.answer.flagged))]
+        vec![("outliers", tables::rows(points, &found.answer.outliers))]
     }
 
     fn outcome(&self, found: &Solution<RobustEllipsoid>) -> Outcome {

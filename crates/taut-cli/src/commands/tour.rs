@@ -218,11 +218,11 @@ fn robust(station: &Station, points: &Opened, watch: &Watch) -> anyhow::Result<S
         .map_err(|error| points.explain(error))?;
     let doctor = || {
         let mut doctored = found.clone();
-        doctored.answer.flagged.pop();
+        doctored.answer.outliers.pop();
         doctored
     };
     checked_and_drawn(station, &found, points, watch, ("an outlier less", &doctor), |_| {
-        let outliers = count(found.answer.flagged.len() as u64);
+        let outliers = count(found.answer.outliers.len() as u64);
         format!("{outliers} outliers of {} points", count(points.source().len()))
     })
 }

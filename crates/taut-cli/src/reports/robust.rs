@@ -32,7 +32,7 @@ impl Summary for RobustEllipsoid {
             Field::new("log-det", exact(answer.log_det)).remark("of the scatter"),
             Field::new("log-volume", exact(answer.log_volume)).remark(border),
             Field::new("kept", format!("{} of {}", count(certificate.kept), counted(n, "point"))),
-            rows_of("outliers", &answer.flagged),
+            rows_of("outliers", &answer.outliers),
         ];
         if answer.hull.is_some() {
             let on = report.verdict.map_or_else(
@@ -90,7 +90,7 @@ impl Summary for RobustEllipsoid {
             Field::new("optimum", "not judged").remark("other points kept might do better"),
             Field::proved("kept", count(verdict.kept))
                 .remark(format!("at least {} were to be kept", count(verdict.wanted))),
-            Field::proved("outliers", count(answer.flagged.len() as u64)).remark(flags),
+            Field::proved("outliers", count(answer.outliers.len() as u64)).remark(flags),
             Field::proved("dimension", verdict.rank.to_string()),
         ];
         if certificate.method != RobustMethod::Trim {

@@ -41,7 +41,7 @@ fn outliers_are_named_and_all_is_verified() {
         folder.taut(&line).ends(0).stdout_has(&parts);
         let found: serde_json::Value = serde_json::from_str(&folder.text("robust.json")).unwrap();
         assert_eq!(found["kind"], "robust-ellipsoid");
-        assert_eq!(found["answer"]["flagged"], serde_json::json!([25, 26, 27, 28, 29, 30]));
+        assert_eq!(found["answer"]["outliers"], serde_json::json!([25, 26, 27, 28, 29, 30]));
         folder.taut("verify robust.json points.csv").ends(0).stdout_has(&[
             "Verified",
             ": robust ellipsoid by ",
@@ -105,7 +105,7 @@ fn a_lie_about_the_outliers_is_found() {
     let folder = folder();
     folder.taut("ellipsoid points.csv --robust mcd -o robust.json").ends(0);
     let mut lie: serde_json::Value = serde_json::from_str(&folder.text("robust.json")).unwrap();
-    lie["answer"]["flagged"] = serde_json::json!([25, 26, 27, 28, 29]);
+    lie["answer"]["outliers"] = serde_json::json!([25, 26, 27, 28, 29]);
     folder.put("lie.json", lie.to_string());
     folder
         .taut("verify lie.json points.csv")

@@ -21,7 +21,7 @@ const OUTLIER_REACH_MIN: f64 = 4.0;
 /// A close-up reaches this far, in half-widths of the ellipsoid.
 const CLOSE_UP_REACH: f64 = 2.5;
 
-/// The answer as an ellipsoid around the points that are not flagged. Only by `trim` some of them decide it.
+/// The answer as an ellipsoid around the points that are no outliers. Only by `trim` some of them decide it.
 pub(super) fn as_left_out(
     solution: &Solution<RobustEllipsoid>,
 ) -> (Ellipsoid, EllipsoidCertificate) {
@@ -38,7 +38,7 @@ pub(super) fn as_left_out(
         support,
         multipliers,
         directions: vec![],
-        left_out: solution.answer.flagged.clone(),
+        left_out: solution.answer.outliers.clone(),
         gap: 0.0,
         points_hash: certificate.points_hash,
     };
@@ -110,7 +110,7 @@ impl<'a> Robust<'a> {
         format!(
             "By {method}, {} kept; {}. {meaning}{flat}",
             counted(*kept, "point"),
-            counted(self.answer.flagged.len() as u64, "outlier"),
+            counted(self.answer.outliers.len() as u64, "outlier"),
         )
     }
 }

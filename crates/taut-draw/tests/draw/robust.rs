@@ -32,13 +32,13 @@ fn case(dim: usize, method: RobustMethod, far: f64) -> (Vec<f64>, Solution<Robus
         hull: None,
         log_volume: 0.5,
     };
-    let flagged = vec![40, 41, 42];
+    let outliers = vec![40, 41, 42];
     let certificate = EllipsoidCertificate {
         items: Items::Points,
         support: vec![0, 1],
         multipliers: vec![0.5; 2],
         directions: vec![],
-        left_out: flagged.clone(),
+        left_out: outliers.clone(),
         gap: 1e-9,
         points_hash: hash,
     };
@@ -54,18 +54,18 @@ fn case(dim: usize, method: RobustMethod, far: f64) -> (Vec<f64>, Solution<Robus
             log_volume,
             scatter: identity(dim, 1.0),
             log_det: 0.0,
-            flagged: flagged.clone(),
+            outliers: outliers.clone(),
         },
         certificate: RobustCertificate {
             method,
             kept: 40,
-            left_out: flagged.clone(),
+            left_out: outliers.clone(),
             objective: 0.0,
             level: 0.975,
             cutoff: 4.0,
             raw_scale: 1.0,
             scale: 1.0,
-            weighed_out: flagged,
+            weighed_out: outliers,
             unweighted: None,
             enclosure: (method != RobustMethod::Mcd).then_some(enclosure),
             points_hash: hash,

@@ -67,8 +67,8 @@ fn classical_sets_have_the_determinants_of_the_literature() {
         assert!(below > -1e-6, "{name}: {}", found.certificate.objective);
         // Of the milk, a better subset is found than is published.
         if below < 1e-6 {
-            let flagged: Vec<u64> = found.answer.flagged.iter().map(|row| row + 1).collect();
-            assert_eq!(flagged, *outliers, "{name}");
+            let rows: Vec<u64> = found.answer.outliers.iter().map(|row| row + 1).collect();
+            assert_eq!(rows, *outliers, "{name}");
             for (c, wanted) in found.answer.center.iter().zip(*center) {
                 assert!((c - wanted).abs() < 5e-3 * wanted.abs(), "{name}: {c} of {wanted}");
             }
@@ -88,7 +88,7 @@ fn forty_percent_of_outliers_do_not_move_it() {
             let values = contaminated(n, dim, outliers, away, 3);
             let found = solve("breakdown", &values, dim, &mcd());
             let out: Vec<u64> = ((n - outliers) as u64..n as u64).collect();
-            assert!(out.iter().all(|row| found.answer.flagged.contains(row)), "{n} {dim} {away}");
+            assert!(out.iter().all(|row| found.answer.outliers.contains(row)), "{n} {dim} {away}");
             for (c, m) in found.answer.center.iter().zip(&mean) {
                 assert!((c - m).abs() < 0.5, "{n} × {dim} at {away}: {c} of {m}");
             }
@@ -121,7 +121,7 @@ fn a_tight_cluster_is_kept_exactly_where_that_has_the_smaller_determinant() {
             assert!(less > 1.0 && kept == outliers, "{away}: {less}, {kept}");
         } else {
             assert!(less > -1e-9 && kept == 0, "{away}: {less}, {kept}");
-            assert!((others as u64..n as u64).all(|row| found.answer.flagged.contains(&row)));
+            assert!((others as u64..n as u64).all(|row| found.answer.outliers.contains(&row)));
         }
     }
 }
@@ -181,8 +181,8 @@ fn h_points_in_a_hyperplane_are_reported() {
     let found = solve("plane", &values, 3, &mcd());
     let hull = found.answer.hull.as_ref().expect("a plane holds 70 of 100 points");
     assert_eq!(hull.basis.len(), 2);
-    assert!((70..100).all(|row| found.answer.flagged.contains(&row)));
-    assert!(found.answer.flagged.len() < 40, "{:?}", found.answer.flagged);
+    assert!((70..100).all(|row| found.answer.outliers.contains(&row)));
+    assert!(found.answer.outliers.len() < 40, "{:?}", found.answer.outliers);
     let normal_of_plane = [2.0, -1.0, -1.0];
     for direction in &hull.basis {
         let product: f64 = direction.iter().zip(normal_of_plane).map(|(b, v)| b * v).sum();
@@ -199,11 +199,11 @@ fn h_points_in_a_hyperplane_are_reported() {
     values[..60 * 3].fill(0.25);
     let found = solve("point", &values, 3, &mcd());
     assert_eq!((found.answer.factor.len(), &found.answer.center[..]), (0, &[0.25; 3][..]));
-    assert_eq!(found.answer.flagged, (60..100).collect::<Vec<u64>>());
+    assert_eq!(found.answer.outliers, (60..100).collect::<Vec<u64>>());
     let few = solve("few", &normal(4, 7, 2), 7, &mcd());
     assert_eq!(few.answer.factor.len(), 3);
     let one = solve("one", &[1.0, 2.0], 2, &mcd());
-    assert_eq!((one.answer.factor.len(), one.answer.flagged.len()), (0, 0));
+    assert_eq!((one.answer.factor.len(), one.answer.outliers.len()), (0, 0));
 }
 
 #[test]
@@ -217,7 +217,7 @@ fn shifts_scales_and_turns_go_along() {
             let shift: Vec<f64> = (0..dim).map(|a| 100.0 * a as f64).collect();
             let image = mapped(&values, &matrix, &shift);
             let found = solve(name, &image, dim, &mcd());
-            assert_eq!(found.answer.flagged, plain.answer.flagged, "{name} {n}");
+            assert_eq!(found.answer.outliers, plain.answer.outliers, "{name} {n}");
             let wanted = mapped(&plain.answer.center, &matrix, &shift);
             for (a, (c, w)) in found.answer.center.iter().zip(&wanted).enumerate() {
                 let size = found.answer.scatter[a][a].sqrt();
@@ -246,8 +246,8 @@ fn order_threads_and_precision_change_nothing() {
             values.chunks(dim).rev().flat_map(|row| row.iter().copied()).collect();
         let back = solve("reversed", &turned, dim, &mcd());
         let rows: Vec<u64> =
-            back.answer.flagged.iter().rev().map(|row| n as u64 - 1 - row).collect();
-        assert_eq!(rows, found.answer.flagged);
+            back.answer.outliers.iter().rev().map(|row| n as u64 - 1 - row).collect();
+        assert_eq!(rows, found.answer.outliers);
         for (c, w) in back.answer.center.iter().zip(&found.answer.center) {
             assert!((c - w).abs() < 1e-12);
         }
@@ -261,7 +261,7 @@ fn offsets_and_ranges_are_borne() {
         let values: Vec<f64> =
             contaminated(400, 4, 100, 50.0, 41).iter().map(|v| offset + scale * v).collect();
         let found = solve("far", &values, 4, &mcd());
-        assert!((300..400).all(|row| found.answer.flagged.contains(&row)), "{offset} {scale}");
+        assert!((300..400).all(|row| found.answer.outliers.contains(&row)), "{offset} {scale}");
         assert!(found.answer.hull.is_none());
     }
 }

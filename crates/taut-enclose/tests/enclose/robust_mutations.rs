@@ -83,7 +83,7 @@ fn lists(found: &Solved, n: u64) -> Vec<Mutation> {
     type List = fn(&mut Solved) -> &mut Vec<u64>;
     let mut all = vec![];
     let lists: [(&str, List); 3] = [
-        ("flagged", |f| &mut f.answer.flagged),
+        ("outliers", |f| &mut f.answer.outliers),
         ("left out", |f| &mut f.certificate.left_out),
         ("weighed out", |f| &mut f.certificate.weighed_out),
     ];
@@ -231,7 +231,7 @@ fn by_hand(found: &Solved, values: &[f64], kept: &[u64]) -> Solved {
     (made.answer.scatter, made.answer.factor, made.answer.center) = (scatter, factor, center);
     let n = values.len() as u64 / 2;
     let ellipsoid = made.answer.ellipsoid();
-    made.answer.flagged =
+    made.answer.outliers =
         (0..n).filter(|&row| ellipsoid.norm(&values[2 * row as usize..][..2]) > 1.0).collect();
     made.certificate.left_out = (0..n).filter(|row| !kept.contains(row)).collect();
     made.certificate.weighed_out = made.certificate.left_out.clone();
@@ -292,9 +292,9 @@ fn rows_moved_in_and_out_of_all_lists_are_found() {
     let support = found.certificate.enclosure.as_ref().unwrap().certificate.support.clone();
     for row in (0..80).filter(|row| !support.contains(row)) {
         let mut forged = found.clone();
-        let is_out = found.answer.flagged.contains(&row);
+        let is_out = found.answer.outliers.contains(&row);
         for list in [
-            &mut forged.answer.flagged,
+            &mut forged.answer.outliers,
             &mut forged.certificate.left_out,
             &mut forged.certificate.enclosure.as_mut().unwrap().certificate.left_out,
         ] {
@@ -342,7 +342,7 @@ fn a_hull_as_wide_as_the_points_is_no_exact_fit() {
             rows.dedup();
         };
         if distance < 50.0 {
-            list(&mut answer.flagged);
+            list(&mut answer.outliers);
             list(&mut forged.certificate.left_out);
             list(&mut forged.certificate.weighed_out);
             forged.certificate.kept = 100 - forged.certificate.left_out.len() as u64;
@@ -369,7 +369,7 @@ fn an_ellipsoid_grown_or_shrunk_is_refused_at_any_size() {
         answer.log_volume -= 2.0 * times.ln();
         answer.log_det -= 4.0 * times.ln();
         let ellipsoid = answer.ellipsoid();
-        answer.flagged =
+        answer.outliers =
             (0..40).filter(|&row| ellipsoid.norm(&values[2 * row as usize..][..2]) > 1.0).collect();
         refused(&format!("{times} times at {scale}"), &forged, &values, 2);
     }

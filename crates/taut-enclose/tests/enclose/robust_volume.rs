@@ -28,7 +28,7 @@ fn all_points_give_their_smallest_ellipsoid() {
         assert!(found.certificate.left_out.is_empty());
         if method == RobustMethod::Trim {
             assert_eq!(found.answer.ellipsoid(), wanted.answer);
-            assert!(found.answer.flagged.is_empty());
+            assert!(found.answer.outliers.is_empty());
         }
     }
 }
@@ -40,14 +40,14 @@ fn far_points_are_left_out() {
         let values = contaminated(n, dim, outliers, 1e4, 9);
         let out: Vec<u64> = ((n - outliers) as u64..n as u64).collect();
         let trimmed = solve("trim", &values, dim, &by(RobustMethod::Trim));
-        assert_eq!(trimmed.answer.flagged, out, "{n} × {dim}");
+        assert_eq!(trimmed.answer.outliers, out, "{n} × {dim}");
         let mve = solve("mve", &values, dim, &by(RobustMethod::Mve));
-        assert!(out.iter().all(|row| mve.answer.flagged.contains(row)), "{n} × {dim}");
+        assert!(out.iter().all(|row| mve.answer.outliers.contains(row)), "{n} × {dim}");
         assert!(mve.answer.log_det.abs() < 3.0, "{}", mve.answer.log_det);
     }
     let values = contaminated(100, 3, 40, 1e3, 9);
     let mve = solve("forty percent", &values, 3, &by(RobustMethod::Mve));
-    assert!((60..100).all(|row| mve.answer.flagged.contains(&row)));
+    assert!((60..100).all(|row| mve.answer.outliers.contains(&row)));
 }
 
 #[test]
@@ -82,10 +82,10 @@ fn flat_majorities_are_reported() {
         }
         let found = solve("plane", &values, 3, &by(method));
         assert_eq!(found.answer.hull.as_ref().map(|hull| hull.basis.len()), Some(2));
-        assert!((95..100).all(|row| found.answer.flagged.contains(&row)), "{method}");
+        assert!((95..100).all(|row| found.answer.outliers.contains(&row)), "{method}");
         values[..95 * 3].fill(0.25);
         let found = solve("point", &values, 3, &by(method));
-        assert_eq!(found.answer.flagged, [95, 96, 97, 98, 99]);
+        assert_eq!(found.answer.outliers, [95, 96, 97, 98, 99]);
         let few = solve("few", &normal(3, 6, 2), 6, &by(method));
         assert!(few.answer.hull.is_some());
     }
@@ -103,7 +103,7 @@ fn affine_maps_go_along_and_threads_change_nothing() {
         let moved = found.certificate.objective - plain.certificate.objective;
         assert!((moved - log_determinant(&matrix)).abs() < 0.15, "{method}: {moved}");
         for row in 138..150 {
-            assert!(plain.answer.flagged.contains(&row) && found.answer.flagged.contains(&row));
+            assert!(plain.answer.outliers.contains(&row) && found.answer.outliers.contains(&row));
         }
         for threads in [1, 2, 5] {
             let options = RobustOptions { threads: Some(threads), ..by(method) };
@@ -121,7 +121,7 @@ fn offsets_are_borne() {
             let values: Vec<f64> =
                 contaminated(200, 3, 15, 50.0, 41).iter().map(|v| offset + scale * v).collect();
             let found = solve("far", &values, 3, &by(method));
-            assert!((185..200).all(|row| found.answer.flagged.contains(&row)));
+            assert!((185..200).all(|row| found.answer.outliers.contains(&row)));
         }
     }
 }
@@ -148,10 +148,10 @@ fn classical_outliers_are_found() {
         return;
     };
     let found = solve("hbk", &values, 3, &by(RobustMethod::Mve));
-    assert_eq!(found.answer.flagged, (0..14).collect::<Vec<u64>>());
+    assert_eq!(found.answer.outliers, (0..14).collect::<Vec<u64>>());
     let stars = real("rb_starsCYG.csv", 2).unwrap();
     let found = solve("starsCYG", &stars, 2, &by(RobustMethod::Mve));
     for giant in [10, 19, 29, 33] {
-        assert!(found.answer.flagged.contains(&giant), "{:?}", found.answer.flagged);
+        assert!(found.answer.outliers.contains(&giant), "{:?}", found.answer.outliers);
     }
 }

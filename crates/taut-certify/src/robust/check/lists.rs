@@ -42,13 +42,13 @@ pub(super) fn check(
     number("the first factor", certificate.raw_scale, certificate.raw_scale > 0.0)?;
     number("the factor of the scatter", certificate.scale, certificate.scale >= 0.0)?;
     for (list, rows) in [
-        ("flagged", &answer.flagged),
+        ("outliers", &answer.outliers),
         ("left out", &certificate.left_out),
         ("weighed out", &certificate.weighed_out),
     ] {
         ascending(list, rows, n)?;
     }
-    flagged(answer, certificate)?;
+    outliers(answer, certificate)?;
     enough(certificate, n, dim)?;
     kept(certificate, n)?;
     match &certificate.enclosure {
@@ -73,23 +73,23 @@ fn enough(certificate: &RobustCertificate, n: u64, dim: usize) -> Result<(), Vio
     Err(Violation::Number { what: "the number of points kept".into(), value, expected })
 }
 
-/// By `trim`, the rows flagged are those left out, as on the border nothing else would tell, and none is weighed out.
-fn flagged(answer: &RobustEllipsoid, certificate: &RobustCertificate) -> Result<(), Violation> {
-    let (flagged, left_out) = (&answer.flagged, &certificate.left_out);
+/// By `trim`, the outliers are the rows left out, as on the border nothing else would tell, and none is weighed out.
+fn outliers(answer: &RobustEllipsoid, certificate: &RobustCertificate) -> Result<(), Violation> {
+    let (outliers, left_out) = (&answer.outliers, &certificate.left_out);
     if certificate.method != RobustMethod::Trim {
         return Ok(());
     }
     length("the list of points weighed out", certificate.weighed_out.len(), 0)?;
-    if flagged == left_out {
+    if outliers == left_out {
         return Ok(());
     }
-    let missing = left_out.iter().find(|row| flagged.binary_search(row).is_err());
-    let spare = flagged.iter().find(|row| left_out.binary_search(row).is_err());
+    let missing = left_out.iter().find(|row| outliers.binary_search(row).is_err());
+    let spare = outliers.iter().find(|row| left_out.binary_search(row).is_err());
     let (problem, row) = match (missing, spare) {
         (Some(&row), _) => ("lacks", row),
         (None, spare) => ("names", spare.copied().unwrap_or(0)),
     };
-    Err(Violation::Listed { list: "flagged", problem, row, distance: 1.0 })
+    Err(Violation::Listed { list: "outliers", problem, row, distance: 1.0 })
 }
 
 /// Tests whether as many rows are kept as is said, and the ellipsoid around them leaves out the same.

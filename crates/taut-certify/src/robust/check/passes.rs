@@ -139,7 +139,7 @@ impl Passes<'_> {
         self.hull.is_none_or(|hull| hull.is_within(row, self.frame))
     }
 
-    /// Tests whether the rows flagged are those outside the ellipsoid or off the hull, as a user would find in `f64`. Returns by
+    /// Tests whether the outliers are the rows outside the ellipsoid or off the hull, as a user would find in `f64`. Returns by
     /// how much at most a row is on the wrong side of the border.
     pub(super) fn flags(
         &self,
@@ -147,13 +147,13 @@ impl Passes<'_> {
         monitor: &Monitor<'_>,
     ) -> Result<f64, CheckError> {
         let blocks = self.pass(source, monitor, |first, rows| {
-            let mut flagged = Cursor::from(&self.answer.flagged, first);
+            let mut outliers = Cursor::from(&self.answer.outliers, first);
             let mut row = vec![0.0; self.frame.dim];
             let mut most = 0.0f64;
             for i in 0..rows.len() {
                 rows.copy_row(i, &mut row);
                 let id = first + i as u64;
-                most = most.max(self.flag(id, &row, flagged.names(id))?);
+                most = most.max(self.flag(id, &row, outliers.names(id))?);
             }
             Ok(most)
         })?;
@@ -161,16 +161,16 @@ impl Passes<'_> {
     }
 
     /// By how much a row is on the wrong side, if that is no more than rounding.
-    fn flag(&self, id: u64, row: &[f64], is_flagged: bool) -> Result<f64, Violation> {
+    fn flag(&self, id: u64, row: &[f64], is_outlier: bool) -> Result<f64, Violation> {
         if !self.is_on_hull(row) {
-            compare("flagged", is_flagged, id, f64::INFINITY, 0.0)?;
+            compare("outliers", is_outlier, id, f64::INFINITY, 0.0)?;
             return Ok(0.0);
         }
         let offset = self.frame.offset::<f64>(row);
         let norm = length(&self.frame.image(&offset));
         let has_square = norm < FAR_OUT;
         if !has_square {
-            compare("flagged", is_flagged, id, far_out(self.frame, row), 0.0)?;
+            compare("outliers", is_outlier, id, far_out(self.frame, row), 0.0)?;
             return Ok(0.0);
         }
         let sizes: Vec<f64> = offset.iter().map(|x| x.abs()).collect();
@@ -180,15 +180,15 @@ impl Passes<'_> {
         }
         let is_clear = (norm - 1.0).abs() > 2.0 * slack;
         if is_clear {
-            compare("flagged", is_flagged, id, norm, 0.0)?;
+            compare("outliers", is_outlier, id, norm, 0.0)?;
             return Ok(0.0);
         }
         let image = self.frame.image(&self.frame.offset::<DoubleDouble>(row));
         let square =
             image.iter().fold(DoubleDouble::of(-1.0), |sum, y| sum.plus(&y.times(y))).rounded();
         let beyond = square / (1.0 + (1.0 + square).max(0.0).sqrt());
-        compare("flagged", is_flagged, id, 1.0 + beyond, slack)?;
-        Ok(if is_flagged { -beyond } else { beyond }.max(0.0))
+        compare("outliers", is_outlier, id, 1.0 + beyond, slack)?;
+        Ok(if is_outlier { -beyond } else { beyond }.max(0.0))
     }
 
     /// Distances in the metric of the rows kept: none of these may be farther than a row left out, rows weighed out are

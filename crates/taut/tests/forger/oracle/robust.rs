@@ -3,7 +3,7 @@
 //! *Claims.* As many points are kept as is said, and the objective is theirs. No C-step leads on: in the metric of the points
 //! kept none of them is farther than a point left out, and by `mve` and `trim` the ellipsoid around them is the smallest and
 //! has fewer than h points strictly inside. Center, scatter, log-determinant and log-volume are those of the points not
-//! weighed out; points are weighed out beyond the quantile, and flagged outside the ellipsoid.
+//! weighed out; points are weighed out beyond the quantile, and outliers are outside the ellipsoid.
 //! *Truth.* Moments and distances are found in 256 bits from the lists of the certificate. They are compared in the frame of
 //! the answer, y = F(x − c), with the slack that the verdict states, and that with its definition.
 //! *The smallest.* A verdict calls an ellipsoid around the points kept a local optimum, so its volume may exceed the least by
@@ -86,7 +86,7 @@ impl RobustOracle {
         let is_list = |rows: &[u64]| {
             rows.windows(2).all(|pair| pair[0] < pair[1]) && rows.iter().all(|&row| row < n as u64)
         };
-        let lists = [&answer.flagged, &certificate.left_out, &certificate.weighed_out];
+        let lists = [&answer.outliers, &certificate.left_out, &certificate.weighed_out];
         let ensure = |holds: bool, what: &str| if holds { Ok(()) } else { Err(what.to_owned()) };
         ensure(lists.iter().all(|rows| is_list(rows)), "a list of rows is not ascending")?;
         let kept = (n - certificate.left_out.len()) as u64;
@@ -97,7 +97,7 @@ impl RobustOracle {
         ensure(if is_mcd { kept == wanted } else { kept >= wanted }, "too few rows are kept")?;
         let least = if is_trim { 1 } else { (n + self.dim).div_ceil(2).min(n) as u64 };
         ensure(wanted >= least, "fewer rows are kept than a robust fit needs")?;
-        ensure(!is_trim || answer.flagged == certificate.left_out, "other rows are flagged")?;
+        ensure(!is_trim || answer.outliers == certificate.left_out, "other rows are outliers")?;
         let rank = verdict.rank;
         let is_shaped = answer.center.len() == self.dim
             && answer.factor.len() == rank

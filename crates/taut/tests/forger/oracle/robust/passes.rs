@@ -1,4 +1,4 @@
-//! Claims about each row: where it is, whether it is flagged, and how far it is in the metric of the rows kept.
+//! Claims about each row: where it is, whether it is an outlier, and how far it is in the metric of the rows kept.
 
 use taut::RobustMethod;
 use taut::certify::{Ellipsoid, RobustCertificate, RobustEllipsoid, RobustVerdict};
@@ -45,7 +45,7 @@ pub(super) fn rows(
         .collect()
 }
 
-/// Rows flagged are those outside, up to the excess stated, and those off the hull.
+/// Outliers are the rows outside, up to the excess stated, and those off the hull.
 pub(super) fn flags(
     claims: &mut Claims,
     answer: &RobustEllipsoid,
@@ -57,21 +57,17 @@ pub(super) fn flags(
     let (most, least) =
         (most.square(), if least.is_positive() { least.square() } else { Interval::zero() });
     for (number, row) in rows.iter().enumerate() {
-        let is_flagged = answer.flagged.binary_search(&(number as u64)).is_ok();
-        match (is_flagged, row.on_hull) {
+        let is_outlier = answer.outliers.binary_search(&(number as u64)).is_ok();
+        match (is_outlier, row.on_hull) {
             (false, Some(false)) => {
                 claims
-                    .holds(Some(false), || format!("row {number} is off the hull and not flagged"));
+                    .holds(Some(false), || format!("row {number} is off the hull and no outlier"));
             }
             (true, Some(true)) => {
-                claims.at_most(
-                    &format!("the border, for row {number} flagged"),
-                    &least,
-                    &row.square,
-                );
+                claims.at_most(&format!("the border, for outlier {number}"), &least, &row.square);
             }
             (false, _) => {
-                claims.at_most(&format!("row {number}, not flagged"), &row.square, &most);
+                claims.at_most(&format!("row {number}, no outlier"), &row.square, &most);
             }
             (true, _) => {}
         }

@@ -88,12 +88,12 @@ fn answers_of_the_solver_are_true_and_doctored_ones_are_false() {
         is_false("fewer on the hull", &|_, _, v| v.on_hull = 3);
         is_false("another rank", &|_, _, v| v.rank -= 1);
         is_false("weights", &|_, _, v| v.reweighted = !v.reweighted);
-        is_false("a row flagged", &|a, _, _| {
-            let inner = (0..case.values.len() as u64).find(|row| !a.flagged.contains(row));
-            a.flagged.extend(inner);
-            a.flagged.sort_unstable();
+        is_false("one outlier more", &|a, _, _| {
+            let inner = (0..case.values.len() as u64).find(|row| !a.outliers.contains(row));
+            a.outliers.extend(inner);
+            a.outliers.sort_unstable();
         });
-        is_false("a row not flagged", &|a, _, _| a.flagged.truncate(a.flagged.len() - 1));
+        is_false("one outlier less", &|a, _, _| a.outliers.truncate(a.outliers.len() - 1));
         is_false("another log-volume", &|a, _, _| {
             a.log_volume += 1e-10 * (1.0 + a.log_volume.abs())
         });
@@ -175,7 +175,7 @@ fn trimmed(axes: [f64; 2], gap: f64) -> (Vec<f64>, Solution<RobustEllipsoid>, Ro
         log_volume,
         scatter: diagonal(f.map(|f| raw_scale / (f * f))),
         log_det: -2.0 * (f[0].ln() + f[1].ln()) + 2.0 * raw_scale.ln(),
-        flagged: vec![8],
+        outliers: vec![8],
     };
     let certificate = RobustCertificate {
         method: RobustMethod::Trim,
