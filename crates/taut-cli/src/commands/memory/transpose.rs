@@ -11,6 +11,7 @@ use taut::oblivious::{
 };
 use taut_io::NpyArray;
 
+use super::is_npy;
 use crate::effort::Effort;
 use crate::exit::Outcome;
 use crate::input::size;
