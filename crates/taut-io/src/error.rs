@@ -20,7 +20,7 @@ pub use raster::RasterError;
 pub use stream::StreamRowError;
 
 use display::{
-    Abbreviated, Printable, columns, format_of, if_missing, names, names_or_extensions, not_built,
+    Abbreviated, Printable, columns, format_of, names, names_or_extensions, not_built, not_finite,
 };
 use place::Row;
 
@@ -288,10 +288,7 @@ pub enum Error {
         hint: &'static str,
     },
     /// A number is NaN, infinite, or too large for its type.
-    #[error(
-        "{place}: the value is {value}, and all coordinates must be finite: repair or remove that row{}",
-        if_missing(value)
-    )]
+    #[error("{place}: {}", not_finite(value))]
     NonFinite {
         /// Where.
         place: Place,
@@ -319,16 +316,6 @@ pub enum Error {
     Missing {
         /// Where.
         place: Place,
-    },
-    /// Rows that lack a value are left out, and that leaves none.
-    #[error(
-        "{path}: each of its {rows} rows lacks a value, so that none is left: choose the columns that are coordinates"
-    )]
-    NoCompleteRows {
-        /// The file.
-        path: String,
-        /// The number of rows.
-        rows: u64,
     },
     /// An integer that no `f64` holds exactly.
     #[error("{place}: the integer {value} is not exact as f64: scale or shift that column")]

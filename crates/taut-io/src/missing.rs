@@ -4,10 +4,10 @@
 
 use taut_points::{Blocks, PointSource, Rows, Scalar, ScalarKind, Scratch};
 
-use crate::Error;
 use crate::input::Job;
 use crate::read::Decoded;
 use crate::sink::Sink;
+use crate::{Error, FilterError};
 
 /// The rows of a file that were left out, ascending, from 0.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -53,7 +53,8 @@ pub(crate) fn drop_rows(job: &Job<'_>, decoded: Decoded) -> Result<(Decoded, Dro
         return Ok((Decoded { source, columns, numbers, labels }, dropped));
     }
     if dropped.count() == source.len() {
-        return Err(Error::NoCompleteRows { path: job.path.to_owned(), rows: source.len() });
+        let (path, rows) = (job.path.to_owned(), source.len());
+        return Err(FilterError::NoCompleteRows { path, rows }.into());
     }
     let source = match source.scalar() {
         ScalarKind::F32 => {

@@ -12,7 +12,7 @@ const SHORT_OPTIONS: [&str; 3] = ["columns", "missing", "quiet"];
 const OF_METHODS: [&str; 2] = ["Of thesis", "Of alpha"];
 
 /// What the short help says of the rest.
-const MORE: &str = "More options and words: --help";
+const REST_HINT: &str = "More options and words: --help";
 
 /// The command with a short help for each subcommand.
 pub(crate) fn shortened(command: Command) -> Command {
@@ -22,7 +22,7 @@ pub(crate) fn shortened(command: Command) -> Command {
     }
     let words = command.get_after_help().map(|words| words.to_string()).unwrap_or_default();
     let example = words.find("Example: ").map_or("", |at| &words[at..]);
-    let short = format!("{MORE}\n{example}").trim_end().to_owned();
+    let short = format!("{REST_HINT}\n{example}").trim_end().to_owned();
     command.after_help(short).after_long_help(words).mut_args(|option| {
         if is_for_long_help(&option) { option.hide_short_help(true) } else { option }
     })

@@ -10,12 +10,13 @@ pub(super) fn names(usable: impl Fn(Format) -> bool) -> String {
     names.collect::<Vec<_>>().join(", ")
 }
 
-/// Returns what else to do about a value that is missing.
-pub(super) fn if_missing(value: &str) -> &'static str {
-    match value.eq_ignore_ascii_case("nan") {
-        true => ", or leave out such rows with --missing drop",
-        false => "",
-    }
+/// Returns what is wrong with a value, and what to do about it.
+pub(super) fn not_finite(value: &str) -> String {
+    let is_missing = value.eq_ignore_ascii_case("nan");
+    let more = if is_missing { ", or leave out such rows with --missing drop" } else { "" };
+    format!(
+        "the value is {value}, and all coordinates must be finite: repair or remove that row{more}"
+    )
 }
 
 /// Returns what cannot be told of a file.

@@ -44,6 +44,16 @@ pub enum FilterError {
         /// The file.
         path: String,
     },
+    /// Rows that lack a value are left out, and that leaves none.
+    #[error(
+        "{path}: each of its {rows} rows lacks a value, so that none is left: choose the columns that are coordinates"
+    )]
+    NoCompleteRows {
+        /// The file.
+        path: String,
+        /// The number of rows.
+        rows: u64,
+    },
     /// No point of a laser scan has one of the classes that are wanted.
     #[error(
         "{path}: no point is of class {}: the classes of its points are {}", listed(.wanted), listed(.found)
