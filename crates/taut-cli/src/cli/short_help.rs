@@ -3,7 +3,11 @@
 use clap::{Arg, Command};
 
 /// Headings whose options are listed in the long help alone.
-const LONG_HEADINGS: [&str; 5] = ["Reading", "Running", "Drawing", "Kernels", "Robust"];
+const LONG_HEADINGS: [&str; 6] =
+    ["Reading", "Running", "Drawing", "Kernels", "Robust", "Alpha complex"];
+
+/// Other options that few people need.
+const LONG_OPTIONS: [&str; 4] = ["direction", "hidden", "merge-within", "occlusion"];
 
 /// Options under these headings that are listed all the same.
 const SHORT_OPTIONS: [&str; 3] = ["columns", "missing", "quiet"];
@@ -31,10 +35,11 @@ pub(crate) fn shortened(command: Command) -> Command {
 fn is_for_long_help(option: &Arg) -> bool {
     let has_long_heading =
         option.get_help_heading().is_some_and(|heading| LONG_HEADINGS.contains(&heading));
-    let is_listed = option.get_long().is_some_and(|name| SHORT_OPTIONS.contains(&name));
+    let is_one_of = |names: &[&str]| option.get_long().is_some_and(|name| names.contains(&name));
+    let is_listed = is_one_of(&SHORT_OPTIONS);
     let help = option.get_help().map(|help| help.to_string()).unwrap_or_default();
     let is_of_method = OF_METHODS.iter().any(|begin| help.starts_with(begin));
-    is_of_method || has_long_heading && !is_listed
+    is_of_method || is_one_of(&LONG_OPTIONS) || has_long_heading && !is_listed
 }
 
 #[cfg(test)]

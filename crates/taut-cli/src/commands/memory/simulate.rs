@@ -27,7 +27,7 @@ The counts are exact and the same on every machine: addresses are simulated, too
 B bytes; formulas are in words of 8 bytes, without a constant factor. --thesis-figure N counts again what figures 36 to 50 of \
 the thesis measured, in the caches of its machines.
 Exit: 0 done · 2 bad input or usage, nothing written
-Example: taut memory simulate transpose -n 512 --memory-sizes 4K,16K,64K --block 64,512 --draw misses.svg
+Example: taut memory simulate transpose -n 512 --memory-sizes 4K,64K --block 64 --draw misses.svg
          taut memory simulate --thesis-figure 36 --draw figure.svg")]
 pub(super) struct Args {
     /// The algorithm
