@@ -16,19 +16,22 @@ fn the_summary_names_every_number() {
     let folder = folder();
     let run = folder.taut("delaunay points.csv").ends(0).stdout_has(&[
         "Delaunay triangulation of 6 points in the plane\n",
-        "\n  sites     5; 1 point equals an earlier one\n",
-        "\n  simplices 4 triangles\n",
-        "\n  hull      4 edges\n",
-        "\n  dimension 2; the points span all dimensions\n",
-        "\n  verified  yes; the only one, with ",
-        "\n  hash      ",
+        "\n  sites       5; 1 point equals an earlier one\n",
+        "\n  simplices   4 triangles\n",
+        "\n  hull        4 edges\n",
+        "\n  dimension   2; the points span all dimensions\n",
+        "\n  verified    yes; the only one, with ",
+        "\n  fingerprint ",
         "checking ",
     ]);
     assert_eq!(run.err, "");
     assert_eq!(folder.files(), ["points.csv"]);
     let quiet = folder.taut("delaunay points.csv -q").ends(0);
     assert_eq!((quiet.out.as_str(), quiet.err.as_str()), ("", ""));
-    folder.taut("delaunay points.csv --no-verify").ends(0).stdout_has(&["verified  not checked\n"]);
+    folder
+        .taut("delaunay points.csv --no-verify")
+        .ends(0)
+        .stdout_has(&["verified    not checked\n"]);
 }
 
 #[test]
@@ -45,7 +48,7 @@ fn the_json_has_the_names_at_the_door() {
     assert_eq!(folder.taut("delaunay points.csv -o -").ends(0).out, run.out);
     folder.taut("verify mesh.json points.csv").ends(0).stdout_has(&[
         "Verified: the Delaunay triangulation of 6 points in the plane\n",
-        "\n  sites     5; proved: distinct points\n",
+        "\n  sites       5; proved: distinct points\n",
     ]);
     folder.taut("delaunay points.csv -o short.json --no-neighbors").ends(0);
     assert!(folder.bytes("short.json").len() < folder.bytes("mesh.json").len());
@@ -146,22 +149,30 @@ fn doctored_json_is_rejected() {
 fn flat_points_are_an_answer() {
     let folder = TestFolder::new();
     for (points, sites, said) in [
-        ("1,1\n1,1\n", 1, ["simplices 1 point\n", "all points are equal\n"]),
-        ("0,0\n2,2\n1,1\n", 3, ["simplices 2 edges\n", "dimension 1; all points are on a line\n"]),
+        ("1,1\n1,1\n", 1, ["simplices   1 point\n", "all points are equal\n"]),
+        (
+            "0,0\n2,2\n1,1\n",
+            3,
+            ["simplices   2 edges\n", "dimension   1; all points are on a line\n"],
+        ),
         (
             "0,0,1\n2,0,1\n0,2,1\n",
             3,
-            ["simplices 1 triangle\n", "dimension 2; all points are on a plane\n"],
+            ["simplices   1 triangle\n", "dimension   2; all points are on a plane\n"],
         ),
-        ("0,0,0\n1,1,1\n", 2, ["simplices 1 edge\n", "dimension 1; all points are on a line\n"]),
+        (
+            "0,0,0\n1,1,1\n",
+            2,
+            ["simplices   1 edge\n", "dimension   1; all points are on a line\n"],
+        ),
     ] {
-        let sites = format!("\n  sites     {sites}; proved: distinct points\n");
+        let sites = format!("\n  sites       {sites}; proved: distinct points\n");
         folder.put("flat.csv", points);
         folder
             .taut("delaunay flat.csv -o flat.json --draw flat.svg")
             .ends(0)
             .stdout_has(&said)
-            .stdout_has(&["verified  yes"]);
+            .stdout_has(&["verified    yes"]);
         folder.taut("verify flat.json flat.csv").ends(0);
         for mesh in ["flat.vtu", "flat.ply", "flat.obj", "flat.off"] {
             folder.taut(&format!("delaunay flat.csv -o {mesh}")).ends(0);
@@ -266,7 +277,7 @@ fn voronoi_cells_fill_the_box() {
 fn the_alpha_complex_is_counted_and_written() {
     let folder = folder();
     folder.taut("delaunay points.csv --alpha 1 --alpha-out a.off --alpha-boundary b.obj").ends(0).stdout_has(&[
-        "\n  alpha     4 triangles of radius at most 1; 4 facets on their boundary, 0 more on their own\n",
+        "\n  alpha       4 triangles of radius at most 1; 4 facets on their boundary, 0 more on their own\n",
     ]);
     folder.taut("verify a.off points.csv").ends(0);
     assert!(folder.text("b.obj").starts_with("# 6 vertices, 4 simplices\n"));
@@ -274,7 +285,7 @@ fn the_alpha_complex_is_counted_and_written() {
     folder
         .taut("delaunay points.csv --alpha 0.8")
         .ends(0)
-        .stdout_has(&["\n  alpha     0 triangles", "4 more on their own"]);
+        .stdout_has(&["\n  alpha       0 triangles", "4 more on their own"]);
 }
 
 #[test]

@@ -23,8 +23,8 @@ fn a_plane_has_exact_cells_and_straight_lines() {
         .ends(0)
         .stdout_has(&[
             "Delaunay triangulation of 49 points in the plane\n",
-            "\n  contours  1 line; at 2 heights\n",
-            "\n  grid      4 × 4 cells of 2; the corner in the north-west is (0, 8)\n",
+            "\n  contours    1 line; at 2 heights\n",
+            "\n  grid        4 × 4 cells of 2; the corner in the north-west is (0, 8)\n",
         ]);
     let expected = "ncols 4\nnrows 4\nxllcorner 0\nyllcorner 0\ncellsize 2\nNODATA_value -9999\n\
                     -9999 -9999 -9999 -9999\n15 35 55 -9999\n13 33 53 -9999\n11 31 51 -9999\n";

@@ -21,8 +21,8 @@ fn a_folder_gets_tiles_with_the_hash_of_the_triangulation_in_memory() {
     let folder = folder();
     let run = folder.taut("delaunay points.npy -o tiles/").ends(0).stdout_has(&[
         "Delaunay triangulation of 3000 points in the plane, in tiles\n",
-        "\n  sites     3000; no two points are equal\n",
-        "\n  verified  yes; the only one, with 0 ties decided by the perturbation\n",
+        "\n  sites       3000; no two points are equal\n",
+        "\n  verified    yes; the only one, with 0 ties decided by the perturbation\n",
         " in tiles/\n",
         "checking ",
     ]);
@@ -32,7 +32,7 @@ fn a_folder_gets_tiles_with_the_hash_of_the_triangulation_in_memory() {
     assert_eq!(folder.files(), ["points.npy", "tiles"]);
     let verified = folder.taut("verify tiles points.npy").ends(0).stdout_has(&[
         "Verified: the Delaunay triangulation of 3000 points in the plane\n",
-        "\n  sites      3000; proved: distinct points\n",
+        "\n  sites       3000; proved: distinct points\n",
         "; proved: neighbors, sites and counts of each agree with what all tiles together are\n",
     ]);
     assert_eq!(field(&verified.out, "fingerprint"), field(&expected.out, "fingerprint"));
@@ -89,7 +89,7 @@ fn points_that_do_not_fit_go_to_tiles() {
     let run = folder
         .taut("delaunay points.npy --memory 64M -o mesh.ply --progress always")
         .ends(0)
-        .stdout_has(&[" for a while, on the disk\n", "\n  verified  yes; "]);
+        .stdout_has(&[" for a while, on the disk\n", "\n  verified    yes; "]);
     assert!(run.err.contains("of disk will be taken while 300,000 points"), "{}", run.err);
     assert_eq!(folder.files(), ["mesh.ply", "points.npy"]);
     let verified = folder.taut("verify mesh.ply points.npy").ends(0);

@@ -71,7 +71,7 @@ fn curves_are_drawn_with_their_noise() {
         ("curve -n 2 -d 2", "--shape"),
         ("curve --shape circle -n 2 -d 3", "`--dim` is 3"),
         ("curve --shape circle -n 2 -d 2 --noise -1", "`--noise` is -1"),
-        ("curve --shape circle -n 2 -d 2 --outliers 2", "`--outliers` is 2"),
+        ("curve --shape circle -n 2 -d 2 --outliers 2", "`--outlier-share` is 2"),
         ("curve --shape circle -n 2 -d 2 --turns 2", "--turns"),
         ("normal --shape circle -n 2 -d 2", "--shape belongs to curve"),
     ] {

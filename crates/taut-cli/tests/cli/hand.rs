@@ -151,7 +151,7 @@ fn an_evaluation_that_cannot_be_is_refused() {
     }
     refused("missing.csv", &["missing.csv"]);
     folder.put("other.csv", "x,y\n1,2\n");
-    refused("other.csv", &["other.csv", "hand evaluate --table"]);
+    refused("other.csv", &["other.csv", "hand evaluate --feature-table"]);
     folder.put("anna-1.png", "no image");
     refused("anna-1.png", &["anna-1.png", "not an image"]);
     folder.put("labels.csv", "file,person\nother.png,anna\n");

@@ -109,7 +109,7 @@ fn bodies_are_merged_and_hide_a_part() {
     for (usage, words) in [
         ("bodies mesh.off --hidden 0.5", &["--hidden", "objective occlusion"][..]),
         ("bodies mesh.off --merge-within 1", &["--merge-within", "below 1"]),
-        ("dops mesh.off --method thesis --events 9", &["--events is of --method recreate"]),
+        ("dops mesh.off --method thesis --events 9", &["--max-events is of --method recreate"]),
         ("dops mesh.off --method thesis --merge-within 0", &["--merge-within is of --method"]),
     ] {
         folder.taut(&format!("inscribe {usage}")).ends(2).stderr_has(words);

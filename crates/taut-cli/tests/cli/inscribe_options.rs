@@ -20,7 +20,7 @@ fn options_of_other_methods_are_refused() {
     for (command, option) in [
         ("ellipse square.csv", "fatness -3"),
         ("ellipse square.csv", "sample-count 20"),
-        ("ellipse square.csv", "angle 30"),
+        ("ellipse square.csv", "contact-angle 30"),
         ("ellipse square.csv", "seed 7"),
         ("triangle square.csv", "sample-count 20"),
         ("triangle square.csv", "seed 7"),
@@ -84,7 +84,7 @@ fn a_curve_that_is_perhaps_open_is_told() {
 #[test]
 fn answers_are_written_as_json_alone() {
     let folder = folder();
-    for name in ["F.ply", "F.csv", "F.geojson"] {
+    for name in ["F.ply", "F.csv", "F.geojson", "F.txt"] {
         let refused = format!("{name}: -o writes JSON, no ");
         folder
             .taut(&format!("inscribe circle square.csv -o {name}"))
@@ -92,12 +92,12 @@ fn answers_are_written_as_json_alone() {
             .stderr_has(&[&refused]);
         folder.taut(&format!("ball square.csv -o {name}")).ends(2).stderr_has(&[&refused]);
     }
-    for name in ["F.json", "F", "F.txt"] {
+    for name in ["F.json", "F"] {
         folder.taut(&format!("inscribe circle square.csv -o {name} --quiet")).ends(0);
     }
     let run = folder.taut("inscribe circle square.csv --json --quiet");
     assert_eq!(run.ends(0).json()["kind"], "inscribed-circle");
-    assert_eq!(folder.files(), ["F", "F.json", "F.txt", "mesh.off", "square.csv"]);
+    assert_eq!(folder.files(), ["F", "F.json", "mesh.off", "square.csv"]);
 }
 
 #[test]
