@@ -71,7 +71,7 @@ impl Args {
                 })?;
                 return self.finish(Outputs::default(), &words);
             }
-            if !is_table(out) {
+            if !is_table(out) || to == Some(Format::Npy) {
                 bail!(
                     "{}: rows have names only as .csv, .tsv, .parquet or .arrow: name one of these, or leave out --id",
                     out.display()

@@ -178,7 +178,7 @@ fn runs_of_another_input_are_refused() {
                 "memory sort records.bin --width 16 --memory {memory} -o sorted.bin --resume runs"
             ))
             .ends(2)
-            .stderr_has(&["`resume`", "runs", "same sort"]);
+            .stderr_has(&["`--checkpoint`", "runs", "same sort"]);
     }
     assert_eq!(folder.text("sorted.bin"), "before");
     assert_eq!(folder.text("runs"), "of something else");

@@ -116,7 +116,7 @@ fn verdicts_are_json_with_the_names_of_the_libraries() {
     assert!(found["reason"].as_str().unwrap().contains("does not belong"), "{found}");
     folder.taut("delaunay points.npy -o mesh.ply -q").ends(0);
     let found = folder.taut("verify mesh.ply points.npy --json").ends(0).json();
-    assert_eq!((&found["kind"], &found["gap"]), (&json!("triangulation"), &json!(null)));
+    assert_eq!((&found["kind"], &found["gap"]), (&json!("delaunay"), &json!(null)));
     let table = folder.taut("centers points.npy --elbow 1..3 --json").ends(0).json();
     assert_eq!(table.as_array().unwrap().len(), 3);
     assert_eq!(table[2]["k"], json!(3));
@@ -156,7 +156,10 @@ fn errors_name_options_as_the_command_line_does() {
         ("draw b.json points.npy -o b.svg --image-width 1", "`--image-width` is 1"),
         ("generate clusters -n 5 -d 2 --clusters 0 -o x.csv", "`--clusters` is 0"),
         ("generate normal -n 5 -d 2 --clusters 3 -o x.csv", "--clusters belongs to"),
-        ("generate curve -n 5 --shape circle --outlier-share 2 -o x.csv", "`--outlier-share` is 2"),
+        (
+            "generate curve -n 5 -d 2 --shape circle --outlier-share 2 -o x.csv",
+            "`--outlier-share` is 2",
+        ),
         ("inscribe dops points.npy --method thesis --max-events 9", "--max-events is of --method "),
         ("memory simulate transpose -n 8 --memory-sizes 16 --block 64", "`--memory-sizes` is 16"),
         ("memory simulate --thesis-figure 44", "`--thesis-figure` is 44"),

@@ -50,7 +50,10 @@ fn further_figures_and_the_dark_are_a_choice() {
         .taut("draw ball.json points.csv -o 99.svg --figure 99")
         .ends(2)
         .stderr_has(&["--figure", "99"]);
-    folder.taut("draw ball.json points.csv -o thin.svg --width 1").ends(2).stderr_has(&["--width"]);
+    folder
+        .taut("draw ball.json points.csv -o thin.svg --image-width 1")
+        .ends(2)
+        .stderr_has(&["--image-width"]);
 }
 
 #[test]

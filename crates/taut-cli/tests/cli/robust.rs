@@ -148,7 +148,7 @@ fn wrong_input_and_options_are_named() {
     folder.put("nan.csv", grid().replacen("0,0\n", "0,NaN\n", 1));
     for (line, parts) in [
         ("nan.csv --robust mcd", &["nan.csv", "row 1", "column 1", "`y`", "NaN"][..]),
-        ("points.csv --robust mcd --coverage 0.4", &["--coverage` is 0.4", "[0.5, 1]"]),
+        ("points.csv --robust mcd --coverage 0.4", &["--keep` is 0.4", "[0.5, 1]"]),
         ("points.csv --robust trim --coverage 0", &["--coverage` is 0", "(0, 1]"]),
         ("points.csv --robust mve --level 1", &["--level` is 1", "[0.5, 1)"]),
         ("points.csv --robust mve --epsilon 0", &["--epsilon` is 0", "(0, 0.01]"]),

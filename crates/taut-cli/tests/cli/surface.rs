@@ -196,9 +196,9 @@ fn bad_input_is_named_and_leaves_files_as_they_were() {
     folder.taut("surface torus.csv -o mesh.xyz").ends(2).stderr_has(&["mesh.xyz", ".ply"]);
     folder.taut("surface torus.csv -o mesh.png").ends(2).stderr_has(&["--draw"]);
     folder
-        .taut("surface torus.csv --method thesis --epsilon 1")
+        .taut("surface torus.csv --method thesis --shrink 1")
         .ends(2)
-        .stderr_has(&["epsilon", "1"]);
+        .stderr_has(&["shrink", "1"]);
     folder.taut("surface torus.csv --method alpha --alpha -1").ends(2).stderr_has(&["alpha", "-1"]);
     folder.taut("surface missing.csv").ends(2).stderr_has(&["missing.csv"]);
 }

@@ -128,6 +128,10 @@ fn members(job: &Job<'_>, archive: &mut dyn Archive) -> Result<Vec<Member>, Erro
     let end = tail.windows(4).rposition(|four| four == b"PK\x05\x06");
     let end = end.ok_or_else(|| damaged(job, "there is no list of its files at its end"))?;
     let record = &tail[end..];
+    // Its last two bytes are the length of the comment that follows.
+    if record.len() < 22 + usize::from(half(record, 20)) {
+        return Err(damaged(job, "the list of its files is cut short"));
+    }
     let mut size = u64::from(word(record, 12));
     let mut at = u64::from(word(record, 16));
     // The record of 64 bits is told by a locator before this one.

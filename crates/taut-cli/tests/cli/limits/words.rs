@@ -26,12 +26,15 @@ fn options_are_shown_without_hundreds_of_digits() {
         ("ball balls.csv --balls", "the radius is -1e308,"),
         ("centers balls.csv -k 1 --weights", "the weight is -1e308,"),
         ("ellipsoid points.csv --epsilon 1e308", "option `--epsilon` is 1e308:"),
-        ("ellipsoid points.csv --robust mcd --coverage 1e308", "`--coverage` is 1e308:"),
+        ("ellipsoid points.csv --robust mcd --keep 1e308", "`--keep` is 1e308:"),
         ("centers points.csv -k 1 --epsilon 1e308", "option `--epsilon` is 1e308:"),
         ("inscribe ellipsoid points.csv --epsilon 1e308", "option `--epsilon` is 1e308:"),
         ("curve plane.csv --rho -1e308 --method thesis", "option `--rho` is -1e308:"),
         ("surface points.csv --alpha -1e308 --method alpha", "option `--alpha` is -1e308:"),
-        ("draw ball.json plane.csv -o a.svg --width 1e308", "option `--width` is 1e308:"),
+        (
+            "draw ball.json plane.csv -o a.svg --image-width 1e308",
+            "option `--image-width` is 1e308:",
+        ),
         ("generate shell -n 1 -d 2 --thickness -1e308", "option `--thickness` is -1e308:"),
         ("generate curve --shape circle -n 1 -d 2 --noise -1e308", "`--noise` is -1e308:"),
     ] {

@@ -119,8 +119,8 @@ fn what_is_no_matrix_is_refused_by_name() {
         (npy("<f8", false, "(1, 3)", &[0; 16]), "-o b.npy", &["a.npy", "16"]),
         (b"1,2\n".to_vec(), "-o b.npy", &["a.npy"]),
         (plain.clone(), "-o b.bin", &["b.bin", "name it .npy"]),
-        (plain.clone(), "--rows 1 -o b.npy", &["--rows", "a.npy"]),
-        (plain.clone(), "--offset 1 -o b.npy", &["--offset"]),
+        (plain.clone(), "--rows 1 -o b.npy", &["--row-count", "a.npy"]),
+        (plain.clone(), "--offset 1 -o b.npy", &["--raw-offset"]),
         (plain.clone(), "-o a.npy", &["a.npy", "is the input"]),
     ] {
         folder.put("a.npy", bytes);
@@ -170,7 +170,7 @@ fn rows_of_arrays_are_sorted_by_their_header() {
     assert!(folder.bytes("out.npy") == npy("<f8", false, "(300, 3)", &bytes(&sorted)));
     folder.taut("verify out.json in.npy out.npy").ends(0).stdout_has(&[
         "Verified: 300 records of 24 bytes in order",
-        "as f64; no key is below",
+        "as f64; proved: no key is below",
         "\n  header      128 bytes; as it was, by the same hash\n",
     ]);
     // Another header is another file, and so is another number.

@@ -90,7 +90,7 @@ fn figures_of_the_thesis_are_counted_and_drawn() {
     assert_eq!(rows(&folder.text("40.csv")).len(), 22);
     for number in [35, 39, 44, 45, 51] {
         folder.taut(&format!("memory simulate --figure {number}")).ends(2).stderr_has(&[
-            "--figure",
+            "--thesis-figure",
             &number.to_string(),
             "36 to 38",
         ]);
