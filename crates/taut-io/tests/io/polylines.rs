@@ -83,7 +83,7 @@ fn names_tell_formats() {
         let path = format!("a.{format}");
         assert_eq!(Format::of_path(Path::new(&path)).0, Some(format));
     }
-    let unknown = write_polylines(&curves(), Path::new("curves.shp"), None).unwrap_err();
+    let unknown = write_polylines(&curves(), Path::new("curves.unknown"), None).unwrap_err();
     assert!(matches!(unknown, Error::UnknownOutput { content: Content::Curves, .. }));
     assert!(
         unknown.to_string().contains("give it one of the extensions .csv, .geojson, .svg"),
