@@ -52,10 +52,11 @@ fn cavities_with_a_vertex_in_common_are_carved_one_after_the_other() {
 const OLD: Simplex<3> = Simplex { vertices: [1, 2, 3], neighbors: [10, 11, 12] };
 const NEW: Simplex<3> = Simplex { vertices: [0, 2, 3], neighbors: [20, 21, 22] };
 
-/// As [`NEW`] is inserted: the site first, then the cavity.
+/// As [`NEW`] is inserted: the cavity is held first, then the site, of which nobody knows yet.
 fn replace(owners: &Owners, record: &Record<3>) {
     let mut holder = owners.holder(0);
-    if holder.hold([0]) && holder.hold(OLD.vertices) {
+    if holder.hold(OLD.vertices) {
+        holder.hold_new(0);
         record.set(NEW);
     }
     holder.release();
@@ -85,6 +86,41 @@ fn what_a_walk_came_to_is_whole_once_it_is_held() {
     });
 }
 
+/// The same beside an insertion that is taken back, as it finds another vertex held, and is tried again: then the site may be known.
+#[test]
+fn what_was_taken_back_is_whole_once_it_is_held() {
+    loom::model(|| {
+        let owners = Arc::new(Owners::new(4));
+        let record = Arc::new(Record::default());
+        record.set(OLD);
+        let writer = {
+            let (owners, record) = (Arc::clone(&owners), Arc::clone(&record));
+            thread::spawn(move || {
+                let mut holder = owners.holder(0);
+                if holder.hold(OLD.vertices) {
+                    holder.hold_new(0);
+                    record.set(NEW);
+                    record.set(OLD);
+                    holder.release();
+                    if holder.hold(OLD.vertices) && holder.hold([0]) {
+                        record.set(NEW);
+                    }
+                }
+                holder.release();
+            })
+        };
+        let mut holder = owners.holder(1);
+        let vertices = record.vertices();
+        if holder.hold(vertices) && record.vertices() == vertices {
+            let expected = [OLD, NEW].into_iter().find(|simplex| simplex.vertices == vertices);
+            let expected = expected.expect("half of each is no simplex");
+            assert_eq!(record.neighbors(), expected.neighbors);
+        }
+        holder.release();
+        writer.join().unwrap();
+    });
+}
+
 /// The same for a slot that became free in one insertion and is taken in a later one, by a simplex that has no vertex of the former.
 /// While it is written, its new site is held, and nothing of what was there before.
 #[test]
@@ -101,7 +137,8 @@ fn a_slot_that_is_used_again_is_whole_once_it_is_held() {
                 if holder.hold(OLD.vertices) {
                     record.kill();
                     holder.release();
-                    if holder.hold([0]) && holder.hold([4, 5]) {
+                    if holder.hold([4, 5]) {
+                        holder.hold_new(0);
                         record.set(SUCCESSOR);
                     }
                 }

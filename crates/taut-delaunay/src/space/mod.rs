@@ -386,8 +386,7 @@ fn find<S: Signs, H: Hold>(
     if H::SHARED {
         // Where the walk ended is a good beginning for the next attempt.
         *last = start;
-        if !hold.hold([site])
-            || !hold.hold(vertices)
+        if !hold.hold(vertices)
             || simplices[start as usize].vertices() != vertices
             || !is_in_conflict(signs, view, judge, counters, start, vertices, q)
         {
@@ -397,7 +396,9 @@ fn find<S: Signs, H: Hold>(
     }
     let (tests, all_held) = cavity.carve(signs, sites, simplices, marks, judge, hold, q, start);
     counters.conflict_tests += tests;
-    if !all_held {
+    if all_held {
+        hold.hold_new(site);
+    } else {
         hold.back_off();
     }
     all_held
