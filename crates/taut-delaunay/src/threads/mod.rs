@@ -13,7 +13,8 @@
 //! last store and takes them before its first load. Each insertion leaves all facets locally Delaunay, so the mesh is Delaunay at
 //! the end, whoever came first. No thread waits without bound for another, so there is no deadlock; sites that failed are inserted by
 //! one thread at the end of a round.
-//! *Guarantee.* The new site is held as well while its simplices are written. Word 0 of a record is the site whose insertion wrote
+//! *Guarantee.* The new site is held as well while its simplices are written, in the first attempt without an exchange, as nobody can
+//! have read of it; in the plane a star may be written and taken back, and then others can. Word 0 of a record is the site whose insertion wrote
 //! it, and each site is inserted once: who holds what it read of a record, and reads the same again, has all of it.
 //! *Trap.* Walks hold nothing. They may read half of an old and half of a new simplex, so they are followed a bounded number of
 //! steps, and the simplex they end in is held, read once more and tested again.
