@@ -8,7 +8,7 @@ use loom::thread;
 
 use super::Record;
 use super::atomics::AtomicU32;
-use super::held::{Hold, Owners};
+use super::held::{Hold, Holder, Owners};
 use super::runs::Runs;
 use super::slots::{OwnSlots, Room};
 use crate::simplex::Simplex;
@@ -86,28 +86,57 @@ fn what_a_walk_came_to_is_whole_once_it_is_held() {
     });
 }
 
-/// The same for a slot that an insertion takes, gives back, as it finds another vertex held, and takes again when it is tried again.
-/// By then others may know of its site. What was taken back is never found whole.
+/// The same for a slot of its own that an insertion takes, gives back, because it finds another vertex held, and takes again when it
+/// is tried again. By then others may know of its site. What was taken back is never found whole.
 #[test]
 fn what_was_taken_back_is_no_simplex() {
-    const FIRST: Simplex<3> = Simplex { vertices: [0, 1, 2], neighbors: [10, 11, 12] };
-    const SECOND: Simplex<3> = Simplex { vertices: [0, 3, 4], neighbors: [20, 21, 22] };
-    loom::model(|| {
-        let owners = Arc::new(Owners::new(5));
+    const FIRST: Simplex<3> = Simplex { vertices: [5, 1, 2], neighbors: [10, 11, 12] };
+    const SECOND: Simplex<3> = Simplex { vertices: [5, 3, 4], neighbors: [20, 21, 22] };
+    is_found_whole(Simplex { vertices: [0; 3], neighbors: [0; 3] }, SECOND, |holder, record| {
+        if holder.hold([1, 2]) {
+            holder.hold_new(5);
+            record.set(FIRST);
+            record.kill();
+            holder.release();
+            if holder.hold([3, 4, 5]) {
+                record.set(SECOND);
+            }
+        }
+    });
+}
+
+/// The same for a slot of the cavity, into which its simplex is written back.
+#[test]
+fn what_was_there_before_is_whole_again() {
+    const STAR: Simplex<3> = Simplex { vertices: [5, 2, 3], neighbors: [20, 21, 22] };
+    is_found_whole(OLD, STAR, |holder, record| {
+        if holder.hold(OLD.vertices) {
+            holder.hold_new(5);
+            record.set(STAR);
+            record.set(OLD);
+            holder.release();
+            if holder.hold(OLD.vertices) && holder.hold([5]) {
+                record.set(STAR);
+            }
+        }
+    });
+}
+
+/// Lets one thread write a record that holds `before` and in the end `after`, and another come to it by a walk.
+fn is_found_whole(
+    before: Simplex<3>,
+    after: Simplex<3>,
+    write: impl Fn(&mut Holder<'_>, &Record<3>) + Copy + Send + Sync + 'static,
+) {
+    loom::model(move || {
+        let owners = Arc::new(Owners::new(6));
         let record = Arc::new(Record::<3>::default());
+        record.set(before);
         let writer = {
             let (owners, record) = (Arc::clone(&owners), Arc::clone(&record));
             thread::spawn(move || {
                 let mut holder = owners.holder(0);
-                if holder.hold([1, 2]) {
-                    holder.hold_new(0);
-                    record.set(FIRST);
-                    record.kill();
-                    holder.release();
-                    if holder.hold([3, 4, 0]) {
-                        record.set(SECOND);
-                    }
-                }
+                write(&mut holder, &record);
                 holder.release();
             })
         };
@@ -116,8 +145,9 @@ fn what_was_taken_back_is_no_simplex() {
         let [a, b, c] = vertices;
         let is_triangle = a != u32::MAX - 1 && a != b && b != c && c != a;
         if is_triangle && holder.hold(vertices) && record.vertices() == vertices {
-            assert_eq!(vertices, SECOND.vertices);
-            assert_eq!(record.neighbors(), SECOND.neighbors);
+            let expected = [before, after].into_iter().find(|simplex| simplex.vertices == vertices);
+            let expected = expected.expect("half of each is no simplex");
+            assert_eq!(record.neighbors(), expected.neighbors);
         }
         holder.release();
         writer.join().unwrap();

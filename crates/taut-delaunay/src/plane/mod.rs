@@ -6,12 +6,14 @@
 //! whole from q. Find one of them by a visibility walk from the site before, dig from edge to edge through all
 //! of them, counter-clockwise around q, and make every edge of the rim a triangle of the star at once.
 //! *Guarantee.* Signs are exact and never tie, so the mesh is a function of the set of inserted sites. A ghost answers
-//! for the outside of its hull edge. Per insertion two slots are added and none is left dead. No recursion.
+//! for the outside of its hull edge. Per insertion two slots are added, and on one thread none is left dead. No recursion.
 //! *Trap.* All tests take place in coordinates relative to q. A vertex that two tests share keeps its difference, its
 //! lift and its 2 × 2 minor from one to the next: of the three vertices of a triangle only one is ever loaded.
 //! *Cost.* For uniform points in rounds along a Hilbert curve, per site: 1.3 triangles walked through, 9.0 conflict
 //! tests, 6 triangles written. A fifth of the time goes to first touches of new pages, a fifth to the walk, the rest
 //! to the cavity. Indices without bounds checks and slots made in batches gave nothing.
+//! *Threads.* They insert into one mesh ([`threads`](crate::threads)); a star that turns out to be in the way of another thread's is
+//! taken back (`undo`).
 //! *Reference.* Bowyer 1981 and Watson 1981 for the cavity; Devillers, Pion and Teillaud 2002 for the walk; Amenta,
 //! Choi and Rote 2003 for the rounds that the caller inserts in.
 
@@ -34,7 +36,9 @@ use crate::kernel::{Counters, Kernel, Settings, TooMany};
 use crate::records::Records;
 use crate::simplex::{GHOST, Simplex, code};
 use crate::threads::Record;
-use crate::threads::{Alone, Hold, Holder, Inserted, OwnSlots, Owners, Progress, Room, SharedMesh};
+use crate::threads::{
+    Alone, Hold, Holder, Inserted, OwnSlots, Owners, Progress, Room, SharedMesh, repair_beginnings,
+};
 use dig::{Edge, dig};
 use seen::{PointOffset, View};
 use star::Star;
@@ -59,7 +63,7 @@ pub(crate) struct Mesh {
 /// What a thread has for itself, in cache lines of its own.
 #[repr(align(128))]
 pub(crate) struct Worker {
-    /// Where the next walk begins: a triangle of the site inserted last.
+    /// Where the next walk begins: a triangle of the site inserted last, or one that a walk came to.
     last: u32,
     slots: OwnSlots,
     exact: Exact,
@@ -222,6 +226,9 @@ impl SharedMesh<2, 3> for Mesh {
             worker.slots.give_back(&self.next, self.records.all());
         }
         self.records.set_len(*self.next.get_mut() as usize);
+        let is_live = |t: u32| is_triangle(self.records.all()[t as usize].vertices());
+        let beginnings = self.workers.iter_mut().map(|worker| &mut worker.last);
+        repair_beginnings(beginnings, self.records.len(), is_live);
     }
 
     fn grow(&mut self) -> Result<(), TooMany> {
@@ -266,24 +273,21 @@ fn insert_with<M: MulAdd, H: Hold>(
         let view = View::new(shared.sites, shared.sites[site as usize], shared.settings.filtered);
         let towards = view.see::<M>(next);
         if H::SHARED {
-            let mut attempts = 0..ATTEMPTS_EACH;
-            let is_inserted = attempts.any(|attempt| {
+            let mut is_inserted = false;
+            for attempt in 0..ATTEMPTS_EACH {
                 progress.attempts += 1;
-                insert_beside_others::<M, H>(
-                    &view,
-                    towards,
-                    shared,
-                    worker,
-                    hold,
-                    (site, attempt == 0),
-                ) || {
-                    hold.back_off();
-                    progress.failed += 1;
-                    let is_live = |&t: &u32| is_triangle(triangles[t as usize].vertices());
-                    worker.last = shared.room.some_of(worker.last, is_live);
-                    false
+                let is_first = attempt == 0;
+                is_inserted = insert_beside_others::<M, H>(
+                    &view, towards, shared, worker, hold, site, is_first,
+                );
+                if is_inserted {
+                    break;
                 }
-            });
+                hold.back_off();
+                progress.failed += 1;
+                let is_live = |&t: &u32| is_triangle(triangles[t as usize].vertices());
+                worker.last = shared.room.some_of(worker.last, is_live);
+            }
             if !is_inserted {
                 progress.deferred.push(site);
                 continue;
@@ -315,7 +319,8 @@ fn insert_beside_others<M: MulAdd, H: Hold>(
     shared: &Shared<'_>,
     worker: &mut Worker,
     hold: &mut H,
-    (site, is_first): (u32, bool),
+    site: u32,
+    is_first: bool,
 ) -> bool {
     let Worker { last, slots, exact, counters, pending, free, undo, .. } = worker;
     let triangles = shared.triangles;
@@ -349,11 +354,9 @@ fn insert_beside_others<M: MulAdd, H: Hold>(
         undo.clear();
     } else {
         free.clear();
-        undo.take_back(triangles);
-        for slot in [low, high] {
-            triangles[slot as usize].kill();
-            slots.push(slot);
-        }
+        undo.take_back(triangles, [low, high]);
+        slots.push(low);
+        slots.push(high);
     }
     is_held
 }

@@ -1,10 +1,12 @@
 //! A star that can be taken back: beside other threads it turns out only while digging whether all of the cavity can be held.
 //!
-//! *Idea.* The star is written while the cavity is dug, as on one thread, into the slots of the cavity. Of each triangle that goes
-//! the record is kept. If another thread holds a vertex, the records are written back, and with them what the triangles around the
-//! cavity say of their neighbors in it.
-//! *Guarantee.* All that is written, either way, belongs to triangles whose vertices are held, or is the side of a triangle around
-//! the cavity that faces it.
+//! *Idea.* The star is written while the cavity is dug, as on one thread, into the slots of the cavity and two of the thread's own. Of
+//! each triangle that goes the record is kept. If another thread holds a vertex, the records are written back, and with them what the
+//! triangles around the cavity say of their neighbors in it; the two slots are dead again.
+//! *Guarantee.* All that is written, either way, is in slots of the thread, in triangles whose vertices it holds, or the number in a
+//! triangle around the cavity that names one of them. Nobody can hold what was taken back: it has the new site, which is given back
+//! after the last record is.
+//! *Trap.* A walk of another thread may have ended in a slot that dies here, and it would begin its next one there.
 //! *Trap.* To write down the cavity first and its star once all is held needs no way back, and makes every insertion a third
 //! longer for the sake of one in a thousand that fails.
 
@@ -33,10 +35,13 @@ impl Undo {
         self.0.clear();
     }
 
-    /// Writes all of them back, and forgets them.
+    /// Writes all of them back, and forgets them; `own` are the slots that held none.
     #[cold]
     #[inline(never)]
-    pub(super) fn take_back(&mut self, triangles: &[Record<3>]) {
+    pub(super) fn take_back(&mut self, triangles: &[Record<3>], own: [u32; 2]) {
+        for slot in own {
+            triangles[slot as usize].kill();
+        }
         for &(triangle, kept) in &self.0 {
             triangles[triangle as usize].set(kept);
         }
