@@ -90,19 +90,23 @@ fn what_a_walk_came_to_is_whole_once_it_is_held() {
 /// is tried again. By then others may know of its site. What was taken back is never found whole.
 #[test]
 fn what_was_taken_back_is_no_simplex() {
-    const FIRST: Simplex<3> = Simplex { vertices: [5, 1, 2], neighbors: [10, 11, 12] };
-    const SECOND: Simplex<3> = Simplex { vertices: [5, 3, 4], neighbors: [20, 21, 22] };
-    is_found_whole(Simplex { vertices: [0; 3], neighbors: [0; 3] }, SECOND, |holder, record| {
-        if holder.hold([1, 2]) {
-            holder.hold_new(5);
-            record.set(FIRST);
-            record.kill();
-            holder.release();
-            if holder.hold([3, 4, 5]) {
-                record.set(SECOND);
+    const FIRST_ATTEMPT: Simplex<3> = Simplex { vertices: [5, 1, 2], neighbors: [10, 11, 12] };
+    const SECOND_ATTEMPT: Simplex<3> = Simplex { vertices: [5, 3, 4], neighbors: [20, 21, 22] };
+    is_found_whole(
+        Simplex { vertices: [0; 3], neighbors: [0; 3] },
+        SECOND_ATTEMPT,
+        |holder, record| {
+            if holder.hold([1, 2]) {
+                holder.hold_new(5);
+                record.set(FIRST_ATTEMPT);
+                record.kill();
+                holder.release();
+                if holder.hold([3, 4, 5]) {
+                    record.set(SECOND_ATTEMPT);
+                }
             }
-        }
-    });
+        },
+    );
 }
 
 /// The same for a slot of the cavity, into which its simplex is written back.
@@ -182,7 +186,8 @@ fn a_slot_that_is_used_again_is_whole_once_it_is_held() {
         let vertices = record.vertices();
         let is_dead = vertices[0] == u32::MAX - 1;
         if !is_dead && holder.hold(vertices) && record.vertices() == vertices {
-            let expected = [OLD, SUCCESSOR].into_iter().find(|simplex| simplex.vertices == vertices);
+            let expected =
+                [OLD, SUCCESSOR].into_iter().find(|simplex| simplex.vertices == vertices);
             let expected = expected.expect("half of each is no simplex");
             assert_eq!(record.neighbors(), expected.neighbors);
         }
