@@ -63,6 +63,12 @@ where
     }
 }
 
+impl Found {
+    pub(crate) fn of(solution: AnySolution) -> Self {
+        Found(solution)
+    }
+}
+
 #[pymethods]
 impl Found {
     #[getter]
