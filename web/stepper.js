@@ -11,6 +11,7 @@ const WIDTH_MAX = 860;
 const INTROS = {
   ball: "The farthest point joins a core-set, round by round, until its smallest ball holds all points.",
   centers: "Farthest-first centers, then the branches that prove that no k balls are much smaller.",
+  surface: "Facets of the triangulation tell, the surest first, which parts of space are on one side of the surface.",
   delaunay: "Points are inserted one by one; each replaces the triangles whose circumcircles hold it.",
 };
 

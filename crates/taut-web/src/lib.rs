@@ -187,8 +187,8 @@ impl Steps {
     /// # Errors
     /// There is no such step.
     pub fn picture(&self, step: usize, dark: bool, width: f64) -> Result<String, JsError> {
-        let scene = self.0.scene(step).map_err(refused)?;
-        Ok(steps::svg(scene, dark, width))
+        let figure = self.0.figure(step).map_err(refused)?;
+        Ok(steps::svg(figure, dark, width))
     }
 }
 

@@ -8,10 +8,11 @@ mod branches;
 mod centers;
 mod delaunay;
 mod frame;
+mod surface;
 
 use serde_json::{Value, json};
 use taut::points::Scratch;
-use taut_draw::{Figure, Scene2, Style, Theme, to_svg};
+use taut_draw::{Figure, Style, Theme, to_svg};
 
 use crate::input::Opened;
 use crate::options::Options;
@@ -25,7 +26,7 @@ pub(crate) trait Trace: std::fmt::Debug {
     fn words(&self, step: usize) -> Result<Value, String>;
 
     /// Shows it.
-    fn scene(&self, step: usize) -> Result<Scene2, String>;
+    fn figure(&self, step: usize) -> Result<Figure, String>;
 }
 
 /// Most points that a step reads, so that it takes no longer than a blink.
@@ -37,16 +38,22 @@ pub(crate) fn of(tool: Tool, points: &Opened, options: &Options) -> Result<Box<d
         Tool::Ball => Ok(Box::new(ball::Rounds::new(points)?)),
         Tool::Delaunay => Ok(Box::new(delaunay::Insertions::new(points)?)),
         Tool::Centers => Ok(Box::new(centers::Search::new(points, options)?)),
+        Tool::Surface => Ok(Box::new(surface::Labeling::new(points, options)?)),
         other => Err(format!("there are no steps of {} to show", other.name())),
     }
 }
 
 /// Draws a step, so many pixels wide.
-pub(crate) fn svg(mut scene: Scene2, dark: bool, width: f64) -> String {
-    scene.width = width.clamp(320.0, 1600.0);
-    scene.height = scene.width * PICTURE_HEIGHT;
+pub(crate) fn svg(mut figure: Figure, dark: bool, width: f64) -> String {
+    let width = width.clamp(320.0, 1600.0);
+    let size = (width, width * PICTURE_HEIGHT);
+    match &mut figure {
+        Figure::Plane(scene) => (scene.width, scene.height) = size,
+        Figure::Space(scene) => (scene.width, scene.height) = size,
+        _ => {}
+    }
     let theme = if dark { Theme::Dark } else { Theme::Light };
-    to_svg(&Figure::Plane(scene), &Style { theme })
+    to_svg(&figure, &Style { theme })
 }
 
 /// Height of a picture beside its width.

@@ -68,7 +68,7 @@ impl Tool {
 
     /// Tests whether the algorithm of this tool can be stepped through.
     fn has_steps(self) -> bool {
-        matches!(self, Tool::Ball | Tool::Centers | Tool::Delaunay)
+        matches!(self, Tool::Ball | Tool::Centers | Tool::Delaunay | Tool::Surface)
     }
 
     /// Returns the extensions of the files that a shape of this tool can be written as, beside JSON.

@@ -5,7 +5,7 @@
 //! the thesis; the default method adds several far points at a time.
 
 use serde_json::Value;
-use taut_draw::{LineStyle, Scene2, Tone};
+use taut_draw::{Figure, LineStyle, Tone};
 use taut_report::numbers::{count, counted, gap, short};
 
 use super::frame::{Frame, circles, cloud, marked};
@@ -103,7 +103,7 @@ impl Trace for Rounds {
         Ok(said(title, text))
     }
 
-    fn scene(&self, step: usize) -> Result<Scene2, String> {
+    fn figure(&self, step: usize) -> Result<Figure, String> {
         let (round, core_set) = self.round(step)?;
         let center = place(&round.center);
         let next: &[usize] = if self.is_last(step) { &[] } else { &[round.farthest] };
@@ -124,7 +124,7 @@ impl Trace for Rounds {
             0..=2 => String::new(),
             dim => format!("A shadow: the first two of {dim} coordinates."),
         };
-        Ok(self.frame.scene(&self.table, String::new(), caption, layers))
+        Ok(self.frame.figure(&self.table, String::new(), caption, layers))
     }
 }
 
@@ -152,7 +152,7 @@ mod tests {
             let last = rounds.rounds.last().unwrap();
             assert!((last.radius - best).abs() <= 1e-10 * best, "{name}: {} {best}", last.radius);
             assert_eq!(rounds.round(0).unwrap().1.len(), 2);
-            assert!(rounds.scene(rounds.count()).is_err());
+            assert!(rounds.figure(rounds.count()).is_err());
         }
     }
 

@@ -3,7 +3,7 @@
 use serde_json::Value;
 use taut::certify::{LowerBound, Placement};
 use taut::{CentersOptions, FarthestFirstOptions, centers, farthest_first};
-use taut_draw::{LineStyle, Scene2, Tone};
+use taut_draw::{Figure, LineStyle, Tone};
 use taut_report::numbers::{count, counted, gap, short};
 
 use super::branches::{CASES_MAX, Case, cases};
@@ -171,7 +171,7 @@ impl Trace for Search {
         })
     }
 
-    fn scene(&self, step: usize) -> Result<Scene2, String> {
+    fn figure(&self, step: usize) -> Result<Figure, String> {
         let mut layers = vec![cloud(&self.table, "points")];
         match self.part(step)? {
             Part::Greedy(step) => {
@@ -219,7 +219,7 @@ impl Trace for Search {
             0..=2 => String::new(),
             dim => format!("A shadow: the first two of {dim} coordinates."),
         };
-        Ok(self.frame.scene(&self.table, String::new(), caption, layers))
+        Ok(self.frame.figure(&self.table, String::new(), caption, layers))
     }
 }
 
@@ -245,7 +245,7 @@ mod tests {
         assert!(search.cases.last().unwrap().is_refuted);
         for step in 0..search.count() {
             search.words(step).unwrap();
-            search.scene(step).unwrap();
+            search.figure(step).unwrap();
         }
         assert!(search.words(search.count()).is_err());
     }

@@ -6,7 +6,7 @@
 use std::collections::BTreeSet;
 
 use serde_json::Value;
-use taut_draw::{LineStyle, Scene2, Shape2, Tone};
+use taut_draw::{Figure, LineStyle, Shape2, Tone};
 use taut_report::numbers::{count, counted};
 
 use super::frame::{Frame, circles, layer, marked};
@@ -123,7 +123,7 @@ impl Trace for Insertions {
         Ok(said(title, text + " The order is along a Hilbert curve."))
     }
 
-    fn scene(&self, step: usize) -> Result<Scene2, String> {
+    fn figure(&self, step: usize) -> Result<Figure, String> {
         let [kept, gone, new] = self.change(step)?;
         let around = |simplex: &Simplex| circumcircle(simplex, &self.table);
         let around = gone.iter().filter_map(around).filter(|&(at, r)| self.frame.holds(at, r));
@@ -138,7 +138,7 @@ impl Trace for Insertions {
             marked(&self.table, &inserted, "inserted", Tone::Ink, 2.4),
             marked(&self.table, &[step], "this point", Tone::Support, 5.0),
         ];
-        Ok(self.frame.scene(&self.table, String::new(), String::new(), layers))
+        Ok(self.frame.figure(&self.table, String::new(), String::new(), layers))
     }
 }
 
@@ -179,7 +179,7 @@ mod tests {
             insertions.first(60).unwrap().len(),
             taut::delaunay(points.source(), &Default::default()).unwrap().answer.len()
         );
-        assert!(insertions.scene(59).is_ok() && insertions.scene(60).is_err());
+        assert!(insertions.figure(59).is_ok() && insertions.figure(60).is_err());
     }
 
     #[test]
@@ -188,7 +188,7 @@ mod tests {
         let insertions = Insertions::new(&points).unwrap();
         for step in 0..5 {
             insertions.words(step).unwrap();
-            insertions.scene(step).unwrap();
+            insertions.figure(step).unwrap();
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Scenes whose steps all show the same part of the plane.
 
-use taut_draw::{Aspect, Axis, Circle2, Layer2, LineStyle, Point2, Scene2, Shape2, Tone};
+use taut_draw::{Aspect, Axis, Circle2, Figure, Layer2, LineStyle, Point2, Scene2, Shape2, Tone};
 
 use super::Table;
 
@@ -44,14 +44,14 @@ impl Frame {
         (0..2).all(|k| center[k] - radius >= self.low[k] && center[k] + radius <= self.high[k])
     }
 
-    /// A scene that shows all of this box, whatever its layers hold.
-    pub(super) fn scene(
+    /// A figure that shows all of this box, whatever its layers hold.
+    pub(super) fn figure(
         &self,
         table: &Table,
         title: String,
         caption: String,
         layers: Vec<Layer2>,
-    ) -> Scene2 {
+    ) -> Figure {
         let corner = |at| Point2 { id: None, at, size: 0.0, label: String::new() };
         let corners = Shape2::Points(vec![corner(self.low), corner(self.high)]);
         let layers = layers.into_iter().filter(|layer| !is_empty(&layer.shape));
@@ -59,7 +59,7 @@ impl Frame {
             let usual = ["x", "y"][k].to_owned();
             Axis::named(table.names.get(k).cloned().unwrap_or(usual))
         };
-        Scene2 {
+        Figure::Plane(Scene2 {
             title,
             caption,
             x: name(0),
@@ -68,7 +68,7 @@ impl Frame {
             layers: layers.chain([layer("", Tone::Muted, LineStyle::Solid, corners)]).collect(),
             width: 720.0,
             height: 560.0,
-        }
+        })
     }
 }
 
