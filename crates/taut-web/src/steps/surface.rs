@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 
 use serde_json::Value;
+use taut::Monitor;
 use taut::certify::SurfaceMethod as Kind;
 use taut::reconstruct::{LabelBorder, LabelTrace, label_trace};
-use taut::{Monitor, PointSource};
 use taut_draw::{
     Axis, Figure, Layer3, LineStyle, Point3, Projection, Scene3, Shading, Shape3, Surface3, Tone,
 };
