@@ -15,7 +15,7 @@ const stepper = new Stepper(runner, () => load());
 
 let tools = [];
 let samples = [];
-/** What the worker is given when it starts anew: a sample by its name, or a file. */
+/** What the worker is given when it starts again: a sample by its name, or a file. */
 let origin = null;
 /** States whether the worker has these points. */
 let isLoaded = false;
@@ -72,7 +72,7 @@ async function attempt(work) {
       complain("The memory of the page has run out. Nothing else is lost: choose fewer points or another tool. The command taut has no such limit.");
     } else {
       say("");
-      complain(error.kind ? `Something went wrong, and the worker was started anew: ${error.message}` : error.message);
+      complain(error.kind ? `Something went wrong, and the worker was started again: ${error.message}` : error.message);
     }
     return false;
   } finally {

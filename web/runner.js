@@ -1,4 +1,4 @@
-// The worker and its life: one request at a time, ended to stop it, started anew when its memory has run out.
+// The worker and its life: one request at a time, ended to stop it, started again when its memory has run out.
 
 /** Why a request came to no end of its own. */
 export class Interrupted extends Error {
