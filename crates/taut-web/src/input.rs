@@ -78,23 +78,25 @@ impl Opened {
 mod tests {
     use super::*;
 
+    /// The file of a NumPy array of two rows and two columns.
+    fn npy(values: [f64; 4]) -> Vec<u8> {
+        let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+        let header = "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 2), }";
+        let padded = format!("{header:<117}\n");
+        bytes.extend(u16::try_from(padded.len()).unwrap().to_le_bytes());
+        bytes.extend(padded.as_bytes());
+        values.iter().for_each(|value| bytes.extend(value.to_le_bytes()));
+        bytes
+    }
+
     #[test]
     fn the_formats_of_the_page_are_read() {
-        let npy = {
-            let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
-            let header = "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 2), }";
-            let padded = format!("{header:<117}\n");
-            bytes.extend(u16::try_from(padded.len()).unwrap().to_le_bytes());
-            bytes.extend(padded.as_bytes());
-            [0.0, 1.0, 2.0, 3.0_f64].iter().for_each(|v| bytes.extend(v.to_le_bytes()));
-            bytes
-        };
         let ply = b"ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n\
                     property float z\nend_header\n0 1 2\n3 4 5\n";
         let geo = br#"{"type":"MultiPoint","coordinates":[[0,1],[2,3]]}"#;
         for (name, bytes, dim) in [
             ("a.csv", b"x,y\n0,1\n2,3\n".to_vec(), 2),
-            ("a.npy", npy, 2),
+            ("a.npy", npy([0.0, 1.0, 2.0, 3.0]), 2),
             ("a.ply", ply.to_vec(), 3),
             ("a.xyz", b"0 1 2\n3 4 5\n".to_vec(), 3),
             ("a.geojson", geo.to_vec(), 2),
@@ -106,9 +108,12 @@ mod tests {
 
     #[test]
     fn a_number_that_is_none_is_named_with_its_row() {
-        let opened = Opened::read(b"x,y\n0,1\nnan,3\n".to_vec(), "a.csv").unwrap();
+        let words = Opened::read(b"x,y\n0,1\nnan,3\n".to_vec(), "a.csv").unwrap_err();
+        assert!(words.contains("a.csv") && words.contains("row 2"), "{words}");
+        // Text is read as a whole when it is opened, arrays when they are solved.
+        let opened = Opened::read(npy([0.0, 1.0, f64::NAN, 3.0]), "a.npy").unwrap();
         let refused = taut::ball(opened.source(), &taut::BallOptions::default()).unwrap_err();
         let words = opened.explain(refused);
-        assert!(words.contains("a.csv") && words.contains("row 2"), "{words}");
+        assert!(words.contains("a.npy") && words.contains("row 2"), "{words}");
     }
 }
