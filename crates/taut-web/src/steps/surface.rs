@@ -24,12 +24,14 @@ const STAGES: usize = 40;
 /// Up to this many triangles each has a shade of its own, so that it can be told from the next.
 const FLAT_TRIANGLES_MAX: usize = 4000;
 
-/// The steps: no facet obeyed, a fortieth of them more each time, and the surface after repairs.
+/// The steps: no facet obeyed, some more each time, and the surface after repairs.
 #[derive(Debug)]
 pub(super) struct Labeling {
     trace: LabelTrace,
     /// The places of the facets that are obeyed.
     obeyed: Vec<usize>,
+    /// For each stage, how many of them.
+    stages: Vec<usize>,
     names: Vec<String>,
 }
 
@@ -49,8 +51,10 @@ impl Labeling {
         let trace = label_trace(points.source(), &Monitor::silent())
             .map_err(|error| points.explain(error))?;
         let places = trace.facets.iter().enumerate();
-        let obeyed = places.filter(|(_, facet)| facet.is_obeyed).map(|(place, _)| place).collect();
-        Ok(Labeling { trace, obeyed, names: points.columns(3) })
+        let obeyed: Vec<usize> =
+            places.filter(|(_, facet)| facet.is_obeyed).map(|(place, _)| place).collect();
+        let stages = stages(&trace, &obeyed);
+        Ok(Labeling { trace, obeyed, stages, names: points.columns(3) })
     }
 
     fn is_last(&self, step: usize) -> bool {
@@ -59,7 +63,7 @@ impl Labeling {
 
     /// The number of facets obeyed up to a step.
     fn obeyed(&self, step: usize) -> usize {
-        self.obeyed.len() * step.min(STAGES) / STAGES
+        self.stages[step.min(STAGES)]
     }
 
     fn border(&self, step: usize) -> Result<LabelBorder, String> {
@@ -95,6 +99,26 @@ impl Labeling {
             ),
         }
     }
+}
+
+/// Returns how many facets are obeyed at each stage. The surest are within one side, so a stage counts those that tell opposite sides as much
+/// as all.
+fn stages(trace: &LabelTrace, obeyed: &[usize]) -> Vec<usize> {
+    let is_opposite = |&place: &usize| trace.facets[place].evidence < 0.0;
+    let opposites = obeyed.iter().filter(|place| is_opposite(place)).count() as u64;
+    let all = obeyed.len() as u64;
+    let (mut passed, mut stages) = (0, vec![0]);
+    for (k, place) in obeyed.iter().enumerate() {
+        passed += u64::from(is_opposite(place));
+        // Twice the part of the way, times both counts.
+        let way = (k as u64 + 1) * opposites.max(1) + passed * all;
+        let whole = all * (opposites.max(1) + opposites);
+        while stages.len() as u64 * whole <= way * STAGES as u64 && stages.len() <= STAGES {
+            stages.push(k + 1);
+        }
+    }
+    stages.resize(STAGES + 1, obeyed.len());
+    stages
 }
 
 impl Trace for Labeling {
@@ -213,6 +237,7 @@ mod tests {
             (0..steps.count()).map(|step| steps.border(step).unwrap().parts).collect();
         assert!(parts.is_sorted_by(|a, b| a >= b) && parts[0] == steps.trace.cells);
         assert_eq!(parts[STAGES..], [1, 1]);
+        assert!(steps.stages.is_sorted() && steps.stages[STAGES] == steps.trace.cells - 1);
         // A closed surface of all points, with the topology of the sphere.
         assert_eq!(steps.border(STAGES).unwrap().triangles.len(), 2 * 200 - 4);
         for step in 0..steps.count() {
