@@ -97,7 +97,8 @@ async function load() {
   description = await runner.ask("open", points, points.bytes ? [points.bytes] : []);
   isLoaded = true;
   const { name, rows, columns } = description;
-  const counted = (number, noun) => `${number.toLocaleString("en")} ${noun}${number === 1 ? "" : "s"}`;
+  const digits = (number) => (number < 10_000 ? String(number) : number.toLocaleString("en"));
+  const counted = (number, noun) => `${digits(number)} ${noun}${number === 1 ? "" : "s"}`;
   at("points").textContent = `${name}: ${counted(rows, "point")}, ${counted(columns, "coordinate")} each`;
 }
 

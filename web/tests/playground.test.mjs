@@ -173,9 +173,9 @@ test("the address holds the state", async () => {
 });
 
 for (const [tool, sample, first, last] of [
-  ["ball", "clouds", /The ball of 2 points/, /smallest ball/],
+  ["ball", "normal-64", /The ball of 2 points/, /smallest ball/],
   ["delaunay", "few", /Point 1 of 60/, /Point 60 of 60/],
-  ["surface", "knot", /^0 of [\d,]+ facets obeyed/, /The surface: 4,000 triangles/],
+  ["surface", "knot", /^0 of [\d,]+ facets obeyed/, /The surface: 4000 triangles/],
   ["centers", "few", /Farthest first: 1 center/, /The answer: 4 centers/],
 ]) {
   test(`${tool}: steps are shown one by one`, async () => {

@@ -29,7 +29,7 @@ enum Points {
 const SAMPLES: &[Sample] = &[
     Sample {
         name: "clouds",
-        title: "Five clouds: 1,000 points of the plane",
+        title: "Five clouds: 1000 points of the plane",
         tools: &["ball", "ellipsoid", "centers", "delaunay"],
         points: Points::File("clouds.csv"),
     },
@@ -41,7 +41,7 @@ const SAMPLES: &[Sample] = &[
     },
     Sample {
         name: "normal-64",
-        title: "1,000 normal points in 64 dimensions",
+        title: "1000 normal points in 64 dimensions",
         tools: &["ball"],
         points: Points::Drawn("normal", 1000, 64, 0),
     },
@@ -65,13 +65,13 @@ const SAMPLES: &[Sample] = &[
     },
     Sample {
         name: "space-5000",
-        title: "5,000 points of a cube",
+        title: "5000 points of a cube",
         tools: &["delaunay"],
         points: Points::Drawn("uniform", 5000, 3, 1),
     },
     Sample {
         name: "loops",
-        title: "1,068 noisy points near four curves",
+        title: "1068 noisy points near four curves",
         tools: &["curve"],
         points: Points::File("loops.csv"),
     },
@@ -83,7 +83,7 @@ const SAMPLES: &[Sample] = &[
     },
     Sample {
         name: "knot",
-        title: "A knotted tube: 2,000 points of space",
+        title: "A knotted tube: 2000 points of space",
         tools: &["surface", "ball", "ellipsoid"],
         points: Points::File("knot.xyz"),
     },
