@@ -84,7 +84,7 @@ fn all<T>(
 ) -> Result<Vec<T>, Error> {
     let count = usize::try_from(source.len()).ok().and_then(|n| n.checked_mul(source.dim()));
     let (mut values, mut scratch) = (Vec::new(), Scratch::new());
-    if !count.is_some_and(|count| try_reserve_exact(&mut values, count).is_ok()) {
+    if count.is_none_or(|count| try_reserve_exact(&mut values, count).is_err()) {
         return Err(ReadError::TooLarge { rows: source.len(), dim: source.dim() }.into());
     }
     let mut first = 0;
