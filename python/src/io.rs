@@ -26,7 +26,7 @@ enum Values {
     F64(Vec<f64>),
 }
 
-/// The points of a file as an array, and the names of its columns.
+/// The points of a file as an array.
 #[pyfunction]
 pub(crate) fn read_points<'py>(
     py: Python<'py>,
@@ -37,7 +37,7 @@ pub(crate) fn read_points<'py>(
     select: Option<String>,
     classes: Option<Vec<u8>>,
     bounds: Option<&str>,
-) -> PyResult<(Bound<'py, PyAny>, Vec<String>)> {
+) -> PyResult<Bound<'py, PyAny>> {
     let options = ReadOptions {
         format: format.map(str::parse).transpose().map_err(raise)?,
         columns: columns.map(str::parse).transpose().map_err(raise)?,
@@ -64,14 +64,13 @@ pub(crate) fn read_points<'py>(
                 SourceRows::F64(points) => to.extend_from_slice(points.values()),
             })?),
         };
-        Ok((values, dim, input.columns))
+        Ok((values, dim))
     })?;
-    let (values, dim, names) = read.map_err(raise)?;
-    let array = match values {
+    let (values, dim) = read.map_err(raise)?;
+    Ok(match values {
         Values::F32(values) => rows(py, values, dim)?.into_any(),
         Values::F64(values) => rows(py, values, dim)?.into_any(),
-    };
-    Ok((array, names))
+    })
 }
 
 /// All coordinates of a source, as `add` takes them from a block.

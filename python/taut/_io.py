@@ -80,9 +80,7 @@ def read_points(
     box = None if bounds is None else ",".join(repr(float(value)) for value in bounds)
     kept = None if classes is None else [int(value) for value in classes]
     feature = None if select is None else str(select)
-    found: Rows
-    found, _ = _native.read_points(os.fspath(path), format, wanted, header, feature, kept, box)
-    return found
+    return _native.read_points(os.fspath(path), format, wanted, header, feature, kept, box)
 
 
 def _column(column: str | int) -> str:

@@ -180,7 +180,7 @@ def generate(
 def read_points(
     path: str, format: str | None, columns: str | None, header: bool | None, select: str | None, classes: list[int] | None,
     bounds: str | None,
-) -> tuple[Rows, list[str]]: ...
+) -> Rows: ...
 def write_mesh(
     path: str, points: Rows, simplices: NDArray[np.uint32], normals: list[list[float]] | None, colors: list[list[int]] | None,
     format: str | None, text: bool,
