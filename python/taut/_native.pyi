@@ -42,6 +42,7 @@ __all__ = [
     "names",
     "norms",
     "raster",
+    "read_points",
     "robust_ellipsoid",
     "sample",
     "scene_rows",
@@ -51,6 +52,7 @@ __all__ = [
     "surface",
     "train_classifier",
     "transpose_file",
+    "write_mesh",
 ]
 
 __version__: str
@@ -174,6 +176,14 @@ def farthest_first(
 def generate(
     out: Rows, distribution: str, seed: int, thickness: float | None, count: int | None, spread: float | None,
     vertices: int | None, side: int | None, angle: float | None, turns: float | None, noise: float | None,
+) -> None: ...
+def read_points(
+    path: str, format: str | None, columns: str | None, header: bool | None, select: str | None, classes: list[int] | None,
+    bounds: str | None,
+) -> Rows: ...
+def write_mesh(
+    path: str, points: Rows, simplices: NDArray[np.uint32], normals: list[list[float]] | None, colors: list[list[int]] | None,
+    format: str | None, text: bool,
 ) -> None: ...
 def hull(rows: Rows, threads: int | None) -> tuple[int | None, _Ids, _Ids, _Ids, _Ids]: ...
 def box_rows(points: list[list[float]]) -> list[float]: ...

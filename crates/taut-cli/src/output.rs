@@ -2,8 +2,9 @@
 
 pub(crate) mod files;
 pub(crate) mod meshes;
-pub(crate) mod numbers;
 pub(crate) mod parts;
 pub(crate) mod picture;
 pub(crate) mod tables;
 pub(crate) mod writing;
+
+pub(crate) use taut_report::numbers;

@@ -19,6 +19,7 @@ mod tour;
 pub use curve::{CurveMethod, CurveOptions, CurveThesisOptions, Ends, curve};
 pub use error::{Error, Span};
 pub use surface::{
-    Denoise, HullOptions, Positions, SurfaceMethod, SurfaceMode, SurfaceOptions, alpha,
-    given_surface, looks_one_sided, surface, thesis,
+    Denoise, HullOptions, LabelBorder, LabelFacet, LabelTrace, Positions, SurfaceMethod,
+    SurfaceMode, SurfaceOptions, alpha, given_surface, label_trace, looks_one_sided, surface,
+    thesis,
 };

@@ -92,8 +92,9 @@ impl Args {
         Ok(match mesh.judge(watch)? {
             Err(why) => Err(why),
             Ok(Judged::Surface(found, verdict)) => {
-                let report = Report { found: &*found, points, verdict: Some(verdict) };
-                let mut drawing = report.drawing(&self.options)?;
+                let report =
+                    Report { found: &*found, points: points.source(), verdict: Some(verdict) };
+                let mut drawing = Drawing::of(&report, points, &self.options)?;
                 drawing.fields.retain(|field| !FIELDS_OF_METHOD.contains(&&*field.name));
                 Ok(drawing)
             }
@@ -105,8 +106,9 @@ impl Args {
                 };
                 let found =
                     watch.during("drawing", solve).map_err(|error| points.explain(error))?;
-                let report = Report { found: &found, points, verdict: Some(verdict) };
-                Ok(report.drawing(&self.options)?)
+                let report =
+                    Report { found: &found, points: points.source(), verdict: Some(verdict) };
+                Ok(Drawing::of(&report, points, &self.options)?)
             }
         })
     }
@@ -128,6 +130,7 @@ impl Args {
                 Err(violation) => return Ok(Err(violation)),
             },
         };
-        Ok(Ok(Report { found, points, verdict }.drawing(&self.options)?))
+        let report = Report { found, points: points.source(), verdict };
+        Ok(Ok(Drawing::of(&report, points, &self.options)?))
     }
 }

@@ -9,12 +9,12 @@
 use taut_certify::{Solution, Surface, SurfaceCertificate, SurfaceMethod, SurfaceMode, Trace};
 use taut_delaunay::{Complex, DelaunayOptions, Space};
 use taut_mesh::{TriangleMesh, self_intersections, topology};
-use taut_points::{InputError, Monitor, PointSource, Points, Scratch, hash_points};
+use taut_points::{InputError, Monitor, PointSource, Points, hash_points};
 
 use super::answer::{Facets, Sites, numbers, unused};
 use super::cells::Cells;
-use super::coordinates;
 use super::witness::{located, witnesses};
+use super::{check_dim, read};
 use crate::{Error, Span};
 
 /// Returns triangles on the rows of `source` as a surface with its certificate, as they stand.
@@ -41,21 +41,13 @@ pub fn given_surface(
     triangles: &[[u32; 3]],
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Surface>, Error> {
-    if source.dim() != 3 {
-        let expected = "3, as surfaces are in space";
-        return Err(Error::Input(InputError::Dimension { dim: source.dim(), expected }));
-    }
+    check_dim(source)?;
     if let Some(&row) = triangles.as_flattened().iter().find(|&&row| u64::from(row) >= source.len())
     {
         let (value, expected) = (row.to_string(), "rows of the points");
         return Err(Error::Input(InputError::Option { name: "triangles", value, expected }));
     }
-    let mut scratch = Scratch::new();
-    let rows = source.read(0..source.len(), &mut scratch)?;
-    if let Some((row, column, value)) = rows.first_non_finite() {
-        return Err(Error::Input(InputError::NonFinite { row: row as u64, column, value }));
-    }
-    let given = coordinates(rows);
+    let given = read(source)?;
     let points_hash = hash_points(source, monitor)?;
     let view = Points::new(given.as_flattened(), 3);
     let Ok(view) = view else { return Err(Error::Flat { points: 0, span: Span::Nothing }) };
