@@ -118,7 +118,7 @@ impl Args {
             return self.write(&watch, &self.curve()?);
         }
         for (name, is_given) in
-            [("shape", self.shape.is_some()), ("outliers", self.outliers.is_some())]
+            [("shape", self.shape.is_some()), ("outlier-share", self.outliers.is_some())]
         {
             if is_given {
                 bail!("--{name} belongs to curve, not to {}: leave it out", self.distribution);

@@ -184,7 +184,7 @@ impl FileSummary for SortedFile {
         ];
         if found.answer.header > 0 {
             let header = counted(found.answer.header, "byte");
-            fields.insert(2, Field::new("header", header).remark("as it was, by the same hash"));
+            fields.insert(2, Field::proved("header", header).remark("as it was, by the same hash"));
         }
         (title, fields)
     }

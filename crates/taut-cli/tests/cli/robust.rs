@@ -148,12 +148,12 @@ fn wrong_input_and_options_are_named() {
     folder.put("nan.csv", grid().replacen("0,0\n", "0,NaN\n", 1));
     for (line, parts) in [
         ("nan.csv --robust mcd", &["nan.csv", "row 1", "column 1", "`y`", "NaN"][..]),
-        ("points.csv --robust mcd --coverage 0.4", &["--keep` is 0.4", "[0.5, 1]"]),
-        ("points.csv --robust trim --coverage 0", &["--coverage` is 0", "(0, 1]"]),
+        ("points.csv --robust mcd --keep 0.4", &["--keep` is 0.4", "[0.5, 1]"]),
+        ("points.csv --robust trim --keep 0", &["--keep` is 0", "(0, 1]"]),
         ("points.csv --robust mve --level 1", &["--level` is 1", "[0.5, 1)"]),
         ("points.csv --robust mve --epsilon 0", &["--epsilon` is 0", "(0, 0.01]"]),
         ("points.csv --robust trim --level 0.9", &["--level", "trim"]),
-        ("points.csv --coverage 0.9", &["--robust"]),
+        ("points.csv --keep 0.9", &["--robust"]),
         ("points.csv --robust mad", &["mad", "mcd, mve, trim"]),
         ("points.csv --robust mcd --balls", &["--balls"]),
         ("points.csv --robust mcd --method newton", &["--method"]),

@@ -30,7 +30,7 @@ Exit: 0 done · 1 the check failed, nothing written (but with --compare) ·
       2 bad input or usage, nothing written
 Example: taut memory transpose matrix.npy -o columns.npy --certificate columns.json
          taut verify columns.json matrix.npy columns.npy
-         taut memory transpose matrix.bin --row-count 1000000 --column-count 300 --item-bytes 8 -o columns.bin")]
+         taut memory transpose a.bin --row-count 1000 --column-count 300 --item-bytes 8 -o b.bin")]
 pub(super) struct Args {
     /// The matrix
     input: PathBuf,

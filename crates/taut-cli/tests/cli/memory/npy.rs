@@ -171,7 +171,7 @@ fn rows_of_arrays_are_sorted_by_their_header() {
     folder.taut("verify out.json in.npy out.npy").ends(0).stdout_has(&[
         "Verified: 300 records of 24 bytes in order",
         "as f64; proved: no key is below",
-        "\n  header      128 bytes; as it was, by the same hash\n",
+        "\n  header     128 bytes; proved: as it was, by the same hash\n",
     ]);
     // Another header is another file, and so is another number.
     for at in [70, 150] {
