@@ -55,7 +55,7 @@ impl Folder {
         self.root.join(super::tile_name(node))
     }
 
-    /// The folder of what is removed at the end: `lock`, `distribution`, `tree`, buckets, and drafts of these.
+    /// The folder of what is removed at the end: `lock`, `distribution`, `tree`, `stamps`, buckets, and drafts of these.
     pub(super) fn work(&self) -> PathBuf {
         self.root.join("work")
     }
@@ -75,11 +75,16 @@ impl Folder {
         self.work().join("tree")
     }
 
+    /// What the system said of the files of finished tiles.
+    pub(super) fn stamps(&self) -> PathBuf {
+        self.work().join("stamps")
+    }
+
     /// Removes the working files but the lock; files that are not ours stay.
     pub(super) fn clear_work(&self) -> Result<(), Error> {
         let is_ours = |name: &str| {
             let name = name.strip_suffix(".part").unwrap_or(name);
-            name == "distribution" || name == "tree" || name.starts_with("bucket-")
+            matches!(name, "distribution" | "tree" | "stamps") || name.starts_with("bucket-")
         };
         for entry in fs::read_dir(self.work()).map_err(failed(&self.work()))? {
             let entry = entry.map_err(failed(&self.work()))?;
