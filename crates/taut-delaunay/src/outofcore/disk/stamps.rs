@@ -2,7 +2,7 @@
 //!
 //! *Idea.* When a tile is done, the system's record of its file is noted: device, number, length, and the time of the last
 //! change, which every write and every rename moves and no program can set back. A resumed run compares it.
-//! *Guarantee.* A tile with the same record has the bytes that were written, as long as the system has not been started anew:
+//! *Guarantee.* A tile with the same record has the bytes that were written, as long as the system has not been started again:
 //! that it reached the disk is another question, so after a new start all notes are void. A note that is missing or broken
 //! costs the reading of its tile, nothing else.
 //! *Trap.* The system's clock of files may stand still for some milliseconds; a write by another program within that time
@@ -78,7 +78,7 @@ impl Stamps {
         let bytes = fs::read(path).unwrap_or_default();
         let notes = bytes.strip_prefix(&*start).unwrap_or_default().as_chunks::<NOTE_BYTES>().0;
         let earlier = notes.iter().filter_map(parse).collect();
-        // Written anew, so that the next note does not follow half a note.
+        // Written again, so that the next note does not follow half a note.
         let begun = File::create(path).and_then(|mut file| {
             file.write_all(&[&start, notes.as_flattened()].concat())?;
             Ok(file)
@@ -168,7 +168,7 @@ mod tests {
         open("first").note(7, &seen(&tile));
         assert!(open("first").is_untouched(7, &seen(&tile)));
         assert!(!open("other").is_untouched(7, &seen(&tile)));
-        // That start has begun the file anew.
+        // That start has begun a file of its own.
         assert!(!open("first").is_untouched(7, &seen(&tile)));
         let unknown = Stamps::open_since(&notes, None);
         unknown.note(7, &seen(&tile));
