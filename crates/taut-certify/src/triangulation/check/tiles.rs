@@ -128,6 +128,7 @@ pub fn check_tiles(
     let manifest = Manifest::read(folder)?;
     count("dimensions", u64::from(manifest.dimension), source.dim() as u64)?;
     count("points", manifest.points, source.len())?;
+    taut_points::keep_freed_memory();
     let check = || match source.dim() {
         2 => plane(folder, &manifest, source, options),
         3 => space(folder, &manifest, source, options),
