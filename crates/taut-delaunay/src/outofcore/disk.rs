@@ -353,7 +353,7 @@ where
     let files = NodeFiles { folder, tree: &cut.tree, row_bytes: plan.row_bytes, stamps };
     let sites = |leaf: u32| cut.tree.cell(leaf).count;
     options.monitor.pass(2, cut.tree.cell(0).count);
-    taut_points::keep_freed_memory();
+    taut_points::keep_freed_memory(options.memory, threads);
     let totals = run(&whole, &walk, &course, &sites, &files, &options.monitor)?;
     let all = walk.nodes().iter().filter_map(|&node| Some((node, files.tile_bytes(node)?)));
     let mut tiles: Vec<(u32, u64)> = all.collect();

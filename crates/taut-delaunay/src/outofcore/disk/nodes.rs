@@ -146,7 +146,7 @@ impl<const D: usize> Storage<D> for NodeFiles<'_, D> {
     fn store(&self, node: u32, write: &mut WriteNode<'_, D>) -> Result<NodeRecord, Error> {
         let path = self.folder.tile(node);
         let name = path.display().to_string();
-        let record = write_whole(&path, |file| {
+        let (record, found) = write_whole(&path, |file| {
             let (counts, front) = write(&name, file)?;
             let bytes = front.to_bytes();
             let trailer = Trailer {
@@ -163,7 +163,7 @@ impl<const D: usize> Storage<D> for NodeFiles<'_, D> {
                 front_facets: trailer.front_facets,
             })
         })?;
-        if let Ok(found) = std::fs::metadata(&path) {
+        if let Some(found) = found {
             self.stamps.note(node, &found);
         }
         Ok(record)
