@@ -21,6 +21,7 @@
 //!
 //! Not for: points of differing dimension, sparse points, or coordinates other than `f32` and `f64`.
 
+mod allocator;
 mod blocks;
 mod choice;
 mod display;
@@ -34,6 +35,7 @@ mod room;
 mod source;
 mod threads;
 
+pub use allocator::keep_freed_memory;
 pub use blocks::{Blocks, map_blocks};
 pub use choice::Choice;
 pub use display::shown_number;

@@ -11,7 +11,8 @@
 //! let found = ball(&points, &BallOptions::default())?;
 //! let verdict = found.check(&points)?;
 //! let claims = Summary::claims(&found, &verdict, &points).text();
-//! assert!(claims.contains(": ball of radius 1 around 3 points in 2 dimensions\n"), "{claims}");
+//! assert!(claims.contains("ball of radius 1 around 3 points in 2 dimensions\n"), "{claims}");
+//! assert!(claims.contains("≤ smallest radius ≤ 1; proved\n"), "{claims}");
 //! let report = Report { found: &found, points: &points, verdict: Some(verdict) };
 //! assert!(text(&report.title(), &report.fields()).starts_with("Smallest ball around 3 points in 2 dimensions\n  radius     1\n"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -104,8 +105,6 @@ pub struct Field {
     pub remark: Option<String>,
     /// The strength of the evidence for it; `None` for what is only told.
     pub standing: Option<EvidenceKind>,
-    /// The rows that the remark names, from 0.
-    pub rows: Vec<u64>,
 }
 
 /// The strength of the evidence for a claim: `docs/certificates.md` says for each why.
@@ -130,7 +129,7 @@ impl EvidenceKind {
 impl Field {
     /// What is only told.
     pub fn new(name: &'static str, value: impl Into<String>) -> Self {
-        Field { name, value: value.into(), remark: None, standing: None, rows: vec![] }
+        Field { name, value: value.into(), remark: None, standing: None }
     }
 
     /// A claim that the checker derived.
@@ -202,7 +201,7 @@ fn plural(outliers: u64) -> &'static str {
 }
 
 /// A number of rows and which part of all rows that is: "200 (50 %)".
-pub fn share(some: u64, all: u64) -> String {
+pub(crate) fn share(some: u64, all: u64) -> String {
     if some == 0 {
         return "none".to_owned();
     }
@@ -240,21 +239,15 @@ const SHOWN_ROWS_MAX: usize = 8;
 
 /// Returns how many rows there are, and the numbers of the first, counted from 1 as in the file.
 pub(crate) fn rows_of(name: &'static str, rows: &[u64]) -> Field {
-    let mut field = Field::new(name, count(rows.len() as u64));
-    field.rows = rows.to_vec();
-    field.remark = remark_of_rows(rows, |row| row.saturating_add(1).to_string());
-    field
-}
-
-/// Names the first of some rows; `None` where there are none.
-pub fn remark_of_rows(rows: &[u64], name: impl Fn(u64) -> String) -> Option<String> {
-    let named: Vec<String> = rows.iter().take(SHOWN_ROWS_MAX).map(|&row| name(row)).collect();
+    let field = Field::new(name, count(rows.len() as u64));
+    let row = |&row: &u64| row.saturating_add(1).to_string();
+    let named: Vec<String> = rows.iter().take(SHOWN_ROWS_MAX).map(row).collect();
     let more =
         if rows.len() > SHOWN_ROWS_MAX { ", …; the JSON holds them (-o FILE)" } else { "" };
     match named.len() {
-        0 => None,
-        1 => Some(format!("row {}", named[0])),
-        _ => Some(format!("rows {}{more}", named.join(", "))),
+        0 => field,
+        1 => field.remark(format!("row {}", named[0])),
+        _ => field.remark(format!("rows {}{more}", named.join(", "))),
     }
 }
 
@@ -290,7 +283,7 @@ pub fn stopped(stop: Stop) -> &'static str {
 /// Title and fields as text, a field a line, the values in one column.
 pub fn text(title: &str, fields: &[Field]) -> String {
     let width = fields.iter().map(|field| field.name.len() + 1).max().unwrap_or(0).max(10);
-    let lines = fields.iter().map(|Field { name, value, remark, standing, .. }| {
+    let lines = fields.iter().map(|Field { name, value, remark, standing }| {
         let said = match (standing, remark) {
             (Some(standing), Some(remark)) => format!("; {}: {remark}", standing.word()),
             (Some(standing), None) => format!("; {}", standing.word()),

@@ -108,12 +108,10 @@ mod tests {
 
     #[test]
     fn a_number_that_is_none_is_named_with_its_row() {
-        let words = Opened::read(b"x,y\n0,1\nnan,3\n".to_vec(), "a.csv").unwrap_err();
-        assert!(words.contains("a.csv") && words.contains("row 2"), "{words}");
-        // Text is read as a whole when it is opened, arrays when they are solved.
-        let opened = Opened::read(npy([0.0, 1.0, f64::NAN, 3.0]), "a.npy").unwrap();
-        let refused = taut::ball(opened.source(), &taut::BallOptions::default()).unwrap_err();
-        let words = opened.explain(refused);
-        assert!(words.contains("a.npy") && words.contains("row 2"), "{words}");
+        let text = b"x,y\n0,1\nnan,3\n".to_vec();
+        for (name, bytes) in [("a.csv", text), ("a.npy", npy([0.0, 1.0, f64::NAN, 3.0]))] {
+            let words = Opened::read(bytes, name).unwrap_err();
+            assert!(words.contains(name) && words.contains("row 2"), "{words}");
+        }
     }
 }

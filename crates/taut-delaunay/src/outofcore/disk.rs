@@ -15,6 +15,7 @@ mod nodes;
 mod plan;
 mod sample;
 mod split;
+mod stamps;
 #[cfg(test)]
 mod tests;
 mod tree_file;
@@ -36,6 +37,7 @@ use commit::Commit;
 use folder::{Folder, failed, free_bytes, remove};
 use manifest::{Begun, Complete, Manifest};
 use nodes::NodeFiles;
+use stamps::Stamps;
 use tree_file::CutPoints;
 
 /// Options to triangulate to a folder; [`Default`] is what most people want.
@@ -347,9 +349,11 @@ where
         budget: plan.node_budget,
         site_bytes: plan::site_bytes(D),
     };
-    let files = NodeFiles { folder, tree: &cut.tree, row_bytes: plan.row_bytes };
+    let stamps = Stamps::open(&folder.stamps());
+    let files = NodeFiles { folder, tree: &cut.tree, row_bytes: plan.row_bytes, stamps };
     let sites = |leaf: u32| cut.tree.cell(leaf).count;
     options.monitor.pass(2, cut.tree.cell(0).count);
+    taut_points::keep_freed_memory(options.memory, threads);
     let totals = run(&whole, &walk, &course, &sites, &files, &options.monitor)?;
     let all = walk.nodes().iter().filter_map(|&node| Some((node, files.tile_bytes(node)?)));
     let mut tiles: Vec<(u32, u64)> = all.collect();

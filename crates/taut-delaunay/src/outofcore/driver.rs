@@ -6,8 +6,8 @@
 //! *Guarantee.* Which nodes are triangulated, and what they write, depends on the points and on the tree alone, not on the
 //! number of threads or on which of them was first. Nodes run at the same time only while the bytes they need stay within
 //! the budget together; a node that needs more by itself is refused before it runs.
-//! *Resume.* A thread asks the storage for a node without the lock, before the node may take memory: a storage reads all of a
-//! file to compare its sum, and does so on all threads.
+//! *Resume.* A thread asks the storage for a node without the lock, before the node may take memory: a storage may read all of
+//! a file to compare its sum, and does so on all threads.
 //! *Trap.* Each thread has a pool of its own: on a common one, a thread that waits for a part of its node would begin
 //! another node in the meantime, and hold the memory of both.
 
@@ -35,7 +35,7 @@ pub(super) trait Storage<const D: usize>: Sync {
     /// Has `write` write the tile of a node, and keeps it with its front: both or, after a crash, none.
     fn store(&self, node: u32, write: &mut WriteNode<'_, D>) -> Result<NodeRecord, Error>;
 
-    /// What is known of a node that was stored before, in another run perhaps; an error if its tile was changed since.
+    /// What is known of a node that was stored before, in another run perhaps; an error if its tile is known to have been changed.
     fn stored(&self, node: u32) -> Result<Option<NodeRecord>, Error>;
 
     /// The points of a leaf that is stored are of no use any more.

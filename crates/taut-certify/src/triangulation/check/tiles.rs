@@ -46,7 +46,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use taut_points::{Monitor, PointSource, PointsHash, thread_pool};
+use taut_points::{Monitor, PointSource, PointsHash, keep_freed_memory, thread_pool};
 
 use self::hull::{Ends, Polygon, Surface};
 use self::inside::{Chain, Full, Job};
@@ -137,6 +137,7 @@ pub fn check_tiles(
         }
     };
     let threads = threads_within(options.memory);
+    keep_freed_memory(options.memory, threads.min(rayon::current_num_threads()));
     if threads >= rayon::current_num_threads() {
         return check();
     }

@@ -26,7 +26,7 @@ use crate::sites::Magnitudes;
 /// Points whose cells are looked for together, in a block that stays in the cache of the first level.
 const ROUTED_TOGETHER: usize = 256;
 
-/// Bytes of records between two commits, at least and at most: a fourth of all, so that a crash repeats little of the
+/// Bytes of records between two commits, at least and at most: an eighth of all, so that a crash repeats little of the
 /// distribution of few points too, while each commit waits for all buckets to be on the disk.
 const COMMIT_BYTES: [u64; 2] = [16 << 20, 256 << 20];
 
@@ -64,7 +64,7 @@ pub(super) fn distribute<const D: usize>(
     };
     let mut workers: Vec<Worker<D>> = (0..threads).map(|_| empty()).collect();
     let block_bytes = (Blocks::VALUES / D) as u64 * (8 * D as u64 + u64::from(plan.row_bytes));
-    let commit_bytes = (plan.bucket_bytes / 4).clamp(COMMIT_BYTES[0], COMMIT_BYTES[1]);
+    let commit_bytes = (plan.bucket_bytes / 8).clamp(COMMIT_BYTES[0], COMMIT_BYTES[1]);
     let blocks_each = commit_bytes / block_bytes;
     monitor.pass(1, source.len());
     let done = (0..commit.blocks()).map(|block| blocks.range(block));

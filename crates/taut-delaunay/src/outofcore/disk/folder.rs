@@ -1,7 +1,7 @@
 //! The folder of a triangulation: names of its files, and files that appear whole.
 
 use std::ffi::OsString;
-use std::fs::{self, File};
+use std::fs::{self, File, Metadata};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -55,7 +55,8 @@ impl Folder {
         self.root.join(super::tile_name(node))
     }
 
-    /// The folder of what is removed at the end: `lock`, `distribution`, `tree`, buckets, and drafts of these.
+    /// The folder of what is removed at the end: `lock`, `distribution`, `tree`, buckets, drafts of
+    /// these, and `stamps`.
     pub(super) fn work(&self) -> PathBuf {
         self.root.join("work")
     }
@@ -75,11 +76,16 @@ impl Folder {
         self.work().join("tree")
     }
 
+    /// Notes on the files of finished tiles.
+    pub(super) fn stamps(&self) -> PathBuf {
+        self.work().join("stamps")
+    }
+
     /// Removes the working files but the lock; files that are not ours stay.
     pub(super) fn clear_work(&self) -> Result<(), Error> {
         let is_ours = |name: &str| {
             let name = name.strip_suffix(".part").unwrap_or(name);
-            name == "distribution" || name == "tree" || name.starts_with("bucket-")
+            matches!(name, "distribution" | "tree" | "stamps") || name.starts_with("bucket-")
         };
         for entry in fs::read_dir(self.work()).map_err(failed(&self.work()))? {
             let entry = entry.map_err(failed(&self.work()))?;
@@ -119,23 +125,27 @@ fn is_kept(kind: io::ErrorKind) -> bool {
     matches!(kind, io::ErrorKind::DirectoryNotEmpty | io::ErrorKind::NotFound)
 }
 
-/// Writes a file beside its name, brings it to the disk and names it; an earlier file is replaced.
+/// Writes a file beside its name, brings it to the disk and names it; an earlier file is replaced. Returns also what the system
+/// says of the file at that moment.
 pub(super) fn write_whole<R>(
     path: &Path,
     write: impl FnOnce(&mut File) -> Result<R, Error>,
-) -> Result<R, Error> {
+) -> Result<(R, Option<Metadata>), Error> {
     let draft = path.with_extension("part");
     let mut file = File::create(&draft).map_err(failed(&draft))?;
     let result = write(&mut file)?;
     file.sync_all().map_err(failed(&draft))?;
     fs::rename(&draft, path).map_err(failed(path))?;
+    // Now, as others may find the file by its name from here on.
+    let found = file.metadata().ok();
     sync_folder(path)?;
-    Ok(result)
+    Ok((result, found))
 }
 
 /// Writes these bytes as [`write_whole`].
 pub(super) fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), Error> {
-    write_whole(path, |file| file.write_all(bytes).map_err(failed(path)))
+    write_whole(path, |file| file.write_all(bytes).map_err(failed(path)))?;
+    Ok(())
 }
 
 /// Has a new name survive the machine.

@@ -2,8 +2,9 @@
 //!
 //! *Guarantee.* A node is one file that appears whole; its bucket goes only when it is there. So after a crash each node is
 //! done or can be done again. Fronts are cut off when all nodes are done.
-//! *Trap.* The counts of a tile are read from its end. A resumed run reads all of it once and compares the sum, or it would
-//! write a manifest for tiles that were changed meanwhile.
+//! *Trap.* The counts of a tile are read from its end. A resumed run compares the sum of all of it, or it would write a
+//! manifest for tiles that were changed meanwhile, unless [`Stamps`] say that nobody wrote to it: reading all finished tiles
+//! took up to a tenth of the time of the whole work.
 //! *Bytes* behind the tile: the front; bytes of the tile u64, of the front u64, sites and facets of the front u64 each; magic
 //! `TAUTNODE`.
 
@@ -14,6 +15,7 @@ use taut_oblivious::machine::Store;
 
 use super::buckets::read_points;
 use super::folder::{Folder, failed, remove, write_whole};
+use super::stamps::Stamps;
 use crate::Error;
 use crate::outofcore::bytes::{Reader, WordSum};
 use crate::outofcore::driver::{NodeRecord, Storage, WriteNode};
@@ -33,6 +35,7 @@ pub(super) struct NodeFiles<'a, const D: usize> {
     pub(super) folder: &'a Folder,
     pub(super) tree: &'a Tree<D>,
     pub(super) row_bytes: u32,
+    pub(super) stamps: Stamps,
 }
 
 /// The last bytes of the file of a node.
@@ -143,7 +146,7 @@ impl<const D: usize> Storage<D> for NodeFiles<'_, D> {
     fn store(&self, node: u32, write: &mut WriteNode<'_, D>) -> Result<NodeRecord, Error> {
         let path = self.folder.tile(node);
         let name = path.display().to_string();
-        write_whole(&path, |file| {
+        let (record, found) = write_whole(&path, |file| {
             let (counts, front) = write(&name, file)?;
             let bytes = front.to_bytes();
             let trailer = Trailer {
@@ -159,15 +162,23 @@ impl<const D: usize> Storage<D> for NodeFiles<'_, D> {
                 front_sites: trailer.front_sites,
                 front_facets: trailer.front_facets,
             })
-        })
+        })?;
+        if let Some(found) = found {
+            self.stamps.note(node, &found);
+        }
+        Ok(record)
     }
 
     fn stored(&self, node: u32) -> Result<Option<NodeRecord>, Error> {
         let path = self.folder.tile(node);
         let Ok(file) = File::open(&path) else { return Ok(None) };
         let Some((trailer, counts)) = self.counts(&file, node) else { return Ok(None) };
-        if !has_its_sum(&file, trailer.tile_bytes).map_err(failed(&path))? {
-            return Err(Error::DamagedFolder { path: path.display().to_string() });
+        let found = file.metadata().map_err(failed(&path))?;
+        if !self.stamps.is_untouched(node, &found) {
+            if !has_its_sum(&file, trailer.tile_bytes).map_err(failed(&path))? {
+                return Err(Error::DamagedFolder { path: path.display().to_string() });
+            }
+            self.stamps.note(node, &found);
         }
         Ok(Some(NodeRecord {
             counts,

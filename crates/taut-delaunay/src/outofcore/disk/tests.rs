@@ -1,7 +1,7 @@
 //! A folder of tiles against the triangulation in memory; crashes at any file; threads; heaps.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use taut_points::{Distribution, GeneratedSource, Points, ScalarKind};
 
@@ -245,13 +245,9 @@ fn damaged_files_are_refused() {
     }
 }
 
-/// One bit of a tile that an earlier run wrote.
-#[test]
-fn a_tile_that_was_changed_is_not_resumed() {
+/// Stops a triangulation half-way, and flips a bit of its first tile. Returns the number of this, its path, and its bytes before.
+fn stopped_with_a_wrong_bit(source: &dyn PointSource, folder: &Path) -> (u32, PathBuf, Vec<u8>) {
     use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-    let source = GeneratedSource::new(Distribution::Uniform, 300_000, 2, 5, ScalarKind::F64);
-    let source = source.unwrap();
-    let folder = tempfile::tempdir().unwrap();
     let (cancel, seen) = (AtomicBool::new(false), AtomicU64::new(0));
     let count = |points: u64| {
         // All are read, and half of them are triangulated.
@@ -261,13 +257,24 @@ fn a_tile_that_was_changed_is_not_resumed() {
     };
     let monitor = Monitor { on_points: Some(&count), cancel: Some(&cancel), ..Monitor::silent() };
     let stopped = FolderOptions { monitor, ..options() };
-    assert!(delaunay_to_folder(&source, folder.path(), &stopped).is_err());
-    let entries = fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().path());
-    let tile = entries.filter(|path| path.extension().is_some_and(|e| e == "ttd")).min().unwrap();
-    let whole = fs::read(&tile).unwrap();
+    assert!(delaunay_to_folder(source, folder, &stopped).is_err());
+    let tile = (0..1000).find(|&node| folder.join(tile_name(node)).exists()).unwrap();
+    let path = folder.join(tile_name(tile));
+    let whole = fs::read(&path).unwrap();
     let mut bytes = whole.clone();
     bytes[whole.len() / 3] ^= 4;
-    fs::write(&tile, bytes).unwrap();
+    // So long that the clock of files has moved on.
+    std::thread::sleep(std::time::Duration::from_millis(20));
+    fs::write(&path, bytes).unwrap();
+    (tile, path, whole)
+}
+
+#[test]
+fn a_tile_that_was_changed_is_not_resumed() {
+    let source = GeneratedSource::new(Distribution::Uniform, 300_000, 2, 5, ScalarKind::F64);
+    let source = source.unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let (_, tile, whole) = stopped_with_a_wrong_bit(&source, folder.path());
     let again = FolderOptions { resume: true, ..options() };
     let refused = delaunay_to_folder(&source, folder.path(), &again);
     let name = tile.display().to_string();
@@ -275,6 +282,29 @@ fn a_tile_that_was_changed_is_not_resumed() {
     fs::write(&tile, whole).unwrap();
     let found = delaunay_to_folder(&source, folder.path(), &again).unwrap();
     check_tiles::<2>(folder.path(), &found);
+}
+
+/// A tile with a note is not read again: a wrong bit in it is not seen if the note is of the file that has it.
+#[test]
+fn a_tile_that_nobody_wrote_to_is_not_read_again() {
+    let source = GeneratedSource::new(Distribution::Uniform, 300_000, 2, 5, ScalarKind::F64);
+    let source = source.unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let (node, tile, whole) = stopped_with_a_wrong_bit(&source, folder.path());
+    let stamps = Folder::new(folder.path()).stamps();
+    let found = fs::metadata(&tile).unwrap();
+    Stamps::open(&stamps).note(node, &found);
+    let again = FolderOptions { resume: true, ..options() };
+    let resumed = delaunay_to_folder(&source, folder.path(), &again);
+    if Stamps::has_notes_in(folder.path()) {
+        resumed.unwrap();
+        let at = whole.len() / 3;
+        assert_ne!(fs::read(&tile).unwrap()[at], whole[at]);
+        let verdict = taut_certify::check_tiles(folder.path(), &source, &Default::default());
+        assert!(verdict.is_err());
+    } else {
+        assert!(matches!(&resumed, Err(Error::DamagedFolder { .. })), "{resumed:?}");
+    }
 }
 
 /// A process that is killed before the manifest is there leaves a folder that a resumed run takes, and no other.
