@@ -63,6 +63,16 @@ where
     }
 }
 
+impl Found {
+    pub(crate) fn new(found: AnySolution) -> Self {
+        Found(found)
+    }
+
+    pub(crate) fn solution(&self) -> &AnySolution {
+        &self.0
+    }
+}
+
 #[pymethods]
 impl Found {
     #[getter]

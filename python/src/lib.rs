@@ -25,6 +25,7 @@ mod mosaic;
 mod names;
 mod numbers;
 mod object;
+mod passes;
 mod picture;
 mod planar;
 mod robust;
@@ -74,6 +75,11 @@ mod _native {
     use crate::mosaic::OpenTiles;
     #[pymodule_export]
     use crate::names::names;
+    #[pymodule_export]
+    use crate::passes::{
+        PassSolver, check_part, check_parts, merge_partials, merge_verdicts, query_shape,
+        rows_of_block, run_query,
+    };
     #[pymodule_export]
     use crate::planar::{
         inscribed_circle, inscribed_ellipse, inscribed_oriented_rectangle, inscribed_polygon,

@@ -11,6 +11,7 @@ __all__ = [
     "Found",
     "FoundFile",
     "OpenTiles",
+    "PassSolver",
     "SearchTree",
     "Violation",
     "__version__",
@@ -20,6 +21,8 @@ __all__ = [
     "centers",
     "contours",
     "curve",
+    "check_part",
+    "check_parts",
     "check_tiles",
     "delaunay",
     "delaunay_tiles",
@@ -37,10 +40,15 @@ __all__ = [
     "inscribed_rectangle",
     "inscribed_triangle",
     "kernel_ball",
+    "merge_partials",
+    "merge_verdicts",
     "names",
     "norms",
+    "query_shape",
     "raster",
     "robust_ellipsoid",
+    "rows_of_block",
+    "run_query",
     "sample",
     "scene_rows",
     "sort_file",
@@ -93,6 +101,17 @@ class OpenTiles:
     ) -> tuple[NDArray[np.uint64], NDArray[np.uint64], NDArray[np.uint64], NDArray[np.float64]]: ...
     def alpha_complex(self, tile: int, alpha: float) -> list[NDArray[np.uint64]]: ...
 
+@final
+class PassSolver:
+    @staticmethod
+    def ball(
+        rows: int, columns: int, items: str, epsilon: float, method: str, batch: int | None, delta: float | None,
+        max_passes: int, threads: int | None, seed: int,
+    ) -> PassSolver: ...
+    def query(self) -> bytes | None: ...
+    def feed(self, partial: bytes) -> None: ...
+    def solution(self) -> Found: ...
+
 _Lists = tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]
 
 @final
@@ -122,6 +141,8 @@ def curve(
     rows: Rows, method: str, open: bool, rho: float, omega: float, feature: float | None, places: bool,
     threads: int | None,
 ) -> Found: ...
+def check_part(found: Found, rows: Rows, first_row: int, count: int, threads: int | None) -> bytes: ...
+def check_parts(found: Found, columns: int, partials: list[bytes]) -> dict[str, Any]: ...
 def check_tiles(rows: Rows, folder: str, memory: int, scratch: str | None) -> dict[str, Any]: ...
 def delaunay(rows: Rows, order: str, threads: int | None, seed: int) -> Found: ...
 def contours(
@@ -171,6 +192,8 @@ def kernel_ball(
     rows: Rows, kernel: str, parameters: tuple[float, float, int], nu: float | None, epsilon: float, steps: int | None,
     limits: tuple[int, int | None, int],
 ) -> Found: ...
+def merge_partials(partials: list[bytes]) -> bytes: ...
+def merge_verdicts(partials: list[bytes]) -> bytes: ...
 def names() -> dict[str, list[str]]: ...
 def norms(
     rows: Rows, center: list[float], center_tail: list[float], factor: list[list[float]],
@@ -178,6 +201,9 @@ def norms(
 def robust_ellipsoid(
     rows: Rows, method: str, coverage: float | None, level: float, epsilon: float, threads: int | None,
 ) -> Found: ...
+def query_shape(query: bytes) -> tuple[int, int, bool]: ...
+def rows_of_block(columns: int) -> int: ...
+def run_query(query: bytes, rows: Rows, first_row: int, threads: int | None) -> bytes: ...
 def sample(n: int, k: int, seed: int) -> NDArray[np.uint64]: ...
 def sort_file(
     input: str | PathLike[str], output: str | PathLike[str], width: int, key: tuple[int, int], kind: str, memory: int,

@@ -78,6 +78,7 @@ mod json;
 mod kernel_ball;
 mod order;
 mod oriented;
+mod parts;
 mod polygon;
 mod rectangle;
 mod registry;
@@ -122,6 +123,7 @@ pub use oriented::{
     InscribedOrientedRectangle, OrientedRectangleCertificate, OrientedRectangleVerdict,
     OrientedRectangleViolation,
 };
+pub use parts::PartialVerdict;
 pub use polygon::PolygonViolation;
 pub use rectangle::{
     InscribedRectangle, RectangleCertificate, RectangleVerdict, RectangleViolation,

@@ -1,6 +1,6 @@
 //! The errors of the enclosing solvers.
 
-use taut_points::{InputError, ReadError, shown_number};
+use taut_points::{InputError, PartsError, ReadError, shown_number};
 
 /// Why there is no answer.
 #[derive(Debug, thiserror::Error)]
@@ -123,6 +123,9 @@ pub enum Error {
         /// Why.
         error: Box<Error>,
     },
+    /// Parts of a point set do not belong together, or their answers.
+    #[error(transparent)]
+    Parts(#[from] PartsError),
     /// Invalid points or options, a read error, or cancellation by the caller.
     #[error(transparent)]
     Input(#[from] InputError),
