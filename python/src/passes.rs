@@ -11,6 +11,7 @@ use taut::enclose::passes::{Partial, Query, Solver};
 use taut::points::{Blocks, PartsError, on_threads};
 use taut::{BallMethod, BallOptions, Items, PointSource};
 
+use crate::ellipsoid::options;
 use crate::found::{Found, Violation};
 use crate::items::{items_of_name, raise, words};
 use crate::numbers::whole;
@@ -58,6 +59,23 @@ impl PassSolver {
         };
         let solver =
             Solver::ball(rows, columns, options).map_err(|error| raise(error, items, columns))?;
+        Ok(PassSolver { solver: Mutex::new(Some(solver)), items, columns })
+    }
+
+    /// The solver of the ellipsoid of least volume; options are those of `ellipsoid`.
+    #[staticmethod]
+    fn ellipsoid(
+        rows: u64,
+        columns: usize,
+        epsilon: f64,
+        max_passes: &Bound<'_, PyAny>,
+        threads: &Bound<'_, PyAny>,
+        seed: &Bound<'_, PyAny>,
+    ) -> PyResult<Self> {
+        let options = options(epsilon, "newton", max_passes, threads, seed)?;
+        let items = Items::Points;
+        let solver = Solver::ellipsoid(rows, columns, options)
+            .map_err(|error| raise(error, items, columns))?;
         Ok(PassSolver { solver: Mutex::new(Some(solver)), items, columns })
     }
 

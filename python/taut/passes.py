@@ -128,7 +128,7 @@ def merge(partials: Iterable[Partial]) -> Partial:
 
 @final
 class Solver:
-    """A solver that waits for answers; made by `Solver.ball`."""
+    """A solver that waits for answers; made by `Solver.ball` or `Solver.ellipsoid`."""
 
     def __init__(self, native: _native.PassSolver) -> None:
         self._native = native
@@ -167,6 +167,26 @@ class Solver:
             rows, columns, items, epsilon, method, batch, delta, max_passes, threads, seed
         )
         return cls(native)
+
+    @classmethod
+    def ellipsoid(
+        cls, rows: int, columns: int, *, epsilon: float = 1e-9, max_passes: int = 1_000_000, threads: int | None = None,
+        seed: int = 0,
+    ) -> Self:
+        """The solver of `taut.ellipsoid` for points that do not lie in a flat; others are refused when that is seen.
+
+        Parameters
+        ----------
+        rows, columns : int
+            The shape of all rows together.
+        epsilon, max_passes, threads, seed
+            As in `taut.ellipsoid`.
+
+        Returns
+        -------
+        Solver
+        """
+        return cls(_native.PassSolver.ellipsoid(rows, columns, epsilon, max_passes, threads, seed))
 
     def query(self) -> Query | None:
         """The open query; None once there is a solution.

@@ -23,7 +23,7 @@ from . import _native, _spark_tasks as tasks, passes
 from ._ball import BallMethod
 from ._solution import Solution
 
-__all__ = ["Points", "ball", "ship", "verify"]
+__all__ = ["Points", "ball", "ellipsoid", "ship", "verify"]
 
 # Says which pass is made.
 log = logging.getLogger("taut.spark")
@@ -188,6 +188,32 @@ class Points:
             )
         )
 
+    def ellipsoid(
+        self, *, epsilon: float = 1e-9, max_passes: int = 1_000_000, threads: int | None = None, seed: int = 0
+    ) -> Solution:
+        """Ellipsoid of least volume enclosing the points: the bytes of `taut.ellipsoid` over them on one machine.
+
+        Parameters
+        ----------
+        epsilon, max_passes, threads, seed
+            As in `taut.ellipsoid`; threads are those of the driver.
+
+        Returns
+        -------
+        Solution
+            Its row numbers have ids: `ids`.
+
+        Raises
+        ------
+        ValueError
+            When the points lie in a flat: such an ellipsoid is found in memory or from a file.
+        """
+        rows, columns = self.shape
+        solver = passes.Solver.ellipsoid(
+            rows, columns, epsilon=epsilon, max_passes=max_passes, threads=threads, seed=seed
+        )
+        return self._solve(solver)
+
     def verify(self, solution: Solution | str) -> Any:
         """Check an answer over the points, in one pass: the verdict of `taut.verify` over them on one machine.
 
@@ -266,6 +292,27 @@ def ball(
     """
     with Points(df, columns, id=id, partitions=partitions) as points:
         return points.ball(**options)
+
+
+def ellipsoid(
+    df: Any, columns: Sequence[str], *, id: str | None = None, partitions: int | None = None, **options: Any
+) -> Solution:
+    """Ellipsoid of least volume enclosing the rows of a DataFrame.
+
+    Parameters
+    ----------
+    df, columns, id, partitions
+        As in `Points`.
+    **options
+        As in `Points.ellipsoid`.
+
+    Returns
+    -------
+    Solution
+        The bytes of `taut.ellipsoid` over the rows on one machine.
+    """
+    with Points(df, columns, id=id, partitions=partitions) as points:
+        return points.ellipsoid(**options)
 
 
 def verify(

@@ -4,15 +4,20 @@
 //! whole blocks can be judged anywhere ([`AnySolution::check_part`]), and what was found in them merged in any order.
 //! *Guarantee.* [`AnySolution::check_parts`] returns the verdict or the violation of [`AnySolution::check`] over all points.
 
+mod findings;
+
 use std::collections::BTreeMap;
 
 use taut_points::{
-    BlockRuns, Blocks, ByteReader, ByteWriter, Monitor, PartsError, PointSource, PointsHash,
+    BlockRuns, Blocks, ByteReader, ByteWriter, Monitor, PartsError, PointSource, PointsHash, Rows,
     check_part, hash_block, map_blocks,
 };
 
-use crate::ball::check::parts::{self, Faults};
-use crate::{AnySolution, AnyVerdict, Ball, CheckError, Solution, Violation};
+pub(crate) use self::findings::Findings;
+use crate::ball::check::parts as ball;
+use crate::ellipsoid::check::parts as ellipsoid;
+use crate::hashed_pass::WantedRows;
+use crate::{AnySolution, AnyVerdict, CheckError, Violation};
 
 /// What the checker found in some blocks of rows.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,7 +29,7 @@ pub struct PartialVerdict {
     blocks: BlockRuns,
     /// Rows that the certificate names.
     rows: BTreeMap<u64, Vec<f64>>,
-    faults: Faults,
+    findings: Findings,
 }
 
 /// The word that bytes of a partial verdict begin with.
@@ -46,7 +51,7 @@ impl PartialVerdict {
         Ok(PartialVerdict {
             blocks: self.blocks.merge(other.blocks, rows_of_block)?,
             rows,
-            faults: self.faults.merge(other.faults),
+            findings: self.findings.merge(other.findings),
             ..self
         })
     }
@@ -63,7 +68,7 @@ impl PartialVerdict {
             bytes.whole(id);
             bytes.floats(row);
         }
-        self.faults.write(&mut bytes);
+        self.findings.write(&mut bytes);
         bytes.into_bytes()
     }
 
@@ -83,23 +88,61 @@ impl PartialVerdict {
             }
             rows.insert(id, row);
         }
-        let faults = Faults::read(&mut bytes)?;
-        bytes.end(PartialVerdict { n, columns, claimed: PointsHash(claimed), blocks, rows, faults })
+        let findings = Findings::read(&mut bytes)?;
+        bytes.end(PartialVerdict {
+            n,
+            columns,
+            claimed: PointsHash(claimed),
+            blocks,
+            rows,
+            findings,
+        })
     }
 }
 
 impl AnySolution {
-    /// The answer about balls of points or balls; others are not judged in parts.
-    fn in_parts(&self) -> Result<&Solution<Ball>, CheckError> {
+    /// Refuses what is wrong without a look at the rows, and kinds that are judged over all of them at once.
+    fn check_structure(&self, n: u64, columns: usize) -> Result<(), CheckError> {
         match self {
-            AnySolution::Ball(found) => Ok(found),
+            AnySolution::Ball(found) => {
+                ball::check_structure(&found.answer, &found.certificate, n, columns)
+            }
+            AnySolution::Ellipsoid(found) => {
+                ellipsoid::check_structure(&found.answer, &found.certificate, n, columns)
+            }
             other => Err(CheckError::NoParts { kind: other.kind() }),
+        }
+    }
+
+    /// The hash and the rows that the certificate names.
+    fn named(&self) -> Result<(PointsHash, &[u64]), CheckError> {
+        match self {
+            AnySolution::Ball(found) => {
+                Ok((found.certificate.points_hash, &found.certificate.support[..]))
+            }
+            AnySolution::Ellipsoid(found) => {
+                Ok((found.certificate.points_hash, &found.certificate.support[..]))
+            }
+            other => Err(CheckError::NoParts { kind: other.kind() }),
+        }
+    }
+
+    fn check_block(&self, first: u64, rows: &Rows<'_>) -> Findings {
+        match self {
+            AnySolution::Ball(found) => {
+                ball::check_block(&found.answer, &found.certificate, first, rows)
+            }
+            AnySolution::Ellipsoid(found) => {
+                ellipsoid::check_block(&found.answer, &found.certificate, first, rows)
+            }
+            _ => Findings::default(),
         }
     }
 
     /// Judges the answer over the rows of `part`, whole blocks of a set of `n` rows that are numbered from `first_row` on.
     ///
-    /// What is wrong with rows is part of the result, so that the first of all of them is named in the end.
+    /// Balls around points and balls, and ellipsoids around points of full rank, are judged in parts. The rows that are wrong are part of the
+    /// result, so that the first of all of them is named in the end.
     ///
     /// # Errors
     /// [`CheckError::Rejected`] for what is wrong without a look at the rows, [`CheckError::Read`], [`CheckError::Parts`] where the part
@@ -111,26 +154,24 @@ impl AnySolution {
         n: u64,
         monitor: &Monitor<'_>,
     ) -> Result<PartialVerdict, CheckError> {
-        let Solution { answer, certificate, .. } = self.in_parts()?;
         let columns = part.dim();
-        parts::check_structure(answer, certificate, n, columns)?;
+        self.check_structure(n, columns)?;
         check_part(part, first_row, n)?;
-        let wanted = parts::wanted(certificate);
+        let (claimed, support) = self.named()?;
+        let wanted = WantedRows::of(support);
         let found = map_blocks(part, monitor, |row, rows| {
             let first = first_row + row;
             let kept = wanted.of_block(first, &rows, columns);
-            let faults = parts::check_block(answer, certificate, first, &rows);
-            Ok::<_, CheckError>((hash_block(&rows), kept, faults))
+            Ok::<_, CheckError>((hash_block(&rows), kept, self.check_block(first, &rows)))
         })?;
         let first_block = first_row / Blocks::new(n, columns).range(0).end.max(1);
         let blocks = BlockRuns::of(first_block, found.iter().map(|block| block.0));
         let values = found.iter().flat_map(|block| block.1.chunks_exact(columns));
         let ids = wanted.among(first_row, first_row + part.len());
         let rows = ids.iter().copied().zip(values.map(<[f64]>::to_vec)).collect();
-        let faults = found.into_iter().map(|block| block.2);
-        let faults = faults.reduce(Faults::merge).unwrap_or_default();
-        let claimed = certificate.points_hash;
-        Ok(PartialVerdict { n, columns, claimed, blocks, rows, faults })
+        let findings = found.into_iter().map(|block| block.2);
+        let findings = findings.reduce(Findings::merge).unwrap_or_default();
+        Ok(PartialVerdict { n, columns, claimed, blocks, rows, findings })
     }
 
     /// The verdict over all rows, from what was found in all parts.
@@ -142,31 +183,41 @@ impl AnySolution {
         merged: &PartialVerdict,
         monitor: &Monitor<'_>,
     ) -> Result<AnyVerdict, CheckError> {
-        let Solution { answer, certificate, .. } = self.in_parts()?;
-        let PartialVerdict { n, columns, blocks, rows, faults, .. } = merged;
-        parts::check_structure(answer, certificate, *n, *columns)?;
-        let (claimed, found) = (certificate.points_hash, blocks.hash(*n, *columns)?);
+        let PartialVerdict { n, columns, blocks, rows, findings, .. } = merged;
+        self.check_structure(*n, *columns)?;
+        let (claimed, support) = self.named()?;
+        let found = blocks.hash(*n, *columns)?;
         if merged.claimed != claimed {
             return Err(PartsError::Question.into());
         }
-        faults.refuse_invalid()?;
+        findings.refuse_invalid()?;
         if found != claimed {
             let (claimed, found) = (claimed.to_string(), found.to_string());
             return Err(Violation::Hash { claimed, found }.into());
         }
-        faults.refuse_outside()?;
-        if certificate.support.iter().any(|id| !rows.contains_key(id)) {
+        findings.refuse_outside()?;
+        if support.iter().any(|id| !rows.contains_key(id)) {
             return Err(PartsError::Bytes { what: VERDICT }.into());
         }
-        let verdict = parts::prove(answer, certificate, rows, *columns, monitor)?;
-        Ok(AnyVerdict::Ball(verdict))
+        match self {
+            AnySolution::Ball(found) => {
+                ball::prove(&found.answer, &found.certificate, rows, *columns, monitor)
+                    .map(AnyVerdict::Ball)
+            }
+            AnySolution::Ellipsoid(found) => {
+                let (answer, certificate) = (&found.answer, &found.certificate);
+                ellipsoid::prove(answer, certificate, findings, rows, *columns, monitor)
+                    .map(AnyVerdict::Ellipsoid)
+            }
+            other => Err(CheckError::NoParts { kind: other.kind() }),
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{BallCertificate, Items, Trace};
+    use crate::{Ball, BallCertificate, Items, Solution, Trace};
     use taut_points::{Points, hash_points};
 
     /// Two points at distance 2 among many between them, and the ball around them.

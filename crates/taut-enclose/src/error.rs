@@ -123,6 +123,16 @@ pub enum Error {
         /// Why.
         error: Box<Error>,
     },
+    /// Points in parts lie in a flat, and are to be solved in it, which is done where all of them are.
+    #[error(
+        "the points lie in a flat of dimension {rank} in {dim} dimensions: such an ellipsoid is found in memory or from a file, not in parts"
+    )]
+    FlatInParts {
+        /// The dimension of the flat.
+        rank: usize,
+        /// That of the space.
+        dim: usize,
+    },
     /// Parts of a point set do not belong together, or their answers.
     #[error(transparent)]
     Parts(#[from] PartsError),

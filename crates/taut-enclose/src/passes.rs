@@ -6,7 +6,8 @@
 //! one is fed to the solver, until it has no further query. The functions that run over a part are those of the passes in
 //! memory, and what they find are order statistics under a total order (the farthest rows, ties by row number) and hashes
 //! of blocks.
-//! *Guarantee.* The solution has the bytes of the one that [`ball()`](crate::ball()) finds over all rows at once, however these are
+//! *Guarantee.* The solution has the bytes of the one that [`ball()`](crate::ball()) and
+//! [`ellipsoid()`](crate::ellipsoid()) find over all rows at once, however these are
 //! divided. Parts that overlap, lack a block, answer another query or were worked on by other kernels are refused.
 //! *How it is made.* The solver is the same code as in memory, on a thread of its own, over a source whose rows are
 //! [`Elsewhere`](taut_points::Elsewhere): it waits where it would read.
@@ -35,10 +36,12 @@
 
 mod items;
 mod partial;
+mod points;
 mod query;
 mod solver;
 
 pub(crate) use items::{FirstAnswer, ask_first, ask_items, ask_spread};
 pub use partial::Partial;
+pub(crate) use points::{PointsAnswer, ask_points};
 pub use query::Query;
 pub use solver::Solver;

@@ -9,6 +9,7 @@ use taut_points::{
 
 use super::items::ItemBody;
 use super::query::{Query, Question, Stamp};
+use crate::ellipsoid::question::Answer;
 
 /// What some blocks of rows answer to a [`Query`].
 ///
@@ -29,6 +30,7 @@ pub(super) enum Body {
     /// The rows are all.
     Rows,
     Items(ItemBody),
+    Points(Answer),
 }
 
 impl Body {
@@ -37,6 +39,7 @@ impl Body {
             (Body::None, body) | (body, Body::None) => Ok(body),
             (Body::Rows, Body::Rows) => Ok(Body::Rows),
             (Body::Items(a), Body::Items(b)) => Ok(Body::Items(a.merge(b)?)),
+            (Body::Points(a), Body::Points(b)) => Ok(Body::Points(a.merge(b)?)),
             _ => Err(PartsError::Question),
         }
     }
@@ -46,6 +49,7 @@ impl Body {
         match self {
             Body::None | Body::Rows => BTreeSet::new(),
             Body::Items(items) => items.rows(),
+            Body::Points(answer) => answer.rows(),
         }
     }
 }
@@ -85,7 +89,7 @@ impl Partial {
         self.hash()?;
         let rows_asked = match query.question() {
             Question::Rows(ids) => ids.iter().copied().collect(),
-            Question::Items(_) => self.body.rows(),
+            _ => self.body.rows(),
         };
         if rows_asked.iter().all(|id| self.rows.contains_key(id)) {
             return Ok(());
@@ -118,6 +122,10 @@ impl Partial {
                 bytes.whole(2);
                 items.write(&mut bytes);
             }
+            Body::Points(answer) => {
+                bytes.whole(3);
+                answer.write(&mut bytes);
+            }
         }
         bytes.into_bytes()
     }
@@ -143,6 +151,7 @@ impl Partial {
             0 => Body::None,
             1 => Body::Rows,
             2 => Body::Items(ItemBody::read(&mut bytes)?),
+            3 => Body::Points(Answer::read(&mut bytes)?),
             _ => return Err(bytes.wrong()),
         };
         bytes.end(Partial { stamp, blocks, rows, body })

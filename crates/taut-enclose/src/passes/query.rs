@@ -3,12 +3,13 @@
 use std::collections::BTreeMap;
 
 use taut_points::{
-    BlockRuns, Blocks, ByteReader, ByteWriter, Monitor, PartsError, PointSource, check_part,
-    gather, instruction_set,
+    BlockHash, BlockRuns, Blocks, ByteReader, ByteWriter, Monitor, PartsError, PointSource,
+    check_part, gather, instruction_set,
 };
 
 use super::items::ItemQuestion;
 use super::partial::{Body, Partial};
+use super::points::PointQuestion;
 use crate::Error;
 
 /// What a solver asks of all rows.
@@ -24,6 +25,7 @@ pub(super) enum Question {
     /// The rows with these numbers, ascending.
     Rows(Vec<u64>),
     Items(ItemQuestion),
+    Points(PointQuestion),
 }
 
 /// The word that bytes of a query begin with.
@@ -71,12 +73,10 @@ impl Query {
         let (blocks, body) = match &self.question {
             Question::Rows(_) => (self.blocks_of(part, first_row), Body::Rows),
             Question::Items(question) => {
-                let (hashes, body) = question.run(part, first_row, monitor)?;
-                let blocks = match hashes {
-                    Some(hashes) => BlockRuns::of(self.block(first_row), hashes),
-                    None => self.blocks_of(part, first_row),
-                };
-                (blocks, body)
+                self.hashed(part, first_row, question.run(part, first_row, monitor)?)
+            }
+            Question::Points(question) => {
+                self.hashed(part, first_row, question.run(part, first_row, monitor)?)
             }
         };
         let end = first_row + part.len();
@@ -84,13 +84,26 @@ impl Query {
             Question::Rows(ids) => {
                 ids.iter().copied().filter(|id| (first_row..end).contains(id)).collect()
             }
-            Question::Items(_) => body.rows().into_iter().collect(),
+            _ => body.rows().into_iter().collect(),
         };
         let places: Vec<u64> = ids.iter().map(|id| id - first_row).collect();
         let values = gather(part, &places)?;
         let rows: BTreeMap<u64, Vec<f64>> =
             ids.into_iter().zip(values.chunks_exact(self.columns).map(<[f64]>::to_vec)).collect();
         Ok(Partial { stamp: self.stamp(), blocks, rows, body })
+    }
+
+    /// An answer with its blocks, hashed or not.
+    fn hashed(
+        &self,
+        part: &dyn PointSource,
+        first_row: u64,
+        (hashes, body): (Option<Vec<BlockHash>>, Body),
+    ) -> (BlockRuns, Body) {
+        match hashes {
+            Some(hashes) => (BlockRuns::of(self.block(first_row), hashes), body),
+            None => (self.blocks_of(part, first_row), body),
+        }
     }
 
     fn block(&self, row: u64) -> u64 {
@@ -101,7 +114,7 @@ impl Query {
     fn blocks_of(&self, part: &dyn PointSource, first_row: u64) -> BlockRuns {
         let first = self.block(first_row);
         let last = self.block(first_row + part.len() - 1);
-        BlockRuns::of(first, (first..=last).map(|_| taut_points::BlockHash::from_bits(0)))
+        BlockRuns::of(first, (first..=last).map(|_| BlockHash::from_bits(0)))
     }
 
     pub(super) fn stamp(&self) -> Stamp {
@@ -126,6 +139,10 @@ impl Query {
                 bytes.whole(1);
                 question.write(&mut bytes);
             }
+            Question::Points(question) => {
+                bytes.whole(2);
+                question.write(&mut bytes);
+            }
         }
         bytes.into_bytes()
     }
@@ -141,6 +158,7 @@ impl Query {
         let question = match bytes.whole()? {
             0 => Question::Rows(bytes.wholes()?),
             1 => Question::Items(ItemQuestion::read(&mut bytes, columns)?),
+            2 => Question::Points(PointQuestion::read(&mut bytes, columns)?),
             _ => return Err(bytes.wrong()),
         };
         bytes.end(Query { n, columns, question })

@@ -17,7 +17,7 @@ use taut_points::{
 
 use super::partial::Partial;
 use super::query::{Query, Question};
-use crate::{BallOptions, Error, ball};
+use crate::{BallOptions, EllipsoidMethod, EllipsoidOptions, Error, ball, ellipsoid};
 
 /// The interval at which a caller who waits for the next query is asked whether to go on. It delays a stop, never a query.
 const ASK_INTERVAL: Duration = Duration::from_millis(50);
@@ -49,6 +49,35 @@ impl Solver {
         Ok(Self::start(n, columns, move |source, monitor| {
             let options = BallOptions { monitor: *monitor, ..options };
             ball(source, &options).map(AnySolution::from)
+        }))
+    }
+
+    /// The ellipsoid of least volume around `n` points of so many coordinates.
+    ///
+    /// # Errors
+    /// Those of [`ellipsoid()`] for options; balls and ellipsoids, and methods other than
+    /// [`Newton`](EllipsoidMethod::Newton), are refused, as their passes are others. Points that lie in a flat are refused when that is
+    /// seen, with [`Error::FlatInParts`].
+    pub fn ellipsoid(
+        n: u64,
+        columns: usize,
+        options: EllipsoidOptions<'static>,
+    ) -> Result<Self, Error> {
+        options.check()?;
+        let refused = |name, value: &str, expected| {
+            Err(Error::Input(InputError::Option { name, value: value.to_owned(), expected }))
+        };
+        if options.inputs != Items::Points {
+            let expected = "points, as others are solved in memory";
+            return refused("inputs", options.inputs.name(), expected);
+        }
+        if options.method != EllipsoidMethod::Newton {
+            let expected = "newton, as the other methods are for points in memory";
+            return refused("method", options.method.name(), expected);
+        }
+        Ok(Self::start(n, columns, move |source, monitor| {
+            let options = EllipsoidOptions { monitor: *monitor, ..options };
+            ellipsoid(source, &options).map(AnySolution::from)
         }))
     }
 

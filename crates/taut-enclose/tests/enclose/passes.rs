@@ -2,7 +2,9 @@
 
 use taut_certify::{AnySolution, Items};
 use taut_enclose::passes::{Partial, Query, Solver};
-use taut_enclose::{BallMethod, BallOptions, Error, ball};
+use taut_enclose::{
+    BallMethod, BallOptions, EllipsoidMethod, EllipsoidOptions, Error, ball, ellipsoid,
+};
 use taut_points::{
     Blocks, Distribution, Monitor, PartsError, PointSource, Points, Scalar, generate,
 };
@@ -81,6 +83,36 @@ fn balls_have_the_bytes_of_those_in_memory() {
             assert_eq!(found.to_json(), wanted, "{name}, {count} parts");
         }
     }
+}
+
+#[test]
+fn ellipsoids_have_the_bytes_of_those_in_memory() {
+    let options = EllipsoidOptions::default();
+    let (mut solved, mut flat) = (0, 0);
+    for (name, dim, values) in sets().iter().filter(|set| set.1 <= 10) {
+        let points = Points::new(values, *dim).unwrap();
+        let n = PointSource::len(&points);
+        let wanted = ellipsoid(&points, &options).map(|found| found.to_json());
+        for count in [1, 4, 7, 16] {
+            let solver = Solver::ellipsoid(n, *dim, options.clone()).unwrap();
+            match (solve(solver, &parts(&points, count)), &wanted) {
+                (Ok(found), Ok(wanted)) => {
+                    solved += 1;
+                    assert_eq!(&found.to_json(), wanted, "{name}, {count} parts");
+                }
+                (Err(Error::FlatInParts { .. }), Ok(_)) => flat += 1,
+                (Err(found), Err(wanted)) => {
+                    assert_eq!(found.to_string(), wanted.to_string(), "{name}");
+                }
+                (found, wanted) => panic!("{name}: {found:?}, in memory {wanted:?}"),
+            }
+        }
+    }
+    // One point, often or once, and two.
+    assert!(solved >= 4 * 20 && flat == 4 * 3, "{solved} solved, {flat} flat");
+    let thesis = EllipsoidOptions { method: EllipsoidMethod::ThesisInitial, ..options };
+    let refused = Solver::ellipsoid(10, 2, thesis).unwrap_err().to_string();
+    assert!(refused.contains("expected newton"), "{refused}");
 }
 
 #[test]
