@@ -64,8 +64,8 @@ where
 }
 
 impl Found {
-    pub(crate) fn new(found: AnySolution) -> Self {
-        Found(found)
+    pub(crate) fn of(solution: AnySolution) -> Self {
+        Found(solution)
     }
 
     pub(crate) fn solution(&self) -> &AnySolution {

@@ -35,6 +35,7 @@ mod sphere_tree;
 mod surface;
 mod terrain;
 mod tiles;
+mod triangulation;
 mod work;
 
 use pyo3::prelude::*;
@@ -97,6 +98,8 @@ mod _native {
     use crate::terrain::{contours, raster};
     #[pymodule_export]
     use crate::tiles::{check_tiles, delaunay_tiles};
+    #[pymodule_export]
+    use crate::triangulation::{KeptTriangulation, hull};
 
     #[pymodule_export]
     #[allow(non_upper_case_globals)]

@@ -36,7 +36,10 @@ impl<'py> Rows<'py> {
     }
 }
 
-fn points<'a, T: Scalar + Element>(array: &'a PyReadonlyArray2<'_, T>) -> PyResult<Points<'a, T>> {
+/// The rows of an array in C order.
+pub(crate) fn points<'a, T: Scalar + Element>(
+    array: &'a PyReadonlyArray2<'_, T>,
+) -> PyResult<Points<'a, T>> {
     if !array.is_c_contiguous() {
         return Err(PyValueError::new_err("expected an array in C order"));
     }

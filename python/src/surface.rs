@@ -34,12 +34,12 @@ pub(crate) fn surface(
     let priority: Priority = choice("priority", priority)?;
     let usual = ThesisOptions::default();
     let noise = Denoise {
-        neighbors: whole("neighbors", neighbors, "from 4 to 1000")?,
+        neighbors: whole("neighbors", neighbors, "from 4 to 1000, or None")?,
         iterations: whole("iterations", iterations, "from 0 to 100")?,
         positions: if original { Positions::Original } else { Positions::Projected },
     };
     let of_denoise = [
-        ("neighbors", noise.neighbors != Denoise::default().neighbors),
+        ("neighbors", noise.neighbors.is_some()),
         ("iterations", noise.iterations != Denoise::default().iterations),
         ("original", original),
     ];

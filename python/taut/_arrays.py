@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from decimal import Decimal
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from ._inputs import readable
 
 Rows = NDArray[np.float32] | NDArray[np.float64]
 
@@ -132,7 +136,9 @@ def _real(name: str, values: ArrayLike, ndim: int) -> Rows:
     if np.ma.isMaskedArray(values):
         raise TypeError(f"{name} are a masked array: fill the masked values or leave their rows out")
     try:
-        array = np.asarray(values)
+        array = np.asarray(readable(name, values))
+        if array.dtype == object and not isinstance(values, np.ndarray):
+            array = np.asarray(readable(name, array))
     except ValueError as error:
         raise ValueError(f"{name} form no array: {error}") from None
     if array.dtype.kind not in "fiubO":
@@ -151,7 +157,25 @@ def _real(name: str, values: ArrayLike, ndim: int) -> Rows:
 
 
 def _converted(name: str, array: NDArray[np.object_]) -> NDArray[np.float64]:
-    """Numbers that NumPy knows as Python objects only, such as integers beyond 64 bits, one by one."""
+    """Numbers that NumPy knows as Python objects only, such as integers beyond 64 bits."""
+    try:
+        # NumPy also takes texts for numbers, but no text equals a number, nor does an integer one that was rounded.
+        numbers = array.astype(np.float64)
+        if (numbers == array).all() or _is_exact(numbers, array):
+            return numbers
+    except (TypeError, ValueError, OverflowError):
+        pass
+    return _refuse_objects(name, array)
+
+
+def _is_exact(numbers: NDArray[np.float64], array: NDArray[np.object_]) -> bool:
+    """Whether all that differs are numbers with a fraction, such as decimals, which float64 may round, and NaN."""
+    differs = array[numbers != array]
+    return all(isinstance(value, (float, np.floating, Decimal, Fraction)) for value in differs)
+
+
+def _refuse_objects(name: str, array: NDArray[np.object_]) -> NDArray[np.float64]:
+    """Converts one by one, up to the first that cannot be, with its place."""
     numbers = np.empty(array.shape)
     for index, value in np.ndenumerate(array):
         if isinstance(value, (str, bytes)):

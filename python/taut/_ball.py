@@ -7,6 +7,8 @@ from typing import Literal
 from numpy.typing import ArrayLike
 
 from . import _native
+from ._answers.kernel_ball import KernelBall
+from ._answers.ball import Ball
 from ._arrays import as_rows
 from ._solution import Solution
 
@@ -25,7 +27,7 @@ def ball(
     max_passes: int = 1_000_000,
     threads: int | None = None,
     seed: int = 0,
-) -> Solution:
+) -> Solution[Ball]:
     """Smallest ball enclosing points or ellipsoids, with a certificate.
 
     Parameters
@@ -114,7 +116,7 @@ def kernel_ball(
     max_passes: int = 10_000,
     threads: int | None = None,
     seed: int = 0,
-) -> Solution:
+) -> Solution[KernelBall]:
     """Smallest ball around points in the feature space of a kernel, hard or soft, with a certificate.
 
     The soft ball is a support vector data description: it minimizes R**2 + sum(max(0, d**2 - R**2)) / (nu * n), where d are the
@@ -186,7 +188,7 @@ def ball_of_balls(
     max_passes: int = 1_000_000,
     threads: int | None = None,
     seed: int = 0,
-) -> Solution:
+) -> Solution[Ball]:
     """Smallest ball enclosing balls, with a certificate.
 
     Parameters

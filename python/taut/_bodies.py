@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _native
+from ._answers.bodies import InscribedBodies
 from ._arrays import Rows, as_rows
 from ._solution import Solution
 
@@ -113,7 +114,7 @@ def inscribed_bodies(
     close_holes: bool = False,
     events: int = 200_000,
     seed: int = 0,
-) -> Solution:
+) -> Solution[InscribedBodies]:
     """Large convex bodies inside a triangle mesh, with facets in any directions, with a certificate.
 
     The certificate proves that each body lies inside the mesh. Nothing is claimed about how much such bodies can cover.
@@ -215,7 +216,7 @@ def inscribed_dops(
     votes: int = 5,
     translate: bool = False,
     merge: bool = False,
-) -> Solution:
+) -> Solution[InscribedBodies]:
     """Large convex bodies with facets in fixed directions (k-dops) inside a triangle mesh, with a certificate.
 
     The certificate proves that each body lies inside the mesh. Nothing is claimed about how much such bodies can cover.

@@ -7,7 +7,7 @@ from typing import Literal
 from numpy.typing import ArrayLike
 
 from . import _native
-from ._answers.centers import FarthestFirst, SphereTree
+from ._answers.centers import Centers, FarthestFirst, SphereTree
 from ._arrays import as_rows
 from ._solution import Solution
 
@@ -29,7 +29,7 @@ def centers(
     max_nodes: int = 10_000_000,
     assignment: bool = False,
     threads: int | None = None,
-) -> Solution:
+) -> Solution[Centers]:
     """k centers such that the farthest point is as near to one of them as can be, with a certificate.
 
     Parameters

@@ -5,11 +5,12 @@ from __future__ import annotations
 from numpy.typing import ArrayLike
 
 from . import _native
+from ._answers.circle import InscribedCircle
 from ._arrays import as_rows
 from ._solution import Solution
 
 
-def inscribed_circle(ring: ArrayLike, *, epsilon: float = 1e-9, max_cells: int = 1_000_000) -> Solution:
+def inscribed_circle(ring: ArrayLike, *, epsilon: float = 1e-9, max_cells: int = 1_000_000) -> Solution[InscribedCircle]:
     """Largest circle in a polygon, with a certificate.
 
     Parameters

@@ -7,6 +7,7 @@ from typing import Literal
 from numpy.typing import ArrayLike
 
 from . import _native
+from ._answers.curve import Curve
 from ._arrays import as_rows
 from ._solution import Solution
 
@@ -35,7 +36,7 @@ def curve(
     feature: float | None = None,
     places: bool = False,
     threads: int | None = None,
-) -> Solution:
+) -> Solution[Curve]:
     """The curves that points of the plane were sampled from, noisy or not, with what is known about them.
 
     Parameters

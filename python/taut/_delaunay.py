@@ -7,6 +7,7 @@ from typing import Literal
 from numpy.typing import ArrayLike
 
 from . import _native
+from ._answers.triangulation import Triangulation
 from ._arrays import as_rows
 from ._solution import Solution
 
@@ -19,7 +20,7 @@ def delaunay(
     order: InsertionOrder = "strided",
     threads: int | None = None,
     seed: int = 0,
-) -> Solution:
+) -> Solution[Triangulation]:
     """Delaunay triangulation of points in the plane or in space, with a certificate.
 
     All signs are exact, and where more than d + 1 points lie on one sphere the choice depends on their coordinates
@@ -67,12 +68,12 @@ def delaunay(
     >>> found = taut.delaunay(points)
     >>> found.simplices
     array([[0, 1, 3],
-           [3, 1, 2]], dtype=uint32)
+           [3, 1, 2]], dtype=int32)
     >>> found.neighbors
     array([[ 1, -1, -1],
-           [-1, -1,  0]])
+           [-1, -1,  0]], dtype=int32)
     >>> found.duplicates
-    array([[4, 0]], dtype=uint32)
+    array([[4, 0]], dtype=int32)
     >>> found.check(points)
     TriangulationVerdict(sites=4, simplices=2, hull=4, ties=0)
     """

@@ -5,11 +5,12 @@ from __future__ import annotations
 from numpy.typing import ArrayLike
 
 from . import _native
+from ._answers.dop import BoundingDop
 from ._arrays import as_rows
 from ._solution import Solution
 
 
-def bounding_dop(points: ArrayLike, *, directions: int = 18) -> Solution:
+def bounding_dop(points: ArrayLike, *, directions: int = 18) -> Solution[BoundingDop]:
     """Smallest polytope with facets in fixed directions (k-dop) around points of space, with a certificate.
 
     Parameters

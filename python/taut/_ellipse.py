@@ -7,6 +7,7 @@ from typing import Literal
 from numpy.typing import ArrayLike
 
 from . import _native
+from ._answers.ellipse import InscribedEllipse
 from ._arrays import as_rows
 from ._solution import Solution
 
@@ -23,7 +24,7 @@ def inscribed_ellipse(
     fatness: float = 1.0,
     angle: float = 45.0,
     seed: int = 1,
-) -> Solution:
+) -> Solution[InscribedEllipse]:
     """Ellipse of largest area in a polygon, with a certificate.
 
     Parameters

@@ -8,6 +8,8 @@ from typing import Literal
 from numpy.typing import ArrayLike
 
 from . import _native
+from ._answers.inscribed import InscribedEllipsoid
+from ._answers.ellipsoid import Ellipsoid
 from ._arrays import as_rows, as_sets
 from ._solution import Solution
 
@@ -24,7 +26,7 @@ def ellipsoid(
     max_passes: int = 1_000_000,
     threads: int | None = None,
     seed: int = 0,
-) -> Solution:
+) -> Solution[Ellipsoid]:
     """Ellipsoid of least volume enclosing points, balls or ellipsoids, with a certificate.
 
     Parameters
@@ -117,7 +119,7 @@ def ellipsoids(
     max_passes: int = 1_000_000,
     threads: int | None = None,
     seed: int = 0,
-) -> list[Solution]:
+) -> list[Solution[Ellipsoid]]:
     """Ellipsoid of least volume of each of many point sets, with a certificate each.
 
     Each is the answer of `ellipsoid` for that set, byte by byte. Threads share the sets, so that many small ones are
@@ -184,7 +186,7 @@ def inscribed_ellipsoid(
     *,
     epsilon: float = 1e-9,
     max_steps: int = 1000,
-) -> Solution:
+) -> Solution[InscribedEllipsoid]:
     """Ellipsoid of largest volume in a polytope {x : A x <= b}, with a certificate.
 
     Parameters

@@ -11,6 +11,7 @@ from numpy.lib import format as npy
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
+from ._answers.order import Order
 from ._arrays import as_rows
 from ._file_solution import FileSolution, Path
 from ._solution import Solution
@@ -230,7 +231,7 @@ def sample(n: int, k: int, *, seed: int = 0) -> NDArray[np.uint64]:
     return _native.sample(n, k, seed)
 
 
-def spatial_order(points: ArrayLike, *, curve: OrderCurve = "hilbert") -> Solution:
+def spatial_order(points: ArrayLike, *, curve: OrderCurve = "hilbert") -> Solution[Order]:
     """Put points of the plane or of space in an order in which neighbors are near each other.
 
     The order depends on the set of points alone; equal points are side by side, the first row first.

@@ -5,13 +5,14 @@ from __future__ import annotations
 from numpy.typing import ArrayLike
 
 from . import _native
+from ._answers.oriented import InscribedOrientedRectangle
 from ._arrays import as_rows
 from ._solution import Solution
 
 
 def inscribed_oriented_rectangle(
     polygon: ArrayLike, *, epsilon: float = 1e-3, max_cells: int = 1_000_000
-) -> Solution:
+) -> Solution[InscribedOrientedRectangle]:
     """Largest rectangle of any direction in a polygon, with a certificate.
 
     Parameters

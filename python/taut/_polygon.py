@@ -5,13 +5,14 @@ from __future__ import annotations
 from numpy.typing import ArrayLike
 
 from . import _native
+from ._answers.polygon import ConvexPolygon
 from ._arrays import as_rows
 from ._solution import Solution
 
 
 def inscribed_polygon(
     polygon: ArrayLike, *, rounds: int = 200, starts: int = 32, seed: int = 1, epsilon: float = 1e-2
-) -> Solution:
+) -> Solution[ConvexPolygon]:
     """Large convex polygon in a polygon, with a bound of the largest.
 
     Parameters

@@ -19,8 +19,12 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 RowNumbers = NDArray[np.int64]
 Ids = NDArray[np.uint32]
+SimplexIds = NDArray[np.int32]
 
 FLOAT, ROW, ID = np.float64, np.int64, np.uint32
+
+# Simplices, their rows and neighbors, as SciPy and matplotlib have them: a triangulation has fewer than 2**30.
+SIMPLEX_ID = np.int32
 
 # The path from a dict to itself; others are names with dots between.
 ITSELF = "."

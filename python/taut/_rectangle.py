@@ -5,11 +5,12 @@ from __future__ import annotations
 from numpy.typing import ArrayLike
 
 from . import _native
+from ._answers.rectangle import InscribedRectangle
 from ._arrays import as_rows
 from ._solution import Solution
 
 
-def inscribed_rectangle(polygon: ArrayLike, *, epsilon: float = 1e-3, max_cells: int = 1_000_000) -> Solution:
+def inscribed_rectangle(polygon: ArrayLike, *, epsilon: float = 1e-3, max_cells: int = 1_000_000) -> Solution[InscribedRectangle]:
     """Largest rectangle with sides along the axes in a polygon, with a certificate.
 
     Parameters

@@ -7,6 +7,7 @@ from typing import Literal
 from numpy.typing import ArrayLike
 
 from . import _native
+from ._answers.robust import RobustEllipsoid
 from ._arrays import as_rows
 from ._solution import Solution
 
@@ -21,7 +22,7 @@ def robust_ellipsoid(
     level: float = 0.975,
     epsilon: float = 1e-9,
     threads: int | None = None,
-) -> Solution:
+) -> Solution[RobustEllipsoid]:
     """Center and scatter of most of the points, the ellipsoid they mean, and the outliers.
 
     Parameters

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import operator
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Generic, TypeVar, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,13 +13,19 @@ from . import _native
 from ._answers.kinds import ARRAYS, KINDS
 from ._answers.trace import Trace
 from ._arrays import Rows, as_rows, with_groups
+from ._export import to_pandas, to_trimesh
 from ._notebook import page
+from ._plot import plot
 from ._record import brief
 
 
+A = TypeVar("A")
+"""The class of an answer."""
+
+
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Solution:
-    """An answer, what proves it, and how it came about.
+class Solution(Generic[A]):
+    """An answer, what proves it, and how it came about; ``Solution[Ball]`` is one whose answer is a `Ball`.
 
     Two solutions are equal when all their numbers are. Solutions can be pickled.
 
@@ -67,8 +73,8 @@ class Solution:
         return self._found.kind
 
     @property
-    def answer(self) -> Any:
-        return self._part(0)
+    def answer(self) -> A:
+        return cast(A, self._part(0))
 
     @property
     def certificate(self) -> Any:
@@ -80,27 +86,27 @@ class Solution:
         return trace
 
     @property
-    def simplices(self) -> NDArray[np.uint32]:
+    def simplices(self) -> NDArray[np.int32]:
         """``answer.simplices`` of a triangulation."""
-        simplices: NDArray[np.uint32] = self._of_triangulation("answer.simplices")
+        simplices: NDArray[np.int32] = self._of_triangulation("answer.simplices")
         return simplices
 
     @property
-    def neighbors(self) -> NDArray[np.int64]:
+    def neighbors(self) -> NDArray[np.int32]:
         """``answer.neighbors`` of a triangulation."""
-        neighbors: NDArray[np.int64] = self._of_triangulation("answer.neighbors")
+        neighbors: NDArray[np.int32] = self._of_triangulation("answer.neighbors")
         return neighbors
 
     @property
-    def hull(self) -> NDArray[np.uint32]:
+    def hull(self) -> NDArray[np.int32]:
         """``answer.hull`` of a triangulation."""
-        hull: NDArray[np.uint32] = self._of_triangulation("answer.hull")
+        hull: NDArray[np.int32] = self._of_triangulation("answer.hull")
         return hull
 
     @property
-    def duplicates(self) -> NDArray[np.uint32]:
+    def duplicates(self) -> NDArray[np.int32]:
         """``answer.duplicates`` of a triangulation."""
-        duplicates: NDArray[np.uint32] = self._of_triangulation("answer.duplicates")
+        duplicates: NDArray[np.int32] = self._of_triangulation("answer.duplicates")
         return duplicates
 
     @property
@@ -205,7 +211,7 @@ class Solution:
         return self._found.to_json()
 
     @staticmethod
-    def from_json(text: str) -> Solution:
+    def from_json(text: str) -> Solution[Any]:
         """Reads what `to_json` or the command line wrote.
 
         Parameters
@@ -222,9 +228,52 @@ class Solution:
         ValueError
             When the text is not an answer of taut, or of a newer schema.
         """
-        solution = Solution(_native.Found.from_json(text))
+        solution: Solution[Any] = Solution(_native.Found.from_json(text))
         solution._part(0)  # A document may hold rows that are no array: this is the place to say so.
         return solution
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draws the answer and its points by matplotlib, in the plane or in space.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; by default in a new figure. For points of space it has to be three-dimensional.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+
+        Raises
+        ------
+        ValueError
+            When answers of this kind or dimension have no plot.
+        """
+        return plot(self.kind, self.answer, self._rows, ax)
+
+    def to_trimesh(self) -> Any:
+        """A surface, or the hull of a triangulation in space, as a `trimesh.Trimesh` with one vertex for each row.
+
+        Returns
+        -------
+        trimesh.Trimesh
+
+        Raises
+        ------
+        ValueError
+            When the answer is no mesh.
+        """
+        return to_trimesh(self.kind, self.answer, self._rows)
+
+    def to_pandas(self) -> Any:
+        """The main table of the answer: centers, simplices, triangles, vertices of curves, or rows in order.
+
+        Returns
+        -------
+        pandas.DataFrame
+            Of an answer without a table, its main numbers in one row.
+        """
+        return to_pandas(self.kind, self.answer, self._facts())
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Solution) and self._found == other._found

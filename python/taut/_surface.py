@@ -7,6 +7,7 @@ from typing import Literal
 from numpy.typing import ArrayLike
 
 from . import _native
+from ._answers.surface import Surface
 from ._arrays import as_rows
 from ._solution import Solution
 
@@ -20,7 +21,7 @@ def surface(
     method: SurfaceMethod = "tree",
     open: bool = False,  # noqa: A002, the public name
     denoise: bool = False,
-    neighbors: int = 24,
+    neighbors: int | None = None,
     iterations: int = 2,
     original: bool = False,
     alpha: float | None = None,
@@ -30,7 +31,7 @@ def surface(
     priority: Priority = "circumcentre-distance",
     restarts: bool = False,
     threads: int | None = None,
-) -> Solution:
+) -> Solution[Surface]:
     """The surface that points of space were sampled from: triangles between them, and whether they are a surface.
 
     Parameters
@@ -44,10 +45,11 @@ def surface(
     open : bool, default False
         Of "tree": whether sheets end where their points end. Else every part is closed, as the boundary of a body.
     denoise : bool, default False
-        Whether noise is taken out of the points first: outliers are left out, and each other point is moved onto the sheet that its
-        neighbors show. The places are then in ``answer.vertices``.
-    neighbors : int, 4 to 1000, default 24
-        With `denoise`: how many nearest points show the sheet of a point, itself among them.
+        Whether noise is taken out of the points first: outliers are left out, each other point is moved onto the sheet that its
+        neighbors show, and points that are nearer to each other than they are exact are put into one place. The places are then
+        in ``answer.vertices``; the surface need not pass through the points.
+    neighbors : int in [4, 1000], optional
+        With `denoise`: how many nearest points show the sheet of a point, itself among them; by default 24 to 272, by the noise.
     iterations : int, 0 to 100, default 2
         With `denoise`: how many times each point is moved; 0 leaves out outliers alone.
     original : bool, default False

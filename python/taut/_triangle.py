@@ -7,6 +7,7 @@ from typing import Literal
 from numpy.typing import ArrayLike
 
 from . import _native
+from ._answers.triangle import InscribedTriangle
 from ._arrays import as_rows
 from ._solution import Solution
 
@@ -21,7 +22,7 @@ def inscribed_triangle(
     method: TriangleMethod = "branch-and-bound",
     sample_count: int = 300,
     seed: int = 1,
-) -> Solution:
+) -> Solution[InscribedTriangle]:
     """Triangle of largest area in a polygon, with a certificate.
 
     Parameters

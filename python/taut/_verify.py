@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from numpy.typing import ArrayLike
 
 from ._answers.kinds import AnyVerdict
@@ -9,7 +11,7 @@ from ._solution import Solution
 
 
 def verify(
-    solution: Solution | str,
+    solution: Solution[Any] | str,
     points: ArrayLike,
     radii: ArrayLike | None = None,
     *,

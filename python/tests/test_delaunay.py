@@ -77,8 +77,8 @@ def test_flat_points_are_answered_as_such(points, hull_dimension, simplices):
     found = taut.delaunay(points)
     assert found.answer.hull_dimension == hull_dimension
     assert found.simplices.tolist() == simplices
-    assert found.simplices.dtype == found.hull.dtype == np.uint32
-    assert found.neighbors.dtype == np.int64
+    assert found.simplices.dtype == found.hull.dtype == np.int32
+    assert found.neighbors.dtype == np.int32
     found.check(points)
 
 

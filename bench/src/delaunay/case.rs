@@ -89,6 +89,8 @@ const PLANE_MUST: &[Goal] = &[OF_CGAL.at_most(0.55), CHECK.at_most(0.5)];
 const PLANE_AIM: &[Goal] = &[OF_CGAL.at_most(0.38)];
 const SPACE_MUST: &[Goal] = &[OF_CGAL.at_most(0.6), CHECK.at_most(0.5)];
 const SPACE_AIM: &[Goal] = &[OF_CGAL.at_most(0.37)];
+const NEVER_SLOWER: &[Goal] = &[SPEEDUP.at_least(1.0)];
+const FASTER: &[Goal] = &[SPEEDUP.at_least(1.3)];
 const CLIFF_GOALS: &[Goal] = &[OF_UNIFORM.at_most(2.0), CHECK.at_most(0.5)];
 
 /// All sections.
@@ -198,33 +200,52 @@ pub(crate) const AREA: Area<Case> = Area {
             "threads-plane",
             case(
                 2,
-                &[input("uniform", 10_000_000, 19_999_955)
-                    .goals(&[SPEEDUP.at_least(1.5)], &[SPEEDUP.at_least(1.75)])],
+                &[
+                    input("uniform", 10_000_000, 19_999_955)
+                        .goals(&[SPEEDUP.at_least(1.65)], &[SPEEDUP.at_least(1.85)]),
+                    input("uniform", 1_000_000, 1_999_968)
+                        .goals(&[SPEEDUP.at_least(1.5)], &[SPEEDUP.at_least(1.75)]),
+                    input("sphere", 1_000_000, 999_998)
+                        .goals(&[SPEEDUP.at_least(1.4)], &[SPEEDUP.at_least(1.7)]),
+                    input("kuzmin", 1_000_000, 1_999_991).goals(NEVER_SLOWER, FASTER),
+                    input("roads", 1_000_000, 1_999_980).goals(NEVER_SLOWER, FASTER),
+                    input("grid", 1_000_000, 1_996_002).goals(NEVER_SLOWER, FASTER),
+                    input("lines", 1_000_000, 999_998).goals(NEVER_SLOWER, FASTER),
+                    input("spiral", 1_000_000, 1_822_953).goals(NEVER_SLOWER, FASTER),
+                    input("fan", 1_000_000, 999_998).goals(NEVER_SLOWER, FASTER),
+                ],
             )
             .peers(&[])
             .threads(&[1, 2]),
         )
-        .about("Ten million points of the plane, one thread and two."),
+        .about("Points of the plane, one thread and two."),
         section(
             "threads-space",
             case(
                 3,
-                &[input("uniform", 1_000_000, 6_749_316)
-                    .goals(&[SPEEDUP.at_least(1.5)], &[SPEEDUP.at_least(1.75)])],
+                &[
+                    input("uniform", 1_000_000, 6_749_316)
+                        .goals(&[SPEEDUP.at_least(1.6)], &[SPEEDUP.at_least(1.8)]),
+                    input("grid", 1_000_000, 5_821_794)
+                        .goals(&[SPEEDUP.at_least(1.6)], &[SPEEDUP.at_least(1.8)]),
+                    input("torus", 1_000_000, 6_117_584)
+                        .goals(&[SPEEDUP.at_least(1.45)], &[SPEEDUP.at_least(1.8)]),
+                    input("sphere", 100_000, 302_075).goals(NEVER_SLOWER, FASTER),
+                ],
             )
             .peers(&[])
             .threads(&[1, 2]),
         )
-        .about("A million points of space, one thread and two."),
+        .about("Points of space, one thread and two."),
         section(
             "memory-plane",
             case(
                 2,
                 &[
                     input("uniform", 1_000_000, 1_999_968)
-                        .goals(&[BYTES.at_most(85.0)], &[BYTES.at_most(72.0)]),
+                        .goals(&[BYTES.at_most(78.0)], &[BYTES.at_most(72.0)]),
                     input("uniform", 10_000_000, 19_999_955)
-                        .goals(&[BYTES.at_most(85.0)], &[BYTES.at_most(72.0)]),
+                        .goals(&[BYTES.at_most(78.0)], &[BYTES.at_most(72.0)]),
                 ],
             )
             .peers(&[CGAL, SPADE, DELAUNATOR])
@@ -237,9 +258,9 @@ pub(crate) const AREA: Area<Case> = Area {
                 3,
                 &[
                     input("uniform", 1_000_000, 6_749_316)
-                        .goals(&[BYTES.at_most(275.0)], &[BYTES.at_most(250.0)]),
+                        .goals(&[BYTES.at_most(275.0)], &[BYTES.at_most(266.0)]),
                     input("torus", 1_000_000, 6_117_584)
-                        .goals(&[BYTES.at_most(275.0)], &[BYTES.at_most(250.0)]),
+                        .goals(&[BYTES.at_most(275.0)], &[BYTES.at_most(266.0)]),
                 ],
             )
             .threads(&[1, 2]),

@@ -31,7 +31,7 @@ pub(crate) fn span_of_plane(sites: &[[f64; 2]]) -> Span<3> {
 }
 
 /// Tests whether three points of space lie on a line: they do in all three projections.
-fn collinear(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> bool {
+pub(crate) fn collinear(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> bool {
     [[0, 1], [1, 2], [2, 0]].iter().all(|&[i, j]| {
         let project = |p: [f64; 3]| [p[i], p[j]];
         plane::orient(project(a), project(b), project(c)) == Sign::Zero

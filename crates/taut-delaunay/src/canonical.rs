@@ -8,7 +8,7 @@ use std::cmp::Ordering;
 
 use rayon::prelude::*;
 
-use crate::simplex::{GHOST, Simplex, Slots};
+use crate::simplex::{GHOST, Simplex, Slots, code, decode};
 
 /// Simplices one task arranges.
 const TASK: usize = 1 << 14;
@@ -95,6 +95,34 @@ impl CanonicalOrder {
         }
         Self { finite, places }
     }
+}
+
+/// The simplices in canonical order and arrangement, then the ghosts by their facets; no dead slots.
+pub(crate) fn renumbered<const V: usize>(slots: &Slots<V>, sites: usize) -> Vec<Simplex<V>> {
+    let CanonicalOrder { finite: mut order, mut places } = CanonicalOrder::of(slots, sites);
+    let first_ghost = order.len();
+    let is_ghost = |slot: &u32| slots[*slot as usize].is_live() && slots[*slot as usize].is_ghost();
+    order.extend((0..slots.len() as u32).filter(is_ghost));
+    order[first_ghost..]
+        .par_sort_unstable_by(|&a, &b| compare(&slots[a as usize], &slots[b as usize]));
+    for (place, &slot) in order.iter().enumerate().skip(first_ghost) {
+        places[slot as usize] = place as u32;
+    }
+    let renumber = |old: u32| {
+        let (slot, facet) = decode(old);
+        let arranged = arrangement(&slots[slot as usize].vertices);
+        let place = arranged.iter().position(|&from| usize::from(from) == facet);
+        code(places[slot as usize], place.expect("an arrangement has each place") as u32)
+    };
+    let simplex = |&slot: &u32| {
+        let Simplex { vertices, neighbors } = slots[slot as usize];
+        let arranged = arrangement(&vertices).map(usize::from);
+        Simplex {
+            vertices: arranged.map(|from| vertices[from]),
+            neighbors: arranged.map(|from| renumber(neighbors[from])),
+        }
+    };
+    order.par_iter().with_min_len(TASK).map(simplex).collect()
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! The parts that the kernel of the plane and the kernel of space have in common, so that rounds, cells and canonical order are
+//! The parts that the kernel of the plane and the kernel of space have in common, so that rounds, threads and canonical order are
 //! written once.
 
 use taut_predicates::Stages;
@@ -29,9 +29,6 @@ pub(crate) trait Kernel<const D: usize, const V: usize>: Sized {
     /// to each at the last simplex made.
     fn insert(&mut self, sites: &[u32]) -> Result<(), TooMany>;
 
-    /// Adds a site to the numbering without inserting it, and returns its number.
-    fn push(&mut self, site: [f64; D]) -> u32;
-
     /// All slots, dead ones included.
     fn simplices(&self) -> &[Simplex<V>];
 
@@ -61,10 +58,11 @@ pub(crate) struct Settings {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct TooMany;
 
-/// Events of a build. They depend on how it was done (order, cells, vectors), and on nothing else.
+/// Events of a build. They depend on how it was done (order, threads, vectors), with several threads on who came first, and on
+/// nothing else.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counters {
-    /// Sites inserted, those of the first simplex and of the halos of cells included.
+    /// Sites inserted, those of the first simplex included.
     pub insertions: u64,
     /// Simplices visited by the walks to the sites.
     pub walk_steps: u64,

@@ -3,9 +3,11 @@
 //! | you want | call | promise | cost |
 //! |---|---|---|---|
 //! | the simplices with their certificate | [`delaunay()`] | exact for every finite input; the same bytes for any number of threads | O(n log n) |
-//! | a triangulation to walk around in | [`Plane::build`], [`Space::build`] | a function of the point set alone | O(n log n) |
+//! | a triangulation to walk around in | [`Plane::build`], [`Space::build`] | the set of simplices is a function of the point set alone, their numbers after [`Triangulation::renumbered`] | O(n log n) |
 //! | the nearest site, the simplex at a point, Voronoi cells, natural neighbors | [`Triangulation::locator`] | the simplex exactly, areas to rounding | O(log n) a question |
 //! | more points than memory holds | [`outofcore::delaunay_to_folder`] | the same simplices, as tiles in a folder, within a limit on memory | about twice the time in memory |
+//! | the same for many points at a time, in rows and canonical numbers; the Voronoi diagram | [`TriangulationIndex`] | simplices and ties exactly | O(log n) a question, O(simplices) |
+//! | the convex hull alone | [`convex_hull`] | exact, extreme points only | O(n log h) expected |
 //! | contour lines and rasters of heights | [`terrain::contours`], [`terrain::raster`] | the same bits in memory and by tiles | O(simplices + output) |
 //! | the alpha shape | [`Plane::alpha_complex`], [`Space::alpha_complex`] | emptiness exactly, radii to rounding | O(simplices) |
 //! | rows in the order in which sites are numbered, with its certificate | [`spatial_order`] | a function of the point set alone | O(n log n) |
@@ -37,9 +39,11 @@
 
 mod affine;
 mod canonical;
-mod cells;
 mod error;
 mod flat;
+mod geometry;
+mod groups;
+mod hull;
 mod kernel;
 #[cfg(test)]
 mod numbers;
@@ -48,22 +52,28 @@ mod order;
 pub mod outofcore;
 mod plane;
 mod query;
+mod records;
 mod rounds;
 mod simplex;
 mod sites;
 mod solution;
 mod space;
 pub mod terrain;
+mod threads;
 mod triangulation;
 mod vector;
 
 pub use error::Error;
+pub use hull::{ConvexHull, convex_hull};
 pub use kernel::Counters;
 pub use options::{DelaunayOptions, InsertionOrder};
 pub use order::{OrderOptions, spatial_order};
 pub use outofcore::{FolderOptions, delaunay_to_folder};
 pub use plane::constrained::{Constrained, ConstraintError, Piece, Segment, Split};
-pub use query::{AlphaComplex, Location, Locator, Polygon, Polyhedron};
+pub use query::{
+    AlphaComplex, Location, Locator, NOWHERE, NaturalNeighbors, Polygon, Polyhedron,
+    TriangulationIndex, VoronoiDiagram,
+};
 pub use simplex::{GHOST, Simplex, Slots, decode};
 pub use solution::delaunay;
 pub use triangulation::{Complex, Plane, Space, Triangulation};

@@ -5,15 +5,15 @@ use taut_points::{Monitor, choice};
 /// Options to build a triangulation; [`Default`] is what most people want.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DelaunayOptions<'a> {
-    /// Threads to use, 1 to 1024; `None` takes those of the current rayon pool. The answer does not depend on it.
+    /// Threads to use, 1 to 1024; `None` takes those of the current rayon pool. At most 255 insert at once. The answer does not depend on it.
     pub threads: Option<usize>,
-    /// In which order one thread inserts its sites. The answer does not depend on it.
+    /// In which order sites are inserted; by one thread in the orders without rounds. The answer does not depend on it.
     pub order: InsertionOrder,
     /// Seeds the random orders; the others do without.
     pub seed: u64,
-    /// Cells that threads share; `None` makes as many as there are threads, fewer when points are few. The answer does
-    /// not depend on it.
-    pub cells: Option<usize>,
+    /// The least number of sites of a round for each thread that takes part in it, at least 1; `None` takes 1500 in space and 4000
+    /// in the plane. The answer does not depend on it.
+    pub sites_per_thread: Option<usize>,
     /// True if vector instructions are used where the machine has them. The answer does not depend on it.
     pub vectors: bool,
     /// Watches the work and can stop it. Default [`Monitor::silent`].
@@ -26,7 +26,7 @@ impl Default for DelaunayOptions<'_> {
             threads: None,
             order: InsertionOrder::Strided,
             seed: 0,
-            cells: None,
+            sites_per_thread: None,
             vectors: true,
             monitor: Monitor::silent(),
         }

@@ -8,6 +8,7 @@
 mod alpha;
 mod convex;
 mod locator;
+mod many;
 mod natural;
 mod voronoi;
 
@@ -16,5 +17,6 @@ pub(crate) use alpha::{Radii, ascending, is_singular, turned};
 pub(crate) use convex::Body;
 pub use convex::{Polygon, Polyhedron};
 pub use locator::{Location, Locator};
+pub use many::{NOWHERE, NaturalNeighbors, TriangulationIndex, VoronoiDiagram};
 pub(crate) use natural::sibson_weights;
 pub(crate) use voronoi::clipped;

@@ -8,10 +8,11 @@
 //! Reference: Amenta, Choi, Rote, *Incremental constructions con BRIO*, 2003, for random rounds and
 //! for blocks of a random order that are located first (Local RIC).
 
-use taut_points::Monitor;
+use taut_points::{InputError, Monitor};
 
 use crate::kernel::{Kernel, TooMany};
-use crate::{Error, InsertionOrder};
+use crate::threads::{Owners, SharedMesh, insert_round};
+use crate::{DelaunayOptions, Error, InsertionOrder};
 
 /// Sites between two looks at the monitor.
 const BATCH: usize = 1 << 16;
@@ -45,16 +46,91 @@ pub(crate) fn insert_all<const D: usize, const V: usize, K: Kernel<D, V>>(
     }
 }
 
-/// Every 8ᵏ-th number that is no 8ᵏ⁺¹-th, for k from large to 0.
-fn strided(count: u32) -> impl Iterator<Item = u32> {
+/// The same on several threads of the current pool, in orders that have rounds: the larger ones are shared among threads, 255 at
+/// most.
+pub(crate) fn insert_all_in_parallel<const D: usize, const V: usize, K: SharedMesh<D, V>>(
+    kernel: &mut K,
+    started: &[u32; V],
+    options: &DelaunayOptions<'_>,
+    threads: usize,
+) -> Result<(), Error> {
+    let DelaunayOptions { order, seed, sites_per_thread, ref monitor, .. } = *options;
+    let count = kernel.site_count();
+    let least = sites_per_thread.unwrap_or(K::SITES_MIN);
+    if least == 0 {
+        let (value, expected) = ("0".into(), "at least 1");
+        return Err(InputError::Option { name: "sites_per_thread", value, expected }.into());
+    }
+    let threads = threads.min(Owners::THREADS_MAX);
+    // So many threads have a part in a round of `sites`.
+    let sharing = |sites: usize| threads.min(sites / least);
+    // Where a thread ended it begins.
+    let mut turns = [false, true].into_iter().cycle();
+    match order {
+        InsertionOrder::Strided => {
+            for round in strided_rounds(count) {
+                let threads = sharing(round.len as usize);
+                if threads > 1 {
+                    let how = (threads, turns.next().unwrap_or(false));
+                    insert_round(kernel, round.len, |i| round.nth(i), started, how, monitor)?;
+                } else {
+                    feed(kernel, (0..round.len).map(|i| round.nth(i)), started, monitor)?;
+                }
+            }
+            Ok(())
+        }
+        InsertionOrder::Random => {
+            let level = |i: u32| hash(kernel.site(i), seed).trailing_zeros() / RATIO_BITS;
+            let mut sites: Vec<(u32, u32)> = (0..count).map(|i| (u32::MAX - level(i), i)).collect();
+            sites.sort_unstable();
+            for round in sites.chunk_by(|a, b| a.0 == b.0) {
+                let threads = sharing(round.len());
+                if threads > 1 {
+                    let nth = |i: u32| round[i as usize].1;
+                    let how = (threads, turns.next().unwrap_or(false));
+                    insert_round(kernel, round.len() as u32, nth, started, how, monitor)?;
+                } else {
+                    feed(kernel, round.iter().map(|&(_, site)| site), started, monitor)?;
+                }
+            }
+            Ok(())
+        }
+        _ => insert_all(kernel, started, (order, seed), monitor),
+    }
+}
+
+/// One round of [`InsertionOrder::Strided`].
+struct StridedRound {
+    shift: u32,
+    /// The first round has every place, the others all but those of rounds before.
+    is_first: bool,
+    len: u32,
+}
+
+impl StridedRound {
+    /// Site number `i` of the round.
+    fn nth(&self, i: u32) -> u32 {
+        const SKIPPED: u32 = (1 << RATIO_BITS) - 1;
+        let place = if self.is_first { i } else { i + i / SKIPPED + 1 };
+        place << self.shift
+    }
+}
+
+/// The rounds of 0 to `count`: every 8ᵏ-th number that is no 8ᵏ⁺¹-th, for k from large to 0.
+fn strided_rounds(count: u32) -> impl Iterator<Item = StridedRound> {
     let top = count.max(1).ilog2() / RATIO_BITS;
-    (0..=top).rev().flat_map(move |level| {
+    (0..=top).rev().map(move |level| {
         let shift = level * RATIO_BITS;
         let places = count.div_ceil(1 << shift);
-        (0..places)
-            .filter(move |k| k % (1 << RATIO_BITS) != 0 || level == top)
-            .map(move |k| k << shift)
+        let is_first = level == top;
+        let len = if is_first { places } else { places - places.div_ceil(1 << RATIO_BITS) };
+        StridedRound { shift, is_first, len }
     })
+}
+
+/// The numbers of all rounds.
+fn strided(count: u32) -> impl Iterator<Item = u32> {
+    strided_rounds(count).flat_map(|round| (0..round.len).map(move |i| round.nth(i)))
 }
 
 /// Hands an order to the kernel in batches.

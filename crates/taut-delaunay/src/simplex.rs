@@ -32,78 +32,34 @@ impl<const V: usize> Simplex<V> {
     }
 }
 
-/// The simplices of a triangulation by number: one array, or one for each cell that had a part in it.
-///
-/// Cells hand their arrays over as they are; to copy them into one would cost about as much as all else that sharing
-/// the work among threads costs.
+/// The simplices of a triangulation by number.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Slots<const V: usize> {
-    parts: Vec<Vec<Simplex<V>>>,
-    /// The number of the first simplex of each part.
-    begins: Vec<usize>,
-}
+pub struct Slots<const V: usize>(Vec<Simplex<V>>);
 
 impl<const V: usize> Slots<V> {
-    /// Numbers the simplices of all parts, one part after another.
-    pub(crate) fn of(parts: Vec<Vec<Simplex<V>>>) -> Self {
-        let begins = parts.iter().scan(0, |next, part| {
-            let begin = *next;
-            *next += part.len();
-            Some(begin)
-        });
-        Self { begins: begins.collect(), parts }
+    /// Numbers the simplices in this order.
+    pub(crate) fn of(simplices: Vec<Simplex<V>>) -> Self {
+        Self(simplices)
     }
 
     /// Returns how many slots there are.
     pub fn len(&self) -> usize {
-        self.parts.iter().map(Vec::len).sum()
+        self.0.len()
     }
 
     /// Returns true if there is none.
     pub fn is_empty(&self) -> bool {
-        self.len() == 0
+        self.0.is_empty()
     }
 
     /// All slots in one array, which numbers them as before.
-    pub(crate) fn into_array(mut self) -> Vec<Simplex<V>> {
-        match self.parts.len() {
-            1 => self.parts.swap_remove(0),
-            _ => self.parts.concat(),
-        }
+    pub(crate) fn into_array(self) -> Vec<Simplex<V>> {
+        self.0
     }
 
     /// All slots in order.
     pub fn iter(&self) -> impl Iterator<Item = &Simplex<V>> {
-        self.parts.iter().flatten()
-    }
-
-    /// The live simplices in one array, numbered again in the same order.
-    pub(crate) fn compact(&self) -> Vec<Simplex<V>> {
-        let numbers: Vec<u32> = self
-            .iter()
-            .scan(0, |next, simplex| {
-                let number = *next;
-                *next += u32::from(simplex.is_live());
-                Some(number)
-            })
-            .collect();
-        let renumber = |old: u32| {
-            let (number, facet) = decode(old);
-            code(numbers[number as usize], facet as u32)
-        };
-        let live = self.iter().filter(|simplex| simplex.is_live());
-        live.map(|s| Simplex { vertices: s.vertices, neighbors: s.neighbors.map(renumber) })
-            .collect()
-    }
-
-    /// The part and the place in it of a number.
-    #[inline(always)]
-    fn place(&self, number: usize) -> (usize, usize) {
-        if self.parts.len() == 1 {
-            return (0, number);
-        }
-        let part = self.begins.partition_point(|&begin| begin <= number) - 1;
-        (part, number - self.begins[part])
+        self.0.iter()
     }
 }
 
@@ -112,15 +68,7 @@ impl<const V: usize> std::ops::Index<usize> for Slots<V> {
 
     #[inline(always)]
     fn index(&self, number: usize) -> &Simplex<V> {
-        let (part, place) = self.place(number);
-        &self.parts[part][place]
-    }
-}
-
-impl<const V: usize> std::ops::IndexMut<usize> for Slots<V> {
-    fn index_mut(&mut self, number: usize) -> &mut Simplex<V> {
-        let (part, place) = self.place(number);
-        &mut self.parts[part][place]
+        &self.0[number]
     }
 }
 

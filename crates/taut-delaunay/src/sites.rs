@@ -106,7 +106,7 @@ impl<const D: usize> Sites<D> {
     }
 }
 
-fn largest_magnitude<T: Scalar>(points: &Points<'_, T>) -> Result<f64, Error> {
+pub(crate) fn largest_magnitude<T: Scalar>(points: &Points<'_, T>) -> Result<f64, Error> {
     let dim = points.dim();
     let blocks = points.values().par_chunks(TASK * dim.max(1));
     let largest = blocks
@@ -165,7 +165,10 @@ fn lowest_exponent_above<T: Scalar>(points: &Points<'_, T>, floor: i32) -> Optio
 }
 
 /// Returns how to scale, and whether coordinates are then integers, and filters safe.
-fn normalization<T: Scalar>(points: &Points<'_, T>, largest: f64) -> (Scale, bool, bool) {
+pub(crate) fn normalization<T: Scalar>(
+    points: &Points<'_, T>,
+    largest: f64,
+) -> (Scale, bool, bool) {
     normalization_by(largest, |floor| lowest_exponent_above(points, floor))
 }
 

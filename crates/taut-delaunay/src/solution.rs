@@ -161,7 +161,7 @@ impl<const D: usize, const V: usize> Triangulation<D, V> {
                 }),
             })
             .collect();
-        self.tables::<2, 3>(&Slots::of(vec![turned]), hashes)
+        self.tables::<2, 3>(&Slots::of(turned), hashes)
     }
 
     /// Tests whether a triangle in space is counter-clockwise in the first of the projections to xy, xz, yz where it is not

@@ -3,11 +3,12 @@
 use taut_points::{InputError, Points, Scalar, on_threads};
 
 use crate::affine::{Span, apex, span_of_plane, span_of_space};
-use crate::cells::{self, Geometry, InPlane, InSpace};
+use crate::canonical::renumbered;
 use crate::flat::star_of_apex;
-use crate::kernel::{Counters, Kernel, Settings};
+use crate::geometry::{Geometry, InPlane, InSpace};
+use crate::kernel::{Counters, Kernel};
 use crate::plane::constrained::{Constrained, ConstraintError, Segment, constrain};
-use crate::rounds::insert_all;
+use crate::rounds::insert_all_in_parallel;
 use crate::simplex::{GHOST, Simplex, Slots, decode};
 use crate::sites::{Scale, Sites};
 use crate::{DelaunayOptions, Error};
@@ -38,8 +39,8 @@ pub enum Complex {
 /// A *site* is a distinct point. Sites are numbered along a Hilbert curve, a numbering that depends on the point set
 /// alone; [`row`](Self::row) gives the smallest input row of a site. Where more than D + 1 sites lie on a sphere, the
 /// simplices are those of a perturbation that depends on coordinates alone, so the set of simplices is a function of the
-/// point set. The numbers of simplices depend on how it was built; [`solution`](Self::solution) puts them in canonical
-/// order.
+/// point set. The numbers of simplices depend on how it was built, with several threads on which of them came first;
+/// [`renumbered`](Self::renumbered) and [`solution`](Self::solution) put them in canonical order.
 #[derive(Clone, Debug)]
 pub struct Triangulation<const D: usize, const V: usize> {
     pub(crate) sites: Sites<D>,
@@ -55,7 +56,7 @@ impl Plane {
     ///
     /// O(n log n) expected for any input with [`InsertionOrder::Random`](crate::InsertionOrder::Random); the default is
     /// no slower on any set of `bench delaunay plane plane-cliffs`, but has no such bound. About 70 bytes a point beyond
-    /// the input on one thread, 110 on two.
+    /// the input on one thread and on two.
     ///
     /// # Errors
     /// [`Error::Input`] if points do not have two coordinates, [`Error::Input`],
@@ -89,7 +90,7 @@ impl Plane {
         if !matches!(self.complex, Complex::Full) {
             return Err(ConstraintError::Flat);
         }
-        let mut triangles = self.slots.compact();
+        let mut triangles = renumbered(&self.slots, self.site_count());
         let pieces = constrain(&self.sites.coordinates, &mut triangles, segments)?;
         Ok(Constrained::new(self.site_count(), triangles, pieces))
     }
@@ -100,7 +101,7 @@ impl Space {
     ///
     /// O(n log n + simplices) expected with [`InsertionOrder::Random`](crate::InsertionOrder::Random), and in practice
     /// with the default. There are about 7n tetrahedra for points of a volume or of a surface, n²/2 at worst. About 260
-    /// bytes a point of a volume beyond the input on one thread, 370 on two.
+    /// bytes a point of a volume beyond the input on one thread, 270 on two.
     ///
     /// # Errors
     /// [`Error::Input`] if points do not have three coordinates, [`Error::Input`],
@@ -164,48 +165,18 @@ fn along_line<const D: usize>(sites: &Sites<D>) -> Vec<u32> {
     chain
 }
 
-/// Returns how many cells to cut the sites into.
-fn cells_for(
-    sites: usize,
-    least: usize,
-    settings: Settings,
-    options: &DelaunayOptions<'_>,
-) -> Result<usize, Error> {
-    match options.cells {
-        Some(0) => Err(Error::Input(InputError::Option {
-            name: "cells",
-            value: "0".into(),
-            expected: "at least 1",
-        })),
-        // What cannot be filtered cannot be bounded by boxes either.
-        _ if !settings.filtered => Ok(1),
-        Some(cells) => Ok(cells),
-        None => Ok(rayon::current_num_threads().min((sites / least).max(1))),
-    }
-}
-
 fn full<const D: usize, const V: usize, G: Geometry<D, V>>(
     sites: &mut Sites<D>,
     start: [u32; V],
     options: &DelaunayOptions<'_>,
 ) -> Result<Built<V>, Error> {
-    let order = (options.order, options.seed);
-    let cells = cells_for(sites.len(), cells::cell_at_least(D), sites.settings, options)?;
-    if cells > 1 {
-        let whole = &sites.coordinates;
-        let (settings, monitor) = (sites.settings, &options.monitor);
-        let joined = cells::triangulate::<D, V, G>(whole, cells, start, settings, order, monitor)?;
-        if let Some((slots, counters)) = joined {
-            return Ok(Built { complex: Complex::Full, slots, counters });
-        }
-    }
     // The kernel takes the coordinates, so that they are there once; what it does not give back is gathered again.
     let mut mesh = G::Mesh::new(std::mem::take(&mut sites.coordinates), sites.settings);
     mesh.start(start);
-    insert_all(&mut mesh, &start, order, &options.monitor)?;
+    insert_all_in_parallel(&mut mesh, &start, options, rayon::current_num_threads())?;
     let (simplices, coordinates, counters) = mesh.finish();
     sites.coordinates = coordinates.unwrap_or_default();
-    Ok(Built { complex: Complex::Full, slots: Slots::of(vec![simplices]), counters })
+    Ok(Built { complex: Complex::Full, slots: Slots::of(simplices), counters })
 }
 
 /// Points of space on a plane: with one more point off it, all of whose neighbors are in it.
@@ -216,9 +187,9 @@ fn flat(sites: &Sites<3>, on: [u32; 3], options: &DelaunayOptions<'_>) -> Result
     let start = [on[0], on[1], on[2], top];
     let mut mesh = <InSpace as Geometry<3, 4>>::Mesh::new(coordinates, sites.settings);
     mesh.start(start);
-    insert_all(&mut mesh, &start, (options.order, options.seed), &options.monitor)?;
+    insert_all_in_parallel(&mut mesh, &start, options, rayon::current_num_threads())?;
     let (simplices, _, counters) = mesh.finish();
-    let triangles = Slots::of(vec![star_of_apex(&simplices, top)]);
+    let triangles = Slots::of(star_of_apex(&simplices, top));
     Ok(Built { complex: Complex::Flat(triangles), slots: Slots::default(), counters })
 }
 
@@ -275,6 +246,17 @@ impl<const D: usize, const V: usize> Triangulation<D, V> {
     /// The [`slots`](Self::slots) alone, in one array in which neighbors are found by their numbers. All else is given back.
     pub fn into_slots(self) -> Vec<Simplex<V>> {
         self.slots.into_array()
+    }
+
+    /// The same with its simplices numbered again, in canonical order, and ghosts after them: then all numbers are a function of
+    /// the point set, and so is what is listed by them. O(simplices), and as much memory again while it works.
+    pub fn renumbered(mut self) -> Self {
+        let sites = self.site_count();
+        self.slots = Slots::of(renumbered(&self.slots, sites));
+        if let Complex::Flat(triangles) = &mut self.complex {
+            *triangles = Slots::of(renumbered(triangles, sites));
+        }
+        self
     }
 
     /// The numbers of the finite simplices; none if the sites do not span all dimensions.

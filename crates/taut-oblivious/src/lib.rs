@@ -46,7 +46,6 @@ mod sample;
 mod sort;
 mod store;
 #[cfg(test)]
-#[path = "../../test_length.rs"]
 mod test_length;
 
 /// Queries of the machine by kernels, for algorithms in other crates: instruction sets, large pages, prefetches, and bytes of

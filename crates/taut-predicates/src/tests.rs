@@ -3,7 +3,6 @@
 //! The oracle shares no formula with the predicates: it expands determinants of absolute coordinates, solves for
 //! circumcenters by Cramer's rule, and perturbs the lifts by numbers that are really there.
 
-#[path = "../../test_length.rs"]
 mod test_length;
 
 mod balls;

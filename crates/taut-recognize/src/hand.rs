@@ -46,13 +46,6 @@ use components::{LargestComponent, largest_component};
 use landmarks::{Landmarks, find_landmarks};
 use mask::Mask;
 
-/// The Rust in the page about hands, compiled and run with the tests.
-#[cfg(doctest)]
-mod pages {
-    #[doc = include_str!("../../../docs/hands.md")]
-    struct Hands;
-}
-
 /// Bytes of an image file for each pixel that is allowed, beside a megabyte for what is no pixel: 16 bits in four channels.
 const FILE_BYTES_PER_PIXEL: u64 = 8;
 

@@ -24,18 +24,3 @@ pub use queue::{PriorityQueue, SpillingQueue};
 
 use taut_oblivious::machine::{Level, Pages, Store, prefetch};
 use taut_oblivious::{Access, Error, Key, NoProbe, Probe, Word, sort_records};
-
-/// The Rust in the pages about this crate, compiled and run with the tests.
-#[cfg(doctest)]
-mod pages {
-    #[doc = include_str!("../../../docs/memory/figures.md")]
-    struct Figures;
-    #[doc = include_str!("../../../docs/memory/packed.md")]
-    struct Packed;
-    #[doc = include_str!("../../../docs/memory/queue.md")]
-    struct Queue;
-    #[doc = include_str!("../../../docs/memory/search.md")]
-    struct Search;
-    #[doc = include_str!("../../../docs/memory/simulate.md")]
-    struct Simulate;
-}

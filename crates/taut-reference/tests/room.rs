@@ -1,6 +1,5 @@
 //! Tests what is allocated while queues that spill run.
 
-#[path = "../../taut-oblivious/tests/counting/mod.rs"]
 mod counting;
 
 use bytemuck::Pod;

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .._arrays import as_rows
 from .._record import FLOAT, ROW, Floats, Record, RowNumbers, column, record, table
 
 
@@ -23,6 +27,64 @@ class Ball(Record):
     center: Floats = column(FLOAT)
     center_tail: Floats = column(FLOAT, zeros_like="center")
     radius: float
+
+    def distance(self, points: ArrayLike) -> Floats:
+        """The distance of each point from the center.
+
+        Rounded: that of a point on the border may exceed `radius` by some units in the last place. To ask what is inside use
+        `contains`.
+
+        Parameters
+        ----------
+        points : array_like of shape (n, d)
+            Any points, converted as by `ball`.
+
+        Returns
+        -------
+        ndarray of shape (n,)
+
+        Examples
+        --------
+        >>> import taut
+        >>> taut.ball([[0, 0], [2, 0]]).answer.distance([[1, 0], [5, 3]])
+        array([0., 5.])
+        """
+        rows = as_rows(points)
+        if rows.shape[1] != len(self.center):
+            raise ValueError(f"points have dimension {rows.shape[1]}, but the ball has dimension {len(self.center)}")
+        offsets = (rows - self.center) - self.center_tail
+        largest = np.abs(offsets).max(axis=1, initial=0.0)
+        # Divided by the largest coordinate, squares neither overflow nor vanish.
+        unit = np.where((largest > 0) & np.isfinite(largest), largest, 1.0)
+        distances: Floats = unit * np.sqrt(np.square(offsets / unit[:, None]).sum(axis=1))
+        return distances
+
+    def contains(self, points: ArrayLike) -> NDArray[np.bool_]:
+        """For each point whether it is in the ball or on its border.
+
+        All points that the ball was found for are: what is farther out by less than the rounding of `distance` counts as within.
+
+        Parameters
+        ----------
+        points : array_like of shape (n, d)
+            Any points, converted as by `ball`; one that is not finite is outside.
+
+        Returns
+        -------
+        ndarray of bool, shape (n,)
+
+        Examples
+        --------
+        >>> import taut
+        >>> points = taut.generate("normal", 1000, 3)
+        >>> found = taut.ball(points).answer
+        >>> bool(found.contains(points).all()), found.contains([[9, 9, 9]])
+        (True, array([False]))
+        """
+        # Each term of the sum passes at most d + 6 roundings, and the root halves what they add up to.
+        rounding = (len(self.center) + 6) * np.finfo(np.float64).eps
+        is_inside: NDArray[np.bool_] = self.distance(points) <= self.radius * (1 + rounding)
+        return is_inside
 
 
 @record("gap", "items", "support")

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from numpy.typing import ArrayLike
+
+from .. import _native
+from .._arrays import as_rows
 from .._record import FLOAT, ID, ROW, Floats, Ids, Record, RowNumbers, column, record, table, value
 
 
@@ -32,6 +36,29 @@ class Centers(Record):
     lower_bound: float
     outliers: RowNumbers = column(ROW)
     assignment: Ids | None = column(ID, optional=True)
+
+    def assign(self, points: ArrayLike) -> RowNumbers:
+        """The center next to each point, of equally near ones the first.
+
+        Parameters
+        ----------
+        points : array_like of shape (n, d)
+            Any finite points, converted as by `centers`.
+
+        Returns
+        -------
+        ndarray of int64, shape (n,)
+
+        Examples
+        --------
+        >>> import taut
+        >>> found = taut.centers([[0, 0], [0, 2], [9, 0], [9, 1]], 2).answer
+        >>> near, far = found.assign([[1, 1], [7, 0]])
+        >>> bool(near != far)
+        True
+        """
+        tree = _native.SearchTree(as_rows(self.centers), "points", None)
+        return tree.nearest(as_rows(points), 1, None)[1]
 
 
 @record("items", "k", "gap", "core_set", "proof")

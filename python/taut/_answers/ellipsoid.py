@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from numpy.typing import ArrayLike
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from .. import _native
 from .._arrays import as_rows
@@ -82,6 +83,49 @@ class Ellipsoid(Record):
         """
         center, tail, factor = (part.tolist() for part in (self.center, self.center_tail, self.factor))
         return _native.norms(as_rows(points), center, tail, factor)
+
+    def contains(self, points: ArrayLike, *, tolerance: float = 1e-9) -> NDArray[np.bool_]:
+        """For each point whether it is in the ellipsoid or on its border, to a tolerance.
+
+        All points that the ellipsoid was found for are: the tolerance is far above what ``check`` grants for rounding. Points
+        off the hull of a flat ellipsoid are outside.
+
+        Parameters
+        ----------
+        points : array_like of shape (n, d)
+            Any points, converted as by `ellipsoid`.
+        tolerance : float, default 1e-9
+            By how much `norm` may exceed 1, and for a flat ellipsoid the distance from the hull that of its points, in units of
+            their largest coordinate.
+
+        Returns
+        -------
+        ndarray of bool, shape (n,)
+
+        Examples
+        --------
+        >>> import taut
+        >>> points = taut.generate("normal", 1000, 3)
+        >>> found = taut.ellipsoid(points).answer
+        >>> bool(found.contains(points).all()), found.contains([[9, 9, 9]])
+        (True, array([False]))
+        """
+        rows = as_rows(points)
+        is_inside = self.norm(rows) <= 1 + tolerance
+        if self.hull is not None:
+            is_inside &= ~self._is_off_hull(rows, tolerance)
+        return is_inside
+
+    def _is_off_hull(self, points: ArrayLike, tolerance: float) -> NDArray[np.bool_]:
+        """For each point whether it is farther from the hull than the points of the ellipsoid, and than rounding."""
+        if self.hull is None:
+            return np.zeros(len(as_rows(points)), dtype=bool)
+        offsets = (as_rows(points) - self.center) - self.center_tail
+        off = offsets - offsets @ self.hull.basis.T @ self.hull.basis
+        distances = np.sqrt(np.square(off).sum(axis=1))
+        size = np.abs(self.center).max(initial=0.0) + np.abs(offsets).max(axis=1, initial=0.0)
+        is_off: NDArray[np.bool_] = distances > self.hull.distance + tolerance * size
+        return is_off
 
 
 @record("gap", "items", "support")

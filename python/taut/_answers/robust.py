@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .._arrays import as_rows
 from .._record import FLOAT, ITSELF, ROW, Floats, Record, RowNumbers, column, one, record, table, value
 from .ellipsoid import Ellipsoid, EllipsoidVerdict, Hull
 
@@ -54,6 +58,37 @@ class RobustEllipsoid(Record):
     @property
     def rank(self) -> int:
         return self.ellipsoid.rank
+
+    def distances(self, points: ArrayLike) -> Floats:
+        """The Mahalanobis distance of each point, sqrt((x - c) @ inverse(S) @ (x - c)); infinite off the hull where there is one.
+
+        Parameters
+        ----------
+        points : array_like of shape (n, d)
+            Any points, converted as by `robust_ellipsoid`.
+
+        Returns
+        -------
+        ndarray of shape (n,)
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import taut
+        >>> points = taut.generate("normal", 1000, 2)
+        >>> found = taut.robust_ellipsoid(points)
+        >>> cutoff = found.certificate.cutoff
+        >>> np.flatnonzero(found.answer.distances(points) ** 2 > cutoff).tolist() == found.answer.outliers.tolist()
+        True
+        """
+        rows = as_rows(points)
+        norms = self.ellipsoid.norm(rows)
+        if self.rank > 0:
+            # F S F' is one over the square of the border, times the identity.
+            border = self.rank / np.trace(self.factor @ self.scatter @ self.factor.T)
+            norms = norms * np.sqrt(border)
+        norms[self.ellipsoid._is_off_hull(rows, 1e-12)] = np.inf
+        return norms
 
 
 @record("method", "kept", "objective")

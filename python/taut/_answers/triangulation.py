@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .._record import ID, ROW, Ids, Record, RowNumbers, record, table, value
+from .._record import SIMPLEX_ID, Record, SimplexIds, record, table, value
 
 
 @record("dimension", "simplices", "hull")
@@ -16,22 +16,22 @@ class Triangulation(Record):
     hull_dimension : int or None
         Dimension of the affine hull of the points: less where all are on a plane, on a line or equal. None for no
         points.
-    simplices : ndarray of uint32, shape (m, k + 1)
+    simplices : ndarray of int32, shape (m, k + 1)
         Vertices of the simplices, positively oriented; k is `hull_dimension`. Read-only.
-    neighbors : ndarray of int64, shape (m, k + 1)
+    neighbors : ndarray of int32, shape (m, k + 1)
         For each vertex the simplex across the facet opposite it; -1 on the hull. Read-only.
-    hull : ndarray of uint32, shape (h, k)
+    hull : ndarray of int32, shape (h, k)
         The facets of the convex hull, turned outward. Read-only.
-    duplicates : ndarray of uint32, shape (c, 2)
+    duplicates : ndarray of int32, shape (c, 2)
         Rows that equal an earlier row, each with the first row it equals. Read-only.
     """
 
     dimension: int
     hull_dimension: int | None
-    simplices: Ids = table(ID, None)
-    neighbors: RowNumbers = table(ROW, "simplices", at="within.certificate.neighbors")
-    hull: Ids = table(ID, None)
-    duplicates: Ids = table(ID, 2)
+    simplices: SimplexIds = table(SIMPLEX_ID, None)
+    neighbors: SimplexIds = table(SIMPLEX_ID, "simplices", at="within.certificate.neighbors")
+    hull: SimplexIds = table(SIMPLEX_ID, None)
+    duplicates: SimplexIds = table(SIMPLEX_ID, 2)
 
 
 @record("sites", "fingerprint")

@@ -31,4 +31,10 @@ pub enum TopologyReason {
     /// Facets that strongly say "a surface is here" lie within one side.
     #[error("strong evidence of surfaces was overruled")]
     Overruled,
+    /// Vertices at the tips of spikes, as outliers make them.
+    #[error("a spike sticks out, as outliers make them")]
+    Spikes,
+    /// The noise is as large as what is around it.
+    #[error("the noise is as large as the features")]
+    Noise,
 }

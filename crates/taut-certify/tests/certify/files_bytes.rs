@@ -12,8 +12,12 @@ use taut_certify::{
 };
 use taut_points::Monitor;
 
+/// The seeds of the fuzz target; none where this package is alone.
 fn seeds() -> Vec<Vec<u8>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/seeds/files");
+    if !folder.exists() {
+        return vec![];
+    }
     let seeds = std::fs::read_dir(folder).unwrap();
     seeds.map(|seed| std::fs::read(seed.unwrap().path()).unwrap()).collect()
 }
@@ -25,6 +29,9 @@ proptest! {
     #[test]
     fn edited_seeds(which in any::<usize>(), edits in prop::collection::vec((any::<usize>(), any::<u8>()), 0..6)) {
         let seeds = seeds();
+        if seeds.is_empty() {
+            return Ok(());
+        }
         let mut seed = seeds[which % seeds.len()].clone();
         for (place, byte) in edits {
             let place = place % seed.len();
@@ -46,6 +53,9 @@ proptest! {
 #[test]
 fn the_seeds_pass() {
     let seeds = seeds();
+    if seeds.is_empty() {
+        return println!("skipped the_seeds_pass: this package comes without its seeds");
+    }
     assert!(seeds.len() >= 4);
     seeds.iter().for_each(|seed| bytes::check_any(seed));
 }

@@ -1,6 +1,5 @@
 //! The tests of `taut-certify` from outside, in one program: linking one for each file would take longer than running them.
 
-#[path = "../../../test_length.rs"]
 mod test_length;
 
 mod ball_closed_forms;
@@ -22,7 +21,6 @@ mod ellipsoid_mutations;
 mod ellipsoid_properties;
 mod ellipsoid_refusals;
 mod ellipsoid_shapes;
-mod files;
 mod files_bytes;
 mod json;
 mod mesh;

@@ -173,6 +173,7 @@ impl Find for Args {
         let found = watch
             .during("ordering", |monitor| built.solution(source, monitor))
             .map_err(|error| points.explain(error))?;
+        let built = if self.alpha.radius().is_some() { built.renumbered() } else { built };
         let complex = self.alpha.complex(&built);
         let exports = match &built {
             Built::Plane(plane)
@@ -188,7 +189,7 @@ impl Find for Args {
     fn side_fields(&self, extra: &Extra) -> Vec<Field> {
         let complex = extra.complex.as_ref().map(alpha::Complex::field);
         let exports = std::mem::take(&mut extra.exports.borrow_mut().fields);
-        complex.into_iter().chain(exports).chain([extra.built.signs()]).collect()
+        complex.into_iter().chain(exports).collect()
     }
 
     fn write(

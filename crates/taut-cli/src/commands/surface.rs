@@ -47,7 +47,7 @@ pub(crate) struct Args {
     /// Take noise out of the points first: leave outliers out and move each other point onto the sheet that its neighbors show
     #[arg(long)]
     denoise: bool,
-    /// With --denoise, how many nearest points show the sheet of a point, itself among them; from 4 to 1000 [default: 24]
+    /// With --denoise, how many nearest points show the sheet of a point, itself among them; from 4 to 1000 [default: 24 to 272, by the noise]
     #[arg(long, value_name = "N", requires = "denoise")]
     neighbors: Option<usize>,
     /// With --denoise, how many times each point is moved; 0 leaves out outliers alone [default: 2]
@@ -199,7 +199,7 @@ impl Args {
     fn noise(&self) -> Denoise {
         let usual = Denoise::default();
         Denoise {
-            neighbors: self.neighbors.unwrap_or(usual.neighbors),
+            neighbors: self.neighbors.or(usual.neighbors),
             iterations: self.iterations.unwrap_or(usual.iterations),
             positions: if self.original { Positions::Original } else { Positions::Projected },
         }

@@ -22,8 +22,6 @@ fn the_summary_names_every_number() {
         "\n  dimension 2; the points span all dimensions\n",
         "\n  verified  yes; the only one, with ",
         "\n  hash      ",
-        "\n  signs     ",
-        " by exact whole numbers, 0 by double-double, 0 by long integers, 0 ties\n",
         "checking ",
     ]);
     assert_eq!(run.err, "");

@@ -30,6 +30,7 @@ mod interrupt;
 mod limits;
 mod memory;
 mod near;
+mod pages;
 mod pictures;
 mod places;
 mod robust;

@@ -22,7 +22,7 @@ use super::points::NodePoints;
 use super::solve::{Outcome, Whole, solve};
 use super::stream::{TakeSimplex, emit_lower, emit_solved};
 use super::tile::{LowerTile, TileCounts, TileOrder, write_lower, write_solved};
-use crate::cells::{Geometry, InPlane, InSpace};
+use crate::geometry::{Geometry, InPlane, InSpace};
 use crate::kernel::Kernel;
 use crate::{DelaunayOptions, Error, delaunay};
 

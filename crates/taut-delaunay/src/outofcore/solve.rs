@@ -25,7 +25,7 @@ use super::points::{FETCH_AHEAD, NodePoints, OrderedSites, order_sites};
 use super::tree::Tree;
 use crate::affine::Span;
 use crate::canonical::arrangement;
-use crate::cells::{ConflictZone, Geometry};
+use crate::geometry::{ConflictZone, Geometry};
 use crate::kernel::{Kernel, Settings};
 use crate::rounds::insert_all;
 use crate::simplex::{GHOST, decode};

@@ -11,7 +11,7 @@
 //! value, so that heaps of equal points end in cells of their own.
 //! *Reference.* Bentley, Commun. ACM 18(9), 1975.
 
-use crate::cells::Bounds;
+use crate::geometry::Bounds;
 use crate::sites::Scale;
 
 /// Levels of cells below a bucket: they cut the box of a bucket into 64, as thin fronts need finer boxes than buckets.

@@ -14,7 +14,9 @@ use taut_predicates::{Exact, MulAdd, Sign};
 use super::seen::{PointOffset, View, minor};
 use super::walk::{LAST_FACET, LocatedTriangle, NEXT_FACET};
 use crate::kernel::Counters;
-use crate::simplex::{GHOST, Simplex, decode};
+use crate::simplex::{GHOST, decode};
+use crate::threads::Hold;
+use crate::threads::Record;
 
 /// An edge (a, b) with what is behind it: the facet of the triangle (d, b, a) and whether that is in conflict.
 ///
@@ -33,9 +35,6 @@ pub(super) struct Edge {
 
 /// The receiver of the cavity.
 pub(super) trait Sink {
-    /// The mesh that is dug in.
-    fn triangles(&self) -> &[Simplex<3>];
-
     /// A triangle is in conflict; everything of it that will be asked for has been read.
     fn enter(&mut self, triangle: u32);
 
@@ -43,17 +42,19 @@ pub(super) trait Sink {
     fn rim(&mut self, behind: u32, edge: [u32; 2], end: PointOffset);
 }
 
+/// Digs from a triangle that is held, and holds the others. Returns false, having told a part, if another thread holds one.
 #[inline(always)]
-pub(super) fn dig<M: MulAdd, S: Sink>(
+pub(super) fn dig<M: MulAdd, S: Sink, H: Hold>(
     view: &View<'_>,
+    triangles: &[Record<3>],
+    hold: &mut H,
     found: LocatedTriangle,
     pending: &mut Vec<Edge>,
     exact: &mut Exact,
     counters: &mut Counters,
     sink: &mut S,
-) {
-    let triangles = sink.triangles();
-    let first = triangles[found.triangle as usize].neighbors;
+) -> bool {
+    let first = triangles[found.triangle as usize].neighbors();
     let (mut tests, mut entered) = (3, 0);
     pending.push(look::<M>(
         view,
@@ -82,17 +83,20 @@ pub(super) fn dig<M: MulAdd, S: Sink>(
     );
     loop {
         let (triangle, facet) = decode(edge.behind);
-        let triangles = sink.triangles();
         let t = &triangles[triangle as usize];
         if edge.conflict {
+            if H::SHARED && !hold.hold([t.vertex(facet)]) {
+                pending.clear();
+                return false;
+            }
             tests += 2;
             entered += 1;
-            let (left, right) = (t.neighbors[NEXT_FACET[facet]], t.neighbors[LAST_FACET[facet]]);
+            let (left, right) = (t.neighbor(NEXT_FACET[facet]), t.neighbor(LAST_FACET[facet]));
             pending.push(look::<M>(view, triangles, right, [edge.d, edge.b], edge.db, exact));
             edge = look::<M>(view, triangles, left, [a, edge.d], edge.ad, exact);
             sink.enter(triangle);
         } else {
-            let (from, to) = (t.vertices[LAST_FACET[facet]], t.vertices[NEXT_FACET[facet]]);
+            let (from, to) = (t.vertex(LAST_FACET[facet]), t.vertex(NEXT_FACET[facet]));
             sink.rim(edge.behind, [from, to], edge.b);
             a = edge.b;
             let Some(next) = pending.pop() else { break };
@@ -101,20 +105,21 @@ pub(super) fn dig<M: MulAdd, S: Sink>(
     }
     counters.conflict_tests += tests;
     counters.replaced += entered;
+    true
 }
 
 /// Looks through the edge (a, b) of a triangle in conflict.
 #[inline(always)]
 fn look<M: MulAdd>(
     view: &View<'_>,
-    triangles: &[Simplex<3>],
+    triangles: &[Record<3>],
     behind: u32,
     [a, b]: [PointOffset; 2],
     ab: f64,
     exact: &mut Exact,
 ) -> Edge {
     let (triangle, facet) = decode(behind);
-    let d = view.see::<M>(triangles[triangle as usize].vertices[facet]);
+    let d = view.see::<M>(triangles[triangle as usize].vertex(facet));
     let (ad, db) = (minor::<M>(a, d), minor::<M>(d, b));
     let determinant = view.in_circle::<M>([a, b, d], [ab, ad, db]);
     let conflict = if determinant == 0.0 {
@@ -131,16 +136,16 @@ fn look<M: MulAdd>(
 #[inline(never)]
 fn conflict_exact(
     view: &View<'_>,
-    triangles: &[Simplex<3>],
+    triangles: &[Record<3>],
     behind: u32,
     exact: &mut Exact,
 ) -> bool {
     let (triangle, facet) = decode(behind);
-    let t = &triangles[triangle as usize];
-    let Some(place) = t.vertices.iter().position(|&v| v == GHOST) else {
-        return view.conflict_exact(t.vertices, exact);
+    let vertices = triangles[triangle as usize].vertices();
+    let Some(place) = vertices.iter().position(|&v| v == GHOST) else {
+        return view.conflict_exact(vertices, exact);
     };
-    let (from, to) = (t.vertices[NEXT_FACET[place]], t.vertices[LAST_FACET[place]]);
+    let (from, to) = (vertices[NEXT_FACET[place]], vertices[LAST_FACET[place]]);
     match view.side_exact(from, to, exact) {
         Sign::Positive => true,
         Sign::Negative => false,

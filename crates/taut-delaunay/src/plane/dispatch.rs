@@ -6,24 +6,41 @@
 
 use taut_predicates::Separate;
 
-use super::Mesh;
+use super::{Shared, Worker, insert_with};
+use crate::threads::{Hold, Inserted, Progress};
 
-pub(super) fn insert(mesh: &mut Mesh, sites: &[u32]) {
+pub(super) fn insert<H: Hold>(
+    shared: &Shared<'_>,
+    worker: &mut Worker,
+    hold: &mut H,
+    sites: &[u32],
+    progress: &mut Progress,
+) -> Inserted {
     match taut_points::instruction_set() {
-        _ if !mesh.settings.vectors => mesh.insert_all::<Separate>(sites),
+        _ if !shared.settings.vectors => {
+            insert_with::<Separate, H>(shared, worker, hold, sites, progress)
+        }
         #[cfg(target_arch = "x86_64")]
         taut_points::InstructionSet::Avx2 | taut_points::InstructionSet::Avx512 => {
             // SAFETY: the processor has the features the function is compiled for.
-            unsafe { insert_avx2(mesh, sites) }
+            unsafe { insert_avx2(shared, worker, hold, sites, progress) }
         }
         #[cfg(target_arch = "aarch64")]
-        taut_points::InstructionSet::Neon => mesh.insert_all::<taut_predicates::Fused>(sites),
-        _ => mesh.insert_all::<Separate>(sites),
+        taut_points::InstructionSet::Neon => {
+            insert_with::<taut_predicates::Fused, H>(shared, worker, hold, sites, progress)
+        }
+        _ => insert_with::<Separate, H>(shared, worker, hold, sites, progress),
     }
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
-fn insert_avx2(mesh: &mut Mesh, sites: &[u32]) {
-    mesh.insert_all::<taut_predicates::Fused>(sites);
+fn insert_avx2<H: Hold>(
+    shared: &Shared<'_>,
+    worker: &mut Worker,
+    hold: &mut H,
+    sites: &[u32],
+    progress: &mut Progress,
+) -> Inserted {
+    insert_with::<taut_predicates::Fused, H>(shared, worker, hold, sites, progress)
 }

@@ -24,15 +24,20 @@ mod star;
 mod tests;
 mod walk;
 
+use std::sync::atomic::AtomicU32;
+
 use taut_predicates::plane::orient_exact;
 use taut_predicates::{Exact, MulAdd, Separate};
 
 use crate::kernel::{Counters, Kernel, Settings, TooMany};
-use crate::simplex::{DEAD_MARK, GHOST, Simplex, code};
-use dig::{Edge, dig};
-use seen::View;
+use crate::records::Records;
+use crate::simplex::{GHOST, Simplex, code};
+use crate::threads::Record;
+use crate::threads::{Alone, Hold, Holder, Inserted, OwnSlots, Owners, Progress, Room, SharedMesh};
+use dig::{Edge, Sink, dig};
+use seen::{PointOffset, View};
 use star::Star;
-use walk::walk;
+use walk::{LocatedTriangle, is_triangle, walk};
 
 /// Triangles are numbered with 30 bits, as a code has two more for the facet.
 const TRIANGLES_MAX: usize = 1 << 30;
@@ -40,32 +45,96 @@ const TRIANGLES_MAX: usize = 1 << 30;
 /// A Delaunay triangulation under construction.
 pub(crate) struct Mesh {
     sites: Vec<[f64; 2]>,
-    triangles: Vec<Simplex<3>>,
+    records: Records<3>,
+    /// The first slot that nobody has taken.
+    next: AtomicU32,
+    owners: Owners,
+    /// The first one inserts alone.
+    workers: Vec<Worker>,
+    settings: Settings,
+}
+
+/// What a thread has for itself, in cache lines of its own.
+#[repr(align(128))]
+pub(crate) struct Worker {
     /// Where the next walk begins: a triangle of the site inserted last.
     last: u32,
-    settings: Settings,
+    slots: OwnSlots,
     exact: Exact,
     counters: Counters,
     /// Edges still to be looked through while digging; kept for its memory.
     pending: Vec<Edge>,
     /// Slots that the star may take; kept for its memory.
     free: Vec<u32>,
+    notes: Notes,
 }
 
-const DEAD_SLOT: Simplex<3> = Simplex { vertices: [DEAD_MARK; 3], neighbors: [0; 3] };
-
-impl Kernel<2, 3> for Mesh {
-    fn new(sites: Vec<[f64; 2]>, settings: Settings) -> Mesh {
-        Mesh {
-            // A closed mesh of n sites and the ghost vertex has 2n − 2 triangles.
-            triangles: Vec::with_capacity(2 * sites.len()),
-            sites,
+impl Worker {
+    fn new(settings: Settings) -> Self {
+        Worker {
             last: 0,
-            settings,
+            slots: OwnSlots::default(),
             exact: Exact::new(settings.integral),
             counters: Counters::default(),
             pending: Vec::new(),
             free: Vec::new(),
+            notes: Notes::default(),
+        }
+    }
+}
+
+/// What threads share.
+pub(crate) struct Shared<'a> {
+    sites: &'a [[f64; 2]],
+    triangles: &'a [Record<3>],
+    room: Room<'a>,
+    settings: Settings,
+}
+
+/// A cavity, written down: beside other threads nothing may be changed before all of it is held.
+#[derive(Default)]
+struct Notes {
+    entered: Vec<u32>,
+    rim: Vec<(u32, [u32; 2], PointOffset)>,
+}
+
+impl Sink for Notes {
+    #[inline(always)]
+    fn enter(&mut self, triangle: u32) {
+        self.entered.push(triangle);
+    }
+
+    #[inline(always)]
+    fn rim(&mut self, behind: u32, edge: [u32; 2], end: PointOffset) {
+        self.rim.push((behind, edge, end));
+    }
+}
+
+impl Notes {
+    /// Repeats them, and forgets them.
+    #[inline(always)]
+    fn replay(&mut self, sink: &mut impl Sink) {
+        self.entered.drain(..).for_each(|triangle| sink.enter(triangle));
+        self.rim.drain(..).for_each(|(behind, edge, end)| sink.rim(behind, edge, end));
+    }
+
+    fn clear(&mut self) {
+        self.entered.clear();
+        self.rim.clear();
+    }
+}
+
+impl Kernel<2, 3> for Mesh {
+    fn new(sites: Vec<[f64; 2]>, settings: Settings) -> Mesh {
+        // A closed mesh of n sites and the ghost vertex has 2n − 2 triangles.
+        let triangles = (2 * sites.len() + 4).min(TRIANGLES_MAX);
+        Mesh {
+            records: Records::new(triangles),
+            sites,
+            next: AtomicU32::new(0),
+            owners: Owners::new(0),
+            workers: vec![Worker::new(settings)],
+            settings,
         }
     }
 
@@ -80,93 +149,217 @@ impl Kernel<2, 3> for Mesh {
 
     fn start(&mut self, [a, b, c]: [u32; 3]) {
         let [p, q, r] = [a, b, c].map(|v| self.sites[v as usize]);
-        self.counters.orientations += 1;
-        self.counters.insertions += 3;
+        let worker = &mut self.workers[0];
+        worker.counters.orientations += 1;
+        worker.counters.insertions += 3;
         let (b, c) =
-            if orient_exact(p, q, r, &mut self.exact).is_positive() { (b, c) } else { (c, b) };
+            if orient_exact(p, q, r, &mut worker.exact).is_positive() { (b, c) } else { (c, b) };
         // Ghost i lies across the edge opposite vertex i; its ghost vertex has place 0, as has the hull edge.
         let ghost = |from: u32, to: u32, inside: u32, next: u32, last: u32| Simplex {
             vertices: [GHOST, to, from],
             neighbors: [inside, code(last, 2), code(next, 1)],
         };
-        self.triangles.clear();
-        self.triangles.extend([
+        let all = [
             Simplex { vertices: [a, b, c], neighbors: [code(1, 0), code(2, 0), code(3, 0)] },
             ghost(b, c, code(0, 0), 2, 3),
             ghost(c, a, code(0, 1), 3, 1),
             ghost(a, b, code(0, 2), 1, 2),
-        ]);
-        self.last = 0;
+        ];
+        self.records.all().iter().zip(all).for_each(|(record, triangle)| record.set(triangle));
+        self.records.set_len(all.len());
+        self.next = AtomicU32::new(all.len() as u32);
+        worker.last = 0;
     }
 
     fn insert(&mut self, sites: &[u32]) -> Result<(), TooMany> {
-        if self.triangles.len() + 2 * sites.len() > TRIANGLES_MAX {
+        if self.records.len() + 2 * sites.len() > TRIANGLES_MAX {
             return Err(TooMany);
         }
-        dispatch::insert(self, sites);
-        self.counters.insertions += sites.len() as u64;
-        // The walk finds the first triangle of each cavity, digging counts the others.
-        self.counters.replaced += sites.len() as u64;
-        Ok(())
-    }
-
-    fn push(&mut self, site: [f64; 2]) -> u32 {
-        let number = u32::try_from(self.sites.len()).expect("sites are numbered with 32 bits");
-        self.sites.push(site);
-        number
+        let mut left = sites;
+        loop {
+            let (view, _, workers) = self.share(1);
+            let progress = &mut Progress::default();
+            let done = dispatch::insert(&view, &mut workers[0], &mut Alone, left, progress);
+            self.end_sharing();
+            match done {
+                Inserted::All => return Ok(()),
+                Inserted::Full(at) => left = &left[at..],
+            }
+            self.grow()?;
+        }
     }
 
     #[inline(always)]
     fn simplices(&self) -> &[Simplex<3>] {
-        &self.triangles
+        self.records.as_slice()
     }
 
     fn last(&self) -> u32 {
-        self.last
+        self.workers[0].last
     }
 
     fn locate(&mut self, q: [f64; 2], hint: u32) -> u32 {
         let view = View::new(&self.sites, q, self.settings.filtered);
-        walk::<Separate>(&view, &self.triangles, hint, &mut self.exact, &mut self.counters).triangle
-    }
-
-    fn finish(mut self) -> (Vec<Simplex<3>>, Option<Vec<[f64; 2]>>, Counters) {
-        // The filters of the common path count nothing: what no other stage decided was theirs.
-        let mut stages = self.exact.stages;
-        let open = stages.calls() - stages.filter;
-        stages.filter =
-            (self.counters.orientations + self.counters.conflict_tests).saturating_sub(open);
-        self.counters.stages = stages;
-        (self.triangles, Some(self.sites), self.counters)
-    }
-}
-
-impl Mesh {
-    #[inline(always)]
-    fn insert_all<M: MulAdd>(&mut self, sites: &[u32]) {
-        for (place, &site) in sites.iter().enumerate() {
-            self.insert_one::<M>(site, *sites.get(place + 1).unwrap_or(&site));
+        let Worker { exact, counters, .. } = &mut self.workers[0];
+        match walk::<Separate, false>(&view, self.records.all(), hint, exact, counters) {
+            Ok(found) => found.triangle,
+            Err(triangle) => triangle,
         }
     }
 
-    #[inline(always)]
-    fn insert_one<M: MulAdd>(&mut self, site: u32, next: u32) {
-        // Every insertion adds one vertex to a sphere, hence two triangles.
-        let slot = self.triangles.len() as u32;
-        self.triangles.extend([DEAD_SLOT; 2]);
-        self.free.extend([slot + 1, slot]);
-        let view = View::new(&self.sites, self.sites[site as usize], self.settings.filtered);
-        let triangles = &mut self.triangles[..];
-        let found = walk::<M>(&view, triangles, self.last, &mut self.exact, &mut self.counters);
-        let mut star = Star::new(site, triangles, &mut self.free, &found, view.see::<M>(next));
-        dig::<M, _>(
-            &view,
-            found,
-            &mut self.pending,
-            &mut self.exact,
-            &mut self.counters,
-            &mut star,
-        );
-        self.last = star.close();
+    fn finish(self) -> (Vec<Simplex<3>>, Option<Vec<[f64; 2]>>, Counters) {
+        let mut all = Counters::default();
+        for Worker { mut counters, exact, .. } in self.workers {
+            // The filters of the common path count nothing: what no other stage decided was theirs.
+            let mut stages = exact.stages;
+            let open = stages.calls() - stages.filter;
+            stages.filter = (counters.orientations + counters.conflict_tests).saturating_sub(open);
+            counters.stages = stages;
+            all += counters;
+        }
+        (self.records.into_simplices(), Some(self.sites), all)
     }
+}
+
+impl SharedMesh<2, 3> for Mesh {
+    type View<'a> = Shared<'a>;
+    type Worker = Worker;
+
+    const SITES_MIN: usize = 4000;
+
+    fn share(&mut self, threads: usize) -> (Shared<'_>, &Owners, &mut [Worker]) {
+        if threads > 1 && self.owners.len() < self.sites.len() {
+            self.owners = Owners::new(self.sites.len());
+        }
+        let more = threads.saturating_sub(self.workers.len());
+        if more > 0 {
+            let (last, settings) = (self.workers[0].last, self.settings);
+            let worker = || Worker { last, ..Worker::new(settings) };
+            self.workers.extend(std::iter::repeat_with(worker).take(more));
+            let len = self.records.all().len() + more * Room::SLOTS_SPARE;
+            self.records.grow(len.min(TRIANGLES_MAX).max(self.records.all().len()));
+        }
+        let shared = Shared {
+            sites: &self.sites,
+            triangles: self.records.all(),
+            room: Room { next: &self.next, end: self.records.all().len() as u32 },
+            settings: self.settings,
+        };
+        (shared, &self.owners, &mut self.workers[..threads])
+    }
+
+    fn end_sharing(&mut self) {
+        for worker in &mut self.workers {
+            worker.slots.give_back(&self.next, self.records.all());
+        }
+        self.records.set_len(*self.next.get_mut() as usize);
+    }
+
+    fn grow(&mut self) -> Result<(), TooMany> {
+        let len = self.records.all().len();
+        if len >= TRIANGLES_MAX {
+            return Err(TooMany);
+        }
+        self.records.grow((len + len / 8 + Room::SLOTS_SPARE).min(TRIANGLES_MAX));
+        Ok(())
+    }
+
+    fn insert_concurrently(
+        view: &Shared<'_>,
+        worker: &mut Worker,
+        holder: &mut Holder<'_>,
+        sites: &[u32],
+        progress: &mut Progress,
+    ) -> Inserted {
+        dispatch::insert(view, worker, holder, sites, progress)
+    }
+}
+
+/// Attempts to insert a site beside other threads before it is left for the end of the round.
+const ATTEMPTS_EACH: usize = 4;
+
+/// Inserts sites in this order.
+#[inline(always)]
+fn insert_with<M: MulAdd, H: Hold>(
+    shared: &Shared<'_>,
+    worker: &mut Worker,
+    hold: &mut H,
+    sites: &[u32],
+    progress: &mut Progress,
+) -> Inserted {
+    let triangles = shared.triangles;
+    for (place, &site) in sites.iter().enumerate() {
+        // Every insertion adds one vertex to a sphere, hence two triangles.
+        if !worker.slots.reserve(2, shared.room, triangles) {
+            return Inserted::Full(place);
+        }
+        let next = *sites.get(place + 1).unwrap_or(&site);
+        let filtered = shared.settings.filtered;
+        let view = View::new(shared.sites, shared.sites[site as usize], filtered);
+        let found = if H::SHARED {
+            let Some(found) = find::<M, H>(&view, shared, worker, hold, site, progress) else {
+                progress.deferred.push(site);
+                continue;
+            };
+            found
+        } else {
+            let Worker { last, exact, counters, .. } = &mut *worker;
+            walk::<M, false>(&view, triangles, *last, exact, counters)
+                .expect("a walk ends in a mesh that stands still")
+        };
+        let Worker { last, slots, exact, counters, pending, free, notes } = &mut *worker;
+        let (low, high) = (slots.pop(), slots.pop());
+        free.extend([high, low]);
+        let mut star = Star::new(site, triangles, free, &found, view.see::<M>(next));
+        if H::SHARED {
+            notes.replay(&mut star);
+        } else {
+            dig::<M, _, _>(&view, triangles, hold, found, pending, exact, counters, &mut star);
+        }
+        *last = star.close();
+        counters.insertions += 1;
+        // The walk finds the first triangle of each cavity, digging counts the others.
+        counters.replaced += 1;
+        hold.done();
+    }
+    Inserted::All
+}
+
+/// Beside other threads: finds the cavity of q, the site `site`, holds it and writes it down. Nothing, and holds nothing, if
+/// other threads are in the way.
+#[inline(always)]
+fn find<M: MulAdd, H: Hold>(
+    view: &View<'_>,
+    shared: &Shared<'_>,
+    worker: &mut Worker,
+    hold: &mut H,
+    site: u32,
+    progress: &mut Progress,
+) -> Option<LocatedTriangle> {
+    let Worker { last, exact, counters, pending, notes, .. } = worker;
+    let triangles = shared.triangles;
+    for _ in 0..ATTEMPTS_EACH {
+        progress.attempts += 1;
+        match walk::<M, true>(view, triangles, *last, exact, counters) {
+            Err(at) => *last = at,
+            Ok(found) => {
+                // Where the walk ended is a good beginning for the next attempt.
+                *last = found.triangle;
+                if is_triangle(found.vertices)
+                    && hold.hold([site])
+                    && hold.hold(found.vertices)
+                    && found.is_at(triangles)
+                    && dig::<M, _, _>(view, triangles, hold, found, pending, exact, counters, notes)
+                {
+                    return Some(found);
+                }
+                notes.clear();
+            }
+        }
+        hold.back_off();
+        progress.failed += 1;
+        let is_live = |&t: &u32| is_triangle(triangles[t as usize].vertices());
+        *last = shared.room.some_of(*last, is_live);
+    }
+    None
 }

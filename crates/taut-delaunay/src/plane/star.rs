@@ -12,11 +12,12 @@ use super::dig::Sink;
 use super::seen::{PointOffset, minor};
 use super::walk::LocatedTriangle;
 use crate::simplex::{GHOST, Simplex, code, decode};
+use crate::threads::Record;
 
 /// Replaces the cavity by the star of a site: vertex 0 of each triangle is the site, facet 0 the edge of the rim.
 pub(super) struct Star<'a> {
     site: u32,
-    triangles: &'a mut [Simplex<3>],
+    triangles: &'a [Record<3>],
     free: &'a mut Vec<u32>,
     first: u32,
     last: u32,
@@ -32,7 +33,7 @@ impl<'a> Star<'a> {
     #[inline(always)]
     pub(super) fn new(
         site: u32,
-        triangles: &'a mut [Simplex<3>],
+        triangles: &'a [Record<3>],
         free: &'a mut Vec<u32>,
         found: &LocatedTriangle,
         next: PointOffset,
@@ -56,18 +57,13 @@ impl<'a> Star<'a> {
     #[inline(always)]
     pub(super) fn close(self) -> u32 {
         debug_assert!(self.free.is_empty(), "the star takes all slots");
-        self.triangles[self.first as usize].neighbors[2] = code(self.last, 1);
-        self.triangles[self.last as usize].neighbors[1] = code(self.first, 2);
+        self.triangles[self.first as usize].set_neighbor(2, code(self.last, 1));
+        self.triangles[self.last as usize].set_neighbor(1, code(self.first, 2));
         if self.start == GHOST { self.last } else { self.start }
     }
 }
 
 impl Sink for Star<'_> {
-    #[inline(always)]
-    fn triangles(&self) -> &[Simplex<3>] {
-        self.triangles
-    }
-
     #[inline(always)]
     fn enter(&mut self, triangle: u32) {
         self.free.push(triangle);
@@ -77,10 +73,12 @@ impl Sink for Star<'_> {
     fn rim(&mut self, behind: u32, [from, to]: [u32; 2], end: PointOffset) {
         let slot = self.free.pop().expect("a cavity of k triangles has k + 2 edges");
         let (outer, facet) = decode(behind);
-        self.triangles[outer as usize].neighbors[facet] = code(slot, 0);
-        self.triangles[slot as usize] =
-            Simplex { vertices: [self.site, from, to], neighbors: [behind, 0, code(self.last, 1)] };
-        self.triangles[self.last as usize].neighbors[1] = code(slot, 2);
+        self.triangles[outer as usize].set_neighbor(facet, code(slot, 0));
+        self.triangles[slot as usize].set(Simplex {
+            vertices: [self.site, from, to],
+            neighbors: [behind, 0, code(self.last, 1)],
+        });
+        self.triangles[self.last as usize].set_neighbor(1, code(slot, 2));
         self.first = if self.first == GHOST { slot } else { self.first };
         self.last = slot;
         let side = minor::<Separate>(self.onward, end);

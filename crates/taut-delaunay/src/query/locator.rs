@@ -1,10 +1,12 @@
 //! Where a point lies, and which site is nearest.
 
+use std::borrow::Cow;
 use std::cell::Cell;
+use std::collections::HashSet;
 
 use taut_predicates::Sign;
 
-use crate::cells::{Geometry, InPlane, InSpace, Index, conflicts, star_of};
+use crate::geometry::{Geometry, InPlane, InSpace, Index, conflicts};
 use crate::simplex::{GHOST, Slots, decode};
 use crate::{Complex, Triangulation};
 
@@ -30,14 +32,29 @@ pub enum Location {
 /// [`Triangulation::row`] translates.
 pub struct Locator<'a, const D: usize, const V: usize> {
     pub(super) triangulation: &'a Triangulation<D, V>,
+    directory: Cow<'a, Directory<D>>,
+}
+
+/// The data by which a [`Locator`] finds where to begin.
+#[derive(Clone)]
+pub(super) struct Directory<const D: usize> {
     index: Index<D>,
     /// For each site a simplex of it; on a line its place there.
-    at_site: Vec<u32>,
+    pub(super) at_site: Vec<u32>,
 }
 
 impl<const D: usize, const V: usize> Triangulation<D, V> {
     /// Makes ready for questions.
     pub fn locator(&self) -> Locator<'_, D, V> {
+        Locator { triangulation: self, directory: Cow::Owned(self.directory()) }
+    }
+
+    /// The same with a directory that was made before.
+    pub(super) fn locator_by<'a>(&'a self, directory: &'a Directory<D>) -> Locator<'a, D, V> {
+        Locator { triangulation: self, directory: Cow::Borrowed(directory) }
+    }
+
+    pub(super) fn directory(&self) -> Directory<D> {
         let mut at_site = vec![0; self.site_count()];
         let mut note = |t: usize, vertices: &[u32]| {
             vertices
@@ -59,7 +76,7 @@ impl<const D: usize, const V: usize> Triangulation<D, V> {
             }
             Complex::Full => self.simplices().for_each(|t| note(t as usize, &self.vertices(t))),
         }
-        Locator { triangulation: self, index: Index::build(&self.sites.coordinates), at_site }
+        Directory { index: Index::build(&self.sites.coordinates), at_site }
     }
 }
 
@@ -80,8 +97,9 @@ impl<const D: usize, const V: usize> Locator<'_, D, V> {
         };
         let open =
             |index: &Index<D>, node| index.bounds(node).distance_squared_to(q) <= best.get().0;
-        self.index.visit_nearest(q, open, |leaf| {
-            for site in self.index.run(leaf) {
+        let index = &self.directory.index;
+        index.visit_nearest(q, open, |leaf| {
+            for site in index.run(leaf) {
                 let candidate = (distance(site), site);
                 if candidate < best.get() {
                     best.set(candidate);
@@ -97,7 +115,7 @@ impl<const D: usize, const V: usize> Locator<'_, D, V> {
     /// # Panics
     /// If there is no such site.
     pub fn adjacent(&self, site: u32) -> Vec<u32> {
-        let at = self.at_site[site as usize];
+        let at = self.directory.at_site[site as usize];
         match &self.triangulation.complex {
             Complex::Nothing | Complex::Point => Vec::new(),
             Complex::Line(chain) => {
@@ -143,7 +161,7 @@ impl<const D: usize, const V: usize> Locator<'_, D, V> {
         }
         // A visibility walk: step through any facet that the point lies beyond. In a Delaunay triangulation it ends. It
         // goes by the coordinates as they were given, as those of the point may not survive the scale of the sites.
-        let mut here = self.at_site[near as usize];
+        let mut here = self.directory.at_site[near as usize];
         loop {
             let simplex = simplices[here as usize];
             if simplex.is_ghost() {
@@ -222,5 +240,23 @@ macro_rules! questions {
         }
     };
 }
+/// The simplices at vertex `v`, one of which is `t`.
+pub(super) fn star_of<const V: usize>(simplices: &Slots<V>, t: u32, v: u32, star: &mut Vec<u32>) {
+    star.clear();
+    star.push(t);
+    let mut seen = HashSet::from([t]);
+    let mut next = 0;
+    while next < star.len() {
+        let simplex = &simplices[star[next] as usize];
+        for i in 0..V {
+            let (neighbor, _) = decode(simplex.neighbors[i]);
+            if simplex.vertices[i] != v && seen.insert(neighbor) {
+                star.push(neighbor);
+            }
+        }
+        next += 1;
+    }
+}
+
 questions!(2, 3, InPlane);
 questions!(3, 4, InSpace);

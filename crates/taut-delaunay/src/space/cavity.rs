@@ -16,10 +16,14 @@
 //! neighbor when it is listed saves 6 % of a million sites.
 //! *Reference.* Bowyer; Watson, both Comput. J. 24(2), 1981.
 
-use crate::simplex::{GHOST, Simplex};
+use crate::simplex::GHOST;
+use crate::threads::Hold;
+use crate::threads::Record;
 
 use super::Site;
 use super::signs::{Judge, Signs};
+use std::sync::atomic::AtomicU8;
+use std::sync::atomic::Ordering::Relaxed;
 
 /// This simplex has been listed as a neighbor of the cavity.
 const SEEN_BIT: u8 = 2;
@@ -60,26 +64,28 @@ impl Cavity {
         (&self.facets[..self.boundary], &mut self.inside)
     }
 
-    /// Finds all simplices in conflict with q, from `start`, which must be one. `marks` are all zero before and after.
-    /// Returns how many tests it took.
+    /// Finds all simplices in conflict with q, from `start`, which must be one and held; holds the others. `marks` are
+    /// all zero before and after. Returns how many tests it took, and false if another thread holds one of them.
     #[inline(always)]
-    pub(super) fn carve<S: Signs>(
+    pub(super) fn carve<S: Signs, H: Hold>(
         &mut self,
         signs: S,
         sites: &[Site],
-        simplices: &[Simplex<4>],
-        marks: &mut [u8],
+        simplices: &[Record<4>],
+        marks: &[AtomicU8],
         judge: &mut Judge,
+        hold: &mut H,
         q: &Site,
         start: u32,
-    ) -> u64 {
-        let marks = &mut marks[..simplices.len()];
+    ) -> (u64, bool) {
+        let marks = &marks[..simplices.len()];
         let (mut inside, mut listed, mut seen, mut tested) = (1, 0, 0, 0);
         if self.inside.len() < 64 {
             self.inside.resize(64, 0);
         }
         self.inside[0] = start;
-        marks[start as usize] = INSIDE_BIT;
+        marks[start as usize].store(INSIDE_BIT, Relaxed);
+        let mut all_held = true;
         loop {
             let room = seen + 4 * (inside - listed) + S::WIDTH;
             if self.seen.len() < room {
@@ -87,18 +93,24 @@ impl Cavity {
             }
             let list = &mut self.seen[..];
             for &t in &self.inside[listed..inside] {
-                marks[t as usize] = INSIDE_BIT;
-                for code in simplices[t as usize].neighbors {
+                // Asked first, or one thread alone would load the vertices too.
+                if H::SHARED && !hold.hold(simplices[t as usize].vertices()) {
+                    all_held = false;
+                    break;
+                }
+                marks[t as usize].store(INSIDE_BIT, Relaxed);
+                for code in simplices[t as usize].neighbors() {
                     let neighbor = code >> 2;
-                    let mark = &mut marks[neighbor as usize];
+                    let mark = &marks[neighbor as usize];
+                    let before = mark.load(Relaxed);
                     list[seen] = neighbor;
                     signs.fetch(simplices.as_ptr().wrapping_add(neighbor as usize));
-                    seen += usize::from(*mark == 0);
-                    *mark |= SEEN_BIT;
+                    seen += usize::from(before == 0);
+                    mark.store(before | SEEN_BIT, Relaxed);
                 }
             }
             listed = inside;
-            if tested == seen {
+            if tested == seen || !all_held {
                 break;
             }
             // The last group is filled up with what is surely there.
@@ -122,18 +134,20 @@ impl Cavity {
             }
             inside += more;
         }
-        self.inside.truncate(inside);
-        self.bound(signs, simplices, marks);
-        for &t in &self.seen[..seen] {
-            marks[t as usize] = 0;
+        if all_held {
+            self.inside.truncate(inside);
+            self.bound(signs, simplices, marks);
         }
-        marks[start as usize] = 0;
-        seen as u64
+        for &t in &self.seen[..seen] {
+            marks[t as usize].store(0, Relaxed);
+        }
+        marks[start as usize].store(0, Relaxed);
+        (seen as u64, all_held)
     }
 
     /// Lists the facets between the cavity and the rest.
     #[inline(always)]
-    fn bound<S: Signs>(&mut self, signs: S, simplices: &[Simplex<4>], marks: &[u8]) {
+    fn bound<S: Signs>(&mut self, signs: S, simplices: &[Record<4>], marks: &[AtomicU8]) {
         let room = 4 * self.inside.len();
         if self.facets.len() < room {
             self.facets.resize(2 * room, Facet::default());
@@ -142,15 +156,16 @@ impl Cavity {
         let mut boundary = 0;
         for &t in &self.inside {
             let simplex = &simplices[t as usize];
-            let [a, b, c, d] = simplex.neighbors;
+            let [a, b, c, d] = simplex.neighbors();
+            let is_seen = |code: u32| marks[(code >> 2) as usize].load(Relaxed) == SEEN_BIT;
             signs.put::<0>(simplex, &mut list[boundary]);
-            boundary += usize::from(marks[(a >> 2) as usize] == SEEN_BIT);
+            boundary += usize::from(is_seen(a));
             signs.put::<1>(simplex, &mut list[boundary]);
-            boundary += usize::from(marks[(b >> 2) as usize] == SEEN_BIT);
+            boundary += usize::from(is_seen(b));
             signs.put::<2>(simplex, &mut list[boundary]);
-            boundary += usize::from(marks[(c >> 2) as usize] == SEEN_BIT);
+            boundary += usize::from(is_seen(c));
             signs.put::<3>(simplex, &mut list[boundary]);
-            boundary += usize::from(marks[(d >> 2) as usize] == SEEN_BIT);
+            boundary += usize::from(is_seen(d));
         }
         self.boundary = boundary;
     }
@@ -158,6 +173,6 @@ impl Cavity {
 
 /// The place of the vertex at infinity.
 #[inline(always)]
-pub(super) fn ghost_place(simplex: &Simplex<4>) -> Option<usize> {
-    simplex.vertices.iter().position(|&v| v == GHOST)
+pub(super) fn ghost_place(vertices: [u32; 4]) -> Option<usize> {
+    vertices.iter().position(|&v| v == GHOST)
 }

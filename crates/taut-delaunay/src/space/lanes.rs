@@ -11,10 +11,11 @@ use std::marker::PhantomData;
 
 use taut_predicates::Separate;
 
-use crate::kernel::{Settings, TooMany};
+use crate::kernel::Settings;
+use crate::threads::{Hold, Inserted, Progress};
 
-use super::Mesh;
 use super::signs::{Scalar, Unfiltered};
+use super::{View, Worker, insert_with};
 
 #[cfg(target_arch = "x86_64")]
 mod x86;
@@ -55,14 +56,21 @@ impl Level {
     }
 }
 
-/// [`Mesh::insert_with`], compiled for the level of the mesh.
-pub(super) fn insert(mesh: &mut Mesh, sites: &[u32]) -> Result<(), TooMany> {
-    match mesh.level {
-        Level::Unfiltered => mesh.insert_with(Unfiltered, sites),
-        Level::Scalar => mesh.insert_with(Scalar::<Separate>(PhantomData), sites),
+/// [`insert_with`], compiled for the level of the mesh.
+pub(super) fn insert<H: Hold>(
+    view: &View<'_>,
+    worker: &mut Worker,
+    hold: &mut H,
+    sites: &[u32],
+    progress: &mut Progress,
+) -> Inserted {
+    let scalar = Scalar::<Separate>(PhantomData);
+    match view.level {
+        Level::Unfiltered => insert_with(Unfiltered, view, worker, hold, sites, progress),
+        Level::Scalar => insert_with(scalar, view, worker, hold, sites, progress),
         #[cfg(target_arch = "x86_64")]
-        Level::Four(yes) => yes.insert(mesh, sites),
+        Level::Four(yes) => yes.insert(view, worker, hold, sites, progress),
         #[cfg(target_arch = "x86_64")]
-        Level::Eight(yes) => yes.insert(mesh, sites),
+        Level::Eight(yes) => yes.insert(view, worker, hold, sites, progress),
     }
 }

@@ -29,11 +29,15 @@ mod walk;
 mod whole;
 
 use std::marker::PhantomData;
+use std::sync::atomic::{AtomicU8, AtomicU32};
 
 use taut_predicates::Separate;
 
 use crate::kernel::{Counters, Kernel, Settings, TooMany};
+use crate::records::{Records, zeros};
 use crate::simplex::{DEAD_MARK, GHOST, Simplex, code};
+use crate::threads::Record;
+use crate::threads::{Alone, Hold, Holder, Inserted, OwnSlots, Owners, Progress, Room, SharedMesh};
 use cavity::{Cavity, FACETS};
 use lanes::Level;
 use signs::{Judge, Scalar, Signs, Unfiltered};
@@ -71,20 +75,53 @@ const SIMPLICES_MAX: usize = 1 << 30;
 /// The mesh of space under construction.
 pub(crate) struct Mesh {
     sites: Vec<Site>,
-    simplices: Vec<Simplex<4>>,
-    /// For `cavity`; zero between calls.
-    marks: Vec<u8>,
-    /// Dead slots.
-    free: Vec<u32>,
+    records: Records<4>,
+    /// For `cavity`; zero between insertions.
+    marks: Vec<AtomicU8>,
+    /// The first slot that nobody has taken.
+    next: AtomicU32,
+    owners: Owners,
+    /// The first one inserts alone.
+    workers: Vec<Worker>,
+    settings: Settings,
+    level: Level,
+    /// Most simplices; [`SIMPLICES_MAX`] outside tests.
+    limit: usize,
+}
+
+/// What a thread has for itself, in cache lines of its own.
+#[repr(align(128))]
+pub(crate) struct Worker {
     /// Where the next walk begins.
     last: u32,
+    slots: OwnSlots,
     cavity: Cavity,
     star: Star,
     judge: Judge,
     counters: Counters,
+}
+
+impl Worker {
+    fn new(sites: usize, settings: Settings) -> Self {
+        Worker {
+            last: 0,
+            slots: OwnSlots::default(),
+            cavity: Cavity::default(),
+            star: Star::new(sites),
+            judge: Judge::new(settings),
+            counters: Counters::default(),
+        }
+    }
+}
+
+/// What threads share.
+#[derive(Clone, Copy)]
+pub(crate) struct View<'a> {
+    sites: &'a [Site],
+    simplices: &'a [Record<4>],
+    marks: &'a [AtomicU8],
+    room: Room<'a>,
     level: Level,
-    /// Most simplices; [`SIMPLICES_MAX`] outside tests.
-    limit: usize,
 }
 
 impl Kernel<3, 4> for Mesh {
@@ -101,14 +138,12 @@ impl Kernel<3, 4> for Mesh {
         rows.extend((0..count).map(|i| Site::new(site(i))));
         Mesh {
             sites: rows,
-            simplices: Vec::with_capacity(slots),
-            marks: Vec::with_capacity(slots),
-            free: Vec::new(),
-            last: 0,
-            cavity: Cavity::default(),
-            star: Star::new(count),
-            judge: Judge::new(settings),
-            counters: Counters::default(),
+            records: Records::new(slots),
+            marks: zeros(slots),
+            next: AtomicU32::new(0),
+            owners: Owners::new(0),
+            workers: vec![Worker::new(count, settings)],
+            settings,
             level: Level::best(settings),
             limit: SIMPLICES_MAX,
         }
@@ -124,8 +159,9 @@ impl Kernel<3, 4> for Mesh {
     }
 
     fn start(&mut self, mut first: [u32; 4]) {
-        debug_assert!(self.simplices.is_empty(), "a mesh starts once");
-        let sign = self.judge.orient(first.map(|v| &self.sites[row(v)]));
+        debug_assert!(self.records.len() == 0, "a mesh starts once");
+        let worker = &mut self.workers[0];
+        let sign = worker.judge.orient(first.map(|v| &self.sites[row(v)]));
         debug_assert!(!sign.is_zero(), "the first four sites span space");
         if sign.is_negative() {
             first.swap(2, 3);
@@ -149,111 +185,290 @@ impl Kernel<3, 4> for Mesh {
                     .expect("a tetrahedron and its four ghosts close up");
                 code(other as u32, j as u32)
             });
-            self.simplices.push(Simplex { vertices, neighbors });
-            self.marks.push(0);
+            self.records.all()[t].set(Simplex { vertices, neighbors });
         }
-        self.counters.insertions += 4;
-        self.counters.orientations += 1;
+        self.records.set_len(all.len());
+        self.next = AtomicU32::new(all.len() as u32);
+        worker.counters.insertions += 4;
+        worker.counters.orientations += 1;
     }
 
     fn insert(&mut self, sites: &[u32]) -> Result<(), TooMany> {
-        lanes::insert(self, sites)
-    }
-
-    fn push(&mut self, site: [f64; 3]) -> u32 {
-        self.sites.push(Site::new(site));
-        self.star.push();
-        (self.sites.len() - 2) as u32
+        let mut left = sites;
+        loop {
+            let (view, _, workers) = self.share(1);
+            let progress = &mut Progress::default();
+            let done = lanes::insert(&view, &mut workers[0], &mut Alone, left, progress);
+            self.end_sharing();
+            match done {
+                Inserted::All => return Ok(()),
+                Inserted::Full(at) => left = &left[at..],
+            }
+            self.grow()?;
+        }
     }
 
     #[inline(always)]
     fn simplices(&self) -> &[Simplex<4>] {
-        &self.simplices
+        self.records.as_slice()
     }
 
     fn last(&self) -> u32 {
-        self.last
+        self.workers[0].last
     }
 
     fn locate(&mut self, q: [f64; 3], hint: u32) -> u32 {
         let q = &Site::new(q);
-        let Mesh { sites, simplices, judge, counters, level, .. } = self;
-        if matches!(level, Level::Unfiltered) {
-            walk::walk(Unfiltered, sites, simplices, judge, counters, q, hint)
+        let (sites, records, level) = (&self.sites, self.records.all(), self.level);
+        let Worker { judge, counters, .. } = &mut self.workers[0];
+        let found = if matches!(level, Level::Unfiltered) {
+            walk::walk::<_, false>(Unfiltered, sites, records, judge, counters, q, hint)
         } else {
-            walk::walk(Scalar::<Separate>(PhantomData), sites, simplices, judge, counters, q, hint)
+            let signs = Scalar::<Separate>(PhantomData);
+            walk::walk::<_, false>(signs, sites, records, judge, counters, q, hint)
+        };
+        match found {
+            Ok((t, _)) | Err(t) => t,
         }
     }
 
     fn finish(self) -> (Vec<Simplex<4>>, Option<Vec<[f64; 3]>>, Counters) {
-        let Mesh { simplices, mut counters, judge, .. } = self;
-        let (stages, behind) = judge.into_parts();
-        counters.conflict_tests += behind;
-        counters.stages += stages;
-        counters.stages.filter += counters.orientations + counters.conflict_tests - stages.calls();
-        (simplices, None, counters)
+        let mut all = Counters::default();
+        for Worker { mut counters, judge, .. } in self.workers {
+            let (stages, behind) = judge.into_parts();
+            counters.conflict_tests += behind;
+            counters.stages += stages;
+            counters.stages.filter +=
+                counters.orientations + counters.conflict_tests - stages.calls();
+            all += counters;
+        }
+        (self.records.into_simplices(), None, all)
     }
 }
 
 impl Mesh {
-    /// Inserts sites in this order; the path of the signs is the caller's choice.
-    #[inline(always)]
-    fn insert_with<S: Signs>(&mut self, signs: S, sites: &[u32]) -> Result<(), TooMany> {
-        for (i, &site) in sites.iter().enumerate() {
-            // Four sites ahead: about the time that memory takes.
-            if let Some(&soon) = sites.get(i + 4) {
-                signs.fetch(self.sites.as_ptr().wrapping_add(row(soon)));
-            }
-            let q = self.sites[row(site)];
-            self.find(signs, &q, self.last);
-            self.replace(site)?;
+    /// Makes room for so many slots, as far as the limit allows.
+    fn enlarge(&mut self, len: usize) {
+        let len = len.min(self.limit).max(self.records.all().len());
+        self.records.grow(len);
+        self.marks.reserve_exact(len - self.marks.len());
+        self.marks.resize_with(len, AtomicU8::default);
+    }
+}
+
+impl SharedMesh<3, 4> for Mesh {
+    type View<'a> = View<'a>;
+    type Worker = Worker;
+
+    const SITES_MIN: usize = 1500;
+
+    fn share(&mut self, threads: usize) -> (View<'_>, &Owners, &mut [Worker]) {
+        let count = self.sites.len() - 1;
+        if threads > 1 && self.owners.len() < count {
+            self.owners = Owners::new(count);
         }
-        Ok(())
+        let more = threads.saturating_sub(self.workers.len());
+        if more > 0 {
+            let (last, settings) = (self.workers[0].last, self.settings);
+            let worker = || Worker { last, ..Worker::new(count, settings) };
+            self.workers.extend(std::iter::repeat_with(worker).take(more));
+            self.enlarge(self.records.all().len() + more * Room::SLOTS_SPARE);
+        }
+        let end = self.records.all().len().min(self.limit) as u32;
+        let view = View {
+            sites: &self.sites,
+            simplices: self.records.all(),
+            marks: &self.marks,
+            room: Room { next: &self.next, end },
+            level: self.level,
+        };
+        (view, &self.owners, &mut self.workers[..threads])
     }
 
-    /// Leaves the cavity of q in `cavity`; the mesh does not change.
-    #[inline(always)]
-    fn find<S: Signs>(&mut self, signs: S, q: &Site, hint: u32) {
-        let Mesh { sites, simplices, marks, cavity, judge, counters, .. } = self;
-        let start = walk::walk(signs, sites, simplices, judge, counters, q, hint);
-        counters.conflict_tests += cavity.carve(signs, sites, simplices, marks, judge, q, start);
+    fn end_sharing(&mut self) {
+        for worker in &mut self.workers {
+            worker.slots.give_back(&self.next, self.records.all());
+        }
+        self.records.set_len(*self.next.get_mut() as usize);
+        // Another thread may have destroyed what a thread made last.
+        let is_live = |t: u32| walk::is_simplex(self.records.all()[t as usize].vertices());
+        let live = self.workers.iter().map(|worker| worker.last).find(|&t| is_live(t));
+        let live = live.or_else(|| (0..self.records.len() as u32).find(|&t| is_live(t)));
+        let live = live.expect("a mesh has simplices");
+        for worker in self.workers.iter_mut().filter(|worker| !is_live(worker.last)) {
+            worker.last = live;
+        }
     }
 
-    /// Puts the star of `site` in the place of its cavity.
-    #[inline(always)]
-    fn replace(&mut self, site: u32) -> Result<(), TooMany> {
-        let Mesh { simplices, marks, free, cavity, star, counters, .. } = self;
-        let (facets, slots) = cavity.facets_and_slots();
-        counters.insertions += 1;
-        counters.replaced += slots.len() as u64;
-        // Slots of the cavity first: they are in the cache.
-        while slots.len() > facets.len() {
-            let slot = slots.pop().expect("the loop has just seen it");
-            simplices[slot as usize].vertices[0] = DEAD_MARK;
-            free.push(slot);
-        }
-        while slots.len() < facets.len()
-            && let Some(slot) = free.pop()
-        {
-            slots.push(slot);
-        }
-        let more = facets.len() - slots.len();
-        let len = simplices.len();
-        if len + more > self.limit {
+    fn grow(&mut self) -> Result<(), TooMany> {
+        let len = self.records.all().len();
+        if len >= self.limit {
             return Err(TooMany);
         }
-        if simplices.capacity() < len + more {
-            // An eighth at a time: doubling would be the peak of the whole build.
-            simplices.reserve_exact(more.max(len / 8));
-            marks.reserve_exact(more.max(len / 8));
-        }
-        for slot in len..len + more {
-            slots.push(slot as u32);
-            simplices.push(Simplex { vertices: [DEAD_MARK; 4], neighbors: [0; 4] });
-            marks.push(0);
-        }
-        star.fill(simplices, facets, slots, site);
-        self.last = slots[slots.len() - 1];
+        // An eighth at a time: doubling would be the peak of the whole build.
+        self.enlarge(len + len / 8 + Room::SLOTS_SPARE);
         Ok(())
     }
+
+    fn insert_concurrently(
+        view: &View<'_>,
+        worker: &mut Worker,
+        holder: &mut Holder<'_>,
+        sites: &[u32],
+        progress: &mut Progress,
+    ) -> Inserted {
+        lanes::insert(view, worker, holder, sites, progress)
+    }
+}
+
+/// Attempts to insert a site beside other threads before it is left for the end of the round.
+const ATTEMPTS_EACH: usize = 4;
+
+/// Inserts sites in this order; the path of the signs is the caller's choice.
+#[inline(always)]
+fn insert_with<S: Signs, H: Hold>(
+    signs: S,
+    view: &View<'_>,
+    worker: &mut Worker,
+    hold: &mut H,
+    sites: &[u32],
+    progress: &mut Progress,
+) -> Inserted {
+    for (i, &site) in sites.iter().enumerate() {
+        // Four sites ahead: about the time that memory takes.
+        if let Some(&soon) = sites.get(i + 4) {
+            signs.fetch(view.sites.as_ptr().wrapping_add(row(soon)));
+        }
+        progress.attempts += 1;
+        // It fails only beside other threads.
+        if !find(signs, view, worker, hold, site)
+            && !find_again(signs, view, worker, hold, site, progress)
+        {
+            progress.deferred.push(site);
+            continue;
+        }
+        let is_placed = replace(view, worker, site);
+        hold.done();
+        if !is_placed {
+            return Inserted::Full(i);
+        }
+    }
+    Inserted::All
+}
+
+/// Leaves the cavity of q in `worker` and holds it; the mesh does not change. Returns false, and holds nothing, if another
+/// thread is in the way.
+#[inline(always)]
+fn find<S: Signs, H: Hold>(
+    signs: S,
+    view: &View<'_>,
+    worker: &mut Worker,
+    hold: &mut H,
+    site: u32,
+) -> bool {
+    let q = &view.sites[row(site)];
+    let Worker { last, cavity, judge, counters, .. } = worker;
+    let View { sites, simplices, marks, .. } = *view;
+    // The two calls are one: a constant chooses.
+    let found = if H::SHARED {
+        walk::walk::<S, true>(signs, sites, simplices, judge, counters, q, *last)
+    } else {
+        walk::walk::<S, false>(signs, sites, simplices, judge, counters, q, *last)
+    };
+    let (start, vertices) = match found {
+        Ok(found) => found,
+        Err(at) => {
+            *last = at;
+            hold.back_off();
+            return false;
+        }
+    };
+    if H::SHARED {
+        // Where the walk ended is a good beginning for the next attempt.
+        *last = start;
+        if !hold.hold([site])
+            || !hold.hold(vertices)
+            || simplices[start as usize].vertices() != vertices
+            || !is_in_conflict(signs, view, judge, counters, start, vertices, q)
+        {
+            hold.back_off();
+            return false;
+        }
+    }
+    let (tests, all_held) = cavity.carve(signs, sites, simplices, marks, judge, hold, q, start);
+    counters.conflict_tests += tests;
+    if !all_held {
+        hold.back_off();
+    }
+    all_held
+}
+
+/// Tests whether a simplex that a walk beside other threads came to is in conflict with q. A finite one is, as its facets were
+/// asked for these very vertices; a ghost was only reached across the facet of another simplex.
+#[inline(always)]
+fn is_in_conflict<S: Signs>(
+    signs: S,
+    view: &View<'_>,
+    judge: &mut Judge,
+    counters: &mut Counters,
+    t: u32,
+    vertices: [u32; 4],
+    q: &Site,
+) -> bool {
+    if cavity::ghost_place(vertices).is_none() {
+        return true;
+    }
+    counters.conflict_tests += 1;
+    judge.conflicts(signs, view.sites, view.simplices, &[t; 8][..S::WIDTH], 1, q) != 0
+}
+
+/// Tries again to [`find`] the cavity of q, from other simplices if there is none any more where the walk begins.
+#[cold]
+#[inline(never)]
+fn find_again<S: Signs, H: Hold>(
+    signs: S,
+    view: &View<'_>,
+    worker: &mut Worker,
+    hold: &mut H,
+    site: u32,
+    progress: &mut Progress,
+) -> bool {
+    progress.failed += 1;
+    for _ in 1..ATTEMPTS_EACH {
+        progress.attempts += 1;
+        let is_live = |&t: &u32| walk::is_simplex(view.simplices[t as usize].vertices());
+        worker.last = view.room.some_of(worker.last, is_live);
+        if find(signs, view, worker, hold, site) {
+            return true;
+        }
+        progress.failed += 1;
+    }
+    false
+}
+
+/// Puts the star of `site` in the place of the cavity that `worker` has found. Returns false, and changes nothing, if there is
+/// no room.
+#[inline(always)]
+fn replace(view: &View<'_>, worker: &mut Worker, site: u32) -> bool {
+    let Worker { last, slots: own, cavity, star, counters, .. } = worker;
+    let simplices = view.simplices;
+    let (facets, slots) = cavity.facets_and_slots();
+    // Slots of the cavity first: they are in the cache.
+    let more = facets.len().saturating_sub(slots.len());
+    if !own.reserve(more, view.room, simplices) {
+        return false;
+    }
+    counters.insertions += 1;
+    counters.replaced += slots.len() as u64;
+    while slots.len() > facets.len() {
+        let slot = slots.pop().expect("the loop has just seen it");
+        simplices[slot as usize].kill();
+        own.push(slot);
+    }
+    for _ in 0..more {
+        slots.push(own.pop());
+    }
+    star.fill(simplices, facets, slots, site);
+    *last = slots[slots.len() - 1];
+    true
 }

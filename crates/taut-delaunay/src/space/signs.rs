@@ -9,7 +9,7 @@ use std::ops::{Add, Mul, Sub};
 use taut_predicates::{Exact, MulAdd, Separate, Sign, Stages, space};
 
 use crate::kernel::Settings;
-use crate::simplex::Simplex;
+use crate::threads::Record;
 
 use super::cavity::{FACETS, Facet, ghost_place};
 use super::{Site, row};
@@ -131,7 +131,7 @@ pub(super) trait Signs: Copy {
     fn conflicts(
         self,
         sites: &[Site],
-        simplices: &[Simplex<4>],
+        simplices: &[Record<4>],
         group: &[u32],
         q: &Site,
     ) -> (u32, u32);
@@ -140,7 +140,7 @@ pub(super) trait Signs: Copy {
     fn conflicts_in_pairs(
         self,
         sites: &[Site],
-        simplices: &[Simplex<4>],
+        simplices: &[Record<4>],
         group: &[u32],
         q: &Site,
     ) -> Option<(u32, u32)>;
@@ -149,7 +149,7 @@ pub(super) trait Signs: Copy {
     fn conflicts_in_whole(
         self,
         sites: &[Site],
-        simplices: &[Simplex<4>],
+        simplices: &[Record<4>],
         group: &[u32],
         q: &Site,
     ) -> Option<(u32, u32, u32)>;
@@ -163,9 +163,9 @@ pub(super) trait Signs: Copy {
 
     /// Writes facet I of a simplex.
     #[inline(always)]
-    fn put<const I: usize>(self, simplex: &Simplex<4>, facet: &mut Facet) {
-        let vertices = FACETS[I].map(|i| simplex.vertices[i]);
-        *facet = Facet { vertices, outside: simplex.neighbors[I] };
+    fn put<const I: usize>(self, simplex: &Record<4>, facet: &mut Facet) {
+        let vertices = FACETS[I].map(|i| simplex.vertex(i));
+        *facet = Facet { vertices, outside: simplex.neighbor(I) };
     }
 }
 
@@ -237,8 +237,8 @@ impl<M: MulAdd> Lane for Real<M> {
 
 /// The rows of the vertices.
 #[inline(always)]
-pub(super) fn rows<'a>(sites: &'a [Site], simplex: &Simplex<4>) -> [&'a Site; 4] {
-    let [a, b, c, d] = simplex.vertices;
+pub(super) fn rows(sites: &[Site], vertices: [u32; 4]) -> [&Site; 4] {
+    let [a, b, c, d] = vertices;
     [&sites[row(a)], &sites[row(b)], &sites[row(c)], &sites[row(d)]]
 }
 
@@ -256,11 +256,11 @@ impl<M: MulAdd> Signs for Scalar<M> {
     fn conflicts(
         self,
         sites: &[Site],
-        simplices: &[Simplex<4>],
+        simplices: &[Record<4>],
         group: &[u32],
         q: &Site,
     ) -> (u32, u32) {
-        let [a, b, c, d] = rows(sites, &simplices[group[0] as usize]);
+        let [a, b, c, d] = rows(sites, simplices[group[0] as usize].vertices());
         let (Real(det, _), Real(bound, _)) =
             in_sphere([less::<M>(a, q), less(b, q), less(c, q), less(d, q)]);
         let inside = det > bound;
@@ -270,7 +270,7 @@ impl<M: MulAdd> Signs for Scalar<M> {
     fn conflicts_in_pairs(
         self,
         _: &[Site],
-        _: &[Simplex<4>],
+        _: &[Record<4>],
         _: &[u32],
         _: &Site,
     ) -> Option<(u32, u32)> {
@@ -280,7 +280,7 @@ impl<M: MulAdd> Signs for Scalar<M> {
     fn conflicts_in_whole(
         self,
         _: &[Site],
-        _: &[Simplex<4>],
+        _: &[Record<4>],
         _: &[u32],
         _: &Site,
     ) -> Option<(u32, u32, u32)> {
@@ -310,14 +310,14 @@ impl Signs for Unfiltered {
     const FILTERED: bool = false;
     const WIDTH: usize = 1;
 
-    fn conflicts(self, _: &[Site], _: &[Simplex<4>], _: &[u32], _: &Site) -> (u32, u32) {
+    fn conflicts(self, _: &[Site], _: &[Record<4>], _: &[u32], _: &Site) -> (u32, u32) {
         (0, 1)
     }
 
     fn conflicts_in_pairs(
         self,
         _: &[Site],
-        _: &[Simplex<4>],
+        _: &[Record<4>],
         _: &[u32],
         _: &Site,
     ) -> Option<(u32, u32)> {
@@ -327,7 +327,7 @@ impl Signs for Unfiltered {
     fn conflicts_in_whole(
         self,
         _: &[Site],
-        _: &[Simplex<4>],
+        _: &[Record<4>],
         _: &[u32],
         _: &Site,
     ) -> Option<(u32, u32, u32)> {
@@ -368,7 +368,7 @@ impl Judge {
         &mut self,
         signs: S,
         sites: &[Site],
-        simplices: &[Simplex<4>],
+        simplices: &[Record<4>],
         group: &[u32],
         open: u32,
         q: &Site,
@@ -378,7 +378,7 @@ impl Judge {
             let lane = left.trailing_zeros();
             left &= left - 1;
             let simplex = &simplices[group[lane as usize] as usize];
-            match ghost_place(simplex) {
+            match ghost_place(simplex.vertices()) {
                 None => finite |= 1 << lane,
                 Some(place) => {
                     let beyond = self.beyond::<S>(sites, simplices, simplex, place, q);
@@ -419,12 +419,12 @@ impl Judge {
     fn beyond<S: Signs>(
         &mut self,
         sites: &[Site],
-        simplices: &[Simplex<4>],
-        ghost: &Simplex<4>,
+        simplices: &[Record<4>],
+        ghost: &Record<4>,
         place: usize,
         q: &Site,
     ) -> bool {
-        let [a, b, c] = FACETS[place].map(|i| &sites[row(ghost.vertices[i])]);
+        let [a, b, c] = FACETS[place].map(|i| &sites[row(ghost.vertex(i))]);
         if S::FILTERED {
             let corners = [less::<Separate>(a, q), less(b, q), less(c, q)];
             let (Real(det, _), Real(bound, _)) = orientation(corners);
@@ -437,15 +437,15 @@ impl Judge {
             Sign::Negative => false,
             Sign::Zero => {
                 self.behind += 1;
-                let behind = &simplices[(ghost.neighbors[place] >> 2) as usize];
+                let behind = &simplices[(ghost.neighbor(place) >> 2) as usize];
                 self.holds(sites, behind, q)
             }
         }
     }
 
     /// Returns true if q is in conflict with a finite simplex, whatever the filter says.
-    fn holds(&mut self, sites: &[Site], simplex: &Simplex<4>, q: &Site) -> bool {
-        let [a, b, c, d] = rows(sites, simplex).map(Site::point);
+    fn holds(&mut self, sites: &[Site], simplex: &Record<4>, q: &Site) -> bool {
+        let [a, b, c, d] = rows(sites, simplex.vertices()).map(Site::point);
         space::conflict_exact(a, b, c, d, q.point(), &mut self.exact)
     }
 }

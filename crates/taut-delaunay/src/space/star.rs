@@ -11,6 +11,7 @@
 //! points, and no gain on a torus either.
 
 use crate::simplex::{Simplex, code, decode};
+use crate::threads::Record;
 
 use super::cavity::Facet;
 use super::row;
@@ -43,17 +44,12 @@ impl Star {
         }
     }
 
-    /// Room for one site more.
-    pub(super) fn push(&mut self) {
-        self.local.push(0);
-    }
-
     /// Writes one simplex (q, a, b, c) for each facet into the slot of the same place, with all neighbors on both
     /// sides.
     #[inline(always)]
     pub(super) fn fill(
         &mut self,
-        simplices: &mut [Simplex<4>],
+        simplices: &[Record<4>],
         facets: &[Facet],
         slots: &[u32],
         q: u32,
@@ -66,13 +62,7 @@ impl Star {
     }
 
     #[inline(always)]
-    fn fill_by_table(
-        &mut self,
-        simplices: &mut [Simplex<4>],
-        facets: &[Facet],
-        slots: &[u32],
-        q: u32,
-    ) {
+    fn fill_by_table(&mut self, simplices: &[Record<4>], facets: &[Facet], slots: &[u32], q: u32) {
         let stride = 3 * facets.len();
         if self.table.len() < stride * stride {
             self.table.resize(stride * stride, 0);
@@ -107,13 +97,7 @@ impl Star {
     /// hundreds of neighbors: an apex over a plane full of sites, the center of a sphere.
     #[cold]
     #[inline(never)]
-    fn fill_by_hash(
-        &mut self,
-        simplices: &mut [Simplex<4>],
-        facets: &[Facet],
-        slots: &[u32],
-        q: u32,
-    ) {
+    fn fill_by_hash(&mut self, simplices: &[Record<4>], facets: &[Facet], slots: &[u32], q: u32) {
         /// Multiplicative hashing with the golden ratio of 2⁶⁴; the high bits are the mixed ones.
         const HASH_FACTOR: u64 = 0x9e37_79b9_7f4a_7c15;
         let edge = |name: u32| {
@@ -140,8 +124,8 @@ impl Star {
                     // Edge i lies opposite corner i, which is vertex i + 1 of the simplex.
                     let (mine, its) = (slots[name as usize / 3], slots[other as usize / 3]);
                     let (i, j) = (name % 3 + 1, other % 3 + 1);
-                    simplices[mine as usize].neighbors[i as usize] = code(its, j);
-                    simplices[its as usize].neighbors[j as usize] = code(mine, i);
+                    simplices[mine as usize].set_neighbor(i as usize, code(its, j));
+                    simplices[its as usize].set_neighbor(j as usize, code(mine, i));
                     break;
                 }
                 at = (at + 1) & (size - 1);
@@ -152,9 +136,9 @@ impl Star {
 
 /// Writes a simplex and tells the one outside.
 #[inline(always)]
-fn place(simplices: &mut [Simplex<4>], facet: &Facet, slot: u32, q: u32, neighbors: [u32; 4]) {
+fn place(simplices: &[Record<4>], facet: &Facet, slot: u32, q: u32, neighbors: [u32; 4]) {
     let [a, b, c] = facet.vertices;
-    simplices[slot as usize] = Simplex { vertices: [q, a, b, c], neighbors };
+    simplices[slot as usize].set(Simplex { vertices: [q, a, b, c], neighbors });
     let (outside, side) = decode(facet.outside);
-    simplices[outside as usize].neighbors[side] = code(slot, 0);
+    simplices[outside as usize].set_neighbor(side, code(slot, 0));
 }

@@ -84,8 +84,10 @@ fn finite(mesh: &Mesh) -> usize {
 
 /// Neighbors, orientation, the Euler relation, and that no simplex is in conflict with the vertex across any facet.
 fn check(mesh: &mut Mesh) {
-    let Mesh { sites, simplices, marks, judge, .. } = mesh;
-    assert!(marks.iter().all(|&mark| mark == 0), "marks are clear");
+    let Mesh { sites, records, marks, owners, workers, .. } = mesh;
+    let (simplices, judge) = (records.as_slice(), &mut workers[0].judge);
+    assert!(marks.iter_mut().all(|mark| *mark.get_mut() == 0), "marks are clear");
+    assert!(owners.are_free(), "nobody holds a vertex");
     let (mut vertices, mut edges, mut count) =
         (std::collections::HashSet::new(), std::collections::HashSet::new(), 0);
     for (t, simplex) in simplices.iter().enumerate().filter(|(_, s)| s.is_live()) {
@@ -115,7 +117,7 @@ fn check(mesh: &mut Mesh) {
                 let conflict = judge.conflicts(
                     Unfiltered,
                     sites,
-                    simplices,
+                    records.all(),
                     &[t as u32],
                     1,
                     &sites[row(apex)],

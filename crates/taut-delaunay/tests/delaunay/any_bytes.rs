@@ -2,7 +2,7 @@
 
 #[path = "common/bytes.rs"]
 mod bytes;
-#[path = "../../../test_length.rs"]
+#[path = "test_length.rs"]
 mod test_length;
 
 #[test]

@@ -1,4 +1,4 @@
-//! The answer is a function of the point set: not of the order of rows, of threads, of cells, of insertion.
+//! The answer is a function of the point set: not of the order of rows, of threads, of insertion.
 
 use std::f64::consts::TAU;
 
@@ -160,12 +160,13 @@ fn same_whatever_the_way<const D: usize>(name: &str, points: &[[f64; D]]) {
     let expected = build(points, &alone);
     let source = Points::new(points.as_flattened(), D).expect("whole rows");
     expected.check(&source).unwrap_or_else(|e| panic!("{name}: {e}"));
-    for cells in [2, 3, 5, 8, 64] {
-        let found = build(
-            points,
-            &DelaunayOptions { threads: Some(2), cells: Some(cells), ..alone.clone() },
-        );
-        assert!(found == expected, "{name}: {cells} cells");
+    for threads in [2, 3, 8, 30] {
+        for sites_per_thread in [Some(1), Some(40), None] {
+            let options =
+                DelaunayOptions { threads: Some(threads), sites_per_thread, ..alone.clone() };
+            let found = build(points, &options);
+            assert!(found == expected, "{name}: {threads} threads, {sites_per_thread:?}");
+        }
     }
     for order in InsertionOrder::ALL {
         let method = order.name();
@@ -187,7 +188,12 @@ fn same_whatever_the_way<const D: usize>(name: &str, points: &[[f64; D]]) {
     for (way, rows) in
         [("shuffled", shuffled), ("sorted", sorted), ("reversed", reversed), ("doubled", doubled)]
     {
-        let found = build(&rows, &DelaunayOptions { cells: Some(3), ..DelaunayOptions::default() });
+        let options = DelaunayOptions {
+            threads: Some(3),
+            sites_per_thread: Some(1),
+            ..DelaunayOptions::default()
+        };
+        let found = build(&rows, &options);
         assert_eq!(
             found.certificate.fingerprint, expected.certificate.fingerprint,
             "{name}: {way}"

@@ -10,10 +10,14 @@ fn a_grid_of_k_cubed_points_has_six_tetrahedra_a_cube() {
         let values: Vec<f64> =
             (0..k.pow(3)).flat_map(|i| [i % k, i / k % k, i / k / k]).map(|x| x as f64).collect();
         let points = Points::new(&values, 3).expect("whole rows");
-        for cells in [1, 5] {
-            let options = DelaunayOptions { cells: Some(cells), ..DelaunayOptions::default() };
+        for threads in [1, 5] {
+            let options = DelaunayOptions {
+                threads: Some(threads),
+                sites_per_thread: Some(1),
+                ..DelaunayOptions::default()
+            };
             let found = delaunay(&points, &options).expect("finite");
-            assert_eq!(found.answer.len(), 6 * (k - 1).pow(3), "{k}, {cells} cells");
+            assert_eq!(found.answer.len(), 6 * (k - 1).pow(3), "{k}, {threads} threads");
             assert_eq!(found.certificate.counts.hull as usize, 12 * (k - 1).pow(2));
         }
     }

@@ -15,19 +15,19 @@ fn numbers(count: usize, seed: u64) -> Vec<f64> {
         .collect()
 }
 
-/// Built by three cells, so that there are slots without a simplex.
-fn by_cells() -> DelaunayOptions<'static> {
-    DelaunayOptions { cells: Some(3), ..DelaunayOptions::default() }
+/// By three threads, so that there are slots without a simplex.
+fn by_threads() -> DelaunayOptions<'static> {
+    DelaunayOptions { threads: Some(3), sites_per_thread: Some(1), ..DelaunayOptions::default() }
 }
 
 fn plane(values: &[f64]) -> Plane {
     let points = Points::new(values, 2).expect("whole rows");
-    Plane::build(&points, &by_cells()).expect("finite")
+    Plane::build(&points, &by_threads()).expect("finite")
 }
 
 fn space(values: &[f64]) -> Space {
     let points = Points::new(values, 3).expect("whole rows");
-    Space::build(&points, &by_cells()).expect("finite")
+    Space::build(&points, &by_threads()).expect("finite")
 }
 
 fn square_distance<const D: usize>(p: [f64; D], q: [f64; D]) -> f64 {
@@ -261,15 +261,14 @@ fn a_large_alpha_in_space_leaves_the_hull() {
     assert!(edges.values().all(|&sum| sum == 0));
 }
 
-/// A square with a square hole, by cells and on one thread alike.
+/// A square with a square hole, by threads and on one thread alike.
 #[test]
 fn constraints_hold_however_the_triangulation_was_built() {
     let mut values = numbers(800, 53);
     values.extend([0.2, 0.2, 0.8, 0.2, 0.8, 0.8, 0.2, 0.8, 0.4, 0.4, 0.6, 0.4, 0.6, 0.6, 0.4, 0.6]);
     let points = Points::new(&values, 2).expect("whole rows");
     let mut areas = Vec::new();
-    for cells in [1, 3] {
-        let options = DelaunayOptions { cells: Some(cells), ..DelaunayOptions::default() };
+    for options in [DelaunayOptions::default(), by_threads()] {
         let plane = Plane::build(&points, &options).expect("finite");
         let site = plane.sites_of_rows();
         let rings = [[400, 401, 402, 403], [404, 405, 406, 407]];

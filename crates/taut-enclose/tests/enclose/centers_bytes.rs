@@ -38,6 +38,9 @@ proptest! {
 #[test]
 fn the_seeds_pass() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/seeds/centers");
+    if !folder.exists() {
+        return println!("skipped the_seeds_pass: this package comes without its seeds");
+    }
     let seeds: Vec<_> =
         std::fs::read_dir(folder).unwrap().map(|seed| seed.unwrap().path()).collect();
     assert!(seeds.len() >= 6);

@@ -1,6 +1,5 @@
 //! The tests of `taut-enclose` from outside, in one program: linking one for each file would take longer than running them.
 
-#[path = "../../../test_length.rs"]
 mod test_length;
 
 mod ball_bytes;

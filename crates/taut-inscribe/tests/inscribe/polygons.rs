@@ -8,7 +8,7 @@ use taut_certify::{
 use taut_inscribe::{ConvexOptions, Error, inscribed_polygon};
 use taut_points::Points;
 
-#[path = "../../../test_length.rs"]
+#[path = "test_length.rs"]
 mod test_length;
 
 /// Edges of convex polygons may reach this far out of the ring, in the search to compare with.

@@ -2,7 +2,6 @@
 
 #![allow(missing_docs)]
 
-#[path = "../../../test_length.rs"]
 mod test_length;
 
 mod bad_input;

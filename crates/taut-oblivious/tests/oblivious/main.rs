@@ -1,5 +1,6 @@
-//! Any bytes as records to sort, and threads that change no byte.
+//! Any bytes as records to sort, threads that change no byte, and the judgment of the checkers of files.
 
 mod bytes;
+mod certified;
 mod memory_bytes;
 mod threads;

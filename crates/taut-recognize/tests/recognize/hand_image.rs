@@ -322,6 +322,11 @@ fn the_table_of_a_threshold_is_the_formula() {
 fn files_of_the_fuzzer_give_no_panic() {
     let folder =
         std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/seeds/hand_image");
+    if !folder.exists() {
+        return println!(
+            "skipped files_of_the_fuzzer_give_no_panic: this package comes without its seeds"
+        );
+    }
     let (mut images, mut hands) = (0, 0);
     for entry in std::fs::read_dir(folder).unwrap() {
         let bytes = std::fs::read(entry.unwrap().path()).unwrap();

@@ -148,7 +148,7 @@ pub(super) fn finish(
         // Of what is no surface nothing is claimed.
         outward: is_surface && embedded,
         displacement: changes.displacement,
-        doubts: doubts.collect(),
+        doubts: doubts.chain(changes.doubts).collect(),
         points_hash,
     };
     let trace = Trace {

@@ -3,6 +3,8 @@
 //! *Trap.* A checker sees places alone: of rows in one place the first stands for all, whatever became of the others. So where an outlier
 //! is in the place of a row that was kept, both are left out.
 
+use taut_certify::TopologyDoubt;
+
 use super::denoise::firsts;
 use super::spheres::Point;
 use super::{Denoise, Positions};
@@ -18,6 +20,8 @@ pub(super) struct Changes {
     pub(super) moved: Vec<Point>,
     /// The largest distance of such a place from the row.
     pub(super) displacement: f64,
+    /// Reasons to doubt the topology that were found before the surface was.
+    pub(super) doubts: Vec<TopologyDoubt>,
     /// The places of all rows, if the triangles are those of other places.
     pub(super) elsewhere: Option<Vec<Point>>,
 }
@@ -50,6 +54,7 @@ impl Changes {
             copies: Some(copies.collect()),
             displacement: given.iter().zip(&places).map(apart).fold(0.0, f64::max),
             moved: if is_moved { places } else { Vec::new() },
+            doubts: Vec::new(),
             elsewhere: (how.iterations > 0 && !is_moved).then_some(given),
         };
         (changes, rows, points)

@@ -6,7 +6,7 @@
 //! facet that strongly says "a surface is here" lies within one side. Each of these that fails is named.
 //! *Guarantee.* None: this is evidence. How often it is right is measured by class on drawn shapes (`bench surface unseen`; docs/surface.md).
 
-use taut_certify::TopologyReason;
+use taut_certify::{TopologyDoubt, TopologyReason};
 
 use super::cells::Cells;
 use super::repair::Repaired;
@@ -15,7 +15,10 @@ use super::repair::Repaired;
 const REPAIRS_SHARE: f64 = 1e-3;
 /// So many facets in a thousand sites can be overruled without a doubt.
 const OVERRULED_SHARE: f64 = 1e-3;
-/// This many of either say nothing, however few sites there are.
+/// This share of rows can look as if noise were as large as what is around them without a doubt: curvature is exaggerated by noise, and
+/// four fifths of the rows look so where topology begins to be wrong.
+const UNCLEAR_SHARE: f64 = 0.5;
+/// This many of any say nothing, however few sites there are.
 const COUNT_MIN: f64 = 2.0;
 
 /// The reasons, each with the sites that it is about.
@@ -25,6 +28,7 @@ pub(super) type Doubts = Vec<(TopologyReason, Vec<u32>)>;
 pub(super) fn doubts(
     repaired: &Repaired,
     overruled: &[u32],
+    tips: Vec<u32>,
     cells: &Cells,
     sites: usize,
 ) -> Doubts {
@@ -41,9 +45,19 @@ pub(super) fn doubts(
         let at = overruled.iter().map(|&facet| cells.name(facet)[0]);
         doubts.push((TopologyReason::Overruled, at.collect()));
     }
+    if !tips.is_empty() {
+        doubts.push((TopologyReason::Spikes, tips));
+    }
     for (_, sites) in &mut doubts {
         sites.sort_unstable();
         sites.dedup();
     }
     doubts
+}
+
+/// The doubt that noise makes, of so many rows, some of which have noise as large as what is around them.
+pub(super) fn doubt_of_noise(unclear: &[u32], rows: usize) -> Option<TopologyDoubt> {
+    let most = (UNCLEAR_SHARE * rows as f64).max(COUNT_MIN);
+    let is_doubtful = unclear.len() as f64 > most;
+    is_doubtful.then(|| TopologyDoubt { reason: TopologyReason::Noise, rows: unclear.to_vec() })
 }

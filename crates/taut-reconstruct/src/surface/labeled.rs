@@ -18,6 +18,7 @@ use super::relabel_regions::sink;
 use super::repair::{Repaired, repair};
 use super::signed_cut::{Doubted, Improved, improve};
 use super::spheres::Point;
+use super::spikes::spikes;
 use super::tree::{Labels, labels};
 
 /// Sinking and repair take turns this often at most.
@@ -100,7 +101,7 @@ pub(super) fn surface_of_labels(
         orient(&mut found, points);
     }
     // Many of these are where there is noise, or a sheet with one side, as no labels of its two sides exist.
-    let doubts = doubts(&repaired, &overruled, cells, points.len());
+    let doubts = doubts(&repaired, &overruled, spikes(&found, points), cells, points.len());
     let overruled = overruled.len() as u64;
     let counters = [
         ("flips", relabeled),

@@ -26,11 +26,14 @@ mod filter;
 mod flats;
 mod labeled;
 mod lanes;
+mod merge;
 mod merged_labelings;
 mod neighbors;
+mod noise;
 mod one_sided;
 mod options;
 mod orient;
+mod outliers;
 mod outward;
 mod parity;
 mod prune;
@@ -39,9 +42,11 @@ mod relabel_parts;
 mod relabel_regions;
 mod repair;
 mod scaled;
+mod sheet_fit;
 mod sides;
 mod signed_cut;
 mod spheres;
+mod spikes;
 mod stars;
 pub mod thesis;
 mod tree;
@@ -49,7 +54,9 @@ mod two_sum;
 mod vector;
 mod witness;
 
-use taut_certify::{Solution, Surface, SurfaceMode as Promise};
+use std::collections::BTreeSet;
+
+use taut_certify::{Solution, Surface, SurfaceMode as Promise, TopologyDoubt, TopologyReason};
 use taut_delaunay::{Complex, DelaunayOptions, Space};
 use taut_points::{
     InputError, Monitor, PointSource, Points, PointsHash, Rows, Scratch, hash_points, on_threads,
@@ -61,12 +68,16 @@ use answer::{Facets, Sites, finish};
 use cells::Cells;
 use changes::Changes;
 use denoise::{Denoised, denoise};
+use doubts::doubt_of_noise;
 use labeled::surface_of_labels;
 use scaled::Scale;
 use thesis::{ThesisOptions, thesis_surface};
 
 pub use one_sided::looks_one_sided;
 pub use options::{Denoise, HullOptions, Positions, SurfaceMethod, SurfaceMode, SurfaceOptions};
+
+/// A surface through points without outliers is sought so often at most; each time but the first without the tips of spikes before.
+const PASSES_MAX: usize = 5;
 
 /// The surface that points of space were sampled from, with its certificate.
 ///
@@ -117,15 +128,46 @@ pub fn surface(
         };
         let scale = Scale::of(&given);
         given.iter_mut().for_each(|point| *point = scale.apply(*point));
-        let Denoised { points, rows, outliers } = denoise(&given, how, monitor)?;
+        let Denoised { points, rows, mut outliers, unclear } = denoise(&given, how, monitor)?;
         let given = coordinates(source.read(0..source.len(), &mut scratch)?);
         let points: Vec<[f64; 3]> = match how.iterations {
             0 => rows.iter().map(|&row| given[row as usize]).collect(),
             _ => points.into_iter().map(|point| scale.inverse().apply(point)).collect(),
         };
-        let (changes, rows, points) = Changes::of(given, how, outliers, (rows, points));
-        solve(&points, Some(&rows), changes, options, points_hash, monitor)
+        let solve_without = |outliers: Vec<u32>| {
+            let is_in = |row: &u32| outliers.binary_search(row).is_err();
+            let kept = rows.iter().copied().zip(points.iter().copied());
+            let kept = kept.filter(|(row, _)| is_in(row)).unzip();
+            let (mut changes, rows, points) = Changes::of(given.clone(), how, outliers, kept);
+            changes.doubts.extend(doubt_of_noise(&unclear, rows.len()));
+            solve(&points, Some(&rows), changes, options, points_hash, monitor)
+        };
+        let mut found = solve_without(outliers.clone())?;
+        // Tips of spikes are outliers that were too near to a sheet, or to each other, to be told from it.
+        for _ in 1..PASSES_MAX {
+            let of_spikes = |doubt: &&TopologyDoubt| doubt.reason == TopologyReason::Spikes;
+            let tips = found.certificate.doubts.iter().filter(of_spikes);
+            let mut tips: Vec<u32> = tips.flat_map(|doubt| doubt.rows.iter().copied()).collect();
+            if tips.is_empty() {
+                break;
+            }
+            with_copies(&mut tips, &rows, &points);
+            outliers.extend(tips);
+            outliers.sort_unstable();
+            outliers.dedup();
+            found = solve_without(outliers.clone())?;
+        }
+        Ok(found)
     })
+}
+
+/// Adds to some of the rows those that are in their places.
+fn with_copies(some: &mut Vec<u32>, rows: &[u32], points: &[[f64; 3]]) {
+    let bits = |place: &[f64; 3]| place.map(|x| (x + 0.0).to_bits());
+    let of_some = |row: &u32| rows.binary_search(row).ok().map(|k| bits(&points[k]));
+    let places: BTreeSet<[u64; 3]> = some.iter().filter_map(of_some).collect();
+    let all = rows.iter().zip(points).filter(|(_, place)| places.contains(&bits(place)));
+    some.extend(all.map(|(row, _)| *row));
 }
 
 fn coordinates(rows: Rows<'_>) -> Vec<[f64; 3]> {
@@ -159,8 +201,14 @@ fn solve(
 ) -> Result<Solution<Surface>, Error> {
     let view = Points::new(points.as_flattened(), 3);
     let Ok(view) = view else { return Err(Error::Flat { points: 0, span: Span::Nothing }) };
-    let space = Space::build(&view, &in_one_cell(monitor))?;
+    let space =
+        Space::build(&view, &DelaunayOptions { monitor: *monitor, ..DelaunayOptions::default() })?;
     check_span(&space)?;
+    // The labels of cells number them themselves.
+    let space = match options.method {
+        SurfaceMethod::Tree(_) => space,
+        _ => space.renumbered(),
+    };
     let sites = Sites::of(&space, rows);
     let (mode, facets, cells) = match options.method {
         SurfaceMethod::Tree(mode) => {
@@ -226,10 +274,4 @@ fn of_alpha(space: &Space, radius: Option<f64>) -> Result<(Promise, Facets), Err
     // A radius without end says nothing, and no JSON holds it.
     let mode = if radius.is_finite() { Promise::Alpha { radius } } else { Promise::Closed };
     Ok((mode, facets))
-}
-
-/// Returns how samples of surfaces are triangulated. Their simplices reach from one side of a body to the other, and so through all cells that
-/// threads could share: 10⁶ points of dc take two threads with a cell each half as long again as one thread alone.
-fn in_one_cell<'a>(monitor: &Monitor<'a>) -> DelaunayOptions<'a> {
-    DelaunayOptions { cells: Some(1), monitor: *monitor, ..DelaunayOptions::default() }
 }

@@ -20,17 +20,42 @@ pub(super) fn of_neighbors<R: Send>(
     count: usize,
     of: impl Fn(usize, &[Nearest]) -> R + Sync,
 ) -> Result<Vec<R>, Error> {
+    of_neighbors_by(points, |_| count, of)
+}
+
+/// The same with a number of neighbors for each point; none are sought where that is 0.
+pub(super) fn of_neighbors_by<R: Send>(
+    points: &[Point],
+    count: impl Fn(usize) -> usize + Sync,
+    of: impl Fn(usize, &[Nearest]) -> R + Sync,
+) -> Result<Vec<R>, Error> {
     let tree = KdTree::new(points).map_err(|error| refused(error, points.len()))?;
     let at = |row: u32| points[row as usize];
     // Finite, so that there is an order.
     let by_place =
         |a: u32, b: u32| at(a).partial_cmp(&at(b)).unwrap_or(Ordering::Equal).then(a.cmp(&b));
-    let each = |&row: &u32| of(row as usize, &tree.nearest_k_by(at(row), count, by_place));
+    let each = |&row: &u32| {
+        let near = tree.nearest_k_by(at(row), count(row as usize), by_place);
+        of(row as usize, &near)
+    };
     let order = hilbert_order(points.len(), |row| points[row]);
     let found: Vec<R> = order.par_iter().with_min_len(1 << 8).map(each).collect();
     let mut by_row: Vec<Option<R>> = points.iter().map(|_| None).collect();
     order.iter().zip(found).for_each(|(&row, found)| by_row[row as usize] = Some(found));
     Ok(by_row.into_iter().flatten().collect())
+}
+
+/// For each place the nearest of some points; none if there are none.
+pub(super) fn nearest_of(
+    points: &[Point],
+    places: &[Point],
+) -> Result<Vec<Option<Nearest>>, Error> {
+    let tree = KdTree::new(points).map_err(|error| refused(error, points.len()))?;
+    let at = |row: u32| points[row as usize];
+    let by_place =
+        |a: u32, b: u32| at(a).partial_cmp(&at(b)).unwrap_or(Ordering::Equal).then(a.cmp(&b));
+    let each = |&place: &Point| tree.nearest_k_by(place, 1, by_place).first().copied();
+    Ok(places.par_iter().with_min_len(1 << 8).map(each).collect())
 }
 
 /// Returns what the tree refuses, as a surface says it.

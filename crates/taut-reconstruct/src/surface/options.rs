@@ -118,8 +118,9 @@ choice! { "mode", SurfaceMode {
 /// The way in which noise is taken out of points before a surface is sought.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Denoise {
-    /// The number of nearest points, itself among them, that determine the sheet of a point. From 4 to 1000, default 24.
-    pub neighbors: usize,
+    /// The number of nearest points, itself among them, that determine the sheet of a point. From 4 to 1000; default `None`, which takes 24
+    /// where there is little noise, and up to 272 where there is more.
+    pub neighbors: Option<usize>,
     /// The number of times that each point is moved onto the paraboloid that fits its neighbors best; 0 moves none and leaves out outliers
     /// alone. At most 100, default 2.
     pub iterations: u32,
@@ -133,8 +134,8 @@ impl Denoise {
         let wrong = |name, value: String, expected| {
             Err(Error::Input(InputError::Option { name, value, expected }))
         };
-        if !(4..=1000).contains(&self.neighbors) {
-            return wrong("neighbors", self.neighbors.to_string(), "a number from 4 to 1000");
+        if let Some(neighbors) = self.neighbors.filter(|count| !(4..=1000).contains(count)) {
+            return wrong("neighbors", neighbors.to_string(), "a number from 4 to 1000");
         }
         if self.iterations > 100 {
             return wrong("iterations", self.iterations.to_string(), "a number from 0 to 100");
@@ -145,7 +146,7 @@ impl Denoise {
 
 impl Default for Denoise {
     fn default() -> Self {
-        Self { neighbors: 24, iterations: 2, positions: Positions::Projected }
+        Self { neighbors: None, iterations: 2, positions: Positions::Projected }
     }
 }
 

@@ -24,7 +24,7 @@ mod start;
 #[cfg(test)]
 mod tests;
 mod tree;
-mod union;
+pub(crate) mod union;
 
 use taut_certify::{tour_bound, tour_length};
 use taut_points::Monitor;

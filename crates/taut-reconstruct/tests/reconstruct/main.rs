@@ -1,6 +1,5 @@
 //! The tests of `taut-reconstruct` from outside, in one program: linking one for each file would take longer than running them.
 
-#[path = "../../../test_length.rs"]
 mod test_length;
 
 mod alpha_shapes;
@@ -16,6 +15,7 @@ mod surface_any;
 mod surface_bytes;
 mod surface_data;
 mod surface_laws;
+mod surface_noise;
 mod surface_original;
 mod surface_shapes;
 mod thesis_data;

@@ -43,6 +43,9 @@ fn few_points_and_many() {
 #[test]
 fn the_seeds_pass() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/seeds/surface");
+    if !folder.exists() {
+        return println!("skipped the_seeds_pass: this package comes without its seeds");
+    }
     let seeds: Vec<_> =
         std::fs::read_dir(folder).unwrap().map(|seed| seed.unwrap().path()).collect();
     assert!(seeds.len() >= 8);

@@ -241,6 +241,6 @@ fn wrong_ways_to_take_out_noise_are_named() {
             other => panic!("{other:?}"),
         }
     };
-    assert_eq!(refused(Denoise { neighbors: 3, ..Default::default() }), "neighbors");
+    assert_eq!(refused(Denoise { neighbors: Some(3), ..Default::default() }), "neighbors");
     assert_eq!(refused(Denoise { iterations: 101, ..Default::default() }), "iterations");
 }

@@ -39,7 +39,7 @@ fn in_place(kind: Kind, mode: SurfaceMode, iterations: u32) -> SurfaceOptions<'s
         Kind::Tree => SurfaceMethod::Tree(mode),
         other => other.into(),
     };
-    let denoise = Some(Denoise { neighbors: 8, iterations, positions: Positions::Original });
+    let denoise = Some(Denoise { neighbors: Some(8), iterations, positions: Positions::Original });
     SurfaceOptions { method, denoise, ..Default::default() }
 }
 
@@ -131,7 +131,8 @@ fn the_alpha_radius_is_the_least_that_holds_at_original_positions() {
 fn an_alpha_surface_with_a_flat_triangle_at_original_positions_claims_no_radius() {
     // Three points on an edge of a cubic grid are on a line, and no longer once they are moved.
     let points = points::cube(2);
-    let denoise = Some(Denoise { neighbors: 24, iterations: 5, positions: Positions::Original });
+    let denoise =
+        Some(Denoise { neighbors: Some(24), iterations: 5, positions: Positions::Original });
     let method = SurfaceMethod::Alpha(None);
     let options = SurfaceOptions { method, denoise, ..Default::default() };
     let (found, verdict) = checked("grid", &points, &options).expect("points that span space");

@@ -104,6 +104,9 @@ fn functions(assembly: &str) -> BTreeMap<&str, Vec<&str>> {
 #[test]
 #[cfg_attr(miri, ignore = "runs the compiler")]
 fn a_probe_that_does_not_record_leaves_no_trace_in_the_code() {
+    if !Path::new(env!("CARGO_MANIFEST_DIR")).join("../taut-oblivious/src/probe.rs").exists() {
+        return println!("skipped: this package comes without the source of the probes");
+    }
     let told = assembly("told", str::to_owned);
     let blank = assembly("blank", |line| match line {
         _ if tells(line) => String::new(),

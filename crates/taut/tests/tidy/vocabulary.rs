@@ -235,6 +235,7 @@ fn problems(line: &str, is_rust: bool) -> Vec<String> {
 
 #[test]
 fn words_are_the_fields() {
+    needs_repository!();
     let (mut lines, mut all) = (0, vec![]);
     for path in sources(&root()) {
         let kind = path.extension().unwrap_or_default().to_string_lossy().into_owned();

@@ -1,13 +1,9 @@
 //! A triangulation of the plane or of space, whichever the points ask for.
 
 use taut::certify::Triangulation;
-use taut::delaunay::{Counters, Error};
-use taut::delaunay::{Plane, Space};
+use taut::delaunay::{Error, Plane, Space};
 use taut::points::{InputError, Rows, Scalar, Scratch};
 use taut::{DelaunayOptions, Monitor, PointSource, Points, Solution};
-
-use crate::output::numbers::{count, counted};
-use crate::reports::Field;
 
 pub(super) enum Built {
     Plane(Plane),
@@ -53,23 +49,11 @@ impl Built {
         }
     }
 
-    fn counters(&self) -> &Counters {
+    /// With simplices that are numbered by the points alone, so that what is listed by number does not depend on threads.
+    pub(super) fn renumbered(self) -> Self {
         match self {
-            Built::Plane(built) => built.counters(),
-            Built::Space(built) => built.counters(),
+            Built::Plane(built) => Built::Plane(built.renumbered()),
+            Built::Space(built) => Built::Space(built.renumbered()),
         }
-    }
-
-    /// Returns how the signs were decided. It depends on the threads, so it is for the terminal alone.
-    pub(super) fn signs(&self) -> Field {
-        let counters = self.counters();
-        let (all, stages) = (counters.orientations + counters.conflict_tests, counters.stages);
-        Field::new("signs", count(all)).remark(format!(
-            "{} by exact whole numbers, {} by double-double, {} by long integers, {}",
-            count(stages.integer),
-            count(stages.double_double),
-            count(stages.wide + stages.unbounded),
-            counted(stages.ties, "tie")
-        ))
     }
 }

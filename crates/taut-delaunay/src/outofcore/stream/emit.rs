@@ -9,7 +9,7 @@ use super::super::solve::Solved;
 use super::super::tile::{LowerTile, TileCounts, fingerprint_lower};
 use super::TakeSimplex;
 use crate::canonical::arrangement;
-use crate::cells::Geometry;
+use crate::geometry::Geometry;
 use crate::kernel::Kernel;
 use crate::simplex::{GHOST, decode};
 use crate::sites::Scale;

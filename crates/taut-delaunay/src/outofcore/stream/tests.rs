@@ -8,7 +8,7 @@ use taut_points::{Monitor, Points};
 
 use super::super::tests::sets;
 use super::*;
-use crate::cells::Bounds;
+use crate::geometry::Bounds;
 use crate::{DelaunayOptions, delaunay};
 
 /// A stream of points in the order of `rows`, each number of points followed by the cells that are closed then.

@@ -9,7 +9,7 @@ use taut_oblivious::machine::prefetch;
 
 use super::super::solve::Solved;
 use crate::canonical::arrangement;
-use crate::cells::Geometry;
+use crate::geometry::Geometry;
 use crate::kernel::Kernel;
 use crate::simplex::{Simplex, code};
 

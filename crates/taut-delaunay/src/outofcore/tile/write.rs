@@ -19,7 +19,7 @@ use super::super::solve::Solved;
 use super::order::{FETCH_AHEAD, TileOrder, UNUSED, fetch};
 use super::{MAGIC, NO_NEIGHBOR, OTHER_TILE, TileCounts, TileLink, VERSION};
 use crate::canonical::arrangement;
-use crate::cells::Geometry;
+use crate::geometry::Geometry;
 use crate::kernel::Kernel;
 use crate::simplex::{GHOST, Simplex, code, decode};
 use crate::sites::Scale;

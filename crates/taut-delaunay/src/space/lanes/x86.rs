@@ -1,7 +1,8 @@
-//! Four and eight numbers at a time, on x86-64: one of the two files of this crate with `unsafe` code.
+//! Four and eight numbers at a time, on x86-64, with `unsafe` code.
 //!
 //! *Guarantee.* What is called here needs a processor that has the instructions, and a value of [`Avx2`] or [`Avx512`] is
-//! the proof: only asking the processor makes one. Addresses come from slices; the rows of a group are checked together.
+//! the proof: only asking the processor makes one. Addresses come from slices; the rows of a group are checked together. No other
+//! thread changes a simplex of a group: its vertices are held, or those of a facet across which it was reached.
 #![allow(unsafe_code)]
 
 use std::arch::x86_64::*;
@@ -9,12 +10,12 @@ use std::ops::{Add, Mul, Sub};
 
 use taut_points::{InstructionSet, instruction_set};
 
-use crate::kernel::TooMany;
-use crate::simplex::Simplex;
 use crate::space::cavity::Facet;
 use crate::space::pairs::{self, Pair};
 use crate::space::signs::{Lane, Number, Signs, in_sphere, orientation};
-use crate::space::{Mesh, Site, row, whole};
+use crate::space::{Site, View, Worker, insert_with, row, whole};
+use crate::threads::Record;
+use crate::threads::{Hold, Inserted, Progress};
 
 /// Proof that the processor has AVX2 and FMA: there is no other way to make one than to ask it.
 #[derive(Clone, Copy, Debug)]
@@ -29,14 +30,28 @@ impl Avx2 {
         (instruction_set() >= InstructionSet::Avx2).then_some(Avx2(()))
     }
 
-    /// [`Mesh::insert_with`], four numbers at a time.
-    pub(super) fn insert(self, mesh: &mut Mesh, sites: &[u32]) -> Result<(), TooMany> {
+    /// [`insert_with`], four numbers at a time.
+    pub(super) fn insert<H: Hold>(
+        self,
+        view: &View<'_>,
+        worker: &mut Worker,
+        hold: &mut H,
+        sites: &[u32],
+        progress: &mut Progress,
+    ) -> Inserted {
         #[target_feature(enable = "avx2,fma,bmi1,bmi2")]
-        fn compiled(yes: Avx2, mesh: &mut Mesh, sites: &[u32]) -> Result<(), TooMany> {
-            mesh.insert_with(yes, sites)
+        fn compiled<H: Hold>(
+            yes: Avx2,
+            view: &View<'_>,
+            worker: &mut Worker,
+            hold: &mut H,
+            sites: &[u32],
+            progress: &mut Progress,
+        ) -> Inserted {
+            insert_with(yes, view, worker, hold, sites, progress)
         }
         // SAFETY: `self` proves that the processor has the features.
-        unsafe { compiled(self, mesh, sites) }
+        unsafe { compiled(self, view, worker, hold, sites, progress) }
     }
 }
 
@@ -45,14 +60,28 @@ impl Avx512 {
         (instruction_set() == InstructionSet::Avx512).then_some(Avx512(Avx2(())))
     }
 
-    /// [`Mesh::insert_with`], eight numbers at a time.
-    pub(super) fn insert(self, mesh: &mut Mesh, sites: &[u32]) -> Result<(), TooMany> {
+    /// [`insert_with`], eight numbers at a time.
+    pub(super) fn insert<H: Hold>(
+        self,
+        view: &View<'_>,
+        worker: &mut Worker,
+        hold: &mut H,
+        sites: &[u32],
+        progress: &mut Progress,
+    ) -> Inserted {
         #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma,bmi1,bmi2")]
-        fn compiled(yes: Avx512, mesh: &mut Mesh, sites: &[u32]) -> Result<(), TooMany> {
-            mesh.insert_with(yes, sites)
+        fn compiled<H: Hold>(
+            yes: Avx512,
+            view: &View<'_>,
+            worker: &mut Worker,
+            hold: &mut H,
+            sites: &[u32],
+            progress: &mut Progress,
+        ) -> Inserted {
+            insert_with(yes, view, worker, hold, sites, progress)
         }
         // SAFETY: `self` proves that the processor has the features.
-        unsafe { compiled(self, mesh, sites) }
+        unsafe { compiled(self, view, worker, hold, sites, progress) }
     }
 }
 
@@ -187,7 +216,7 @@ fn pair(low: &Site, high: &Site) -> __m512d {
 /// [`within`] holds.
 #[inline]
 #[target_feature(enable = "avx512f,avx2")]
-unsafe fn columns8<const J: usize>(sites: &[Site], s: &[&Simplex<4>; 8]) -> [F64x8; 3] {
+unsafe fn columns8<const J: usize>(sites: &[Site], s: &[&Record<4>; 8]) -> [F64x8; 3] {
     // SAFETY: the caller's promise.
     let (ac, bd, eg, fh) = unsafe {
         (
@@ -209,12 +238,12 @@ unsafe fn columns8<const J: usize>(sites: &[Site], s: &[&Simplex<4>; 8]) -> [F64
 /// Tests whether all vertices of these simplices have a row, asked once for all.
 #[inline]
 #[target_feature(enable = "avx2")]
-fn within<const N: usize>(sites: &[Site], group: &[&Simplex<4>; N]) -> bool {
+fn within<const N: usize>(sites: &[Site], group: &[&Record<4>; N]) -> bool {
     let one = _mm_set1_epi32(1);
     let mut last = _mm_setzero_si128();
     for simplex in group {
         // SAFETY: four numbers, at any address.
-        let vertices = unsafe { _mm_loadu_si128(simplex.vertices.as_ptr().cast()) };
+        let vertices = unsafe { _mm_loadu_si128(simplex.addresses()[0].cast()) };
         last = _mm_max_epu32(last, _mm_add_epi32(vertices, one));
     }
     let count = _mm_set1_epi32(u32::try_from(sites.len()).unwrap_or(u32::MAX) as i32);
@@ -226,9 +255,9 @@ fn within<const N: usize>(sites: &[Site], group: &[&Simplex<4>; N]) -> bool {
 /// # Safety
 /// [`within`] holds.
 #[inline(always)]
-unsafe fn corner<'a, const J: usize>(sites: &'a [Site], simplex: &Simplex<4>) -> &'a Site {
+unsafe fn corner<'a, const J: usize>(sites: &'a [Site], simplex: &Record<4>) -> &'a Site {
     // SAFETY: the caller's promise.
-    unsafe { sites.get_unchecked(row(simplex.vertices[J])) }
+    unsafe { sites.get_unchecked(row(simplex.vertex(J))) }
 }
 
 /// The vertices of four simplices. Inlined by force: twelve vectors returned through memory cost a tenth of everything.
@@ -236,7 +265,7 @@ unsafe fn corner<'a, const J: usize>(sites: &'a [Site], simplex: &Simplex<4>) ->
 /// # Safety
 /// The processor has AVX2.
 #[inline(always)]
-unsafe fn corners4(sites: &[Site], simplices: &[Simplex<4>], group: &[u32]) -> [[F64x4; 3]; 4] {
+unsafe fn corners4(sites: &[Site], simplices: &[Record<4>], group: &[u32]) -> [[F64x4; 3]; 4] {
     let s = &simplices[group[0] as usize];
     let t = &simplices[group[1] as usize];
     let u = &simplices[group[2] as usize];
@@ -263,7 +292,7 @@ unsafe fn corners4(sites: &[Site], simplices: &[Simplex<4>], group: &[u32]) -> [
 /// # Safety
 /// The processor has AVX-512F and AVX2.
 #[inline(always)]
-unsafe fn corners8(sites: &[Site], simplices: &[Simplex<4>], group: &[u32]) -> [[F64x8; 3]; 4] {
+unsafe fn corners8(sites: &[Site], simplices: &[Record<4>], group: &[u32]) -> [[F64x8; 3]; 4] {
     let s = &[
         &simplices[group[0] as usize],
         &simplices[group[1] as usize],
@@ -316,7 +345,7 @@ fn splat<L: Lane>(q: &Site) -> [L; 3] {
 
 #[inline]
 #[target_feature(enable = "avx2,fma")]
-fn conflicts4(sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> (u32, u32) {
+fn conflicts4(sites: &[Site], simplices: &[Record<4>], group: &[u32], q: &Site) -> (u32, u32) {
     // SAFETY: this function has the features.
     let [a, b, c, d] = unsafe { corners4(sites, simplices, group) };
     let q = splat(q);
@@ -326,7 +355,7 @@ fn conflicts4(sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site)
 
 #[inline(never)]
 #[target_feature(enable = "avx2,fma")]
-fn pairs4(sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> (u32, u32) {
+fn pairs4(sites: &[Site], simplices: &[Record<4>], group: &[u32], q: &Site) -> (u32, u32) {
     // SAFETY: this function has the features.
     let [a, b, c, d] = unsafe { corners4(sites, simplices, group) };
     let q = splat(q);
@@ -337,7 +366,7 @@ fn pairs4(sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> 
 /// Besides inside and open: which are ties.
 #[inline(never)]
 #[target_feature(enable = "avx2,fma")]
-fn whole4(sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> (u32, u32, u32) {
+fn whole4(sites: &[Site], simplices: &[Record<4>], group: &[u32], q: &Site) -> (u32, u32, u32) {
     // SAFETY: this function has the features.
     let [a, b, c, d] = unsafe { corners4(sites, simplices, group) };
     let q = splat(q);
@@ -360,7 +389,7 @@ fn masks8(F64x8(det): F64x8, F64x8(bound): F64x8) -> (u32, u32) {
 
 #[inline]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
-fn conflicts8(sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> (u32, u32) {
+fn conflicts8(sites: &[Site], simplices: &[Record<4>], group: &[u32], q: &Site) -> (u32, u32) {
     // SAFETY: this function has the features.
     let [a, b, c, d] = unsafe { corners8(sites, simplices, group) };
     let q = splat(q);
@@ -370,7 +399,7 @@ fn conflicts8(sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site)
 
 #[inline(never)]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
-fn pairs8(sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> (u32, u32) {
+fn pairs8(sites: &[Site], simplices: &[Record<4>], group: &[u32], q: &Site) -> (u32, u32) {
     // SAFETY: this function has the features.
     let [a, b, c, d] = unsafe { corners8(sites, simplices, group) };
     let q = splat(q);
@@ -381,7 +410,7 @@ fn pairs8(sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> 
 /// Besides inside and open: which are ties.
 #[inline(never)]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
-fn whole8(sites: &[Site], simplices: &[Simplex<4>], group: &[u32], q: &Site) -> (u32, u32, u32) {
+fn whole8(sites: &[Site], simplices: &[Record<4>], group: &[u32], q: &Site) -> (u32, u32, u32) {
     // SAFETY: this function has the features.
     let [a, b, c, d] = unsafe { corners8(sites, simplices, group) };
     let q = splat(q);
@@ -424,13 +453,13 @@ fn beyond4([a, b, c, d]: [&Site; 4], q: &Site) -> (u32, u32) {
 /// Facet I in one store: its vertices, and the code in the last place.
 #[inline]
 #[target_feature(enable = "avx2")]
-fn put<const I: usize>(simplex: &Simplex<4>, facet: &mut Facet) {
-    const { assert!(size_of::<Facet>() == 16 && size_of::<Simplex<4>>() == 32) };
+fn put<const I: usize>(simplex: &Record<4>, facet: &mut Facet) {
+    const { assert!(size_of::<Facet>() == 16 && size_of::<Record<4>>() == 32) };
     // SAFETY: four numbers each, at any address.
     let (vertices, neighbors) = unsafe {
         (
-            _mm_loadu_si128(simplex.vertices.as_ptr().cast()),
-            _mm_loadu_si128(simplex.neighbors.as_ptr().cast()),
+            _mm_loadu_si128(simplex.addresses()[0].cast()),
+            _mm_loadu_si128(simplex.addresses()[1].cast()),
         )
     };
     // The rows of `FACETS`; in the last place the neighbor of the same number.
@@ -462,7 +491,7 @@ impl Signs for Avx2 {
     fn conflicts(
         self,
         sites: &[Site],
-        simplices: &[Simplex<4>],
+        simplices: &[Record<4>],
         group: &[u32],
         q: &Site,
     ) -> (u32, u32) {
@@ -474,7 +503,7 @@ impl Signs for Avx2 {
     fn conflicts_in_pairs(
         self,
         sites: &[Site],
-        simplices: &[Simplex<4>],
+        simplices: &[Record<4>],
         group: &[u32],
         q: &Site,
     ) -> Option<(u32, u32)> {
@@ -486,7 +515,7 @@ impl Signs for Avx2 {
     fn conflicts_in_whole(
         self,
         sites: &[Site],
-        simplices: &[Simplex<4>],
+        simplices: &[Record<4>],
         group: &[u32],
         q: &Site,
     ) -> Option<(u32, u32, u32)> {
@@ -507,7 +536,7 @@ impl Signs for Avx2 {
     }
 
     #[inline(always)]
-    fn put<const I: usize>(self, simplex: &Simplex<4>, facet: &mut Facet) {
+    fn put<const I: usize>(self, simplex: &Record<4>, facet: &mut Facet) {
         // SAFETY: as above.
         unsafe { put::<I>(simplex, facet) }
     }
@@ -521,7 +550,7 @@ impl Signs for Avx512 {
     fn conflicts(
         self,
         sites: &[Site],
-        simplices: &[Simplex<4>],
+        simplices: &[Record<4>],
         group: &[u32],
         q: &Site,
     ) -> (u32, u32) {
@@ -533,7 +562,7 @@ impl Signs for Avx512 {
     fn conflicts_in_pairs(
         self,
         sites: &[Site],
-        simplices: &[Simplex<4>],
+        simplices: &[Record<4>],
         group: &[u32],
         q: &Site,
     ) -> Option<(u32, u32)> {
@@ -545,7 +574,7 @@ impl Signs for Avx512 {
     fn conflicts_in_whole(
         self,
         sites: &[Site],
-        simplices: &[Simplex<4>],
+        simplices: &[Record<4>],
         group: &[u32],
         q: &Site,
     ) -> Option<(u32, u32, u32)> {
@@ -565,7 +594,7 @@ impl Signs for Avx512 {
     }
 
     #[inline(always)]
-    fn put<const I: usize>(self, simplex: &Simplex<4>, facet: &mut Facet) {
+    fn put<const I: usize>(self, simplex: &Record<4>, facet: &mut Facet) {
         // SAFETY: as above.
         unsafe { put::<I>(simplex, facet) }
     }

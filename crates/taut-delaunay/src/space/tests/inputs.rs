@@ -179,18 +179,3 @@ fn magnitudes_beyond_the_filters() {
     let close: Vec<[f64; 3]> = unit.iter().map(|p| p.map(|x| x * 1e-120)).collect();
     checked(&close, PLAIN);
 }
-
-#[test]
-fn sites_can_be_pushed_later_and_the_mesh_outgrows_its_reserve() {
-    let points = Numbers(23).points(2000);
-    let mut mesh = Mesh::new(points[..4].to_vec(), PLAIN);
-    let first = independent(&points[..4], &[0, 1, 2, 3]).unwrap();
-    mesh.start(first);
-    for (i, &point) in points.iter().enumerate().skip(4) {
-        assert_eq!(mesh.push(point), i as u32);
-        mesh.insert(&[i as u32]).unwrap();
-    }
-    check(&mut mesh);
-    let all: Vec<u32> = (0..2000).collect();
-    assert_eq!(quadruples(&mesh), quadruples(&built(&points, PLAIN, None, &all)));
-}

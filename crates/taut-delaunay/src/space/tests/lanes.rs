@@ -13,7 +13,7 @@ fn conflicts<S: Signs>(
     signs: S,
     pairs: bool,
     sites: &[Site],
-    simplices: &[Simplex<4>],
+    simplices: &[Record<4>],
     q: &Site,
 ) -> (u32, u32) {
     let all: Vec<u32> = (0..8).collect();
@@ -40,8 +40,8 @@ struct Masks {
     whole: (u32, u32, u32),
 }
 
-fn all_masks<S: Signs>(signs: S, sites: &[Site], simplices: &[Simplex<4>], q: &Site) -> Masks {
-    let corners = simplices[0].vertices.map(|v| &sites[row(v)]);
+fn all_masks<S: Signs>(signs: S, sites: &[Site], simplices: &[Record<4>], q: &Site) -> Masks {
+    let corners = simplices[0].vertices().map(|v| &sites[row(v)]);
     let mut whole = (0, 0, 0);
     for (i, group) in (0..8).collect::<Vec<u32>>().chunks(S::WIDTH).enumerate() {
         let nothing = (0, u32::MAX >> (32 - S::WIDTH), 0);
@@ -59,7 +59,7 @@ fn all_masks<S: Signs>(signs: S, sites: &[Site], simplices: &[Simplex<4>], q: &S
     }
 }
 
-fn masks(level: Level, sites: &[Site], simplices: &[Simplex<4>], q: &Site) -> Masks {
+fn masks(level: Level, sites: &[Site], simplices: &[Record<4>], q: &Site) -> Masks {
     match level {
         Level::Unfiltered => all_masks(Unfiltered, sites, simplices, q),
         Level::Scalar => all_masks(Scalar::<Separate>(PhantomData), sites, simplices, q),
@@ -113,9 +113,11 @@ fn lanes_answer_as_exact_arithmetic_or_leave_open() {
                 Simplex { vertices, neighbors: [0; 4] }
             })
             .collect();
+        let records = Records::new(simplices.len());
+        records.all().iter().zip(&simplices).for_each(|(record, &simplex)| record.set(simplex));
         let all: Vec<_> = Level::filtered()
             .into_iter()
-            .map(|level| masks(level, &sites, &simplices, &q))
+            .map(|level| masks(level, &sites, records.all(), &q))
             .collect();
         for Masks { number, pairs, beyond: (beyond, unsure), whole } in &all {
             for (lane, simplex) in simplices.iter().enumerate() {
@@ -154,7 +156,7 @@ fn lanes_answer_as_exact_arithmetic_or_leave_open() {
         }
         // With fused multiplication the operations are the same one by one, so are the masks. (Compiled for any
         // processor this is a library call, which is slow and right.)
-        let fused = all_masks(Scalar::<Fused>(PhantomData), &sites, &simplices, &q);
+        let fused = all_masks(Scalar::<Fused>(PhantomData), &sites, records.all(), &q);
         for vectors in &all[1..] {
             assert_eq!((vectors.number, vectors.beyond), (fused.number, fused.beyond));
         }

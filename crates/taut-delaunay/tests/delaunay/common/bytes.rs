@@ -36,7 +36,8 @@ pub(crate) fn solve_and_check(dim: usize, bytes: &[u8]) {
     let other = DelaunayOptions {
         order: InsertionOrder::ALL[usize::from(*way) % 4],
         seed: u64::from(*seed),
-        cells: Some(1 + usize::from(way >> 2) % 4),
+        threads: Some(1 + usize::from(way >> 2) % 4),
+        sites_per_thread: Some(1),
         vectors: way & 128 == 0,
         ..one.clone()
     };

@@ -200,6 +200,11 @@ fn huge_and_tiny_coordinates_are_an_error_or_an_answer() {
 fn files_of_the_fuzzer_give_no_panic() {
     let folder =
         std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/seeds/classifier_model");
+    if !folder.exists() {
+        return println!(
+            "skipped files_of_the_fuzzer_give_no_panic: this package comes without its seeds"
+        );
+    }
     let mut models = 0;
     for entry in std::fs::read_dir(folder).unwrap() {
         let json = std::fs::read_to_string(entry.unwrap().path()).unwrap();

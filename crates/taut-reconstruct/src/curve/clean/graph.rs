@@ -15,7 +15,9 @@ pub(super) struct Edge {
 /// The triangulation of these points; its rows are their numbers.
 pub(super) fn triangulate(sites: &[[f64; 2]], monitor: &Monitor<'_>) -> Result<Plane, Error> {
     let points = Points::new(sites.as_flattened(), 2).expect("pairs are whole rows");
-    Ok(Plane::build(&points, &DelaunayOptions { monitor: *monitor, ..DelaunayOptions::default() })?)
+    let options = DelaunayOptions { monitor: *monitor, ..DelaunayOptions::default() };
+    // Circumcenters are rounded, so in which order their corners are named must not depend on threads.
+    Ok(Plane::build(&points, &options)?.renumbered())
 }
 
 /// All edges, in an order that depends on how the triangulation was built. Sites on a line are joined along it.

@@ -89,9 +89,9 @@ pub fn thesis_surface_of_points<T: Scalar>(
                 .collect();
             let moved = joggle::joggle(&given, seed);
             let moved = Points::new(moved.as_flattened(), 3).expect("three coordinates each");
-            Space::build(&moved, &how)?
+            Space::build(&moved, &how)?.renumbered()
         }
-        _ => Space::build(points, &how)?,
+        _ => Space::build(points, &how)?.renumbered(),
     };
     let surface = thesis_surface(&space, options, monitor)?;
     Ok((space, surface))

@@ -68,7 +68,7 @@ pub(crate) fn solve_and_check(bytes: &[u8]) {
     ];
     let all = methods.map(|method| SurfaceOptions {
         method,
-        denoise: chosen(32).then(|| Denoise { neighbors: 5, ..Denoise::default() }),
+        denoise: chosen(32).then(|| Denoise { neighbors: Some(5), ..Denoise::default() }),
         ..SurfaceOptions::default()
     });
     let forth: Vec<_> = all.iter().map(|options| solved(&points, options)).collect();

@@ -31,10 +31,15 @@ proptest! {
 
 #[test]
 fn the_seeds_pass() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/seeds");
+    if !folder.exists() {
+        return println!("skipped the_seeds_pass: this package comes without its seeds");
+    }
     for (name, run) in TARGETS {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/seeds").join(name);
-        let seeds: Vec<_> =
-            std::fs::read_dir(folder).unwrap().map(|seed| seed.unwrap().path()).collect();
+        let seeds: Vec<_> = std::fs::read_dir(folder.join(name))
+            .unwrap()
+            .map(|seed| seed.unwrap().path())
+            .collect();
         assert!(seeds.len() >= 3, "{name}");
         seeds.iter().for_each(|seed| run(&std::fs::read(seed).unwrap()));
     }

@@ -72,7 +72,7 @@ fn inputs() -> Vec<Vec<f64>> {
 fn solved(values: &[f64]) -> Vec<Solved> {
     let points = Points::new(values, 3).expect("rows");
     let mut found = vec![];
-    let of = |positions| Some(Denoise { neighbors: 8, iterations: 1, positions });
+    let of = |positions| Some(Denoise { neighbors: Some(8), iterations: 1, positions });
     for method in SurfaceMethod::ALL {
         for mode in [Mode::Closed, Mode::Open] {
             for denoise in [None, of(Positions::Projected), of(Positions::Original)] {
@@ -288,7 +288,8 @@ fn balls_that_hold_a_row_are_lies() {
 #[test]
 fn answers_in_turn_are_judged_as_each_alone() {
     let values = flat(sphere(30, 1.0));
-    let denoise = Some(Denoise { neighbors: 8, iterations: 1, positions: Positions::Projected });
+    let denoise =
+        Some(Denoise { neighbors: Some(8), iterations: 1, positions: Positions::Projected });
     let points = Points::new(&values, 3).expect("rows");
     let options = SurfaceOptions { denoise, ..Default::default() };
     let found = surface(&points, &options).expect("solved");

@@ -1,0 +1,70 @@
+//! The memory of the simplices of a mesh under construction.
+#![allow(unsafe_code)]
+
+use std::mem::ManuallyDrop;
+
+use crate::simplex::Simplex;
+use crate::threads::Record;
+use crate::threads::atomics::AtomicU8;
+
+/// Zeros, in pages that nobody has touched yet.
+pub(crate) fn zeros(count: usize) -> Vec<AtomicU8> {
+    // SAFETY: zeros are valid atomic numbers.
+    unsafe { Box::<[AtomicU8]>::new_zeroed_slice(count).assume_init() }.into_vec()
+}
+
+/// The slots of a mesh: those in use, and zeros behind them.
+pub(crate) struct Records<const V: usize> {
+    all: Vec<Record<V>>,
+    used: usize,
+}
+
+impl<const V: usize> Records<V> {
+    /// Room for `capacity` slots, none of them in use. Pages that are never touched cost nothing.
+    pub(crate) fn new(capacity: usize) -> Self {
+        // SAFETY: zeros are valid atomic numbers.
+        let all = unsafe { Box::<[Record<V>]>::new_zeroed_slice(capacity).assume_init() };
+        Self { all: all.into_vec(), used: 0 }
+    }
+
+    /// Returns how many slots are in use, dead ones included.
+    #[inline(always)]
+    pub(crate) fn len(&self) -> usize {
+        self.used
+    }
+
+    /// All slots, in use or not.
+    #[inline(always)]
+    pub(crate) fn all(&self) -> &[Record<V>] {
+        &self.all
+    }
+
+    /// Takes the first `len` slots into use.
+    pub(crate) fn set_len(&mut self, len: usize) {
+        debug_assert!(len <= self.all.len(), "there is room");
+        self.used = len;
+    }
+
+    /// Makes room for `capacity` slots.
+    pub(crate) fn grow(&mut self, capacity: usize) {
+        self.all.reserve_exact(capacity.saturating_sub(self.all.len()));
+        self.all.resize_with(capacity, Record::default);
+    }
+
+    /// The slots in use.
+    pub(crate) fn as_slice(&self) -> &[Simplex<V>] {
+        const { assert!(size_of::<Record<V>>() == size_of::<Simplex<V>>()) };
+        // SAFETY: the same numbers at the same places, and nobody writes while they are borrowed: this module's callers write
+        // in methods of a mesh that borrow it for themselves.
+        unsafe { std::slice::from_raw_parts(self.all.as_ptr().cast(), self.used) }
+    }
+
+    /// The slots in use, in the same memory.
+    pub(crate) fn into_simplices(self) -> Vec<Simplex<V>> {
+        const { assert!(align_of::<Record<V>>() == align_of::<Simplex<V>>()) };
+        let mut all = ManuallyDrop::new(self.all);
+        // SAFETY: `all` gives its memory away; size and alignment are the same, and any numbers are a simplex. To convert one
+        // by one would read and write all of it once more, as the compiler does not see that nothing changes.
+        unsafe { Vec::from_raw_parts(all.as_mut_ptr().cast(), self.used, all.capacity()) }
+    }
+}

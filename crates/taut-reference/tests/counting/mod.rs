@@ -1,0 +1,1 @@
+../../../taut-oblivious/tests/counting/mod.rs
