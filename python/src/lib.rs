@@ -13,6 +13,7 @@ mod choice;
 mod classify;
 mod curve;
 mod delaunay;
+mod delaunay_parts;
 mod dop;
 mod ellipsoid;
 mod farthest_first;
@@ -59,6 +60,8 @@ mod _native {
     #[pymodule_export]
     use crate::delaunay::{delaunay, spatial_order};
     #[pymodule_export]
+    use crate::delaunay_parts::{deal_points, merge_extents, triangulate_fronts, triangulate_leaf};
+    #[pymodule_export]
     use crate::dop::bounding_dop;
     #[pymodule_export]
     use crate::ellipsoid::{ellipsoid, ellipsoids, norms};
@@ -78,8 +81,8 @@ mod _native {
     use crate::names::names;
     #[pymodule_export]
     use crate::passes::{
-        PassSolver, check_part, check_parts, merge_partials, merge_verdicts, query_shape,
-        rows_of_block, run_query,
+        PassSolver, add_to_stream, check_part, check_parts, merge_partials, merge_verdicts,
+        new_stream, query_shape, rows_of_block, run_query,
     };
     #[pymodule_export]
     use crate::planar::{

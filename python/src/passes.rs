@@ -5,11 +5,11 @@ use std::sync::{Mutex, PoisonError};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
-use taut::certify::{AnySolution, CheckError, PartialVerdict};
-use taut::enclose::Error;
+use taut::certify::{AnySolution, CheckError, PartialVerdict, Placement};
 use taut::enclose::passes::{Partial, Query, Solver};
+use taut::enclose::{Error, StreamingCenters, StreamingOptions};
 use taut::points::{Blocks, PartsError, on_threads};
-use taut::{BallMethod, BallOptions, Items, PointSource};
+use taut::{BallMethod, BallOptions, Items};
 
 use crate::ellipsoid::options;
 use crate::found::{Found, Violation};
@@ -79,6 +79,16 @@ impl PassSolver {
         Ok(PassSolver { solver: Mutex::new(Some(solver)), items, columns })
     }
 
+    /// The solver of centers whose cover has seen all rows.
+    #[staticmethod]
+    fn centers(cover: &[u8], discrete: bool) -> PyResult<Self> {
+        let cover = StreamingCenters::from_bytes(cover).map_err(refused)?;
+        let (items, columns) = (Items::Points, cover.dim());
+        let placement = if discrete { Placement::Rows } else { Placement::Free };
+        let solver = Solver::centers(cover, placement);
+        Ok(PassSolver { solver: Mutex::new(Some(solver)), items, columns })
+    }
+
     /// The open query; None at the end.
     fn query<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyBytes>>> {
         let asked = interruptible(py, |monitor| {
@@ -105,7 +115,7 @@ impl PassSolver {
             return Err(PyValueError::new_err("the solution was taken already"));
         };
         let found = interruptible(py, |monitor| solver.solution(monitor))?;
-        found.map(Found::new).map_err(|error| self.raise(error))
+        found.map(Found::of).map_err(|error| self.raise(error))
     }
 }
 
@@ -140,6 +150,38 @@ pub(crate) fn run_query<'py>(
     })?;
     let partial = partial.map_err(|error| raise(error, Items::Points, query.columns()))?;
     Ok(PyBytes::new(py, &partial.to_bytes()))
+}
+
+/// A cover that has seen no rows.
+#[pyfunction]
+pub(crate) fn new_stream<'py>(
+    py: Python<'py>,
+    columns: usize,
+    k: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyBytes>> {
+    let k = whole("k", k, "at least 1")?;
+    let cover = StreamingCenters::new(columns, k, &StreamingOptions::DEFAULT)
+        .map_err(|error| raise(error, Items::Points, columns))?;
+    Ok(PyBytes::new(py, &cover.to_bytes()))
+}
+
+/// A cover that has seen some rows more.
+#[pyfunction]
+pub(crate) fn add_to_stream<'py>(
+    py: Python<'py>,
+    cover: &[u8],
+    rows: &Bound<'py, PyAny>,
+    threads: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyBytes>> {
+    let mut cover = StreamingCenters::from_bytes(cover).map_err(refused)?;
+    let threads = whole("threads", threads, "1 to 1024, or None")?;
+    let rows = Rows::borrow(rows)?;
+    let source = rows.source()?;
+    let added = interruptible(py, |monitor| {
+        on_threads(threads, || cover.add_source(source.as_ref(), monitor))
+    })?;
+    added.map_err(|error| raise(error, Items::Points, source.dim()))?;
+    Ok(PyBytes::new(py, &cover.to_bytes()))
 }
 
 /// Merges answers to a query.

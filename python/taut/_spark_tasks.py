@@ -5,6 +5,8 @@ and the whole blocks within a partition are read where they lie. Blocks that two
 fetched and dealt out again (`edges`).
 *Trap.* A worker may be asked for a file that it does not have: its executor was lost, and what Spark remembers of the partition
 was read from another one. It says so, and the partition is made again from the DataFrame.
+*Trap.* Spark makes a lost partition again without a word, and a DataFrame with `rand()` or a limit then has other rows. Each record
+has a hash of its rows, which is compared with the first one before they are used.
 *Trap.* This module travels to the workers by value, so that they need not have taut installed: it imports taut within functions.
 """
 
@@ -31,13 +33,15 @@ FIELDS = ("partition", "rows", "path", "digest", "error")
 
 
 class Layout(NamedTuple):
-    """Where the rows of each partition stand among all, and what a row is."""
+    """Where the rows of each partition stand among all, what a row is, and what the partitions were at first."""
 
     rows: int
     dtype: str
     columns: int
     step: int
     starts: dict[int, int]
+    # The number of rows and their hash.
+    digests: dict[int, tuple[int, str]]
 
     def whole_blocks(self, partition: int, count: int) -> tuple[int, int]:
         """From which row of all to which a partition has whole blocks; equal numbers where it has none."""
@@ -46,6 +50,32 @@ class Layout(NamedTuple):
         first = -(-start // self.step) * self.step
         last = end if end == self.rows else end // self.step * self.step
         return (first, last) if first < last else (end, end)
+
+
+def is_here(record: Record, layout: Layout) -> bool:
+    """Tests whether a partition has the rows that it had at first, in a file of this worker."""
+    partition, count, path, digest, _ = record
+    return layout.digests[partition] == (count, digest) and os.path.exists(path)
+
+
+def mapped(record: Record, layout: Layout) -> Any:
+    """The rows of a partition, mapped into memory."""
+    import numpy as np
+
+    _, count, path, _, _ = record
+    shape = (count, layout.columns)
+    return np.memmap(path, layout.dtype, "r", 0, shape) if count else np.empty(shape, layout.dtype)
+
+
+def ids(record: Record) -> Any:
+    """The ids of a partition as an Arrow array; None where rows have none."""
+    import pyarrow
+
+    path = record[2] + ".ids"
+    if not os.path.exists(path):
+        return None
+    with pyarrow.OSFile(path) as file:
+        return pyarrow.ipc.open_file(file).read_all().column("id").combine_chunks()
 
 
 def import_taut() -> Any:
@@ -113,8 +143,8 @@ def _write(
             first = batch.num_columns - len(columns)
             for at, name in enumerate(columns):
                 block[:, at] = _numbers(batch, first + at, name, id_column, partition, rows)
-            file.write(block)
-            digest.update(block)
+            file.write(block.data)
+            digest.update(block.data)
             rows += batch.num_rows
     if writer is not None:
         writer.close()
@@ -172,11 +202,11 @@ def blocks(element: Any, layout: Layout) -> tuple[int, Any] | None:
     if element is None or len(element) == 2:
         return element  # type: ignore[no-any-return]
     partition, count, path, _, _ = element
+    if not is_here(element, layout):
+        return None
     first, end = layout.whole_blocks(partition, count)
     if first == end:
         return first, np.empty((0, layout.columns), layout.dtype)
-    if not os.path.exists(path):
-        return None
     offset = (first - layout.starts[partition]) * layout.columns * np.dtype(layout.dtype).itemsize
     return first, np.memmap(path, layout.dtype, "r", offset, (end - first, layout.columns))
 
@@ -185,16 +215,17 @@ def edge_pieces(elements: Iterator[Record], layout: Layout) -> Iterator[tuple[in
     """The rows of partitions that are not among their whole blocks, each with its block; block -1 for a file that is not here."""
     import numpy as np
 
-    for partition, count, path, _, _ in elements:
+    for record in elements:
+        if not is_here(record, layout):
+            yield -1, None
+            return
+        partition, count, *_ = record
         start = layout.starts[partition]
         end = start + count
         first, last = layout.whole_blocks(partition, count)
         if count == 0 or (first, last) == (start, end):
             continue
-        if not os.path.exists(path):
-            yield -1, None
-            return
-        every = np.memmap(path, layout.dtype, "r", 0, (count, layout.columns))
+        every = mapped(record, layout)
         for low, high in ((start, min(first, end)), (last, end)):
             while low < high:
                 cut = min(high, (low // layout.step + 1) * layout.step)
@@ -239,6 +270,18 @@ def answer(elements: Iterator[Any], layout: Layout, question: tuple[str, bytes])
         yield False, taut.passes.merge_verdicts(found).data
 
 
+def add_to_stream(elements: Iterator[Record], layout: Layout, data: bytes) -> Iterator[bytes | None]:
+    """The cover of a stream with the rows of a partition added; None where the file is not here."""
+    taut = import_taut()
+    cover = taut.passes.StreamingCenters(data)
+    for record in elements:
+        if not is_here(record, layout):
+            yield None
+            return
+        cover = cover.add(mapped(record, layout))
+    yield cover.data
+
+
 def merge_answers(
     a: tuple[bool, bytes | None], b: tuple[bool, bytes | None], kind: str
 ) -> tuple[bool, bytes | None]:
@@ -255,19 +298,17 @@ def merge_answers(
 
 def ids_of(elements: Iterator[Any], layout: Layout, wanted: list[int]) -> Iterator[Any]:
     """The ids of rows by number, as pairs; None where a file is not here."""
-    import pyarrow
-
-    for partition, count, path, _, _ in elements:
+    for record in elements:
+        partition, count, *_ = record
         start = layout.starts[partition]
         mine = [row for row in wanted if start <= row < start + count]
         if not mine:
             continue
-        if not os.path.exists(path + ".ids"):
+        if not is_here(record, layout):
             yield None
             continue
-        with pyarrow.memory_map(path + ".ids") as file:
-            ids = pyarrow.ipc.open_file(file).read_all().column("id")
-            yield from [(row, ids[row - start].as_py()) for row in mine]
+        names = ids(record)
+        yield from [(row, names[row - start].as_py()) for row in mine]
 
 
 def remove(elements: Iterator[Record]) -> Iterator[int]:

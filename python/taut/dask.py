@@ -60,7 +60,7 @@ class Points:
         tasks = [self._client.submit(passes.Query.run, query, rows, first, pure=False) for first, rows in self._parts]
         return passes.merge(self._client.gather(tasks))
 
-    def ball(self, **options: Any) -> Solution:
+    def ball(self, **options: Any) -> Solution[Any]:
         """Smallest ball enclosing the points; options are those of `taut.passes.Solver.ball`.
 
         Parameters
@@ -74,7 +74,7 @@ class Points:
         """
         return passes.solve(passes.Solver.ball(*self.shape, **options), self._ask)
 
-    def verify(self, solution: Solution) -> Any:
+    def verify(self, solution: Solution[Any]) -> Any:
         """Check an answer over the points, in one pass.
 
         Parameters

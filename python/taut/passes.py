@@ -33,8 +33,8 @@ from ._ball import BallMethod
 from ._solution import Solution
 
 __all__ = [
-    "Partial", "PartialVerdict", "Query", "Solver", "check_part", "check_parts", "merge", "merge_verdicts", "rows_of_block",
-    "solve",
+    "Partial", "PartialVerdict", "Query", "Solver", "StreamingCenters", "check_part", "check_parts", "merge",
+    "merge_verdicts", "rows_of_block", "solve",
 ]
 
 
@@ -127,8 +127,54 @@ def merge(partials: Iterable[Partial]) -> Partial:
 
 
 @final
+@dataclass(frozen=True, slots=True)
+class StreamingCenters:
+    """At most k points near all rows that came by, of a stream. Its bytes travel, and it can be pickled."""
+
+    data: bytes
+
+    @classmethod
+    def new(cls, columns: int, k: int) -> Self:
+        """The cover of no rows.
+
+        Parameters
+        ----------
+        columns : int
+            Numbers of a row.
+        k : int >= 1
+            Most centers.
+
+        Returns
+        -------
+        StreamingCenters
+        """
+        return cls(_native.new_stream(columns, k))
+
+    def add(self, rows: ArrayLike, *, threads: int | None = 1) -> StreamingCenters:
+        """The cover of the rows so far and those that come next.
+
+        Parameters
+        ----------
+        rows : array_like of shape (m, d)
+            Any number of rows: only their order counts.
+        threads : int, optional, default 1
+            Threads to use, None for all cores.
+
+        Returns
+        -------
+        StreamingCenters
+
+        Raises
+        ------
+        ValueError
+            When a number is NaN or infinite; the message has the number of the row in the stream.
+        """
+        return StreamingCenters(_native.add_to_stream(self.data, as_rows(rows), threads))
+
+
+@final
 class Solver:
-    """A solver that waits for answers; made by `Solver.ball` or `Solver.ellipsoid`."""
+    """A solver that waits for answers; made by `Solver.ball`, `Solver.ellipsoid` or `Solver.centers`."""
 
     def __init__(self, native: _native.PassSolver) -> None:
         self._native = native
@@ -188,6 +234,23 @@ class Solver:
         """
         return cls(_native.PassSolver.ellipsoid(rows, columns, epsilon, max_passes, threads, seed))
 
+    @classmethod
+    def centers(cls, cover: StreamingCenters, *, discrete: bool = False) -> Self:
+        """The solver of `taut.centers` by its method "stream", for a cover that all rows were added to, in order.
+
+        Parameters
+        ----------
+        cover : StreamingCenters
+            The cover.
+        discrete : bool, default False
+            As in `taut.centers`.
+
+        Returns
+        -------
+        Solver
+        """
+        return cls(_native.PassSolver.centers(cover.data, discrete))
+
     def query(self) -> Query | None:
         """The open query; None once there is a solution.
 
@@ -213,7 +276,7 @@ class Solver:
         """
         self._native.feed(partial.data)
 
-    def solution(self) -> Solution:
+    def solution(self) -> Solution[Any]:
         """The solution, once there is no query left; the solver ends with it.
 
         Returns
@@ -228,7 +291,7 @@ class Solver:
         return Solution(self._native.solution())
 
 
-def solve(solver: Solver, ask: Callable[[Query], Partial]) -> Solution:
+def solve(solver: Solver, ask: Callable[[Query], Partial]) -> Solution[Any]:
     """Feeds a solver until it has a solution.
 
     Parameters
@@ -248,9 +311,9 @@ def solve(solver: Solver, ask: Callable[[Query], Partial]) -> Solution:
 
 
 def check_part(
-    solution: Solution, block: ArrayLike, first_row: int, rows: int, *, threads: int | None = 1
+    solution: Solution[Any], block: ArrayLike, first_row: int, rows: int, *, threads: int | None = 1
 ) -> PartialVerdict:
-    """Judges an answer over whole blocks of rows. Balls around points and around balls are judged in parts.
+    """Judges an answer over whole blocks of rows. Balls, ellipsoids around points, and centers of points are judged in parts.
 
     Parameters
     ----------
@@ -292,7 +355,7 @@ def merge_verdicts(partials: Iterable[PartialVerdict]) -> PartialVerdict:
     return PartialVerdict(_native.merge_verdicts([partial.data for partial in partials]), columns)
 
 
-def check_parts(solution: Solution, partials: Iterable[PartialVerdict]) -> Any:
+def check_parts(solution: Solution[Any], partials: Iterable[PartialVerdict]) -> Any:
     """The verdict over all rows.
 
     Parameters

@@ -19,11 +19,12 @@ import uuid
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, Self
 
-from . import _native, _spark_tasks as tasks, passes
+from . import _native, _spark_delaunay as delaunay, _spark_tasks as tasks, passes
 from ._ball import BallMethod
 from ._solution import Solution
+from ._spark_delaunay import Triangulation
 
-__all__ = ["Points", "ball", "ellipsoid", "ship", "verify"]
+__all__ = ["Points", "Triangulation", "ball", "centers", "ellipsoid", "ship", "verify"]
 
 # Says which pass is made.
 log = logging.getLogger("taut.spark")
@@ -80,7 +81,10 @@ class Points:
     ) -> None:
         self._columns = list(columns)
         self._id = id
+        self._session = df.sparkSession
+        self._kept: list[Any] = []
         dtype = _dtype(df, self._columns, id)
+        self._id_type = "bigint" if id is None else df.schema[id].dataType.simpleString()
         coordinates = [df[name].alias(f"taut_{at}") for at, name in enumerate(self._columns)]
         if id is None:
             picked = df.select(*coordinates)
@@ -106,9 +110,9 @@ class Points:
             raise ValueError(*problems[:1] or ["the DataFrame has no rows: an enclosing shape needs at least one point"])
         ends = itertools.accumulate((count for _, count, *_ in records), initial=0)
         starts = {partition: start for (partition, *_), start in zip(records, ends)}
-        self._digests = {partition: (count, digest) for partition, count, _, digest, _ in records}
+        digests = {partition: (count, digest) for partition, count, _, digest, _ in records}
         width = len(self._columns)
-        self._layout = tasks.Layout(rows, dtype, width, _native.rows_of_block(width), starts)
+        self._layout = tasks.Layout(rows, dtype, width, _native.rows_of_block(width), starts, digests)
         self._parts = self._with_edges()
 
     @property
@@ -129,7 +133,7 @@ class Points:
         self._records.persist()
         for record in self._records.collect():
             partition, count, _, digest, _ = record
-            if (count, digest) != self._digests[partition]:
+            if (count, digest) != self._layout.digests[partition]:
                 raise RuntimeError(
                     f"partition {partition} has other rows when the DataFrame is read again: persist or store it first"
                 )
@@ -150,8 +154,8 @@ class Points:
             self._rebuild()
         raise RuntimeError(LOST)
 
-    def _solve(self, solver: passes.Solver) -> Solution:
-        count = 0
+    def _solve(self, solver: passes.Solver, count: int = 0) -> Solution[Any]:
+        """The solution, after so many passes that were made already."""
 
         def ask(query: passes.Query) -> passes.Partial:
             nonlocal count
@@ -167,7 +171,7 @@ class Points:
     def ball(
         self, *, epsilon: float = 1e-9, method: BallMethod = "core-set", batch: int | None = None,
         delta: float | None = None, max_passes: int = 1_000_000, threads: int | None = None, seed: int = 0,
-    ) -> Solution:
+    ) -> Solution[Any]:
         """Smallest ball enclosing the points: the bytes of `taut.ball` over them on one machine.
 
         Parameters
@@ -190,7 +194,7 @@ class Points:
 
     def ellipsoid(
         self, *, epsilon: float = 1e-9, max_passes: int = 1_000_000, threads: int | None = None, seed: int = 0
-    ) -> Solution:
+    ) -> Solution[Any]:
         """Ellipsoid of least volume enclosing the points: the bytes of `taut.ellipsoid` over them on one machine.
 
         Parameters
@@ -214,7 +218,66 @@ class Points:
         )
         return self._solve(solver)
 
-    def verify(self, solution: Solution | str) -> Any:
+    def centers(self, k: int, *, discrete: bool = False) -> Solution[Any]:
+        """k centers: the bytes of ``taut.centers(method="stream")`` over the points on one machine.
+
+        The first of two passes visits one partition after the other, as each takes over the points kept of those before.
+
+        Parameters
+        ----------
+        k, discrete
+            As in `taut.centers`.
+
+        Returns
+        -------
+        Solution
+            Its row numbers have ids: `ids`.
+        """
+        data = passes.StreamingCenters.new(self.shape[1], k).data
+        log.info("pass 1 over %d rows, by partition: begins", self.shape[0])
+        for partition in sorted(self._layout.digests):
+            data = self._add_to_stream(partition, data)
+        log.info("pass 1 over %d rows, by partition: ends", self.shape[0])
+        return self._solve(passes.Solver.centers(passes.StreamingCenters(data), discrete=discrete), 1)
+
+    def _add_to_stream(self, partition: int, data: bytes) -> bytes:
+        work = functools.partial(tasks.add_to_stream, layout=self._layout, data=data)
+        for _ in range(REBUILDS_MAX):
+            added = self._records.context.runJob(self._records, work, [partition])
+            if added != [None]:
+                return bytes(added[0])
+            self._rebuild()
+        raise RuntimeError(LOST)
+
+    def delaunay(self, *, leaf_points: int = 2**18) -> Triangulation:
+        """Delaunay triangulation of points in the plane: the simplices of `taut.delaunay` over them on one machine.
+
+        One shuffle brings each point to its leaf; a task holds one leaf, which takes about 130 bytes for each point.
+
+        Parameters
+        ----------
+        leaf_points : int, default 2**18
+            Most points of a leaf, about. The simplices do not depend on it.
+
+        Returns
+        -------
+        Triangulation
+            Its simplices are a DataFrame, to be used as long as the points are open.
+        """
+        rows, columns = self.shape
+        if columns != 2:
+            raise ValueError(f"the points have {columns} coordinates: on a cluster, triangulations are those of the plane")
+        if leaf_points < 1 or rows > leaf_points * 2**delaunay.LEVELS_MAX:
+            raise ValueError(f"leaf_points is {leaf_points}: expected at least {max(1, rows >> delaunay.LEVELS_MAX)}")
+        for _ in range(REBUILDS_MAX):
+            made = delaunay.triangulate(self._session, self._records, self._layout, self._id_type, leaf_points)
+            if made is not None:
+                self._kept += made[1]
+                return made[0]
+            self._rebuild()
+        raise RuntimeError(LOST)
+
+    def verify(self, solution: Solution[Any] | str) -> Any:
         """Check an answer over the points, in one pass: the verdict of `taut.verify` over them on one machine.
 
         Parameters
@@ -263,6 +326,8 @@ class Points:
 
     def close(self) -> None:
         """Removes the files of the workers."""
+        for rdd in self._kept:
+            rdd.unpersist()
         self._records.mapPartitions(tasks.remove).count()
         self._records.unpersist()
 
@@ -275,7 +340,7 @@ class Points:
 
 def ball(
     df: Any, columns: Sequence[str], *, id: str | None = None, partitions: int | None = None, **options: Any
-) -> Solution:
+) -> Solution[Any]:
     """Smallest ball enclosing the rows of a DataFrame.
 
     Parameters
@@ -294,9 +359,30 @@ def ball(
         return points.ball(**options)
 
 
+def centers(
+    df: Any, columns: Sequence[str], k: int, *, id: str | None = None, partitions: int | None = None, discrete: bool = False
+) -> Solution[Any]:
+    """k centers of the rows of a DataFrame.
+
+    Parameters
+    ----------
+    df, columns, id, partitions
+        As in `Points`.
+    k, discrete
+        As in `Points.centers`.
+
+    Returns
+    -------
+    Solution
+        The bytes of ``taut.centers(method="stream")`` over the rows on one machine.
+    """
+    with Points(df, columns, id=id, partitions=partitions) as points:
+        return points.centers(k, discrete=discrete)
+
+
 def ellipsoid(
     df: Any, columns: Sequence[str], *, id: str | None = None, partitions: int | None = None, **options: Any
-) -> Solution:
+) -> Solution[Any]:
     """Ellipsoid of least volume enclosing the rows of a DataFrame.
 
     Parameters
@@ -316,7 +402,7 @@ def ellipsoid(
 
 
 def verify(
-    solution: Solution | str, df: Any, columns: Sequence[str], *, id: str | None = None, partitions: int | None = None
+    solution: Solution[Any] | str, df: Any, columns: Sequence[str], *, id: str | None = None, partitions: int | None = None
 ) -> Any:
     """Check an answer over the rows of a DataFrame.
 
@@ -356,3 +442,4 @@ def _register_tasks() -> None:
     from pyspark import cloudpickle
 
     cloudpickle.register_pickle_by_value(tasks)
+    cloudpickle.register_pickle_by_value(delaunay)

@@ -27,7 +27,7 @@ def solve(solver, parts):
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
-@pytest.mark.parametrize("distribution", ["normal", "cube-vertices", "poisson", "sphere"])
+@pytest.mark.parametrize("distribution", ["normal", "cube", "poisson", "sphere"])
 @pytest.mark.parametrize("d", [2, 10])
 def test_balls(distribution, d, dtype):
     n = 300_000 // d
@@ -46,6 +46,46 @@ def test_balls_of_balls():
     wanted = taut.ball_of_balls(rows[:, :3], rows[:, 3])
     found = solve(passes.Solver.ball(40_000, 4, items="balls"), in_parts(rows, 3))
     assert found.to_json() == wanted.to_json()
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+@pytest.mark.parametrize(("distribution", "d"), [("normal", 2), ("poisson", 3), ("sphere", 10)])
+def test_ellipsoids(distribution, d, dtype):
+    n = 300_000 // d
+    rows = taut.generate(distribution, n, d, seed=4).astype(dtype)
+    wanted = taut.ellipsoid(rows)
+    for count in (1, 7):
+        parts = in_parts(rows, count)
+        found = solve(passes.Solver.ellipsoid(n, d), parts)
+        assert found.to_json() == wanted.to_json()
+        verdict = passes.check_parts(found, [passes.check_part(found, block, first, n) for first, block in parts])
+        assert verdict == wanted.check(rows)
+
+
+def test_an_ellipsoid_in_a_flat_is_refused():
+    rows = np.hstack([taut.generate("normal", 50_000, 2, seed=4), np.ones((50_000, 1))])
+    with pytest.raises(ValueError, match="lie in a flat of dimension 2 in 3 dimensions"):
+        solve(passes.Solver.ellipsoid(50_000, 3), in_parts(rows, 3))
+
+
+@pytest.mark.parametrize("discrete", [False, True])
+def test_centers_of_a_stream(discrete):
+    rows = taut.generate("poisson", 100_000, 3, seed=4)
+    wanted = taut.centers(rows, 8, method="stream", discrete=discrete)
+    cover = passes.StreamingCenters.new(3, 8)
+    for rest in np.array_split(rows, 11):
+        cover = pickle.loads(pickle.dumps(cover.add(rest)))
+    parts = in_parts(rows, 4)
+    found = solve(passes.Solver.centers(cover, discrete=discrete), parts)
+    assert found.to_json() == wanted.to_json()
+    verdict = passes.check_parts(found, [passes.check_part(found, block, first, len(rows)) for first, block in parts])
+    assert verdict == wanted.check(rows)
+    with pytest.raises(ValueError, match="coordinate 1 of point 100002 is NaN"):
+        cover.add([[0, 0, 0], [1, 1, 1], [2, np.nan, 2]])
+    with pytest.raises(ValueError, match="dimension"):
+        cover.add([[0, 0]])
+    with pytest.raises(ValueError, match="no cover of this version"):
+        passes.StreamingCenters(b"").add(rows)
 
 
 def test_a_wrong_answer_is_refused_with_the_first_row():
@@ -92,9 +132,9 @@ def test_refusals():
         passes.Query(b"taut 0.0.0 query\n").run(rows, 0)
     with pytest.raises(ValueError, match="epsilon"):
         passes.Solver.ball(10, 2, epsilon=2)
-    ellipsoid = taut.ellipsoid(rows[:1000])
-    with pytest.raises(ValueError, match="kind ellipsoid are not verified in parts"):
-        passes.check_part(ellipsoid, rows[:1000], 0, 1000)
+    robust = taut.robust_ellipsoid(rows[:1000])
+    with pytest.raises(ValueError, match="kind robust-ellipsoid are not verified in parts"):
+        passes.check_part(robust, rows[:1000], 0, 1000)
 
 
 def test_the_example_runs():

@@ -15,6 +15,7 @@ use taut_points::{
 
 pub(crate) use self::findings::Findings;
 use crate::ball::check::parts as ball;
+use crate::centers::check::parts as centers;
 use crate::ellipsoid::check::parts as ellipsoid;
 use crate::hashed_pass::WantedRows;
 use crate::{AnySolution, AnyVerdict, CheckError, Violation};
@@ -110,38 +111,56 @@ impl AnySolution {
             AnySolution::Ellipsoid(found) => {
                 ellipsoid::check_structure(&found.answer, &found.certificate, n, columns)
             }
+            AnySolution::Centers(found) => {
+                centers::check_structure(&found.answer, &found.certificate, n, columns)
+            }
             other => Err(CheckError::NoParts { kind: other.kind() }),
         }
     }
 
     /// The hash and the rows that the certificate names.
-    fn named(&self) -> Result<(PointsHash, &[u64]), CheckError> {
+    fn named(&self) -> Result<(PointsHash, Vec<u64>), CheckError> {
         match self {
             AnySolution::Ball(found) => {
-                Ok((found.certificate.points_hash, &found.certificate.support[..]))
+                Ok((found.certificate.points_hash, found.certificate.support.clone()))
             }
             AnySolution::Ellipsoid(found) => {
-                Ok((found.certificate.points_hash, &found.certificate.support[..]))
+                Ok((found.certificate.points_hash, found.certificate.support.clone()))
+            }
+            AnySolution::Centers(found) => {
+                let rows = [&found.certificate.core_set[..], &found.answer.rows];
+                Ok((found.certificate.points_hash, rows.concat()))
             }
             other => Err(CheckError::NoParts { kind: other.kind() }),
         }
     }
 
-    fn check_block(&self, first: u64, rows: &Rows<'_>) -> Findings {
+    fn check_block(
+        &self,
+        columns: usize,
+        first: u64,
+        rows: &Rows<'_>,
+        monitor: &Monitor<'_>,
+    ) -> Result<Findings, CheckError> {
         match self {
             AnySolution::Ball(found) => {
-                ball::check_block(&found.answer, &found.certificate, first, rows)
+                Ok(ball::check_block(&found.answer, &found.certificate, first, rows))
             }
             AnySolution::Ellipsoid(found) => {
-                ellipsoid::check_block(&found.answer, &found.certificate, first, rows)
+                Ok(ellipsoid::check_block(&found.answer, &found.certificate, first, rows))
             }
-            _ => Findings::default(),
+            AnySolution::Centers(found) => {
+                let (answer, certificate) = (&found.answer, &found.certificate);
+                centers::check_block(answer, certificate, columns, first, rows, monitor)
+            }
+            other => Err(CheckError::NoParts { kind: other.kind() }),
         }
     }
 
     /// Judges the answer over the rows of `part`, whole blocks of a set of `n` rows that are numbered from `first_row` on.
     ///
-    /// Balls around points and balls, and ellipsoids around points of full rank, are judged in parts. The rows that are wrong are part of the
+    /// Balls around points and balls, ellipsoids around points of full rank, and centers of points and balls without weights, groups and
+    /// assignment are judged in parts. The rows that are wrong are part of the
     /// result, so that the first of all of them is named in the end.
     ///
     /// # Errors
@@ -158,11 +177,12 @@ impl AnySolution {
         self.check_structure(n, columns)?;
         check_part(part, first_row, n)?;
         let (claimed, support) = self.named()?;
-        let wanted = WantedRows::of(support);
+        let wanted = WantedRows::of(&support);
         let found = map_blocks(part, monitor, |row, rows| {
             let first = first_row + row;
             let kept = wanted.of_block(first, &rows, columns);
-            Ok::<_, CheckError>((hash_block(&rows), kept, self.check_block(first, &rows)))
+            let found = self.check_block(columns, first, &rows, monitor)?;
+            Ok::<_, CheckError>((hash_block(&rows), kept, found))
         })?;
         let first_block = first_row / Blocks::new(n, columns).range(0).end.max(1);
         let blocks = BlockRuns::of(first_block, found.iter().map(|block| block.0));
@@ -208,6 +228,10 @@ impl AnySolution {
                 let (answer, certificate) = (&found.answer, &found.certificate);
                 ellipsoid::prove(answer, certificate, findings, rows, *columns, monitor)
                     .map(AnyVerdict::Ellipsoid)
+            }
+            AnySolution::Centers(found) => {
+                centers::prove(&found.answer, &found.certificate, rows, *n, *columns, monitor)
+                    .map(AnyVerdict::Centers)
             }
             other => Err(CheckError::NoParts { kind: other.kind() }),
         }

@@ -34,12 +34,14 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod centers;
 mod items;
 mod partial;
 mod points;
 mod query;
 mod solver;
 
+pub(crate) use centers::ask_reach;
 pub(crate) use items::{FirstAnswer, ask_first, ask_items, ask_spread};
 pub use partial::Partial;
 pub(crate) use points::{PointsAnswer, ask_points};

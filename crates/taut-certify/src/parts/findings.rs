@@ -2,7 +2,7 @@
 
 use taut_points::{ByteReader, ByteWriter, PartsError};
 
-use crate::Violation;
+use crate::{CentersViolation, Violation};
 
 /// The first rows that are wrong, and how far rows reach.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -73,6 +73,13 @@ fn write_fault(fault: Option<&Violation>, bytes: &mut ByteWriter) {
         Some(&Violation::OutsideEllipsoid { row, norm, excess }) => {
             (4, row, 0, [norm, excess, 0.0])
         }
+        Some(&Violation::Centers(CentersViolation::Outside {
+            row,
+            center,
+            distance,
+            radius,
+            excess,
+        })) => (5, row, center, [distance, radius, excess]),
         _ => (0, 0, 0, [0.0; 3]),
     };
     bytes.whole(kind);
@@ -90,6 +97,10 @@ fn read_fault(bytes: &mut ByteReader<'_>) -> Result<Option<Violation>, PartsErro
         2 => Some(Violation::NegativeRadius { row, value: a }),
         3 => Some(Violation::Outside { row, distance: a, radius: b, excess: c }),
         4 => Some(Violation::OutsideEllipsoid { row, norm: a, excess: b }),
+        5 => {
+            let (center, distance, radius, excess) = (column, a, b, c);
+            Some(CentersViolation::Outside { row, center, distance, radius, excess }.into())
+        }
         _ => return Err(bytes.wrong()),
     })
 }
@@ -100,7 +111,8 @@ fn row_of(fault: &Violation) -> u64 {
         Violation::NonFinite { row, .. }
         | Violation::NegativeRadius { row, .. }
         | Violation::Outside { row, .. }
-        | Violation::OutsideEllipsoid { row, .. } => row,
+        | Violation::OutsideEllipsoid { row, .. }
+        | Violation::Centers(CentersViolation::Outside { row, .. }) => row,
         _ => u64::MAX,
     }
 }

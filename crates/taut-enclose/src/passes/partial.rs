@@ -31,6 +31,8 @@ pub(super) enum Body {
     Rows,
     Items(ItemBody),
     Points(Answer),
+    /// How far the farthest point is from the nearest center.
+    Centers(f64),
 }
 
 impl Body {
@@ -40,6 +42,7 @@ impl Body {
             (Body::Rows, Body::Rows) => Ok(Body::Rows),
             (Body::Items(a), Body::Items(b)) => Ok(Body::Items(a.merge(b)?)),
             (Body::Points(a), Body::Points(b)) => Ok(Body::Points(a.merge(b)?)),
+            (Body::Centers(a), Body::Centers(b)) => Ok(Body::Centers(a.max(b))),
             _ => Err(PartsError::Question),
         }
     }
@@ -47,7 +50,7 @@ impl Body {
     /// The numbers of the rows that it names.
     pub(super) fn rows(&self) -> BTreeSet<u64> {
         match self {
-            Body::None | Body::Rows => BTreeSet::new(),
+            Body::None | Body::Rows | Body::Centers(_) => BTreeSet::new(),
             Body::Items(items) => items.rows(),
             Body::Points(answer) => answer.rows(),
         }
@@ -126,6 +129,10 @@ impl Partial {
                 bytes.whole(3);
                 answer.write(&mut bytes);
             }
+            Body::Centers(reach) => {
+                bytes.whole(4);
+                bytes.float(*reach);
+            }
         }
         bytes.into_bytes()
     }
@@ -152,6 +159,7 @@ impl Partial {
             1 => Body::Rows,
             2 => Body::Items(ItemBody::read(&mut bytes)?),
             3 => Body::Points(Answer::read(&mut bytes)?),
+            4 => Body::Centers(bytes.float()?),
             _ => return Err(bytes.wrong()),
         };
         bytes.end(Partial { stamp, blocks, rows, body })

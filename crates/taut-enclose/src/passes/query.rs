@@ -7,6 +7,7 @@ use taut_points::{
     check_part, gather, instruction_set,
 };
 
+use super::centers::CentersQuestion;
 use super::items::ItemQuestion;
 use super::partial::{Body, Partial};
 use super::points::PointQuestion;
@@ -26,6 +27,7 @@ pub(super) enum Question {
     Rows(Vec<u64>),
     Items(ItemQuestion),
     Points(PointQuestion),
+    Centers(CentersQuestion),
 }
 
 /// The word that bytes of a query begin with.
@@ -76,6 +78,9 @@ impl Query {
                 self.hashed(part, first_row, question.run(part, first_row, monitor)?)
             }
             Question::Points(question) => {
+                self.hashed(part, first_row, question.run(part, first_row, monitor)?)
+            }
+            Question::Centers(question) => {
                 self.hashed(part, first_row, question.run(part, first_row, monitor)?)
             }
         };
@@ -143,6 +148,10 @@ impl Query {
                 bytes.whole(2);
                 question.write(&mut bytes);
             }
+            Question::Centers(question) => {
+                bytes.whole(3);
+                question.write(&mut bytes);
+            }
         }
         bytes.into_bytes()
     }
@@ -159,6 +168,7 @@ impl Query {
             0 => Question::Rows(bytes.wholes()?),
             1 => Question::Items(ItemQuestion::read(&mut bytes, columns)?),
             2 => Question::Points(PointQuestion::read(&mut bytes, columns)?),
+            3 => Question::Centers(CentersQuestion::read(&mut bytes, columns)?),
             _ => return Err(bytes.wrong()),
         };
         bytes.end(Query { n, columns, question })

@@ -9,7 +9,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{JoinHandle, spawn};
 use std::time::Duration;
 
-use taut_certify::{AnySolution, Items};
+use taut_certify::{AnySolution, Items, Placement};
 use taut_points::{
     Cancelled, Elsewhere, InputError, Monitor, PartsError, PointSource, Points, ReadError, Rows,
     Scalar, ScalarKind, Scratch,
@@ -17,7 +17,9 @@ use taut_points::{
 
 use super::partial::Partial;
 use super::query::{Query, Question};
-use crate::{BallOptions, EllipsoidMethod, EllipsoidOptions, Error, ball, ellipsoid};
+use crate::{
+    BallOptions, EllipsoidMethod, EllipsoidOptions, Error, StreamingCenters, ball, ellipsoid,
+};
 
 /// The interval at which a caller who waits for the next query is asked whether to go on. It delays a stop, never a query.
 const ASK_INTERVAL: Duration = Duration::from_millis(50);
@@ -79,6 +81,16 @@ impl Solver {
             let options = EllipsoidOptions { monitor: *monitor, ..options };
             ellipsoid(source, &options).map(AnySolution::from)
         }))
+    }
+
+    /// The centers of a stream, once all rows came by in their order: one pass measures them.
+    ///
+    /// The first pass is not a query, as each part takes over the cover of the one before it:
+    /// [`to_bytes`](StreamingCenters::to_bytes) and [`from_bytes`](StreamingCenters::from_bytes) carry it there.
+    pub fn centers(cover: StreamingCenters, placement: Placement) -> Self {
+        Self::start(cover.len(), cover.dim(), move |source, monitor| {
+            cover.solution(placement, source, monitor).map(AnySolution::from)
+        })
     }
 
     fn start(

@@ -1,9 +1,10 @@
 //! Solutions from parts: the bytes of those in memory however rows are divided, and what is refused.
 
-use taut_certify::{AnySolution, Items};
+use taut_certify::{AnySolution, CheckError, Items, PartialVerdict, Placement};
 use taut_enclose::passes::{Partial, Query, Solver};
 use taut_enclose::{
-    BallMethod, BallOptions, EllipsoidMethod, EllipsoidOptions, Error, ball, ellipsoid,
+    BallMethod, BallOptions, CentersMethod, CentersOptions, EllipsoidMethod, EllipsoidOptions,
+    Error, StreamingCenters, StreamingOptions, ball, centers, ellipsoid,
 };
 use taut_points::{
     Blocks, Distribution, Monitor, PartsError, PointSource, Points, Scalar, generate,
@@ -113,6 +114,90 @@ fn ellipsoids_have_the_bytes_of_those_in_memory() {
     let thesis = EllipsoidOptions { method: EllipsoidMethod::ThesisInitial, ..options };
     let refused = Solver::ellipsoid(10, 2, thesis).unwrap_err().to_string();
     assert!(refused.contains("expected newton"), "{refused}");
+}
+
+/// What the checker says of a solution, from parts that are merged last first.
+fn verdict<T: Scalar>(
+    solution: &AnySolution,
+    parts: &[(u64, Points<'_, T>)],
+) -> Result<String, CheckError> {
+    let (monitor, mut merged) = (Monitor::silent(), None::<PartialVerdict>);
+    let n = parts.iter().map(|(_, part)| PointSource::len(part)).sum();
+    for (first_row, part) in parts.iter().rev() {
+        let found = solution.check_part(part, *first_row, n, &monitor)?;
+        let found = PartialVerdict::from_bytes(&found.to_bytes()).unwrap();
+        merged = Some(match merged {
+            Some(merged) => merged.merge(found)?,
+            None => found,
+        });
+    }
+    Ok(format!("{:?}", solution.check_parts(&merged.unwrap(), &monitor)?))
+}
+
+#[test]
+fn centers_of_streams_have_the_bytes_and_verdicts_of_those_in_memory() {
+    let method = CentersMethod::Stream(StreamingOptions::DEFAULT);
+    let monitor = Monitor::silent();
+    let sets = sets();
+    for (name, dim, values) in sets.iter().filter(|set| set.2.len() < 500_000) {
+        let points = Points::new(values, *dim).unwrap();
+        for (k, placement) in [(1, Placement::Free), (7, Placement::Rows)] {
+            let options = CentersOptions { method, placement, ..Default::default() };
+            let wanted = centers(&points, k, &options).map(AnySolution::from);
+            for count in [1, 7] {
+                let parts = parts(&points, count);
+                let mut cover = StreamingCenters::new(*dim, k, &StreamingOptions::DEFAULT).unwrap();
+                let added = parts.iter().try_for_each(|(_, part)| {
+                    cover.add_source(part, &monitor)?;
+                    cover = StreamingCenters::from_bytes(&cover.to_bytes())?;
+                    Ok::<_, Error>(())
+                });
+                let found = added.and_then(|()| solve(Solver::centers(cover, placement), &parts));
+                match (found, &wanted) {
+                    (Ok(found), Ok(wanted)) => {
+                        assert_eq!(found.to_json(), wanted.to_json(), "{name}, {count} parts");
+                        let said = format!("{:?}", wanted.check(&points, &monitor).unwrap());
+                        assert_eq!(verdict(&found, &parts).unwrap(), said, "{name}");
+                    }
+                    (Err(found), Err(wanted)) => {
+                        assert_eq!(found.to_string(), wanted.to_string(), "{name}");
+                    }
+                    (found, wanted) => panic!("{name}: {found:?}, in memory {wanted:?}"),
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn forged_answers_are_refused_in_parts_with_the_row() {
+    let monitor = Monitor::silent();
+    let values: Vec<f64> = generate(Distribution::Normal, 100_000, 2, 3).unwrap();
+    let points = Points::new(&values, 2).unwrap();
+    let parts = parts(&points, 4);
+    let mut forged = vec![];
+    let mut found = ball(&points, &BallOptions::default()).unwrap();
+    found.answer.radius *= 0.999;
+    forged.push(AnySolution::from(found));
+    let mut found = ellipsoid(&points, &EllipsoidOptions::default()).unwrap();
+    found.answer.center[0] += 0.01;
+    forged.push(AnySolution::from(found));
+    let method = CentersMethod::Stream(StreamingOptions::DEFAULT);
+    let options = CentersOptions { method, ..Default::default() };
+    let mut found = centers(&points, 3, &options).unwrap();
+    found.answer.radius *= 0.999;
+    found.answer.lower_bound = 0.0;
+    found.certificate.gap = f64::MAX;
+    forged.push(AnySolution::from(found));
+    for solution in forged {
+        let wanted = solution.check(&points, &monitor).unwrap_err().to_string();
+        assert_eq!(verdict(&solution, &parts).unwrap_err().to_string(), wanted);
+        assert!(wanted.starts_with("point "), "{wanted}");
+    }
+    let options = CentersOptions { assignment: true, ..Default::default() };
+    let found = AnySolution::from(centers(&points, 2, &options).unwrap());
+    let refused = verdict(&found, &parts).unwrap_err().to_string();
+    assert!(refused.contains("centers with an assignment"), "{refused}");
 }
 
 #[test]

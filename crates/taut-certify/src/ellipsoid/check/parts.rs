@@ -28,7 +28,11 @@ pub(crate) fn check_structure(
     if !certificate.left_out.is_empty() {
         return Err(CheckError::NoParts { kind: "ellipsoid with points left out" });
     }
-    Ok(structure::check(ellipsoid, certificate, n, columns)?)
+    structure::check(ellipsoid, certificate, n, columns)?;
+    let frame = Frame::of(ellipsoid);
+    agreement::matrix(ellipsoid, &frame)?;
+    agreement::log_volume(ellipsoid, &frame)?;
+    Ok(())
 }
 
 /// What is wrong with the points of a block, and how far they reach.
