@@ -19,7 +19,7 @@ mod records {
 mod threads {
     pub(crate) mod atomics {
         pub(crate) use loom::hint::spin_loop;
-        pub(crate) use loom::sync::atomic::{AtomicBool, AtomicU8, AtomicU32, AtomicU64};
+        pub(crate) use loom::sync::atomic::{AtomicBool, AtomicU8, AtomicU32, AtomicU64, fence};
     }
     #[path = "../../../crates/taut-delaunay/src/threads/held.rs"]
     pub(crate) mod held;

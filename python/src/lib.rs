@@ -21,6 +21,7 @@ mod files;
 mod found;
 mod generate;
 mod inscribed;
+mod io;
 mod items;
 mod mosaic;
 mod names;
@@ -53,7 +54,6 @@ mod _native {
     #[pymodule_export]
     use crate::centers::centers;
     #[pymodule_export]
-    #[pymodule_export]
     use crate::classify::{Classifier, train_classifier};
     #[pymodule_export]
     use crate::curve::curve;
@@ -75,6 +75,8 @@ mod _native {
     use crate::generate::generate;
     #[pymodule_export]
     use crate::inscribed::inscribed_ellipsoid;
+    #[pymodule_export]
+    use crate::io::{read_points, write_mesh};
     #[pymodule_export]
     use crate::mosaic::OpenTiles;
     #[pymodule_export]

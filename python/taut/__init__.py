@@ -45,6 +45,7 @@ from ._ellipse import inscribed_ellipse
 from ._ellipsoid import ellipsoid, ellipsoids, inscribed_ellipsoid
 from ._file_solution import FileSolution
 from ._generate import generate
+from ._io import read_points, write_mesh
 from ._memory import sample, sort_file, spatial_order, transpose_file
 from ._native import Violation, __version__
 from ._polygon import inscribed_polygon
@@ -153,8 +154,8 @@ __all__ = [
     "farthest_first",
     "generate",
     "inscribe",
-    "inscribed_circle",
     "inscribed_bodies",
+    "inscribed_circle",
     "inscribed_dops",
     "inscribed_ellipse",
     "inscribed_ellipsoid",
@@ -164,6 +165,7 @@ __all__ = [
     "inscribed_triangle",
     "kernel_ball",
     "raster",
+    "read_points",
     "robust_ellipsoid",
     "sample",
     "sort_file",
@@ -173,6 +175,7 @@ __all__ = [
     "transpose_file",
     "triangle_rows",
     "verify",
+    "write_mesh",
 ]
 
 

@@ -52,6 +52,7 @@ __all__ = [
     "norms",
     "query_shape",
     "raster",
+    "read_points",
     "robust_ellipsoid",
     "rows_of_block",
     "run_query",
@@ -65,6 +66,7 @@ __all__ = [
     "transpose_file",
     "triangulate_fronts",
     "triangulate_leaf",
+    "write_mesh",
 ]
 
 __version__: str
@@ -208,6 +210,14 @@ def farthest_first(
 def generate(
     out: Rows, distribution: str, seed: int, thickness: float | None, count: int | None, spread: float | None,
     vertices: int | None, side: int | None, angle: float | None, turns: float | None, noise: float | None,
+) -> None: ...
+def read_points(
+    path: str, format: str | None, columns: str | None, header: bool | None, select: str | None, classes: list[int] | None,
+    bounds: str | None,
+) -> Rows: ...
+def write_mesh(
+    path: str, points: Rows, simplices: NDArray[np.uint32], normals: list[list[float]] | None, colors: list[list[int]] | None,
+    format: str | None, text: bool,
 ) -> None: ...
 def hull(rows: Rows, threads: int | None) -> tuple[int | None, _Ids, _Ids, _Ids, _Ids]: ...
 def box_rows(points: list[list[float]]) -> list[float]: ...

@@ -2,7 +2,8 @@
 
 pub(crate) mod files;
 pub(crate) mod meshes;
-pub(crate) mod numbers;
 pub(crate) mod parts;
 pub(crate) mod picture;
 pub(crate) mod writing;
+
+pub(crate) use taut_report::numbers;

@@ -15,7 +15,7 @@ use crate::effort::Effort;
 use crate::exit::Outcome;
 use crate::input::reading::{Opened, Reading};
 use crate::input::samples::Samples;
-use crate::output::picture::{Picture, PictureOptions};
+use crate::output::picture::{Drawing, Picture, PictureOptions};
 use crate::output::writing::{self, Outputs};
 use crate::reports::{self, Field, Report, Summary};
 use crate::watch::Watch;
@@ -174,14 +174,14 @@ pub(crate) fn run(command: &impl Find) -> anyhow::Result<Outcome> {
         clock.lap("checking");
     }
 
-    let report = Report { found: &found, points: &points, verdict };
+    let report = Report { found: &found, points: points.source(), verdict };
     let (title, mut fields) = (report.title(), report.fields());
     fields.extend(points.origin());
     fields.extend(command.side_fields(&extra));
     let drawn = match picture {
         Some(picture) => {
-            let drawn = picture
-                .draw(report.drawing(&PictureOptions::default())?, &PictureOptions::default())?;
+            let style = PictureOptions::default();
+            let drawn = picture.draw(Drawing::of(&report, &points, &style)?, &style)?;
             clock.lap("drawing");
             Some(drawn)
         }

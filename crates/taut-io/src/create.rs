@@ -35,6 +35,8 @@ enum Target {
     /// A device or a pipe.
     InPlace(BufWriter<File>),
     Stdout(BufWriter<Stdout>),
+    /// No file at all.
+    Memory(Vec<u8>),
 }
 
 /// Starts a file that will be `path`; `-` is standard output.
@@ -132,6 +134,19 @@ fn rename_to(path: PathBuf, earlier: Option<Permissions>) -> io::Result<Target> 
 }
 
 impl AtomicFile {
+    /// Bytes that become no file, with the name that messages give them.
+    pub(crate) fn in_memory(name: &str) -> Self {
+        AtomicFile { display: name.to_owned(), to: Target::Memory(Vec::new()) }
+    }
+
+    /// The bytes of what is no file; empty for a file.
+    pub(crate) fn into_memory(self) -> Vec<u8> {
+        match self.to {
+            Target::Memory(bytes) => bytes,
+            _ => Vec::new(),
+        }
+    }
+
     /// The file as shown to people.
     pub fn path(&self) -> &str {
         &self.display
@@ -147,6 +162,7 @@ impl AtomicFile {
         let replaces = matches!(self.to, Target::Rename(..));
         let done = match self.to {
             Target::Stdout(mut out) => out.flush(),
+            Target::Memory(_) => Ok(()),
             Target::InPlace(mut file) => file.flush(),
             Target::Rename(file, path) => file
                 .into_inner()
@@ -174,6 +190,7 @@ impl AtomicFile {
             Target::Rename(file, _) => file,
             Target::InPlace(file) => file,
             Target::Stdout(out) => out,
+            Target::Memory(bytes) => bytes,
         }
     }
 }

@@ -13,6 +13,7 @@
 //! | lines with a height each as GeoJSON, place by place | [`LineFile`] | lines may be larger than memory |
 //! | a raster as `.npy` or ESRI ASCII, cells in any order | [`RasterFile`] | the raster may be larger than memory |
 //! | a mesh as a file: simplices on points, or a surface | [`write_mesh`] | every bit, where the format has room |
+//! | the bytes of such a file of a mesh or of curves, where there are no files | [`mesh_bytes`], [`polylines_bytes`] | the same |
 //! | a mesh of a file, whoever wrote it | [`open_mesh`] | every vertex and simplex, or an error that names file and line or element |
 //! | the triangles of a mesh as points of dimension 9 | [`open_triangles`] | the same |
 //! | type, shape, order and place of a NumPy array in a file | [`NpyArray::open`] | elements of any fixed width, as many as the header promises |
@@ -77,11 +78,11 @@ pub use format::{Compression, Content, Format};
 pub use input::{Input, open, open_bytes};
 pub use limits::LONGEST_LINE;
 pub use mesh::{
-    Encoding, Mesh, MeshOptions, MeshView, SimplexSource, SpooledSimplices, mesh_file, open_mesh,
-    open_mesh_bytes, open_triangles, write_mesh,
+    Encoding, Mesh, MeshOptions, MeshView, SimplexSource, SpooledSimplices, mesh_bytes, mesh_file,
+    open_mesh, open_mesh_bytes, open_triangles, write_mesh,
 };
 pub use options::{Bounds, Feature, Header, RawLayout, ReadOptions, Thinning};
-pub use polylines::{LineFile, polylines_file, write_polylines};
+pub use polylines::{LineFile, polylines_bytes, polylines_file, write_polylines};
 pub use raster::{RasterFile, RasterHeader, check_raster};
 pub use space::free_bytes;
 pub use spill::spill_bytes;

@@ -39,7 +39,7 @@ pub(crate) use reading::read_stream;
 pub use reading::{open_mesh, open_mesh_bytes};
 pub use spooled::SpooledSimplices;
 pub use triangles::open_triangles;
-pub use writing::{Encoding, MeshOptions, mesh_file, write_mesh};
+pub use writing::{Encoding, MeshOptions, mesh_bytes, mesh_file, write_mesh};
 
 /// Simplices of one dimension on vertices, or vertices alone, as files hold them.
 ///

@@ -16,7 +16,7 @@ use crate::error::shown_path;
 use crate::format::format_to_write;
 use crate::words::put_number;
 use crate::write::OutputFile;
-use crate::{Content, Error, Format};
+use crate::{Compression, Content, Error, Format};
 
 pub use lines::LineFile;
 
@@ -46,9 +46,39 @@ pub fn polylines_file(
     path: &Path,
     format: Option<Format>,
 ) -> Result<AtomicFile, Error> {
+    write_to(curves, path, format, |shown, compression| {
+        OutputFile::create(path, shown, compression)
+    })
+}
+
+/// The bytes of the file `name` that [`polylines_file`] would write, where there are no files.
+///
+/// ```
+/// use taut_io::{Polyline, polylines_bytes};
+///
+/// let corner = Polyline { vertices: &[[0.0, 0.0], [1.0, 0.0], [1.0, 0.5]], closed: false };
+/// assert_eq!(polylines_bytes(&[corner], "corner.csv")?, b"curve,closed,x,y\n0,0,0,0\n0,0,1,0\n0,0,1,0.5\n");
+/// # Ok::<(), taut_io::Error>(())
+/// ```
+///
+/// # Errors
+/// As [`polylines_file`], but for those of files.
+pub fn polylines_bytes(curves: &[Polyline<'_>], name: &str) -> Result<Vec<u8>, Error> {
+    let file = write_to(curves, Path::new(name), None, |shown, compression| {
+        OutputFile::in_memory(shown, compression)
+    })?;
+    Ok(file.into_memory())
+}
+
+fn write_to(
+    curves: &[Polyline<'_>],
+    path: &Path,
+    format: Option<Format>,
+    create: impl FnOnce(&str, Option<Compression>) -> Result<OutputFile<'_>, Error>,
+) -> Result<AtomicFile, Error> {
     let shown = shown_path(path);
     let (format, compression) = format_to_write(path, &shown, format, Content::Curves)?;
-    let mut text = Text { bytes: Vec::new(), out: OutputFile::create(path, &shown, compression)? };
+    let mut text = Text { bytes: Vec::new(), out: create(&shown, compression)? };
     match format {
         Format::Csv => csv::write(curves, &mut text)?,
         Format::GeoJson => geojson::write(curves, &mut text)?,

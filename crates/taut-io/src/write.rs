@@ -105,7 +105,22 @@ impl<'a> OutputFile<'a> {
         shown: &'a str,
         compression: Option<Compression>,
     ) -> Result<Self, Error> {
-        let file = create(path)?;
+        Self::of(create(path)?, shown, compression)
+    }
+
+    /// The same for bytes in memory.
+    pub(crate) fn in_memory(
+        shown: &'a str,
+        compression: Option<Compression>,
+    ) -> Result<Self, Error> {
+        Self::of(AtomicFile::in_memory(shown), shown, compression)
+    }
+
+    fn of(
+        file: AtomicFile,
+        shown: &'a str,
+        compression: Option<Compression>,
+    ) -> Result<Self, Error> {
         let failure = file.failure();
         let to = Encoder::new(compression, file, shown, failure)?;
         Ok(OutputFile { to, path: shown, failure })

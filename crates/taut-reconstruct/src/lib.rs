@@ -18,6 +18,6 @@ mod tour;
 pub use curve::{CurveMethod, CurveOptions, CurveThesisOptions, Ends, curve};
 pub use error::{Error, Span};
 pub use surface::{
-    Denoise, HullOptions, Positions, SurfaceMethod, SurfaceMode, SurfaceOptions, alpha,
-    looks_one_sided, surface, thesis,
+    Denoise, HullOptions, LabelBorder, LabelFacet, LabelTrace, Positions, SurfaceMethod,
+    SurfaceMode, SurfaceOptions, alpha, label_trace, looks_one_sided, surface, thesis,
 };

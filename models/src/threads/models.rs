@@ -8,7 +8,7 @@ use loom::thread;
 
 use super::Record;
 use super::atomics::AtomicU32;
-use super::held::{Hold, Owners};
+use super::held::{Hold, Holder, Owners};
 use super::runs::Runs;
 use super::slots::{OwnSlots, Room};
 use crate::simplex::Simplex;
@@ -52,10 +52,11 @@ fn cavities_with_a_vertex_in_common_are_carved_one_after_the_other() {
 const OLD: Simplex<3> = Simplex { vertices: [1, 2, 3], neighbors: [10, 11, 12] };
 const NEW: Simplex<3> = Simplex { vertices: [0, 2, 3], neighbors: [20, 21, 22] };
 
-/// As [`NEW`] is inserted: the site first, then the cavity.
+/// As [`NEW`] is inserted: the cavity is held first, then the site, of which nobody knows yet.
 fn replace(owners: &Owners, record: &Record<3>) {
     let mut holder = owners.holder(0);
-    if holder.hold([0]) && holder.hold(OLD.vertices) {
+    if holder.hold(OLD.vertices) {
+        holder.hold_new(0);
         record.set(NEW);
     }
     holder.release();
@@ -85,6 +86,78 @@ fn what_a_walk_came_to_is_whole_once_it_is_held() {
     });
 }
 
+/// The same for a slot of its own that an insertion takes, gives back, because it finds another vertex held, and takes again when it
+/// is tried again. By then others may know of its site. What was taken back is never found whole.
+#[test]
+fn what_was_taken_back_is_no_simplex() {
+    const FIRST_ATTEMPT: Simplex<3> = Simplex { vertices: [5, 1, 2], neighbors: [10, 11, 12] };
+    const SECOND_ATTEMPT: Simplex<3> = Simplex { vertices: [5, 3, 4], neighbors: [20, 21, 22] };
+    is_found_whole(
+        Simplex { vertices: [0; 3], neighbors: [0; 3] },
+        SECOND_ATTEMPT,
+        |holder, record| {
+            if holder.hold([1, 2]) {
+                holder.hold_new(5);
+                record.set(FIRST_ATTEMPT);
+                record.kill();
+                holder.release();
+                if holder.hold([3, 4, 5]) {
+                    record.set(SECOND_ATTEMPT);
+                }
+            }
+        },
+    );
+}
+
+/// The same for a slot of the cavity, into which its simplex is written back.
+#[test]
+fn what_was_there_before_is_whole_again() {
+    const STAR: Simplex<3> = Simplex { vertices: [5, 2, 3], neighbors: [20, 21, 22] };
+    is_found_whole(OLD, STAR, |holder, record| {
+        if holder.hold(OLD.vertices) {
+            holder.hold_new(5);
+            record.set(STAR);
+            record.set(OLD);
+            holder.release();
+            if holder.hold(OLD.vertices) && holder.hold([5]) {
+                record.set(STAR);
+            }
+        }
+    });
+}
+
+/// Lets one thread write a record that holds `before` and in the end `after`, and another come to it by a walk.
+fn is_found_whole(
+    before: Simplex<3>,
+    after: Simplex<3>,
+    write: impl Fn(&mut Holder<'_>, &Record<3>) + Copy + Send + Sync + 'static,
+) {
+    loom::model(move || {
+        let owners = Arc::new(Owners::new(6));
+        let record = Arc::new(Record::<3>::default());
+        record.set(before);
+        let writer = {
+            let (owners, record) = (Arc::clone(&owners), Arc::clone(&record));
+            thread::spawn(move || {
+                let mut holder = owners.holder(0);
+                write(&mut holder, &record);
+                holder.release();
+            })
+        };
+        let mut holder = owners.holder(1);
+        let vertices = record.vertices();
+        let [a, b, c] = vertices;
+        let is_triangle = a != u32::MAX - 1 && a != b && b != c && c != a;
+        if is_triangle && holder.hold(vertices) && record.vertices() == vertices {
+            let expected = [before, after].into_iter().find(|simplex| simplex.vertices == vertices);
+            let expected = expected.expect("half of each is no simplex");
+            assert_eq!(record.neighbors(), expected.neighbors);
+        }
+        holder.release();
+        writer.join().unwrap();
+    });
+}
+
 /// The same for a slot that became free in one insertion and is taken in a later one, by a simplex that has no vertex of the former.
 /// While it is written, its new site is held, and nothing of what was there before.
 #[test]
@@ -101,7 +174,8 @@ fn a_slot_that_is_used_again_is_whole_once_it_is_held() {
                 if holder.hold(OLD.vertices) {
                     record.kill();
                     holder.release();
-                    if holder.hold([0]) && holder.hold([4, 5]) {
+                    if holder.hold([4, 5]) {
+                        holder.hold_new(0);
                         record.set(SUCCESSOR);
                     }
                 }
@@ -112,7 +186,8 @@ fn a_slot_that_is_used_again_is_whole_once_it_is_held() {
         let vertices = record.vertices();
         let is_dead = vertices[0] == u32::MAX - 1;
         if !is_dead && holder.hold(vertices) && record.vertices() == vertices {
-            let expected = [OLD, SUCCESSOR].into_iter().find(|simplex| simplex.vertices == vertices);
+            let expected =
+                [OLD, SUCCESSOR].into_iter().find(|simplex| simplex.vertices == vertices);
             let expected = expected.expect("half of each is no simplex");
             assert_eq!(record.neighbors(), expected.neighbors);
         }

@@ -56,7 +56,13 @@ pub(super) fn check(
     monitor: &Monitor<'_>,
 ) -> Result<SurfaceVerdict, CheckError> {
     structure::check(surface, certificate, source)?;
-    let (places, displacement) = places::read(surface, certificate, source, monitor)?;
+    // What is refused first is named first, whichever thread is done first.
+    let (once, places) = rayon::join(
+        || structure::twice(&surface.triangles),
+        || places::read(surface, certificate, source, monitor),
+    );
+    once?;
+    let (places, displacement) = places?;
     let claimed = certificate.displacement;
     // Subnormal numbers may differ by some of the least of them.
     let least = if displacement > 0.0 { 4.0 * f64::from_bits(1) } else { 0.0 };
@@ -65,8 +71,15 @@ pub(super) fn check(
     if !agrees {
         return Err(SurfaceViolation::Displacement { claimed, found: displacement }.into());
     }
-    let sites = usage::check(surface, &places)?;
-    let shape = Shape::of(&surface.triangles, places.all.len());
+    // One thread joins sides and corners, a third of the work, while the others search for points in balls.
+    let (shape, balls) = rayon::join(
+        || Shape::of(&surface.triangles, places.all.len()),
+        || -> Result<_, SurfaceViolation> {
+            let sites = usage::check(surface, &places)?;
+            Ok(balls::check(surface, certificate, &places, sites, monitor))
+        },
+    );
+    let balls = balls?;
     topology::compare(&surface.topology, &shape.topology)?;
     match (certificate.mode, shape.bare) {
         (SurfaceMode::Closed, Some(edge)) => return Err(SurfaceViolation::Open { edge }.into()),
@@ -75,7 +88,7 @@ pub(super) fn check(
     }
     let faces = crossing::Faces::of(&surface.triangles, &places);
     // Where some ball is not what it is said to be, nothing follows from any; two triangles that meet are named first.
-    let (independent, balls) = match balls::check(surface, certificate, &places, sites, monitor) {
+    let (independent, balls) = match balls {
         Ok(independent) => (independent, Ok(())),
         Err(CheckError::Rejected(violation)) => (vec![], Err(violation)),
         Err(unread) => return Err(unread),

@@ -81,6 +81,7 @@ impl Args {
                 Err(violation) => return Ok(Err(violation)),
             },
         };
-        Ok(Ok(Report { found, points, verdict }.drawing(&self.options)?))
+        let report = Report { found, points: points.source(), verdict };
+        Ok(Ok(Drawing::of(&report, points, &self.options)?))
     }
 }

@@ -25,10 +25,10 @@ use crate::effort::Effort;
 use crate::exit::Outcome;
 use crate::input::reading::Opened;
 use crate::output::numbers::{count, exact, gap, seconds, short};
-use crate::output::picture::{PictureOptions, worth_drawing};
+use crate::output::picture::{Drawing, PictureOptions};
 use crate::output::writing::{self, Outputs};
 use crate::reports::surface::surface_of;
-use crate::reports::{Report, Summary};
+use crate::reports::{Report, Summary, worth_drawing};
 use crate::watch::Watch;
 use stations::{STATIONS, Station, Tool};
 
@@ -377,7 +377,8 @@ fn checked_and_drawn<A: Summary>(
         }
     }
     let summary = summary(verdict.as_ref());
-    let drawing = Report { found, points, verdict }.drawing(&PictureOptions::default())?;
+    let report = Report { found, points: points.source(), verdict };
+    let drawing = Drawing::of(&report, points, &PictureOptions::default())?;
     let section = Section {
         heading: station.heading.to_owned(),
         text: station.text.to_owned(),

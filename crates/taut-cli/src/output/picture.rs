@@ -9,7 +9,7 @@ use taut_draw::{
 };
 
 use crate::input::reading::{Opened, wrong_option};
-use crate::reports;
+use crate::reports::{Report, Summary, worth_drawing};
 
 /// The kinds of picture file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -75,6 +75,28 @@ pub(crate) struct Drawing {
     pub(crate) heading: String,
     pub(crate) fields: Vec<Field>,
     pub(crate) figures: Vec<Figure>,
+}
+
+impl Drawing {
+    /// The pictures of a report about these points, and what stands beside them.
+    pub(crate) fn of<A: Summary>(
+        report: &Report<'_, A>,
+        points: &Opened,
+        style: &PictureOptions,
+    ) -> anyhow::Result<Self> {
+        if let Some(why) = A::no_picture(report.found) {
+            bail!(why)
+        }
+        let options = style.options(points.names(A::dim(report)));
+        let figures = A::figures(report.found, report.points, &options)
+            .map_err(|error| refused(error, points))?;
+        Ok(Drawing {
+            title: report.title(),
+            heading: points.name().to_owned(),
+            fields: report.fields().into_iter().map(Into::into).collect(),
+            figures,
+        })
+    }
 }
 
 fn themes() -> impl TypedValueParser<Value = Theme> {
@@ -150,27 +172,11 @@ pub(crate) fn refused(error: DrawError, points: &Opened) -> anyhow::Error {
     }
 }
 
-/// The pictures without charts of a single value, such as the gap by pass after one pass.
-pub(crate) fn worth_drawing(figures: Vec<Figure>) -> Vec<Figure> {
-    let tells = |figure: &Figure| match figure {
-        Figure::Plot(plot) => {
-            !plot.bars.is_empty() || plot.series.iter().any(|series| series.points.len() > 1)
-        }
-        _ => true,
-    };
-    figures.into_iter().filter(tells).collect()
-}
-
 fn explain(error: DrawError) -> anyhow::Error {
     match error {
         DrawError::Option { name, value, expected } => wrong_option(name, &value, expected),
         other => other.into(),
     }
-}
-
-/// A field as a page shows it.
-pub(crate) fn field(field: reports::Field) -> Field {
-    Field::new(field.name, field.value)
 }
 
 /// The command that is running, as it would be typed.

@@ -6,12 +6,14 @@
 //! whole from q. Find one of them by a visibility walk from the site before, dig from edge to edge through all
 //! of them, counter-clockwise around q, and make every edge of the rim a triangle of the star at once.
 //! *Guarantee.* Signs are exact and never tie, so the mesh is a function of the set of inserted sites. A ghost answers
-//! for the outside of its hull edge. Per insertion two slots are added and none is left dead. No recursion.
+//! for the outside of its hull edge. Per insertion two slots are added, and on one thread none is left dead. No recursion.
 //! *Trap.* All tests take place in coordinates relative to q. A vertex that two tests share keeps its difference, its
 //! lift and its 2 × 2 minor from one to the next: of the three vertices of a triangle only one is ever loaded.
 //! *Cost.* For uniform points in rounds along a Hilbert curve, per site: 1.3 triangles walked through, 9.0 conflict
 //! tests, 6 triangles written. A fifth of the time goes to first touches of new pages, a fifth to the walk, the rest
 //! to the cavity. Indices without bounds checks and slots made in batches gave nothing.
+//! *Threads.* They insert into one mesh ([`threads`](crate::threads)); a star that turns out to be in the way of another thread's is
+//! taken back (`undo`).
 //! *Reference.* Bowyer 1981 and Watson 1981 for the cavity; Devillers, Pion and Teillaud 2002 for the walk; Amenta,
 //! Choi and Rote 2003 for the rounds that the caller inserts in.
 
@@ -22,6 +24,7 @@ mod seen;
 mod star;
 #[cfg(test)]
 mod tests;
+mod undo;
 mod walk;
 
 use std::sync::atomic::AtomicU32;
@@ -33,11 +36,14 @@ use crate::kernel::{Counters, Kernel, Settings, TooMany};
 use crate::records::Records;
 use crate::simplex::{GHOST, Simplex, code};
 use crate::threads::Record;
-use crate::threads::{Alone, Hold, Holder, Inserted, OwnSlots, Owners, Progress, Room, SharedMesh};
-use dig::{Edge, Sink, dig};
+use crate::threads::{
+    Alone, Hold, Holder, Inserted, OwnSlots, Owners, Progress, Room, SharedMesh, repair_beginnings,
+};
+use dig::{Edge, dig};
 use seen::{PointOffset, View};
 use star::Star;
-use walk::{LocatedTriangle, is_triangle, walk};
+use undo::{Recorded, Undo};
+use walk::{is_triangle, walk};
 
 /// Triangles are numbered with 30 bits, as a code has two more for the facet.
 const TRIANGLES_MAX: usize = 1 << 30;
@@ -57,7 +63,7 @@ pub(crate) struct Mesh {
 /// What a thread has for itself, in cache lines of its own.
 #[repr(align(128))]
 pub(crate) struct Worker {
-    /// Where the next walk begins: a triangle of the site inserted last.
+    /// Where the next walk begins: a triangle of the site inserted last, or one that a walk came to.
     last: u32,
     slots: OwnSlots,
     exact: Exact,
@@ -66,7 +72,7 @@ pub(crate) struct Worker {
     pending: Vec<Edge>,
     /// Slots that the star may take; kept for its memory.
     free: Vec<u32>,
-    notes: Notes,
+    undo: Undo,
 }
 
 impl Worker {
@@ -78,7 +84,7 @@ impl Worker {
             counters: Counters::default(),
             pending: Vec::new(),
             free: Vec::new(),
-            notes: Notes::default(),
+            undo: Undo::default(),
         }
     }
 }
@@ -89,39 +95,6 @@ pub(crate) struct Shared<'a> {
     triangles: &'a [Record<3>],
     room: Room<'a>,
     settings: Settings,
-}
-
-/// A cavity, written down: beside other threads nothing may be changed before all of it is held.
-#[derive(Default)]
-struct Notes {
-    entered: Vec<u32>,
-    rim: Vec<(u32, [u32; 2], PointOffset)>,
-}
-
-impl Sink for Notes {
-    #[inline(always)]
-    fn enter(&mut self, triangle: u32) {
-        self.entered.push(triangle);
-    }
-
-    #[inline(always)]
-    fn rim(&mut self, behind: u32, edge: [u32; 2], end: PointOffset) {
-        self.rim.push((behind, edge, end));
-    }
-}
-
-impl Notes {
-    /// Repeats them, and forgets them.
-    #[inline(always)]
-    fn replay(&mut self, sink: &mut impl Sink) {
-        self.entered.drain(..).for_each(|triangle| sink.enter(triangle));
-        self.rim.drain(..).for_each(|(behind, edge, end)| sink.rim(behind, edge, end));
-    }
-
-    fn clear(&mut self) {
-        self.entered.clear();
-        self.rim.clear();
-    }
 }
 
 impl Kernel<2, 3> for Mesh {
@@ -253,6 +226,9 @@ impl SharedMesh<2, 3> for Mesh {
             worker.slots.give_back(&self.next, self.records.all());
         }
         self.records.set_len(*self.next.get_mut() as usize);
+        let is_live = |t: u32| is_triangle(self.records.all()[t as usize].vertices());
+        let beginnings = self.workers.iter_mut().map(|worker| &mut worker.last);
+        repair_beginnings(beginnings, self.records.len(), is_live);
     }
 
     fn grow(&mut self) -> Result<(), TooMany> {
@@ -294,72 +270,93 @@ fn insert_with<M: MulAdd, H: Hold>(
             return Inserted::Full(place);
         }
         let next = *sites.get(place + 1).unwrap_or(&site);
-        let filtered = shared.settings.filtered;
-        let view = View::new(shared.sites, shared.sites[site as usize], filtered);
-        let found = if H::SHARED {
-            let Some(found) = find::<M, H>(&view, shared, worker, hold, site, progress) else {
+        let view = View::new(shared.sites, shared.sites[site as usize], shared.settings.filtered);
+        let towards = view.see::<M>(next);
+        if H::SHARED {
+            let mut is_inserted = false;
+            for attempt in 0..ATTEMPTS_EACH {
+                progress.attempts += 1;
+                let is_first = attempt == 0;
+                is_inserted = insert_beside_others::<M, H>(
+                    &view, towards, shared, worker, hold, site, is_first,
+                );
+                if is_inserted {
+                    break;
+                }
+                hold.back_off();
+                progress.failed += 1;
+                let is_live = |&t: &u32| is_triangle(triangles[t as usize].vertices());
+                worker.last = shared.room.some_of(worker.last, is_live);
+            }
+            if !is_inserted {
                 progress.deferred.push(site);
                 continue;
-            };
-            found
+            }
         } else {
-            let Worker { last, exact, counters, .. } = &mut *worker;
-            walk::<M, false>(&view, triangles, *last, exact, counters)
-                .expect("a walk ends in a mesh that stands still")
-        };
-        let Worker { last, slots, exact, counters, pending, free, notes } = &mut *worker;
-        let (low, high) = (slots.pop(), slots.pop());
-        free.extend([high, low]);
-        let mut star = Star::new(site, triangles, free, &found, view.see::<M>(next));
-        if H::SHARED {
-            notes.replay(&mut star);
-        } else {
+            let Worker { last, slots, exact, counters, pending, free, .. } = &mut *worker;
+            let found = walk::<M, false>(&view, triangles, *last, exact, counters)
+                .expect("a walk ends in a mesh that stands still");
+            let (low, high) = (slots.pop(), slots.pop());
+            free.extend([high, low]);
+            let mut star = Star::new(site, triangles, free, &found, towards);
             dig::<M, _, _>(&view, triangles, hold, found, pending, exact, counters, &mut star);
+            *last = star.close();
         }
-        *last = star.close();
-        counters.insertions += 1;
+        worker.counters.insertions += 1;
         // The walk finds the first triangle of each cavity, digging counts the others.
-        counters.replaced += 1;
+        worker.counters.replaced += 1;
         hold.done();
     }
     Inserted::All
 }
 
-/// Beside other threads: finds the cavity of q, the site `site`, holds it and writes it down. Nothing, and holds nothing, if
-/// other threads are in the way.
+/// Beside other threads: walks to q, the site `site`, and replaces its cavity by its star, holding all vertices of both. Returns
+/// false, and leaves the mesh as it was, if other threads are in the way; what it holds it does not give back.
 #[inline(always)]
-fn find<M: MulAdd, H: Hold>(
+fn insert_beside_others<M: MulAdd, H: Hold>(
     view: &View<'_>,
+    towards: PointOffset,
     shared: &Shared<'_>,
     worker: &mut Worker,
     hold: &mut H,
     site: u32,
-    progress: &mut Progress,
-) -> Option<LocatedTriangle> {
-    let Worker { last, exact, counters, pending, notes, .. } = worker;
+    is_first: bool,
+) -> bool {
+    let Worker { last, slots, exact, counters, pending, free, undo, .. } = worker;
     let triangles = shared.triangles;
-    for _ in 0..ATTEMPTS_EACH {
-        progress.attempts += 1;
-        match walk::<M, true>(view, triangles, *last, exact, counters) {
-            Err(at) => *last = at,
-            Ok(found) => {
-                // Where the walk ended is a good beginning for the next attempt.
-                *last = found.triangle;
-                if is_triangle(found.vertices)
-                    && hold.hold([site])
-                    && hold.hold(found.vertices)
-                    && found.is_at(triangles)
-                    && dig::<M, _, _>(view, triangles, hold, found, pending, exact, counters, notes)
-                {
-                    return Some(found);
-                }
-                notes.clear();
-            }
+    let found = match walk::<M, true>(view, triangles, *last, exact, counters) {
+        Ok(found) => found,
+        Err(at) => {
+            *last = at;
+            return false;
         }
-        hold.back_off();
-        progress.failed += 1;
-        let is_live = |&t: &u32| is_triangle(triangles[t as usize].vertices());
-        *last = shared.room.some_of(*last, is_live);
+    };
+    // Where the walk ended is a good beginning for the next attempt.
+    *last = found.triangle;
+    if !is_triangle(found.vertices) || !hold.hold(found.vertices) || !found.is_at(triangles) {
+        return false;
     }
-    None
+    if is_first {
+        hold.hold_new(site);
+    } else if !hold.hold([site]) {
+        // Another thread has read of it in a star that was taken back.
+        return false;
+    }
+    let (low, high) = (slots.pop(), slots.pop());
+    free.extend([high, low]);
+    undo.note(triangles, found.triangle);
+    let star = Star::new(site, triangles, free, &found, towards);
+    let mut recorded = Recorded { star, triangles, undo };
+    let is_held =
+        dig::<M, _, _>(view, triangles, hold, found, pending, exact, counters, &mut recorded);
+    if is_held {
+        *last = recorded.star.close();
+        undo.clear();
+    } else {
+        free.clear();
+        undo.take_back(triangles, [low, high]);
+        slots.push(low);
+        slots.push(high);
+    }
+    is_held
 }

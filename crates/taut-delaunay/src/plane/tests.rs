@@ -329,3 +329,24 @@ fn uniform_points_need_no_exact_arithmetic() {
     let stages = counters.stages;
     assert!(stages.calls() - stages.filter <= 2, "{stages:?}");
 }
+
+/// A walk of one thread may end in a slot that another one takes back.
+#[test]
+fn no_walk_begins_in_a_slot_that_died() {
+    let mut random = Random(8);
+    let points: Vec<Point> = (0..400).map(|_| [random.unit(), random.unit()]).collect();
+    let order: Vec<u32> = (0..200).collect();
+    let mut mesh = mesh(&points, &order, FILTERED_VECTORS);
+    let (view, _, workers) = mesh.share(2);
+    for worker in workers {
+        assert!(worker.slots.reserve(2, view.room, view.triangles));
+        worker.last = worker.slots.pop();
+        view.triangles[worker.last as usize].kill();
+        worker.slots.push(worker.last);
+    }
+    mesh.end_sharing();
+    let rest: Vec<u32> = (200..400).collect();
+    mesh.insert(&rest).unwrap();
+    let live = mesh.simplices().iter().filter(|t| t.is_live()).count();
+    assert_eq!(live, 2 * points.len() - 2);
+}

@@ -5,12 +5,16 @@
 //! Guarantee: emptiness of the smallest sphere of a facet is decided exactly; radii are compared in `f64`.
 //! Reference: Edelsbrunner and Mücke, *Three-dimensional alpha shapes*, ACM Trans. Graphics 13, 1994.
 
+use rayon::prelude::*;
 use taut_predicates::{Sign, plane, space};
 
 use crate::simplex::{GHOST, decode};
 use crate::triangulation::hull_facet;
 use crate::vector::{cross, difference, dot, largest, square};
 use crate::{Plane, Space, Triangulation};
+
+/// Simplices one task looks at.
+const TASK: usize = 1 << 13;
 
 /// The alpha complex of a triangulation, down to facets.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -110,16 +114,49 @@ fn alpha_complex<R: Radii<D, V>, const D: usize, const V: usize>(
     alpha: f64,
 ) -> AlphaComplex<D> {
     let limit = of.scale().apply(alpha);
-    let mut complex = AlphaComplex { simplices: vec![], boundary: vec![], singular: vec![] };
     let slots = of.slots();
-    let mut inside = vec![false; slots.len()];
-    for t in of.simplices() {
-        if radius::<R, D, V>(of, t) <= limit {
-            inside[t as usize] = true;
-            complex.simplices.push(t);
+    let count = slots.len() as u32;
+    let is_finite = |&t: &u32| {
+        let slot = &slots[t as usize];
+        slot.is_live() && !slot.is_ghost()
+    };
+    let is_inside = |t: u32| is_finite(&t) && radius::<R, D, V>(of, t) <= limit;
+    let inside: Vec<bool> = (0..count).into_par_iter().with_min_len(TASK).map(is_inside).collect();
+    let simplices = (0..count).filter(|&t| inside[t as usize]).collect();
+    let facets = |begin: u32| {
+        let mut found = Facets::default();
+        for t in (begin..count.min(begin + TASK as u32)).filter(is_finite) {
+            found.add_those_of::<R, V>(of, &inside, limit, t);
         }
+        found
+    };
+    let begins: Vec<u32> = (0..count).step_by(TASK).collect();
+    let parts: Vec<Facets<D>> = begins.into_par_iter().map(facets).collect();
+    let mut all = Facets::default();
+    for part in parts {
+        all.boundary.extend(part.boundary);
+        all.singular.extend(part.singular);
     }
-    for t in of.simplices() {
+    AlphaComplex { simplices, boundary: all.boundary, singular: all.singular }
+}
+
+/// Facets of an alpha complex that are no facets between two of its simplices.
+#[derive(Default)]
+struct Facets<const D: usize> {
+    boundary: Vec<[u32; D]>,
+    singular: Vec<[u32; D]>,
+}
+
+impl<const D: usize> Facets<D> {
+    /// Adds those between the simplex `t` and others that it comes before.
+    fn add_those_of<R: Radii<D, V>, const V: usize>(
+        &mut self,
+        of: &Triangulation<D, V>,
+        inside: &[bool],
+        limit: f64,
+        t: u32,
+    ) {
+        let slots = of.slots();
         let vertices = of.vertices(t);
         for i in 0..V {
             let (other, facet) = decode(slots[t as usize].neighbors[i]);
@@ -127,21 +164,20 @@ fn alpha_complex<R: Radii<D, V>, const D: usize, const V: usize>(
             with_ghost[i] = GHOST;
             match (inside[t as usize], inside[other as usize]) {
                 // Seen from the simplex that stays, the ghost in place of vertex i lies within: turn it out.
-                (true, false) => complex.boundary.push(turned(hull_facet(with_ghost))),
+                (true, false) => self.boundary.push(turned(hull_facet(with_ghost))),
                 (false, false) if t < other || slots[other as usize].is_ghost() => {
                     let sites = turned(hull_facet::<D, V>(with_ghost));
                     let at = |v: u32| of.sites.coordinates[v as usize];
                     let opposite = [vertices[i], slots[other as usize].vertices[facet]];
                     let opposite = opposite.into_iter().filter(|&v| v != GHOST).map(at);
                     if is_singular::<R, D, V>(sites.map(at), opposite, limit) {
-                        complex.singular.push(sites);
+                        self.singular.push(sites);
                     }
                 }
                 _ => {}
             }
         }
     }
-    complex
 }
 
 /// Tests whether a facet of no simplex of the complex belongs to it by itself: whether its smallest sphere has at most the

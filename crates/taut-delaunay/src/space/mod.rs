@@ -37,7 +37,9 @@ use crate::kernel::{Counters, Kernel, Settings, TooMany};
 use crate::records::{Records, zeros};
 use crate::simplex::{DEAD_MARK, GHOST, Simplex, code};
 use crate::threads::Record;
-use crate::threads::{Alone, Hold, Holder, Inserted, OwnSlots, Owners, Progress, Room, SharedMesh};
+use crate::threads::{
+    Alone, Hold, Holder, Inserted, OwnSlots, Owners, Progress, Room, SharedMesh, repair_beginnings,
+};
 use cavity::{Cavity, FACETS};
 use lanes::Level;
 use signs::{Judge, Scalar, Signs, Unfiltered};
@@ -290,14 +292,9 @@ impl SharedMesh<3, 4> for Mesh {
             worker.slots.give_back(&self.next, self.records.all());
         }
         self.records.set_len(*self.next.get_mut() as usize);
-        // Another thread may have destroyed what a thread made last.
         let is_live = |t: u32| walk::is_simplex(self.records.all()[t as usize].vertices());
-        let live = self.workers.iter().map(|worker| worker.last).find(|&t| is_live(t));
-        let live = live.or_else(|| (0..self.records.len() as u32).find(|&t| is_live(t)));
-        let live = live.expect("a mesh has simplices");
-        for worker in self.workers.iter_mut().filter(|worker| !is_live(worker.last)) {
-            worker.last = live;
-        }
+        let beginnings = self.workers.iter_mut().map(|worker| &mut worker.last);
+        repair_beginnings(beginnings, self.records.len(), is_live);
     }
 
     fn grow(&mut self) -> Result<(), TooMany> {
@@ -386,8 +383,7 @@ fn find<S: Signs, H: Hold>(
     if H::SHARED {
         // Where the walk ended is a good beginning for the next attempt.
         *last = start;
-        if !hold.hold([site])
-            || !hold.hold(vertices)
+        if !hold.hold(vertices)
             || simplices[start as usize].vertices() != vertices
             || !is_in_conflict(signs, view, judge, counters, start, vertices, q)
         {
@@ -397,7 +393,9 @@ fn find<S: Signs, H: Hold>(
     }
     let (tests, all_held) = cavity.carve(signs, sites, simplices, marks, judge, hold, q, start);
     counters.conflict_tests += tests;
-    if !all_held {
+    if all_held {
+        hold.hold_new(site);
+    } else {
         hold.back_off();
     }
     all_held

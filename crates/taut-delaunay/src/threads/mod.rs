@@ -5,7 +5,7 @@
 //! *Idea.* The Delaunay triangulation is a function of the set of sites, so it does no harm in which order they come. All
 //! threads insert into the mesh at once, each along its own run of the curve. A thread *holds* vertices, by an exchange on a
 //! byte of each; it destroys a simplex only while it holds all finite vertices of it. An insertion that meets a vertex which
-//! another thread holds gives back what it has, and is tried again.
+//! another thread holds takes back what it wrote, gives back what it has, and is tried again.
 //! *Guarantee.* Two cavities that are held at once have no finite vertex in common, so they share no simplex, and a simplex outside
 //! both cannot touch both with a facet: two facets of a simplex have a finite vertex in common. (The ghosts of the plane are the
 //! exception: two threads may change one, each a number of its own and nothing else.) So who sees a simplex across a facet of its
@@ -13,8 +13,9 @@
 //! last store and takes them before its first load. Each insertion leaves all facets locally Delaunay, so the mesh is Delaunay at
 //! the end, whoever came first. No thread waits without bound for another, so there is no deadlock; sites that failed are inserted by
 //! one thread at the end of a round.
-//! *Guarantee.* The new site is held as well while its simplices are written. Word 0 of a record is the site whose insertion wrote
-//! it, and each site is inserted once: who holds what it read of a record, and reads the same again, has all of it.
+//! *Guarantee.* The new site is held as well while its simplices are written, without an exchange where nobody can have read of it.
+//! Word 0 of a record is the site whose insertion wrote it, and what a star wrote that is taken back is overwritten before its site
+//! is given back: who holds what it read of a record, and reads the same again, has all of it.
 //! *Trap.* Walks hold nothing. They may read half of an old and half of a new simplex, so they are followed a bounded number of
 //! steps, and the simplex they end in is held, read once more and tested again.
 //! *Trap.* Where one vertex is in most cavities (an apex over a line of sites) threads only get into each other's way: the rest
@@ -35,5 +36,5 @@ mod tests;
 
 pub(crate) use held::{Alone, Hold, Holder, Owners};
 pub(crate) use record::Record;
-pub(crate) use round::{Inserted, Progress, SharedMesh, insert_round};
+pub(crate) use round::{Inserted, Progress, SharedMesh, insert_round, repair_beginnings};
 pub(crate) use slots::{OwnSlots, Room};

@@ -68,6 +68,22 @@ pub(crate) trait SharedMesh<const D: usize, const V: usize>: Kernel<D, V> {
     ) -> Inserted;
 }
 
+/// Lets walks begin in simplices: who may change a mesh alone gives each thread whose last one was destroyed by another, or taken
+/// back, that of a thread which still has it, or any of the first `count` slots.
+pub(crate) fn repair_beginnings<'a>(
+    beginnings: impl Iterator<Item = &'a mut u32>,
+    count: usize,
+    is_live: impl Fn(u32) -> bool,
+) {
+    let mut beginnings: Vec<&mut u32> = beginnings.collect();
+    let live = beginnings.iter().map(|begin| **begin).find(|&t| is_live(t));
+    let live = live.or_else(|| (0..count as u32).find(|&t| is_live(t)));
+    let live = live.expect("a mesh has simplices");
+    for begin in beginnings.iter_mut().filter(|begin| !is_live(***begin)) {
+        **begin = live;
+    }
+}
+
 /// Why threads stop before all is inserted.
 const GO_ON: u8 = 0;
 const FULL: u8 = 1;
@@ -84,6 +100,8 @@ pub(crate) fn insert_round<const D: usize, const V: usize, K: SharedMesh<D, V>>(
     (threads, backward): (usize, bool),
     monitor: &Monitor<'_>,
 ) -> Result<(), Error> {
+    // A record of which a part was never written seems to have site 0, which must be no news to the owners.
+    debug_assert!(started.contains(&0), "a mesh starts with the first site");
     let runs = Runs::new(count, threads, backward);
     let mut left: Vec<u32> = Vec::new();
     loop {

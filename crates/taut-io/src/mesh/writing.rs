@@ -9,7 +9,7 @@ use crate::create::AtomicFile;
 use crate::error::shown_path;
 use crate::format::format_to_write;
 use crate::write::{OutputFile, Points};
-use crate::{Content, Error, Format};
+use crate::{Compression, Content, Error, Format};
 
 /// Simplices in one piece of output.
 const PIECE_SIMPLICES: usize = 1 << 14;
@@ -90,6 +90,49 @@ pub fn mesh_file(
     options: &MeshOptions,
     monitor: &Monitor<'_>,
 ) -> Result<AtomicFile, Error> {
+    write_to(mesh, path, options, monitor, |shown, compression| {
+        OutputFile::create(path, shown, compression)
+    })
+}
+
+/// The bytes of the file `name` that [`mesh_file`] would write, where there are no files.
+///
+/// ```
+/// use taut_io::{MeshOptions, mesh_bytes};
+/// use taut_mesh::TriangleMesh;
+/// use taut_points::Monitor;
+///
+/// let vertices = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 0.5, 0.0]];
+/// let mesh = TriangleMesh::new(&vertices, &[[0, 1, 2]])?;
+/// let bytes = mesh_bytes(&mesh.into(), "one.obj", &MeshOptions::default(), &Monitor::silent())?;
+/// assert!(bytes.ends_with(b"v 0 0 0\nv 1 0 0\nv 0 0.5 0\nf 1 2 3\n"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// As [`mesh_file`], but for those of files.
+///
+/// # Panics
+/// As [`mesh_file`].
+pub fn mesh_bytes(
+    mesh: &MeshView<'_>,
+    name: &str,
+    options: &MeshOptions,
+    monitor: &Monitor<'_>,
+) -> Result<Vec<u8>, Error> {
+    let file = write_to(mesh, Path::new(name), options, monitor, |shown, compression| {
+        OutputFile::in_memory(shown, compression)
+    })?;
+    Ok(file.into_memory())
+}
+
+fn write_to(
+    mesh: &MeshView<'_>,
+    path: &Path,
+    options: &MeshOptions,
+    monitor: &Monitor<'_>,
+    create: impl FnOnce(&str, Option<Compression>) -> Result<OutputFile<'_>, Error>,
+) -> Result<AtomicFile, Error> {
     let shown = shown_path(path);
     let content = match mesh.vertices {
         Vertices::Points(_) => Content::Triangulation,
@@ -100,7 +143,7 @@ pub fn mesh_file(
         Content::Triangulation => check_triangulation(mesh, &shown, format)?,
         _ => check_surface(mesh, &shown, format, options.encoding)?,
     }
-    let mut out = OutputFile::create(path, &shown, compression)?;
+    let mut out = create(&shown, compression)?;
     let job = Job { mesh, encoding: options.encoding, monitor };
     match format {
         Format::Ply => ply::write(&job, &mut out)?,

@@ -24,6 +24,7 @@ mod dual_edges;
 mod facing;
 mod filter;
 mod flats;
+mod label_trace;
 mod labeled;
 mod lanes;
 mod merge;
@@ -73,6 +74,7 @@ use labeled::surface_of_labels;
 use scaled::Scale;
 use thesis::{ThesisOptions, thesis_surface};
 
+pub use label_trace::{LabelBorder, LabelFacet, LabelTrace, label_trace};
 pub use one_sided::looks_one_sided;
 pub use options::{Denoise, HullOptions, Positions, SurfaceMethod, SurfaceMode, SurfaceOptions};
 
@@ -105,23 +107,13 @@ pub fn surface(
     options: &SurfaceOptions<'_>,
 ) -> Result<Solution<Surface>, Error> {
     let monitor = &options.monitor;
-    if source.dim() != 3 {
-        return Err(Error::Input(InputError::Dimension {
-            dim: source.dim(),
-            expected: "3, as surfaces are sought in space",
-        }));
-    }
+    check_dim(source)?;
     if let Some(how) = &options.denoise {
         how.check()?;
     }
     on_threads(options.threads, || {
         monitor.check()?;
-        let mut scratch = Scratch::new();
-        let rows = source.read(0..source.len(), &mut scratch)?;
-        if let Some((row, column, value)) = rows.first_non_finite() {
-            return Err(Error::Input(InputError::NonFinite { row: row as u64, column, value }));
-        }
-        let mut given = coordinates(rows);
+        let mut given = read(source)?;
         let points_hash = hash_points(source, monitor)?;
         let Some(how) = &options.denoise else {
             return solve(&given, None, Changes::default(), options, points_hash, monitor);
@@ -129,7 +121,7 @@ pub fn surface(
         let scale = Scale::of(&given);
         given.iter_mut().for_each(|point| *point = scale.apply(*point));
         let Denoised { points, rows, mut outliers, unclear } = denoise(&given, how, monitor)?;
-        let given = coordinates(source.read(0..source.len(), &mut scratch)?);
+        let given = read(source)?;
         let points: Vec<[f64; 3]> = match how.iterations {
             0 => rows.iter().map(|&row| given[row as usize]).collect(),
             _ => points.into_iter().map(|point| scale.inverse().apply(point)).collect(),
@@ -170,11 +162,37 @@ fn with_copies(some: &mut Vec<u32>, rows: &[u32], points: &[[f64; 3]]) {
     some.extend(all.map(|(row, _)| *row));
 }
 
-fn coordinates(rows: Rows<'_>) -> Vec<[f64; 3]> {
-    match rows {
+fn check_dim(source: &dyn PointSource) -> Result<(), Error> {
+    match source.dim() {
+        3 => Ok(()),
+        dim => {
+            let expected = "3, as surfaces are sought in space";
+            Err(Error::Input(InputError::Dimension { dim, expected }))
+        }
+    }
+}
+
+/// Reads all points, and refuses what is no finite number.
+fn read(source: &dyn PointSource) -> Result<Vec<[f64; 3]>, Error> {
+    let mut scratch = Scratch::new();
+    let rows = source.read(0..source.len(), &mut scratch)?;
+    if let Some((row, column, value)) = rows.first_non_finite() {
+        return Err(Error::Input(InputError::NonFinite { row: row as u64, column, value }));
+    }
+    Ok(match rows {
         Rows::F32(points) => points.rows().map(|p| [0, 1, 2].map(|k| f64::from(p[k]))).collect(),
         Rows::F64(points) => points.rows().map(|p| [p[0], p[1], p[2]]).collect(),
-    }
+    })
+}
+
+/// Triangulates points, which have to span space.
+fn triangulated(points: &[[f64; 3]], monitor: &Monitor<'_>) -> Result<Space, Error> {
+    let view = Points::new(points.as_flattened(), 3);
+    let Ok(view) = view else { return Err(Error::Flat { points: 0, span: Span::Nothing }) };
+    let space =
+        Space::build(&view, &DelaunayOptions { monitor: *monitor, ..DelaunayOptions::default() })?;
+    check_span(&space)?;
+    Ok(space)
 }
 
 /// Refuses sites that do not span space.
@@ -199,11 +217,7 @@ fn solve(
     points_hash: PointsHash,
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Surface>, Error> {
-    let view = Points::new(points.as_flattened(), 3);
-    let Ok(view) = view else { return Err(Error::Flat { points: 0, span: Span::Nothing }) };
-    let space =
-        Space::build(&view, &DelaunayOptions { monitor: *monitor, ..DelaunayOptions::default() })?;
-    check_span(&space)?;
+    let space = triangulated(points, monitor)?;
     // The labels of cells number them themselves.
     let space = match options.method {
         SurfaceMethod::Tree(_) => space,

@@ -11,6 +11,9 @@ use taut_points::Cancelled;
 /// A leaf has at most this many items.
 const LEAF_SIZE: usize = 8;
 
+/// From so many items on, the halves of a node may go to two threads.
+const SHARED_MIN: usize = 1 << 13;
+
 /// It is asked whether to go on after this many pairs of nodes.
 const PAIRS_BETWEEN_ASKS: u32 = 1 << 16;
 
@@ -184,9 +187,15 @@ fn halve(order: &mut [u32], leaves: usize, areas: &[Area]) {
             at.total_cmp(&other).then(a.cmp(&b))
         });
     }
-    let (left, right) = order.split_at_mut(half.min(order.len()));
-    halve(left, leaves / 2, areas);
-    halve(right, leaves / 2, areas);
+    let order_len = order.len();
+    let (left, right) = order.split_at_mut(half.min(order_len));
+    let [mut left, mut right] = [left, right].map(|half| || halve(half, leaves / 2, areas));
+    if order_len >= SHARED_MIN {
+        rayon::join(left, right);
+    } else {
+        left();
+        right();
+    }
 }
 
 #[cfg(test)]

@@ -1,5 +1,7 @@
 //! That every row is a vertex or listed as unused, once, and that duplicates are all that they are said to be.
 
+use rayon::prelude::*;
+
 use super::super::{Surface, SurfaceViolation};
 use super::places::Places;
 
@@ -78,7 +80,7 @@ fn firsts(places: &Places) -> Vec<u32> {
     // Rows in one place have one number, as 0 has one sign; few others share it. Numbers are sorted faster than places.
     let numbered = |row: u32| (number(&place(row)), row);
     let mut order: Vec<(u64, u32)> = (0..places.all.len() as u32).map(numbered).collect();
-    order.sort_unstable();
+    order.par_sort_unstable();
     let mut firsts = vec![0; order.len()];
     for alike in order.chunk_by_mut(|a, b| a.0 == b.0) {
         // All are finite. Each of few numbers has rows in different places, and then they are sorted apart.

@@ -1,7 +1,6 @@
 //! `taut inscribe bodies`: convex bodies inside a triangle mesh; and what all searches for such bodies share.
 
 mod exports;
-mod report;
 
 use std::path::PathBuf;
 
@@ -20,7 +19,7 @@ use crate::input::obstacles::Obstacles;
 use crate::input::reading::{Opened, Reading};
 use crate::output::writing::Outputs;
 use crate::pipeline::{Find, Input, Output};
-use crate::reports::Field;
+use crate::reports::{self, Field};
 use crate::watch::Watch;
 
 /// The most bodies where a part to cover or to hide decides how many there are.
@@ -169,7 +168,7 @@ impl Search {
     }
 
     pub(super) fn side_fields(hidden: &Option<Occlusion>) -> Vec<Field> {
-        hidden.iter().map(report::occlusion).collect()
+        hidden.iter().map(reports::bodies::occlusion).collect()
     }
 
     pub(super) fn open(&self) -> anyhow::Result<Opened> {

@@ -1,7 +1,5 @@
 //! `taut inscribe circle`: the largest circle in a polygon.
 
-mod report;
-
 use std::path::PathBuf;
 
 use taut::certify::InscribedCircle;

@@ -1,7 +1,5 @@
 //! `taut inscribe ellipse`: the largest ellipse in a polygon.
 
-mod report;
-
 use std::path::PathBuf;
 
 use taut::certify::InscribedEllipse;

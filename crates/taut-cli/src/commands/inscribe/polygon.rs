@@ -1,7 +1,5 @@
 //! `taut inscribe polygon`: a large convex polygon in a polygon.
 
-mod report;
-
 use std::path::PathBuf;
 
 use taut::certify::ConvexPolygon;

@@ -1,7 +1,6 @@
 //! `taut inscribe rectangle`: the largest rectangle in a polygon, along the axes or of any direction.
 
 mod oriented;
-mod report;
 
 use std::path::PathBuf;
 

@@ -1,7 +1,5 @@
 //! `taut inscribe triangle`: the largest triangle in a polygon.
 
-mod report;
-
 use std::path::PathBuf;
 
 use taut::certify::InscribedTriangle;
