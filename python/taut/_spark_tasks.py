@@ -114,7 +114,11 @@ def write_partition(
         rows, digest = _write(batches, columns, id_column, dtype, path, partition)
         record = (partition, rows, path, digest, "")
     except Refused as refused:
+        _remove_files(path)
         record = (partition, 0, "", "", str(refused))
+    except BaseException:
+        _remove_files(path)
+        raise
     types = [pyarrow.int32(), pyarrow.int64(), *[pyarrow.string()] * 3]
     arrays = [pyarrow.array([value], kind) for value, kind in zip(record, types)]
     yield pyarrow.RecordBatch.from_arrays(arrays, names=list(FIELDS))
@@ -314,7 +318,13 @@ def ids_of(elements: Iterator[Any], layout: Layout, wanted: list[int]) -> Iterat
 def remove(elements: Iterator[Record]) -> Iterator[int]:
     """Removes the files of partitions."""
     for partition, _, path, _, _ in elements:
-        for name in (path, path + ".ids"):
-            if path and os.path.exists(name):
-                os.remove(name)
+        if path:
+            _remove_files(path)
         yield partition
+
+
+def _remove_files(path: str) -> None:
+    """Removes the file of a partition and that of its ids, as far as they are there."""
+    for name in (path, path + ".ids"):
+        if os.path.exists(name):
+            os.remove(name)

@@ -56,8 +56,10 @@ def frame(spark, rows, ids=None, partitions=4):
     return spark.createDataFrame(pandas.DataFrame(columns)).repartition(partitions), list(columns)[: rows.shape[1]]
 
 
-@pytest.mark.parametrize("partitions", [1, 7])
-@pytest.mark.parametrize(("distribution", "d"), [("poisson", 3), ("sphere", 10)])
+@pytest.mark.parametrize(
+    ("distribution", "d", "partitions"),
+    [("poisson", 3, 7), ("sphere", 10, 1), *[pytest.param(*more, marks=LONG) for more in (("poisson", 3, 1), ("sphere", 10, 7))]],
+)
 def test_shuffled_rows_with_ids(spark, distribution, d, partitions):
     import taut.spark
 
@@ -115,7 +117,7 @@ def test_ellipsoids_and_centers(spark):
         taut.spark.ellipsoid(df, columns, id="key")
 
 
-@pytest.mark.parametrize("distribution", ["uniform", "grid", "clusters"])
+@pytest.mark.parametrize("distribution", ["grid", *[pytest.param(more, marks=LONG) for more in ("uniform", "clusters")]])
 def test_triangulations(spark, distribution):
     import taut.spark
 
