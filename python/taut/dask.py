@@ -74,6 +74,37 @@ class Points:
         """
         return passes.solve(passes.Solver.ball(*self.shape, **options), self._ask)
 
+    def ellipsoid(self, **options: Any) -> Solution[Any]:
+        """Ellipsoid of least volume enclosing the points; options are those of `taut.passes.Solver.ellipsoid`.
+
+        Parameters
+        ----------
+        **options
+            As in `taut.passes.Solver.ellipsoid`.
+
+        Returns
+        -------
+        Solution
+        """
+        return passes.solve(passes.Solver.ellipsoid(*self.shape, **options), self._ask)
+
+    def centers(self, k: int, *, discrete: bool = False) -> Solution[Any]:
+        """k centers: the bytes of ``taut.centers(method="stream")``. The first pass visits one part after the other.
+
+        Parameters
+        ----------
+        k, discrete
+            As in `taut.centers`.
+
+        Returns
+        -------
+        Solution
+        """
+        cover: Any = passes.StreamingCenters.new(self.shape[1], k)
+        for _, rows in self._parts:
+            cover = self._client.submit(passes.StreamingCenters.add, cover, rows, pure=False)
+        return passes.solve(passes.Solver.centers(self._client.gather(cover), discrete=discrete), self._ask)
+
     def verify(self, solution: Solution[Any]) -> Any:
         """Check an answer over the points, in one pass.
 

@@ -25,5 +25,13 @@ def test_parts_of_any_length():
                 found = points.ball()
                 assert found.to_json() == wanted.to_json()
                 assert points.verify(found) == wanted.check(rows)
+            # The last points, of seven parts.
+            for found, wanted in (
+                (points.ellipsoid(), taut.ellipsoid(rows)),
+                (points.centers(5), taut.centers(rows, 5, method="stream")),
+                (points.centers(5, discrete=True), taut.centers(rows, 5, method="stream", discrete=True)),
+            ):
+                assert found.to_json() == wanted.to_json()
+                assert points.verify(found) == wanted.check(rows)
             with pytest.raises(ValueError, match="is nan|NaN"):
                 taut.dask.Points(client, [dask.delayed(np.full)((10, 2), np.nan)]).ball()
