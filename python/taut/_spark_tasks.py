@@ -316,10 +316,12 @@ def ids_of(elements: Iterator[Any], layout: Layout, wanted: list[int]) -> Iterat
 
 
 def remove(elements: Iterator[Record]) -> Iterator[int]:
-    """Removes the files of partitions."""
+    """Removes the files of partitions, those of lost and repeated tasks as well."""
     for partition, _, path, _, _ in elements:
-        if path:
-            _remove_files(path)
+        place = os.path.dirname(path)
+        for name in os.listdir(place) if path and os.path.isdir(place) else ():
+            if name.startswith(f"{partition}-"):
+                os.remove(os.path.join(place, name))
         yield partition
 
 

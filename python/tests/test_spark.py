@@ -215,8 +215,9 @@ def test_files_that_are_lost(spark, tmp_path):
 
 def executors():
     """The processes of the executors that this process started."""
-    listed = subprocess.run(["ps", "-eo", "pid,ppid,args"], capture_output=True, text=True, check=True).stdout
-    lines = [line.split(None, 2) for line in listed.splitlines()[1:]]
+    listed = subprocess.run(["ps", "-ewwo", "pid,ppid,args"], capture_output=True, text=True, check=True).stdout
+    # A process that just begins may have no arguments yet.
+    lines = [fields for line in listed.splitlines()[1:] if len(fields := line.split(None, 2)) == 3]
     children = {os.getpid()}
     for _ in range(5):
         children |= {int(pid) for pid, parent, _ in lines if int(parent) in children}
