@@ -62,7 +62,7 @@ pub(crate) fn ellipsoids(
     Ok(found.into_iter().map(Found::from).collect())
 }
 
-fn options(
+pub(crate) fn options(
     epsilon: f64,
     method: &str,
     max_passes: &Bound<'_, PyAny>,

@@ -67,6 +67,10 @@ impl Found {
     pub(crate) fn of(solution: AnySolution) -> Self {
         Found(solution)
     }
+
+    pub(crate) fn solution(&self) -> &AnySolution {
+        &self.0
+    }
 }
 
 #[pymethods]

@@ -13,6 +13,7 @@ mod choice;
 mod classify;
 mod curve;
 mod delaunay;
+mod delaunay_parts;
 mod dop;
 mod ellipsoid;
 mod farthest_first;
@@ -26,6 +27,7 @@ mod mosaic;
 mod names;
 mod numbers;
 mod object;
+mod passes;
 mod picture;
 mod planar;
 mod robust;
@@ -58,6 +60,8 @@ mod _native {
     #[pymodule_export]
     use crate::delaunay::{delaunay, spatial_order};
     #[pymodule_export]
+    use crate::delaunay_parts::{deal_points, merge_extents, triangulate_fronts, triangulate_leaf};
+    #[pymodule_export]
     use crate::dop::bounding_dop;
     #[pymodule_export]
     use crate::ellipsoid::{ellipsoid, ellipsoids, norms};
@@ -77,6 +81,11 @@ mod _native {
     use crate::mosaic::OpenTiles;
     #[pymodule_export]
     use crate::names::names;
+    #[pymodule_export]
+    use crate::passes::{
+        PassSolver, add_to_stream, check_part, check_parts, merge_partials, merge_verdicts,
+        new_stream, query_shape, rows_of_block, run_query,
+    };
     #[pymodule_export]
     use crate::planar::{
         inscribed_circle, inscribed_ellipse, inscribed_oriented_rectangle, inscribed_polygon,

@@ -12,16 +12,21 @@ __all__ = [
     "FoundFile",
     "KeptTriangulation",
     "OpenTiles",
+    "PassSolver",
     "SearchTree",
     "Violation",
     "__version__",
+    "add_to_stream",
     "ball",
     "body_mesh",
     "bounding_dop",
     "centers",
     "contours",
     "curve",
+    "check_part",
+    "check_parts",
     "check_tiles",
+    "deal_points",
     "delaunay",
     "delaunay_tiles",
     "ellipsoid",
@@ -39,11 +44,18 @@ __all__ = [
     "inscribed_rectangle",
     "inscribed_triangle",
     "kernel_ball",
+    "merge_extents",
+    "merge_partials",
+    "merge_verdicts",
     "names",
+    "new_stream",
     "norms",
+    "query_shape",
     "raster",
     "read_points",
     "robust_ellipsoid",
+    "rows_of_block",
+    "run_query",
     "sample",
     "scene_rows",
     "sort_file",
@@ -52,6 +64,8 @@ __all__ = [
     "surface",
     "train_classifier",
     "transpose_file",
+    "triangulate_fronts",
+    "triangulate_leaf",
     "write_mesh",
 ]
 
@@ -121,6 +135,23 @@ class OpenTiles:
     ) -> tuple[NDArray[np.uint64], NDArray[np.uint64], NDArray[np.uint64], NDArray[np.float64]]: ...
     def alpha_complex(self, tile: int, alpha: float) -> list[NDArray[np.uint64]]: ...
 
+@final
+class PassSolver:
+    @staticmethod
+    def ball(
+        rows: int, columns: int, items: str, epsilon: float, method: str, batch: int | None, delta: float | None,
+        max_passes: int, threads: int | None, seed: int,
+    ) -> PassSolver: ...
+    @staticmethod
+    def ellipsoid(
+        rows: int, columns: int, epsilon: float, max_passes: int, threads: int | None, seed: int
+    ) -> PassSolver: ...
+    @staticmethod
+    def centers(cover: bytes, discrete: bool) -> PassSolver: ...
+    def query(self) -> bytes | None: ...
+    def feed(self, partial: bytes) -> None: ...
+    def solution(self) -> Found: ...
+
 _Lists = tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]
 
 @final
@@ -150,6 +181,9 @@ def curve(
     rows: Rows, method: str, open: bool, rho: float, omega: float, feature: float | None, places: bool,
     threads: int | None,
 ) -> Found: ...
+def add_to_stream(cover: bytes, rows: Rows, threads: int | None) -> bytes: ...
+def check_part(found: Found, rows: Rows, first_row: int, count: int, threads: int | None) -> bytes: ...
+def check_parts(found: Found, columns: int, partials: list[bytes]) -> dict[str, Any]: ...
 def check_tiles(rows: Rows, folder: str, memory: int, scratch: str | None) -> dict[str, Any]: ...
 def delaunay(rows: Rows, order: str, threads: int | None, seed: int) -> Found: ...
 def contours(
@@ -208,6 +242,16 @@ def kernel_ball(
     rows: Rows, kernel: str, parameters: tuple[float, float, int], nu: float | None, epsilon: float, steps: int | None,
     limits: tuple[int, int | None, int],
 ) -> Found: ...
+def deal_points(rows: Rows, sample: Rows, levels: int) -> tuple[NDArray[np.uint32], bytes]: ...
+def merge_extents(extents: list[bytes]) -> bytes: ...
+def triangulate_leaf(
+    extent: bytes, number: int, coordinates: Rows, rows: NDArray[np.uint64]
+) -> tuple[bytes, bytes, NDArray[np.uint64], tuple[int, int, int, str]]: ...
+def triangulate_fronts(
+    extent: bytes, number: int, fronts: list[bytes]
+) -> tuple[bytes, bytes, NDArray[np.uint64], tuple[int, int, int, str]]: ...
+def merge_partials(partials: list[bytes]) -> bytes: ...
+def merge_verdicts(partials: list[bytes]) -> bytes: ...
 def names() -> dict[str, list[str]]: ...
 def norms(
     rows: Rows, center: list[float], center_tail: list[float], factor: list[list[float]],
@@ -215,6 +259,10 @@ def norms(
 def robust_ellipsoid(
     rows: Rows, method: str, coverage: float | None, level: float, epsilon: float, threads: int | None,
 ) -> Found: ...
+def query_shape(query: bytes) -> tuple[int, int, bool]: ...
+def new_stream(columns: int, k: int) -> bytes: ...
+def rows_of_block(columns: int) -> int: ...
+def run_query(query: bytes, rows: Rows, first_row: int, threads: int | None) -> bytes: ...
 def sample(n: int, k: int, seed: int) -> NDArray[np.uint64]: ...
 def sort_file(
     input: str | PathLike[str], output: str | PathLike[str], width: int, key: tuple[int, int], kind: str, memory: int,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Sequence
-from typing import Any, NamedTuple, overload
+from typing import Any, NamedTuple, Self, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -66,7 +66,28 @@ class Tile:
     """
 
     def __init__(self, path: str, dimension: int) -> None:
-        data = np.memmap(path, dtype=np.uint8, mode="r")
+        self._read(np.memmap(path, dtype=np.uint8, mode="r"), path, dimension)
+
+    @classmethod
+    def from_bytes(cls, data: bytes, dimension: int) -> Self:
+        """The tile that these bytes of a file are.
+
+        Parameters
+        ----------
+        data : bytes
+            All of the file.
+        dimension : int
+            Coordinates of a point.
+
+        Returns
+        -------
+        Tile
+        """
+        tile = cls.__new__(cls)
+        tile._read(np.frombuffer(data, dtype=np.uint8), "this", dimension)
+        return tile
+
+    def _read(self, data: NDArray[np.uint8], path: str, dimension: int) -> None:
         if len(data) < HEAD_BYTES + COUNTS_BYTES or bytes(data[-COUNTS_BYTES:][:8]) != b"TAUTTILE":
             raise ValueError(f"{path} is no tile: it is damaged or cut")
         end = np.array(data[-COUNTS_BYTES:])

@@ -1,6 +1,6 @@
 //! k equal balls around all items, and the certificate that no k much smaller ones would do.
 
-mod check;
+pub(crate) mod check;
 mod violation;
 
 use serde::{Deserialize, Serialize};

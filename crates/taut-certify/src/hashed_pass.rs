@@ -3,7 +3,7 @@
 //! *Trap.* A row that is read a second time may have changed since it was hashed: a proof from it would be about other
 //! points than those the hash stands for. So no checker reads a row again without hashing all of them again.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use taut_points::{Monitor, PointSource, PointsHash, Rows, hash_block, map_blocks};
 
@@ -69,13 +69,19 @@ impl WantedRows {
         WantedRows { ids: ids.into_iter().collect() }
     }
 
+    /// The numbers from `first` to before `end`.
+    pub(crate) fn among(&self, first: u64, end: u64) -> &[u64] {
+        let place = |id| self.ids.partition_point(|&other| other < id);
+        &self.ids[place(first)..place(end)]
+    }
+
     /// No rows.
     pub(crate) fn none() -> Self {
         WantedRows { ids: vec![] }
     }
 
     /// The wanted rows of one block, row by row.
-    fn of_block(&self, first: u64, rows: &Rows<'_>, columns: usize) -> Vec<f64> {
+    pub(crate) fn of_block(&self, first: u64, rows: &Rows<'_>, columns: usize) -> Vec<f64> {
         let from = self.ids.partition_point(|&id| id < first);
         let end = first + rows.len() as u64;
         let ids = self.ids[from..].iter().take_while(|&&id| id < end);
@@ -90,6 +96,12 @@ impl WantedRows {
 }
 
 impl KeptRows {
+    /// Rows by number, ascending, that were kept by others.
+    pub(crate) fn of(rows: &BTreeMap<u64, Vec<f64>>, columns: usize) -> Self {
+        let values = rows.values().flatten().copied().collect();
+        KeptRows { ids: rows.keys().copied().collect(), columns, values }
+    }
+
     /// The row of this number, which was wanted.
     pub(crate) fn row(&self, id: u64) -> &[f64] {
         let at = self.ids.partition_point(|&other| other < id);

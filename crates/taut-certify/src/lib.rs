@@ -78,6 +78,7 @@ mod json;
 mod kernel_ball;
 mod order;
 mod oriented;
+mod parts;
 mod polygon;
 mod reading;
 mod rectangle;
@@ -123,6 +124,7 @@ pub use oriented::{
     InscribedOrientedRectangle, OrientedRectangleCertificate, OrientedRectangleVerdict,
     OrientedRectangleViolation,
 };
+pub use parts::PartialVerdict;
 pub use polygon::PolygonViolation;
 pub use reading::{ReadingChoice, ScaleChoice};
 pub use rectangle::{

@@ -1,7 +1,7 @@
 //! The verdicts and violations of checkers.
 
 use serde::Serialize;
-use taut_points::ReadError;
+use taut_points::{PartsError, ReadError};
 
 use crate::{
     BodiesViolation, CentersViolation, CircleViolation, ConvexViolation, CurveViolation,
@@ -504,6 +504,15 @@ pub enum CheckError {
     /// The points could not be read.
     #[error(transparent)]
     Read(#[from] ReadError),
+    /// Parts of the points do not belong together, or what was found in them.
+    #[error(transparent)]
+    Parts(#[from] PartsError),
+    /// Answers of this kind are judged over all points at once.
+    #[error("answers of the kind {kind} are not verified in parts: verify them over all points")]
+    NoParts {
+        /// The word for the kind in JSON.
+        kind: &'static str,
+    },
 }
 
 impl From<BodiesViolation> for CheckError {

@@ -20,6 +20,7 @@
 //! | `front` | what goes up, and its bytes |
 //! | `tile` | what is finished, and its bytes |
 //! | `node` | the functions for drivers |
+//! | `extent` | what these must know of all points, and its bytes |
 //! | `driver` | from the leaves to the root, on several threads |
 //! | `disk` | points from a source to a folder of tiles |
 //! | `mosaic` | tiles side by side, for what is computed from a triangulation |
@@ -28,6 +29,7 @@
 pub(crate) mod bytes;
 mod disk;
 mod driver;
+mod extent;
 mod facets;
 mod front;
 mod mosaic;
@@ -45,6 +47,7 @@ pub use disk::{
     DiskPlan, FolderOptions, TiledTriangulation, delaunay_to_folder, plan_folder, tile_name,
 };
 pub use driver::{NodeRecord, Totals};
+pub use extent::Extent;
 pub use front::{Front, Link};
 pub use mosaic::{AlphaPart, Mosaic};
 pub(crate) use mosaic::{Corners, Place, View};

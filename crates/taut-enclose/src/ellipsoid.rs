@@ -18,6 +18,7 @@ mod options;
 pub(crate) mod outcome;
 pub(crate) mod point_reader;
 mod proof;
+pub(crate) mod question;
 mod rounds;
 mod sample;
 mod shortlist;

@@ -1,6 +1,6 @@
 //! The errors of the enclosing solvers.
 
-use taut_points::{InputError, ReadError, shown_number};
+use taut_points::{InputError, PartsError, ReadError, shown_number};
 
 /// Why there is no answer.
 #[derive(Debug, thiserror::Error)]
@@ -123,6 +123,19 @@ pub enum Error {
         /// Why.
         error: Box<Error>,
     },
+    /// Points in parts lie in a flat, and are to be solved in it, which is done where all of them are.
+    #[error(
+        "the points lie in a flat of dimension {rank} in {dim} dimensions: such an ellipsoid is found in memory or from a file, not in parts"
+    )]
+    FlatInParts {
+        /// The dimension of the flat.
+        rank: usize,
+        /// That of the space.
+        dim: usize,
+    },
+    /// Parts of a point set do not belong together, or their answers.
+    #[error(transparent)]
+    Parts(#[from] PartsError),
     /// Invalid points or options, a read error, or cancellation by the caller.
     #[error(transparent)]
     Input(#[from] InputError),

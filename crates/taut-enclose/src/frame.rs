@@ -9,8 +9,8 @@
 //! twice.
 
 use taut_points::{
-    InputError, Monitor, PointSource, Points, PointsHash, Rows, Scalar, gather, hash_block,
-    map_blocks,
+    BlockHash, InputError, Monitor, PointSource, Points, PointsHash, Rows, Scalar, gather,
+    hash_block, map_blocks,
 };
 
 use crate::Error;
@@ -101,22 +101,37 @@ pub(crate) fn frame_pass(
     source: &dyn PointSource,
     monitor: &Monitor<'_>,
 ) -> Result<FramePass, Error> {
-    survey_and(source, monitor, |_| ()).map(|(frame_pass, _)| frame_pass)
-}
-
-/// The same with something more done to each block of finite rows, and what that gives.
-pub(crate) fn survey_and<R: Send>(
-    source: &dyn PointSource,
-    monitor: &Monitor<'_>,
-    more: impl Fn(&Rows<'_>) -> R + Sync,
-) -> Result<(FramePass, Vec<R>), Error> {
     if source.is_empty() {
         return Err(Error::Empty);
     }
     monitor.pass(1, source.len());
     let dim = source.dim();
-    let blocks = map_blocks(source, monitor, |first, rows| {
-        let (box_of_rows, finite) = match &rows {
+    let blocks = survey_blocks(source, monitor, |_| ())?;
+    let mut low = vec![f64::INFINITY; dim];
+    let mut high = vec![f64::NEG_INFINITY; dim];
+    for SurveyedBlock { extent: (block_low, block_high), .. } in &blocks {
+        low.iter_mut().zip(block_low).for_each(|(l, &b)| *l = l.min(b));
+        high.iter_mut().zip(block_high).for_each(|(h, &b)| *h = h.max(b));
+    }
+    let hash = PointsHash::of_blocks(source.len(), dim, blocks.iter().map(|block| block.hash));
+    Ok(FramePass { frame: Frame::of(&low, &high), hash })
+}
+
+/// The hash of a block, the least and the greatest value of each column, and what else was asked for.
+pub(crate) struct SurveyedBlock<R> {
+    pub(crate) hash: BlockHash,
+    extent: (Vec<f64>, Vec<f64>),
+    pub(crate) more: R,
+}
+
+/// The blocks of finite rows, with something more done to each.
+pub(crate) fn survey_blocks<R: Send>(
+    source: &dyn PointSource,
+    monitor: &Monitor<'_>,
+    more: impl Fn(&Rows<'_>) -> R + Sync,
+) -> Result<Vec<SurveyedBlock<R>>, Error> {
+    map_blocks(source, monitor, |first, rows| {
+        let (extent, finite) = match &rows {
             Rows::F32(points) => extent(points),
             Rows::F64(points) => extent(points),
         };
@@ -127,17 +142,8 @@ pub(crate) fn survey_and<R: Send>(
                 value,
             }));
         }
-        Ok((hash_block(&rows), box_of_rows, more(&rows)))
-    })?;
-    let mut low = vec![f64::INFINITY; dim];
-    let mut high = vec![f64::NEG_INFINITY; dim];
-    for (_, (block_low, block_high), _) in &blocks {
-        low.iter_mut().zip(block_low).for_each(|(l, &b)| *l = l.min(b));
-        high.iter_mut().zip(block_high).for_each(|(h, &b)| *h = h.max(b));
-    }
-    let hash = PointsHash::of_blocks(source.len(), dim, blocks.iter().map(|block| block.0));
-    let frame_pass = FramePass { frame: Frame::of(&low, &high), hash };
-    Ok((frame_pass, blocks.into_iter().map(|block| block.2).collect()))
+        Ok(SurveyedBlock { hash: hash_block(&rows), extent, more: more(&rows) })
+    })
 }
 
 /// The least and the greatest value of each column, and whether all values are finite.

@@ -13,9 +13,10 @@ mod pass;
 use taut_certify::Items;
 use taut_points::{InputError, Monitor, PointSource, PointsHash, gather, map_blocks};
 
-use self::pass::Pass;
+pub(crate) use self::pass::{Found, Pass, farther};
 use crate::Error;
 use crate::kernel::{Center, DoubleDouble};
+use crate::passes::{FirstAnswer, ask_first, ask_items, ask_spread};
 use crate::top::Far;
 
 /// The sample whose mean is the origin of a solver's calculations has this many rows.
@@ -24,6 +25,7 @@ const SAMPLE_ROWS: u64 = 256;
 const SAFE_EXPONENT: i32 = 400;
 
 /// The question that a pass answers.
+#[derive(Clone, Copy)]
 pub(crate) struct Query<'c> {
     /// From where.
     pub(crate) center: &'c Center,
@@ -45,15 +47,34 @@ pub(crate) struct PassResult {
     pub(crate) by_face: Vec<Far>,
 }
 
+/// How a solver sees rows.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct View {
+    pub(crate) items: Items,
+    pub(crate) dim: usize,
+    pub(crate) scale: f64,
+    /// The vector that is subtracted from coordinates before they are scaled, if anything.
+    pub(crate) shift: Vec<f64>,
+}
+
+impl View {
+    /// Brings rows to the units of the solver.
+    fn scale_rows(&self, rows: &mut [f64]) {
+        if self.scale == 1.0 {
+            return;
+        }
+        for row in rows.chunks_exact_mut(self.items.columns(self.dim)) {
+            row.iter_mut().zip(&self.shift).for_each(|(v, shift)| *v -= shift);
+            row.iter_mut().for_each(|v| *v *= self.scale);
+        }
+    }
+}
+
 /// The items of a source, as seen by a solver.
 pub(crate) struct ItemReader<'a> {
     source: &'a dyn PointSource,
-    items: Items,
     monitor: &'a Monitor<'a>,
-    dim: usize,
-    scale: f64,
-    /// The vector that is subtracted from coordinates before they are scaled, if anything.
-    shift: Vec<f64>,
+    view: View,
     passes: u64,
     hash: Option<PointsHash>,
     largest: Option<Far>,
@@ -86,11 +107,8 @@ impl<'a> ItemReader<'a> {
         let dim = items.dim(source.dim());
         Ok(ItemReader {
             source,
-            items,
             monitor,
-            dim,
-            scale: 1.0,
-            shift: vec![],
+            view: View { items, dim, scale: 1.0, shift: vec![] },
             passes: 0,
             hash: None,
             largest: None,
@@ -99,7 +117,7 @@ impl<'a> ItemReader<'a> {
 
     /// Dimension of the space.
     pub(crate) fn dim(&self) -> usize {
-        self.dim
+        self.view.dim
     }
 
     pub(crate) fn len(&self) -> u64 {
@@ -108,7 +126,7 @@ impl<'a> ItemReader<'a> {
 
     /// Points or balls.
     pub(crate) fn items(&self) -> Items {
-        self.items
+        self.view.items
     }
 
     /// The caller's monitor.
@@ -123,7 +141,7 @@ impl<'a> ItemReader<'a> {
 
     /// The exact power of two by which everything that leaves this module is multiplied.
     pub(crate) fn scale(&self) -> f64 {
-        self.scale
+        self.view.scale
     }
 
     /// The hash of the rows; known after the first pass.
@@ -140,13 +158,22 @@ impl<'a> ItemReader<'a> {
     pub(crate) fn first(&mut self, keep: usize) -> Result<(Center, PassResult), Error> {
         let center = self.sample_mean()?;
         self.begin_pass();
-        let report =
-            Pass::new(self, Query { center: &center, above: 0.0, keep, by_face_above: None })
-                .first()?;
-        self.hash = Some(report.hash);
-        self.largest = report.largest;
-        let found = report.found;
-        let safe = exponent(found.farthest.reach2).abs() <= SAFE_EXPONENT && !report.overflow;
+        let query = Query { center: &center, above: 0.0, keep, by_face_above: None };
+        let answer = match self.source.elsewhere() {
+            Some(elsewhere) => ask_first(elsewhere, self.source, &self.view, query)?,
+            None => {
+                let pass = Pass::new(&self.view, query, 0);
+                let report = pass.first(self.source, self.monitor)?;
+                let (n, columns) = (self.source.len(), self.source.dim());
+                let hash = PointsHash::of_blocks(n, columns, report.hashes);
+                let (found, largest) = (report.found, report.largest);
+                FirstAnswer { found, hash, largest, overflow: report.overflow }
+            }
+        };
+        self.hash = Some(answer.hash);
+        self.largest = answer.largest;
+        let found = answer.found.settle(query);
+        let safe = exponent(found.farthest.reach2).abs() <= SAFE_EXPONENT && !answer.overflow;
         if safe || !self.choose_scale(&center)? {
             return Ok((center, found));
         }
@@ -158,7 +185,11 @@ impl<'a> ItemReader<'a> {
 
     pub(crate) fn farthest(&mut self, query: Query<'_>) -> Result<PassResult, Error> {
         self.begin_pass();
-        Pass::new(self, query).run()
+        let found = match self.source.elsewhere() {
+            Some(elsewhere) => ask_items(elsewhere, self.source, &self.view, query)?,
+            None => Pass::new(&self.view, query, 0).run(self.source, self.monitor)?,
+        };
+        Ok(found.settle(query))
     }
 
     fn begin_pass(&mut self) {
@@ -172,7 +203,7 @@ impl<'a> ItemReader<'a> {
         let ids: Vec<u64> = (0..count).map(|k| k * (self.len() / count)).collect();
         let rows = self.rows(&ids)?;
         let columns = self.source.dim();
-        let first = &rows[..self.dim];
+        let first = &rows[..self.view.dim];
         let mut mean = first.to_vec();
         for row in rows.chunks_exact(columns) {
             for ((mean, value), first) in mean.iter_mut().zip(row).zip(first) {
@@ -187,31 +218,16 @@ impl<'a> ItemReader<'a> {
     /// A pass for the largest |xⱼ − cⱼ|, and the scale from it; false when all items are one point.
     fn choose_scale(&mut self, center: &Center) -> Result<bool, Error> {
         self.begin_pass();
-        let dim = self.dim;
-        let spreads = map_blocks(self.source, self.monitor, |_, rows| {
-            let mut row = vec![0.0; self.source.dim()];
-            let (mut spread, mut largest) = (0.0f64, 0.0f64);
-            for i in 0..rows.len() {
-                rows.copy_row(i, &mut row);
-                for (x, c) in row.iter().zip(&center.high) {
-                    // May overflow to ∞, which asks for the same scale as the largest number.
-                    spread = spread.max((x - c).abs());
-                    largest = largest.max(x.abs());
-                }
-                if self.items == Items::Balls {
-                    spread = spread.max(row[dim]);
-                }
-            }
-            Ok::<_, Error>((spread, largest))
-        })?;
-        let spread = spreads.iter().map(|s| s.0).fold(0.0, f64::max);
-        let largest = spreads.iter().map(|s| s.1).fold(0.0, f64::max);
+        let (spread, largest) = match self.source.elsewhere() {
+            Some(elsewhere) => ask_spread(elsewhere, self.source, &self.view, center)?,
+            None => spread(self.source, &self.view, center, self.monitor)?,
+        };
         if spread == 0.0 {
             return Ok(false);
         }
-        self.scale = 2f64.powi((-exponent(spread)).clamp(-1000, 1000));
+        self.view.scale = 2f64.powi((-exponent(spread)).clamp(-1000, 1000));
         if exponent(largest) > SAFE_EXPONENT + exponent(spread) {
-            self.shift = center.high.clone();
+            self.view.shift = center.high.clone();
         }
         Ok(true)
     }
@@ -219,7 +235,7 @@ impl<'a> ItemReader<'a> {
     /// The rows with the given numbers, in the units of this reader: n × d, or n × (d + 1) with the radius.
     pub(crate) fn rows(&self, ids: &[u64]) -> Result<Vec<f64>, Error> {
         let mut rows = self.rows_as_given(ids)?;
-        self.scale_rows(&mut rows);
+        self.view.scale_rows(&mut rows);
         Ok(rows)
     }
 
@@ -228,27 +244,17 @@ impl<'a> ItemReader<'a> {
         Ok(gather(self.source, ids)?)
     }
 
-    /// Brings rows to the units of this reader.
-    fn scale_rows(&self, rows: &mut [f64]) {
-        if self.scale == 1.0 {
-            return;
-        }
-        for row in rows.chunks_exact_mut(self.source.dim()) {
-            row.iter_mut().zip(&self.shift).for_each(|(v, shift)| *v -= shift);
-            row.iter_mut().for_each(|v| *v *= self.scale);
-        }
-    }
-
     /// A center in the units of this reader as one or two terms in those of the source.
     pub(crate) fn outside(&self, center: &Center) -> Center {
-        if self.scale == 1.0 {
+        if self.view.scale == 1.0 {
             return center.clone();
         }
         let mut outside = Center { high: vec![], low: vec![] };
         for (j, &high) in center.high.iter().enumerate() {
             let low = center.low.get(j).copied().unwrap_or(0.0);
-            let shift = self.shift.get(j).copied().unwrap_or(0.0);
-            let sum = DoubleDouble::sum(high / self.scale, low / self.scale).add(shift.into());
+            let shift = self.view.shift.get(j).copied().unwrap_or(0.0);
+            let sum =
+                DoubleDouble::sum(high / self.view.scale, low / self.view.scale).add(shift.into());
             outside.high.push(sum.high);
             outside.low.push(sum.low);
         }
@@ -260,22 +266,48 @@ impl<'a> ItemReader<'a> {
 
     /// A center in the units of the source, brought to those of this reader; the inverse of [`outside`](Self::outside).
     pub(crate) fn inside(&self, center: &Center) -> Center {
-        if self.scale == 1.0 {
+        if self.view.scale == 1.0 {
             return center.clone();
         }
         let mut inside = Center { high: vec![], low: vec![] };
         for (j, &high) in center.high.iter().enumerate() {
             let low = center.low.get(j).copied().unwrap_or(0.0);
-            let shift = self.shift.get(j).copied().unwrap_or(0.0);
+            let shift = self.view.shift.get(j).copied().unwrap_or(0.0);
             let sum = DoubleDouble::sum(high, -shift).add(low.into());
-            inside.high.push(sum.high * self.scale);
-            inside.low.push(sum.low * self.scale);
+            inside.high.push(sum.high * self.view.scale);
+            inside.low.push(sum.low * self.view.scale);
         }
         if inside.low.iter().all(|&low| low == 0.0) {
             inside.low.clear();
         }
         inside
     }
+}
+
+/// The largest |xⱼ − cⱼ| or radius, and the largest coordinate.
+pub(crate) fn spread(
+    source: &dyn PointSource,
+    view: &View,
+    center: &Center,
+    monitor: &Monitor<'_>,
+) -> Result<(f64, f64), Error> {
+    let spreads = map_blocks(source, monitor, |_, rows| {
+        let mut row = vec![0.0; source.dim()];
+        let (mut spread, mut largest) = (0.0f64, 0.0f64);
+        for i in 0..rows.len() {
+            rows.copy_row(i, &mut row);
+            for (x, c) in row.iter().zip(&center.high) {
+                // May overflow to ∞, which asks for the same scale as the largest number.
+                spread = spread.max((x - c).abs());
+                largest = largest.max(x.abs());
+            }
+            if view.items == Items::Balls {
+                spread = spread.max(row[view.dim]);
+            }
+        }
+        Ok::<_, Error>((spread, largest))
+    })?;
+    Ok(spreads.into_iter().fold((0.0, 0.0), |a, b| (a.0.max(b.0), a.1.max(b.1))))
 }
 
 /// The exponent of the leading bit: 2ᵉ ≤ |value| < 2ᵉ⁺¹; that of the smallest `f64` for 0, of the largest for ∞.

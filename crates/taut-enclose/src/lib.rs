@@ -15,6 +15,7 @@
 //! | 2-approximate centers for every k at once | [`farthest_first()`] | radius ≤ 2·lower bound for each k | O(nkd) at worst, a small part of it as a rule |
 //! | k centers of a stream | [`StreamingCenters`], or [`centers()`] with [`CentersMethod::Stream`] | radius ≤ 2.96·lower bound, or another factor | O(mkd) for each point, m = 8 guesses; one pass, and one to measure |
 //! | k centers of points in many places | [`CoreSetSummary`] | radius ≤ 4 times the optimum, less with larger summaries | one pass in each place, and one to measure |
+//! | a ball of rows that lie in several places | [`passes::Solver`] | the bytes of the same function in memory | a round of messages for each pass |
 //! | a tree of balls | [`sphere_tree()`] | each the smallest around its points | some thirty passes of O(nd) for each level |
 //! | nearest, within a radius, along a ray, farthest, pairs, diameter | [`SphereSearch`] | as by a search through all rows | O(n log n) to build, about O(log n) a query in few dimensions |
 //!
@@ -45,6 +46,7 @@ mod inscribed;
 mod item_reader;
 mod kernel;
 mod kernel_ball;
+pub mod passes;
 mod robust;
 mod separated_set;
 mod shapes;

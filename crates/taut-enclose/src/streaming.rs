@@ -14,6 +14,7 @@
 //! and Guha, ICDT 2009 (instances in parallel).
 
 mod core_set_summary;
+mod cover_bytes;
 mod instance;
 mod measure;
 
@@ -27,6 +28,7 @@ use crate::separated_set::{SeparatedSet, rounded_up};
 use crate::{CentersMethod, Error};
 pub use core_set_summary::CoreSetSummary;
 use instance::{Instance, distance, least_distance};
+pub(crate) use measure::Reach;
 use measure::measure;
 
 /// Options to cover a stream. Write `StreamingOptions { instances: 1 }`.
@@ -138,6 +140,11 @@ impl StreamingCenters {
         self.seen
     }
 
+    /// Returns the coordinates that a point has.
+    pub fn dim(&self) -> usize {
+        self.dim
+    }
+
     /// Returns true if none has.
     pub fn is_empty(&self) -> bool {
         self.seen == 0
@@ -151,6 +158,29 @@ impl StreamingCenters {
     /// the normal ones: then this cover is of no more use.
     pub fn add<T: Scalar>(&mut self, points: &Points<'_, T>) -> Result<(), Error> {
         self.add_while(points, &Monitor::silent())
+    }
+
+    /// The next points, all those of a source.
+    ///
+    /// # Errors
+    /// As [`add`](Self::add), but blocks before the one with an error are counted; [`Error::Input`] when the source fails or the monitor stops
+    /// the work.
+    pub fn add_source(
+        &mut self,
+        source: &dyn PointSource,
+        monitor: &Monitor<'_>,
+    ) -> Result<(), Error> {
+        let (blocks, mut scratch) = (Blocks::of(source), Scratch::new());
+        for block in 0..blocks.count() {
+            monitor.check().map_err(ReadError::from)?;
+            let rows = source.read(blocks.range(block), &mut scratch)?;
+            match &rows {
+                Rows::F32(points) => self.add_while(points, monitor)?,
+                Rows::F64(points) => self.add_while(points, monitor)?,
+            }
+            monitor.points(rows.len() as u64);
+        }
+        Ok(())
     }
 
     /// The same, as long as the monitor lets it.
@@ -298,16 +328,7 @@ pub(crate) fn centers_in_two_passes(
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Centers>, Error> {
     let mut cover = StreamingCenters::new(source.dim(), k, options)?;
-    let (blocks, mut scratch) = (Blocks::of(source), Scratch::new());
     monitor.pass(1, source.len());
-    for block in 0..blocks.count() {
-        monitor.check().map_err(ReadError::from)?;
-        let rows = source.read(blocks.range(block), &mut scratch)?;
-        match &rows {
-            Rows::F32(points) => cover.add_while(points, monitor)?,
-            Rows::F64(points) => cover.add_while(points, monitor)?,
-        }
-        monitor.points(rows.len() as u64);
-    }
+    cover.add_source(source, monitor)?;
     cover.solution(placement, source, monitor)
 }

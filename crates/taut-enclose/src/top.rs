@@ -73,7 +73,7 @@ impl Top {
 pub(crate) type Face = (usize, bool);
 
 /// At most two of the farthest items per [`Face`]: without this, many near-copies of one far point fill a batch.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct TopByFace {
     faces: BTreeMap<Face, Vec<Far>>,
 }
@@ -94,6 +94,11 @@ impl TopByFace {
                 self.offer(face, far);
             }
         }
+    }
+
+    /// All items with their faces.
+    pub(crate) fn items(&self) -> impl Iterator<Item = (Face, Far)> {
+        self.faces.iter().flat_map(|(&face, items)| items.iter().map(move |&far| (face, far)))
     }
 
     /// The `keep` farthest, farthest first.

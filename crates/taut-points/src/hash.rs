@@ -40,6 +40,62 @@ impl PointsHash {
         let start = step(step(1, n), dim as u64);
         PointsHash(finish(blocks.into_iter().fold(start, |h, block| step(h, block.0))))
     }
+
+    /// The same, of blocks that were put together before.
+    pub(crate) fn of_run(n: u64, dim: usize, run: HashRun) -> Self {
+        let start = step(step(1, n), dim as u64);
+        PointsHash(finish(start.wrapping_mul(power(run.blocks)).wrapping_add(run.sum)))
+    }
+}
+
+/// The hashes of blocks next to each other: what these blocks do to the hash of those before them.
+///
+/// A step takes h to h·P + mix(v), so m of them take it to h·Pᵐ and a sum that does not depend on h.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct HashRun {
+    blocks: u64,
+    sum: u64,
+}
+
+impl HashRun {
+    /// One block.
+    pub(crate) fn of(block: BlockHash) -> Self {
+        HashRun { blocks: 1, sum: step(0, block.0) }
+    }
+
+    /// These blocks and the next ones.
+    pub(crate) fn then(self, next: Self) -> Self {
+        HashRun {
+            blocks: self.blocks + next.blocks,
+            sum: self.sum.wrapping_mul(power(next.blocks)).wrapping_add(next.sum),
+        }
+    }
+
+    /// The number of blocks.
+    pub(crate) fn blocks(self) -> u64 {
+        self.blocks
+    }
+
+    pub(crate) fn to_bits(self) -> (u64, u64) {
+        (self.blocks, self.sum)
+    }
+
+    pub(crate) fn from_bits(blocks: u64, sum: u64) -> Self {
+        HashRun { blocks, sum }
+    }
+}
+
+/// Pᵐ.
+fn power(mut exponent: u64) -> u64 {
+    let (mut power, mut square) = (1u64, MULTIPLIER);
+    while exponent > 0 {
+        if exponent & 1 == 1 {
+            power = power.wrapping_mul(square);
+        }
+        square = square.wrapping_mul(square);
+        exponent >>= 1;
+    }
+    power
 }
 
 impl std::fmt::Display for PointsHash {

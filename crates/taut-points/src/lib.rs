@@ -29,6 +29,7 @@ mod error;
 pub mod generate;
 mod hash;
 mod monitor;
+mod parts;
 mod points;
 mod processor;
 mod room;
@@ -43,6 +44,9 @@ pub use error::{Error, InputError, ReadError};
 pub use generate::{Distribution, GeneratedSource, generate, generate_into};
 pub use hash::{BlockHash, HashFormError, PointsHash, hash_block, hash_points};
 pub use monitor::{Cancelled, Monitor};
+pub use parts::{
+    BlockRuns, ByteReader, ByteWriter, Elsewhere, PartsError, check_kernels, check_part,
+};
 pub use points::{Points, Rows, Scalar, ScalarKind};
 pub use processor::{InstructionSet, KERNELS_VARIABLE, instruction_set, vectors};
 pub use room::{failure_is_handled, try_reserve_exact};

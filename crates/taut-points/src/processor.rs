@@ -27,6 +27,31 @@ pub enum InstructionSet {
     Avx512,
 }
 
+impl InstructionSet {
+    const NAMES: [(InstructionSet, &str); 4] = [
+        (InstructionSet::Portable, "portable"),
+        (InstructionSet::Neon, "neon"),
+        (InstructionSet::Avx2, "avx2"),
+        (InstructionSet::Avx512, "avx512"),
+    ];
+
+    /// The name that the variable `TAUT_KERNELS` has for it.
+    pub fn name(self) -> &'static str {
+        Self::NAMES[self as usize].1
+    }
+
+    /// The number of this set in bytes.
+    pub fn to_bits(self) -> u64 {
+        self as u64
+    }
+
+    /// The set that [`to_bits`](Self::to_bits) gave.
+    pub fn from_bits(bits: u64) -> Option<Self> {
+        let at = usize::try_from(bits).ok()?;
+        Self::NAMES.get(at).map(|(set, _)| *set)
+    }
+}
+
 /// Returns the best instruction set that this processor has and `TAUT_KERNELS` allows.
 ///
 /// The processor and the variable are asked once; after that a call costs one load.

@@ -18,7 +18,7 @@ pub use picked::PickedColumns;
 pub use positioned::{read_at, read_exact_at, write_all_at, write_at};
 
 use crate::room::try_reserve_exact;
-use crate::{Points, ReadError, Rows, Scalar, ScalarKind};
+use crate::{Elsewhere, Points, ReadError, Rows, Scalar, ScalarKind};
 
 /// A rewindable set of n points of dimension d, read a range of rows at a time.
 ///
@@ -50,6 +50,11 @@ pub trait PointSource: Send + Sync {
 
     /// All rows, where the program holds them in its own memory; `None` for files, mapped or not, and for generators.
     fn in_memory(&self) -> Option<Rows<'_>> {
+        None
+    }
+
+    /// Those who hold the rows, where they are held elsewhere and in parts.
+    fn elsewhere(&self) -> Option<&dyn Elsewhere> {
         None
     }
 }
@@ -141,6 +146,10 @@ impl<S: PointSource + ?Sized> PointSource for &S {
     fn in_memory(&self) -> Option<Rows<'_>> {
         (**self).in_memory()
     }
+
+    fn elsewhere(&self) -> Option<&dyn Elsewhere> {
+        (**self).elsewhere()
+    }
 }
 
 /// Copies the points with the given numbers, in that order, widened to `f64`: `ids.len()` × d, row-major.
@@ -148,6 +157,9 @@ impl<S: PointSource + ?Sized> PointSource for &S {
 /// # Errors
 /// The error of [`PointSource::read`].
 pub fn gather(source: &dyn PointSource, ids: &[u64]) -> Result<Vec<f64>, ReadError> {
+    if let Some(elsewhere) = source.elsewhere() {
+        return elsewhere.rows(ids);
+    }
     let dim = source.dim();
     let (mut scratch, mut out) = (Scratch::new(), Vec::new());
     let too_large = || ReadError::TooLarge { rows: ids.len() as u64, dim };

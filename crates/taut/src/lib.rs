@@ -17,6 +17,7 @@
 //! | the largest rectangle along the axes in a polygon | [`inscribe::inscribed_rectangle()`] | largest area ≤ (1 + ε)·area, proved | [`inscribe`] |
 //! | a large convex polygon in a polygon, with holes | [`inscribe::inscribed_polygon()`] | inside, proved; largest area ≤ (1 + gap)·area, proved | [`inscribe`] |
 //! | the largest triangle in a polygon, with holes | [`inscribe::inscribed_triangle()`] | largest area ≤ (1 + ε)·area, proved | [`inscribe`] |
+//! | a ball of rows that lie in several places, such as partitions on a cluster | [`enclose::passes::Solver`] | the bytes of [`ball()`] | [`enclose::passes`] |
 //! | the smallest ball in the feature space of a kernel, hard or soft | [`enclose::kernel_ball()`] | objective ≤ (1 + ε) times the least, proved | [`enclose`] |
 //! | the bounding k-dop of points of space, such as those of a mesh | [`enclose::bounding_dop()`] | the smallest with its normals, proved | [`enclose`] |
 //! | center and scatter of most points, and the outliers | [`robust_ellipsoid()`] | all but the choice of points proved; that choice a local optimum | [`enclose`] |

@@ -27,12 +27,14 @@ mod difference;
 pub(crate) mod ellipsoids;
 mod enclosure;
 mod lower_bound;
+pub(crate) mod parts;
 mod scale;
 pub(crate) mod structure;
 
 use taut_points::{Monitor, PointSource};
 
 use self::enclosure::Enclosure;
+use self::lower_bound::Bound;
 use super::{Ball, BallCertificate};
 use crate::{CheckError, Items, Verdict, Violation};
 
@@ -49,7 +51,7 @@ pub(super) fn check(
     source: &dyn PointSource,
     monitor: &Monitor<'_>,
 ) -> Result<Verdict, CheckError> {
-    structure::check(ball, certificate, source)?;
+    structure::check(ball, certificate, source.len(), source.dim())?;
     monitor.pass(1, source.len());
     let bound = if certificate.items == Items::Ellipsoids {
         ellipsoids::prove(ball, certificate, source, monitor)?
@@ -58,6 +60,15 @@ pub(super) fn check(
         let support = enclosure.check(source, certificate, monitor)?;
         lower_bound::prove(ball, certificate, &support, monitor)?
     };
+    verdict(ball, certificate, &bound)
+}
+
+/// Compares the gap that was proved with the one that is claimed.
+fn verdict(
+    ball: &Ball,
+    certificate: &BallCertificate,
+    bound: &Bound,
+) -> Result<Verdict, CheckError> {
     let (relative, absolute) = GAP_SLACK;
     let is_proved = bound.gap <= certificate.gap * (1.0 + relative) + absolute;
     if !is_proved {

@@ -24,6 +24,7 @@ mod group_enclosure;
 mod item;
 mod meter;
 mod oracle;
+pub(crate) mod parts;
 mod replay;
 mod rows;
 mod structure;
@@ -51,7 +52,7 @@ pub(super) fn check(
     source: &dyn PointSource,
     monitor: &Monitor<'_>,
 ) -> Result<CentersVerdict, CheckError> {
-    let (reading, gap) = structure::check(answer, certificate, source)?;
+    let (reading, gap) = structure::check(answer, certificate, source.len(), source.dim())?;
     monitor.pass(1, source.len());
     let (lower, upper) = (answer.lower_bound, answer.radius);
     let branches = match reading {
@@ -73,18 +74,32 @@ fn of_items(
         None => Enclosure::of(answer, layout.kind).check(source, certificate, monitor)?,
         Some(_) => GroupEnclosure::of(answer, layout).check(source, certificate, monitor)?,
     };
-    are_rows(answer, layout, &kept)?;
+    conclude(answer, certificate, layout, &kept, source.dim(), Some(source), monitor)
+}
+
+/// The proof, once all rows that count are known to be held; the number of branches. Without a source no row is read again.
+fn conclude(
+    answer: &Centers,
+    certificate: &CentersCertificate,
+    layout: Layout,
+    kept: &KeptRows,
+    columns: usize,
+    source: Option<&dyn PointSource>,
+    monitor: &Monitor<'_>,
+) -> Result<u64, CheckError> {
+    are_rows(answer, layout, kept)?;
     if answer.lower_bound <= 0.0 {
         return Ok(0);
     }
     let rows = || certificate.core_set.iter().map(|&id| kept.row(id));
     let items: Vec<f64> = rows().flat_map(|row| layout.of_item(row)).collect();
-    let columns = source.dim() - usize::from(layout.group.is_some());
-    let mut core = Core::of(&items, columns, layout.kind, answer.lower_bound);
+    let of_item = columns - usize::from(layout.group.is_some());
+    let mut core = Core::of(&items, of_item, layout.kind, answer.lower_bound);
     if layout.group.is_some() {
         core = core.with_groups(rows().filter_map(|row| layout.group_of(row)).map(f64::to_bits));
     }
     let places = || {
+        let source = source.ok_or(CheckError::NoParts { kind: parts::AMONG_ROWS })?;
         monitor.pass(2, source.len());
         Places::of(&core, layout, certificate.points_hash, source, monitor)
     };

@@ -27,17 +27,19 @@ pub(crate) mod hull;
 pub(crate) mod item;
 pub(crate) mod lower_bound;
 mod panel;
+pub(crate) mod parts;
 pub(crate) mod reach;
 pub(crate) mod structure;
 
 use taut_points::{Monitor, PointSource};
 
-use self::agreement::LogVolume;
-use self::enclosure::Enclosure;
+use self::agreement::{Difference, LogVolume};
+use self::enclosure::{Enclosed, Enclosure};
 use self::frame::Frame;
 use self::hull::HullTest;
 use super::{Ellipsoid, EllipsoidCertificate, EllipsoidVerdict};
 use crate::arithmetic::U;
+use crate::hashed_pass::KeptRows;
 use crate::{CheckError, Violation};
 
 /// The amount by which the gap claimed may fall short of the gap proved, relatively and for each dimension.
@@ -58,7 +60,7 @@ pub(crate) fn check(
     monitor: &Monitor<'_>,
     pass: u64,
 ) -> Result<EllipsoidVerdict, CheckError> {
-    structure::check(ellipsoid, certificate, source)?;
+    structure::check(ellipsoid, certificate, source.len(), source.dim())?;
     let frame = Frame::of(ellipsoid);
     let difference = agreement::matrix(ellipsoid, &frame)?;
     let hull = ellipsoid.hull.as_ref().map(|hull| HullTest::of(&frame, hull));
@@ -72,10 +74,30 @@ pub(crate) fn check(
     if let Some(hull) = &hull {
         hull.is_flat(certificate.items, source.scalar(), &enclosed)?;
     }
+    let stated = Stated { frame: &frame, difference, log_volume };
+    conclude(certificate, &stated, &enclosed, &support, monitor)
+}
+
+/// The frame of an answer, and how far what it states besides is from that.
+struct Stated<'a> {
+    frame: &'a Frame<'a>,
+    difference: Difference,
+    log_volume: LogVolume,
+}
+
+/// The verdict, once all items are known to be enclosed.
+fn conclude(
+    certificate: &EllipsoidCertificate,
+    stated: &Stated<'_>,
+    enclosed: &Enclosed,
+    support: &KeptRows,
+    monitor: &Monitor<'_>,
+) -> Result<EllipsoidVerdict, CheckError> {
+    let Stated { frame, difference, log_volume } = stated;
     let rank = frame.rank as f64;
     let enlarged = rank * enclosed.excess;
     let gap =
-        (lower_bound::gap(&frame, certificate, &support, monitor)? + enlarged) * (1.0 + 4.0 * U);
+        (lower_bound::gap(frame, certificate, support, monitor)? + enlarged) * (1.0 + 4.0 * U);
     let (relative, absolute) = GAP_SLACK;
     let is_proved = gap <= certificate.gap * (1.0 + relative) + absolute * rank && gap.is_finite();
     if !is_proved {
@@ -85,7 +107,7 @@ pub(crate) fn check(
         return Err(Violation::NegativeGap { gap }.into());
     }
     let gap = gap.max(0.0);
-    let LogVolume { value, error } = log_volume;
+    let LogVolume { value, error } = *log_volume;
     // A single point has log-volume 0, and nothing is rounded.
     let (lower, upper) = match frame.rank {
         0 => (0.0, 0.0),

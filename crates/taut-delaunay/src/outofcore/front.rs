@@ -72,6 +72,11 @@ impl<const D: usize> Front<D> {
         self.rows.len()
     }
 
+    /// The smallest row of each site.
+    pub fn rows(&self) -> &[u64] {
+        &self.rows
+    }
+
     /// Returns true if there is no site.
     pub fn is_empty(&self) -> bool {
         self.rows.is_empty()

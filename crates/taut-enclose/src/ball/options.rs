@@ -71,7 +71,7 @@ impl Default for BallOptions<'_> {
 }
 
 impl BallOptions<'_> {
-    pub(super) fn check(&self) -> Result<(), Error> {
+    pub(crate) fn check(&self) -> Result<(), Error> {
         let wrong = |name, value: String, expected| {
             Err(Error::Input(InputError::Option { name, value, expected }))
         };

@@ -20,6 +20,7 @@ use super::counters::Counters;
 use super::outcome::{Candidate, Outcome, log_unit_ball};
 use super::point_reader::{PassResult, PointReader};
 use super::proof::{answer, settle, solution, spread};
+use super::question::{Kind, Question};
 use super::sample::Sample;
 use super::whitener::{Rebased, Whitener};
 use super::{EllipsoidOptions, method};
@@ -27,6 +28,7 @@ use crate::Error;
 use crate::kernel::compensated::Map;
 use crate::kernel::vector::{add_scaled, dot};
 use crate::kernel::{Center, DoubleDouble};
+use crate::top::Far;
 
 /// The excess of residuals over the rounding of the coordinates, for √d of them, and still count as none.
 const ROUNDINGS: f64 = 16.0;
@@ -37,7 +39,7 @@ const RAISED_MOST: f64 = 4096.0;
 const ZERO_RATIO: f64 = 1e-100;
 
 /// An affine subspace through an origin, in coordinates of size 1.
-struct Span {
+pub(super) struct Span {
     origin: Vec<f64>,
     /// By what each coordinate is divided: its extent, or what it is at the origin if that is more; 0 for one that never
     /// changes.
@@ -102,29 +104,53 @@ impl Span {
 
     /// One pass for the point farthest outside the span, if any is outside by more than rounding.
     fn farthest(&self, reader: &mut PointReader<'_>) -> Result<Option<u64>, Error> {
+        let question = || Question {
+            matrix: self.basis.concat(),
+            center: Center { high: self.origin.clone(), low: self.sizes.clone() },
+            kind: Kind::Span,
+        };
+        let far = match reader.ask(question)? {
+            Some(answer) => answer.span()?,
+            None => {
+                let each = reader.visit(|first, rows| self.farthest_of_block(first, rows))?;
+                let start = Far { id: 0, reach2: 0.0 };
+                each.into_iter().fold(start, |a, b| if b.reach2 > a.reach2 { b } else { a })
+            }
+        };
+        Ok((far.reach2 > self.zero).then_some(far.id))
+    }
+
+    /// The span that a question is about; its zero is for those who ask.
+    pub(super) fn of_question(matrix: &[f64], center: &Center) -> Self {
+        Span {
+            origin: center.high.clone(),
+            sizes: center.low.clone(),
+            basis: matrix.chunks_exact(center.dim()).map(<[f64]>::to_vec).collect(),
+            zero: 0.0,
+        }
+    }
+
+    /// The point of a block that is farthest outside, with its distance in the place of a square.
+    pub(super) fn farthest_of_block(&self, first: u64, rows: &[f64]) -> Far {
         let dim = self.origin.len();
-        let each = reader.visit(|first, rows| {
-            let mut best = (0.0, first);
-            let mut row = vec![0.0; dim];
-            for (id, values) in (first..).zip(rows.chunks_exact(dim)) {
-                // A coordinate that never changed in the sample may change elsewhere.
-                let mut moved = 0.0;
-                for (j, (row, x)) in row.iter_mut().zip(values).enumerate() {
-                    *row = x - self.origin[j];
-                    if self.sizes[j] == 0.0 && *row != 0.0 {
-                        moved = f64::INFINITY;
-                    }
-                }
-                self.residual(&mut row);
-                let distance = dot(&row, &row).sqrt().max(moved);
-                if distance > best.0 {
-                    best = (distance, id);
+        let mut best = Far { id: first, reach2: 0.0 };
+        let mut row = vec![0.0; dim];
+        for (id, values) in (first..).zip(rows.chunks_exact(dim)) {
+            // A coordinate that never changed in the sample may change elsewhere.
+            let mut moved = 0.0;
+            for (j, (row, x)) in row.iter_mut().zip(values).enumerate() {
+                *row = x - self.origin[j];
+                if self.sizes[j] == 0.0 && *row != 0.0 {
+                    moved = f64::INFINITY;
                 }
             }
-            best
-        })?;
-        let far = each.into_iter().fold((0.0, 0), |a, b| if b.0 > a.0 { b } else { a });
-        Ok((far.0 > self.zero).then_some(far.1))
+            self.residual(&mut row);
+            let distance = dot(&row, &row).sqrt().max(moved);
+            if distance > best.reach2 {
+                best = Far { id, reach2: distance };
+            }
+        }
+        best
     }
 
     /// Orthonormal rows in the given coordinates, r × d.
@@ -167,7 +193,14 @@ pub(super) fn decide_rank(
     let mut sample = Sample::new(reader)?;
     if !sample.is_finite() {
         // The first row that is not finite is to be named; if there is none, differences overflow.
-        reader.visit(|_, _| ())?;
+        let question = || Question {
+            matrix: vec![],
+            center: Center { high: vec![], low: vec![] },
+            kind: Kind::Finite,
+        };
+        if reader.ask(question)?.is_none() {
+            reader.visit(|_, _| ())?;
+        }
         return Err(Error::Overflow);
     }
     let extents = sample.extents();
@@ -269,6 +302,9 @@ fn flat(
     let dim = reader.dim();
     let directions = span.directions();
     let rank = directions.len() / dim;
+    if reader.source().elsewhere().is_some() {
+        return Err(Error::FlatInParts { rank, dim });
+    }
     if rank == 0 {
         return point(reader, options);
     }

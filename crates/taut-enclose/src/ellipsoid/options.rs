@@ -73,7 +73,7 @@ impl Default for EllipsoidOptions<'_> {
 }
 
 impl EllipsoidOptions<'_> {
-    pub(super) fn check(&self) -> Result<(), Error> {
+    pub(crate) fn check(&self) -> Result<(), Error> {
         let wrong = |name, value: String, expected| {
             Err(Error::Input(InputError::Option { name, value, expected }))
         };

@@ -11,10 +11,12 @@ use taut_points::{
     hash_block, map_blocks,
 };
 
+use super::question::{Kind, Question, TakenIds};
 use crate::Error;
 use crate::kernel::Center;
 use crate::kernel::extremes::{all_finite, largest};
 use crate::kernel::triangle::{POINTS, above, leverages};
+use crate::passes::{PointsAnswer, ask_points};
 use crate::top::{Far, Top};
 
 /// Rows whose leverages are worked out before they are compared.
@@ -111,9 +113,11 @@ impl<'a> PointReader<'a> {
         Ok(rows)
     }
 
-    fn begin_pass(&mut self) {
+    /// Counts a pass; returns true if it is the first.
+    fn begin_pass(&mut self) -> bool {
         self.passes += 1;
         self.monitor.pass(self.passes, self.len());
+        self.hash.is_none()
     }
 
     /// One pass of another kind: calls `work` with the number of the first row and the rows of each block.
@@ -121,44 +125,48 @@ impl<'a> PointReader<'a> {
         &mut self,
         work: impl Fn(u64, &[f64]) -> R + Sync,
     ) -> Result<Vec<R>, Error> {
-        self.begin_pass();
-        let first = self.hash.is_none();
-        let reports = map_blocks(self.source, self.monitor, |row, rows| {
-            let mut hash = None;
-            if first {
-                if let Some((at, column, value)) = rows.first_non_finite() {
-                    return Err(Error::Input(InputError::NonFinite {
-                        row: row + at as u64,
-                        column,
-                        value,
-                    }));
-                }
-                hash = Some(hash_block(&rows));
-            }
-            let result = match rows {
-                Rows::F64(points) => work(row, points.values()),
-                Rows::F32(points) => {
-                    let values: Vec<f64> = points.values().iter().map(|&v| v.into()).collect();
-                    work(row, &values)
-                }
-            };
-            Ok((result, hash))
-        })?;
-        if first {
-            let hashes = reports.iter().filter_map(|report| report.1);
+        let first = self.begin_pass();
+        let blocks = visit(self.source, self.monitor, first, work)?;
+        self.keep_hash(blocks.iter().map(|block| block.1));
+        Ok(blocks.into_iter().map(|block| block.0).collect())
+    }
+
+    /// Keeps the hash, if this was the first pass.
+    fn keep_hash(&mut self, hashes: impl Iterator<Item = Option<BlockHash>>) {
+        if self.hash.is_none() {
+            let hashes = hashes.flatten();
             self.hash = Some(PointsHash::of_blocks(self.len(), self.dim(), hashes));
         }
-        Ok(reports.into_iter().map(|report| report.0).collect())
+    }
+
+    /// One pass over points that are held elsewhere; `None` where they are not.
+    pub(super) fn ask(
+        &mut self,
+        question: impl FnOnce() -> Question,
+    ) -> Result<Option<PointsAnswer>, Error> {
+        let Some(elsewhere) = self.source.elsewhere() else { return Ok(None) };
+        let is_first = self.begin_pass();
+        let answer = ask_points(elsewhere, self.source, question(), is_first)?;
+        if is_first {
+            self.hash = Some(answer.hash);
+        }
+        Ok(Some(answer))
     }
 
     pub(super) fn pass(&mut self, query: Query<'_>) -> Result<PassResult, Error> {
-        self.begin_pass();
-        let first = self.hash.is_none();
-        let (found, reports) = measure(self.source, self.monitor, query, first)?;
-        if first {
-            let hashes = reports.iter().filter_map(|report| report.hash);
-            self.hash = Some(PointsHash::of_blocks(self.len(), self.dim(), hashes));
+        let Query { matrix, center, above, keep } = query;
+        let question = || Question {
+            matrix: matrix.to_vec(),
+            center: center.clone(),
+            kind: Kind::Leverage { above, keep },
+        };
+        if let Some(answer) = self.ask(question)? {
+            let (largest, far) = answer.leverage()?;
+            return Ok(settled(query, largest, far));
         }
+        let first = self.begin_pass();
+        let (found, hashes) = measure(self.source, self.monitor, query, first)?;
+        self.keep_hash(hashes.into_iter());
         Ok(found)
     }
 
@@ -169,25 +177,84 @@ impl<'a> PointReader<'a> {
         query: Query<'_>,
         share: f64,
     ) -> Result<Option<TakenRows>, Error> {
-        self.begin_pass();
-        let first = self.hash.is_none();
-        let reports = map_blocks(self.source, self.monitor, |row, rows| match rows {
-            Rows::F32(points) => take_block(query, share, row, &points, first),
-            Rows::F64(points) => take_block(query, share, row, &points, first),
-        })?;
-        if first {
-            let hashes = reports.iter().filter_map(|report| report.1);
-            self.hash = Some(PointsHash::of_blocks(self.len(), self.dim(), hashes));
+        let Query { matrix, center, above, .. } = query;
+        let question = || Question {
+            matrix: matrix.to_vec(),
+            center: center.clone(),
+            kind: Kind::Take { above, share },
+        };
+        if let Some(answer) = self.ask(question)? {
+            let Some(TakenIds { ids, above }) = answer.taken()? else { return Ok(None) };
+            let rows = self.rows(&ids)?;
+            return Ok(Some(TakenRows { ids, rows, above }));
         }
-        let mut all = TakenRows { ids: vec![], rows: vec![], above: query.above };
-        for (taken, _) in reports {
-            let Some(taken) = taken else { return Ok(None) };
-            all.ids.extend(taken.ids);
-            all.rows.extend(taken.rows);
-            all.above = all.above.max(taken.above);
-        }
-        Ok(Some(all))
+        let first = self.begin_pass();
+        let (taken, hashes) = take(self.source, self.monitor, query, share, first)?;
+        self.keep_hash(hashes.into_iter());
+        Ok(taken)
     }
+}
+
+/// Calls `work` with the number of the first row and the rows of each block; in a first pass blocks are hashed, too.
+pub(super) fn visit<R: Send>(
+    source: &dyn PointSource,
+    monitor: &Monitor<'_>,
+    first: bool,
+    work: impl Fn(u64, &[f64]) -> R + Sync,
+) -> Result<Vec<(R, Option<BlockHash>)>, Error> {
+    map_blocks(source, monitor, |row, rows| {
+        let mut hash = None;
+        if first {
+            if let Some((at, column, value)) = rows.first_non_finite() {
+                return Err(Error::Input(InputError::NonFinite {
+                    row: row + at as u64,
+                    column,
+                    value,
+                }));
+            }
+            hash = Some(hash_block(&rows));
+        }
+        let result = match rows {
+            Rows::F64(points) => work(row, points.values()),
+            Rows::F32(points) => {
+                let values: Vec<f64> = points.values().iter().map(|&v| v.into()).collect();
+                work(row, &values)
+            }
+        };
+        Ok((result, hash))
+    })
+}
+
+/// The rows above a threshold, a share of each block; in a first pass blocks are hashed, too.
+pub(super) fn take(
+    source: &dyn PointSource,
+    monitor: &Monitor<'_>,
+    query: Query<'_>,
+    share: f64,
+    first: bool,
+) -> Result<(Option<TakenRows>, Vec<Option<BlockHash>>), Error> {
+    let reports = map_blocks(source, monitor, |row, rows| match rows {
+        Rows::F32(points) => take_block(query, share, row, &points, first),
+        Rows::F64(points) => take_block(query, share, row, &points, first),
+    })?;
+    let hashes = reports.iter().map(|report| report.1).collect();
+    let mut all = TakenRows { ids: vec![], rows: vec![], above: query.above };
+    for (taken, _) in reports {
+        let Some(taken) = taken else { return Ok((None, hashes)) };
+        all.ids.extend(taken.ids);
+        all.rows.extend(taken.rows);
+        all.above = all.above.max(taken.above);
+    }
+    Ok((Some(all), hashes))
+}
+
+/// The result of a pass, from the points it lists, farthest first.
+fn settled(query: Query<'_>, largest: f64, far: Vec<Far>) -> PassResult {
+    let listed_above = match far.last() {
+        Some(last) if far.len() == query.keep => last.reach2,
+        _ => query.above,
+    };
+    PassResult { largest, far, listed_above }
 }
 
 /// Rows that a pass took with it.
@@ -205,13 +272,13 @@ pub(super) fn pass_over(points: &Points<'_, f64>, query: Query<'_>) -> Result<Pa
     Ok(measure(points, &Monitor::silent(), query, false)?.0)
 }
 
-/// Measures all blocks of a source; if they are met for the first time, they are hashed, too.
-fn measure(
+/// Measures all blocks of a source; in a first pass they are hashed, too.
+pub(super) fn measure(
     source: &dyn PointSource,
     monitor: &Monitor<'_>,
     query: Query<'_>,
     first: bool,
-) -> Result<(PassResult, Vec<BlockReport>), Error> {
+) -> Result<(PassResult, Vec<Option<BlockHash>>), Error> {
     let list = Mutex::new(Top::new(query.keep));
     // It only saves work: what is listed in the end does not depend on when threads see it.
     let bound = AtomicU64::new(query.above.to_bits());
@@ -220,15 +287,10 @@ fn measure(
         Rows::F64(points) => block(query, &list, &bound, row, &points, first),
     })?;
     let far = list.into_inner().unwrap_or_else(PoisonError::into_inner).into_sorted();
-    let listed_above = match far.last() {
-        Some(last) if far.len() == query.keep => last.reach2,
-        _ => query.above,
-    };
     let finite = reports.iter().all(|report| report.finite);
     let largest = reports.iter().map(|report| report.largest).fold(0.0, f64::max);
-    let found =
-        PassResult { largest: if finite { largest } else { f64::INFINITY }, far, listed_above };
-    Ok((found, reports))
+    let found = settled(query, if finite { largest } else { f64::INFINITY }, far);
+    Ok((found, reports.into_iter().map(|report| report.hash).collect()))
 }
 
 /// This many rows of a block are taken beside its share.

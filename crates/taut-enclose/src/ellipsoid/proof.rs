@@ -13,6 +13,7 @@ use taut_certify::{Ellipsoid, EllipsoidCertificate, Hull, Items, Solution, Stop,
 use super::dense::{cholesky, divide_rows};
 use super::outcome::{Candidate, Outcome, log_unit_ball};
 use super::point_reader::PointReader;
+use super::question::{Kind, Question};
 use super::{EllipsoidOptions, ROUNDING};
 use crate::Error;
 use crate::kernel::Center;
@@ -28,7 +29,7 @@ pub(super) const LOGARITHM_ROUNDING: f64 = 2e-15;
 /// At most this many scales are tried before a bound on the rounding of F takes the place of measuring.
 const SCALES_MAX: u32 = 8;
 /// At most this many points near the border are measured for each of them.
-const MEASURED_POINTS_MAX: usize = 1 << 14;
+pub(super) const MEASURED_POINTS_MAX: usize = 1 << 14;
 
 /// Turns an outcome for points that span the space into a solution.
 pub(super) fn prove(
@@ -199,33 +200,46 @@ fn measure(
     near: f64,
     spread: f64,
 ) -> Result<(Vec<Far>, f64), Error> {
-    let dim = map.dim();
-    let lists = reader.visit(|first, rows| {
-        let mut top = Top::new(MEASURED_POINTS_MAX);
-        let mut scratch = vec![];
-        let mut values = [0.0; 64];
-        for (part, rows) in rows.chunks(64 * dim).enumerate() {
-            let count = rows.len() / dim;
-            let values = &mut values[..count];
-            if map.triangular {
-                leverages(rows, map.matrix, map.center, &mut scratch, values);
-                if values.iter().all(|&v| v < near) {
-                    continue;
-                }
-            }
-            let (_, squares) = map.images(rows);
-            for (i, reach2) in squares.into_iter().enumerate() {
-                top.offer(Far { id: first + (part * 64 + i) as u64, reach2 });
-            }
+    let question = || Question {
+        matrix: map.matrix.to_vec(),
+        center: map.center.clone(),
+        kind: Kind::Border { near },
+    };
+    let mut far = match reader.ask(question)? {
+        Some(answer) => answer.border()?,
+        None => {
+            let lists = reader.visit(|first, rows| border_of_block(map, near, first, rows))?;
+            let mut all = Top::new(MEASURED_POINTS_MAX);
+            lists.into_iter().for_each(|list| all.merge(list));
+            all.into_sorted()
         }
-        top
-    })?;
-    let mut all = Top::new(MEASURED_POINTS_MAX);
-    lists.into_iter().for_each(|list| all.merge(list));
-    let mut far = all.into_sorted();
+    };
     let largest = far.first().map_or(0.0, |far| far.reach2);
     far.retain(|far| far.reach2 >= largest * (1.0 - 4.0 * UNIT_ROUNDOFF * (spread + 3.0)));
     Ok((far, largest))
+}
+
+/// The points of a block that may lie farthest out, measured with twice the digits.
+pub(super) fn border_of_block(map: Map<'_>, near: f64, first: u64, rows: &[f64]) -> Top {
+    let dim = map.dim();
+    let mut top = Top::new(MEASURED_POINTS_MAX);
+    let mut scratch = vec![];
+    let mut values = [0.0; 64];
+    for (part, rows) in rows.chunks(64 * dim).enumerate() {
+        let count = rows.len() / dim;
+        let values = &mut values[..count];
+        if map.triangular {
+            leverages(rows, map.matrix, map.center, &mut scratch, values);
+            if values.iter().all(|&v| v < near) {
+                continue;
+            }
+        }
+        let (_, squares) = map.images(rows);
+        for (i, reach2) in squares.into_iter().enumerate() {
+            top.offer(Far { id: first + (part * 64 + i) as u64, reach2 });
+        }
+    }
+    top
 }
 
 /// −½ ln det(r·Σ) for the covariance Σ of weighted images, n × r.

@@ -5,10 +5,10 @@ use std::sync::{Mutex, PoisonError};
 
 use taut_certify::Items;
 use taut_points::{
-    BlockHash, InputError, Points, PointsHash, Rows, Scalar, hash_block, map_blocks,
+    BlockHash, InputError, Monitor, PointSource, Points, Rows, Scalar, hash_block, map_blocks,
 };
 
-use super::{ItemReader, PassResult, Query};
+use super::{PassResult, Query, View};
 use crate::Error;
 use crate::kernel::extremes::{all_finite, largest};
 use crate::kernel::{Center, squared_distances};
@@ -20,23 +20,56 @@ const ROWS_AT_ONCE: usize = 512;
 const GROUP_SIZE: usize = 64;
 
 /// A pass under way, shared by all threads.
-pub(super) struct Pass<'p> {
-    reader: &'p ItemReader<'p>,
+pub(crate) struct Pass<'p> {
+    view: &'p View,
     query: Query<'p>,
+    /// The number of the first row of the source.
+    first_row: u64,
     lists: Mutex<(Top, TopByFace)>,
     /// The bits of a squared reach below which nothing can be listed any more. It only saves work: what is listed in
     /// the end does not depend on when threads see it.
     bound: AtomicU64,
 }
 
+/// What a pass finds over some rows, and, merged, over all.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Found {
+    pub(crate) farthest: Far,
+    /// Farthest first.
+    pub(crate) far: Vec<Far>,
+    pub(crate) by_face: TopByFace,
+}
+
+impl Found {
+    /// What is found in these rows and in others.
+    pub(crate) fn merge(mut self, other: Self, keep: usize) -> Self {
+        let mut top = Top::new(keep);
+        self.far.into_iter().chain(other.far).for_each(|far| top.offer(far));
+        self.by_face.merge(other.by_face);
+        let farthest = farther(self.farthest, other.farthest);
+        Found { farthest, far: top.into_sorted(), by_face: self.by_face }
+    }
+
+    /// The answer, once this is of all rows.
+    pub(crate) fn settle(self, query: Query<'_>) -> PassResult {
+        let listed_above = match self.far.last() {
+            Some(last) if self.far.len() == query.keep => last.reach2,
+            _ => query.above,
+        };
+        let by_face = self.by_face.into_sorted(query.keep);
+        PassResult { farthest: self.farthest, far: self.far, listed_above, by_face }
+    }
+}
+
 /// The facts that the first pass finds beside the farthest items.
-pub(super) struct FirstReport {
-    pub(super) found: PassResult,
-    pub(super) hash: PointsHash,
+pub(crate) struct FirstReport {
+    pub(crate) found: Found,
+    /// Hashes of the blocks, in their order.
+    pub(crate) hashes: Vec<BlockHash>,
     /// The largest radius, in the place of a reach; balls only.
-    pub(super) largest: Option<Far>,
+    pub(crate) largest: Option<Far>,
     /// True if a square exceeded the largest `f64`.
-    pub(super) overflow: bool,
+    pub(crate) overflow: bool,
 }
 
 struct Measured {
@@ -54,14 +87,20 @@ struct BlockReport {
 }
 
 impl<'p> Pass<'p> {
-    pub(super) fn new(reader: &'p ItemReader<'p>, query: Query<'p>) -> Self {
+    /// A pass over rows that are numbered from `first_row` on.
+    pub(crate) fn new(view: &'p View, query: Query<'p>, first_row: u64) -> Self {
         let lists = Mutex::new((Top::new(query.keep), TopByFace::default()));
         let bound = AtomicU64::new(query.above.to_bits());
-        Pass { reader, query, lists, bound }
+        Pass { view, query, first_row, lists, bound }
     }
 
-    pub(super) fn run(self) -> Result<PassResult, Error> {
-        let farthest = map_blocks(self.reader.source, self.reader.monitor, |row, rows| {
+    pub(crate) fn run(
+        self,
+        source: &dyn PointSource,
+        monitor: &Monitor<'_>,
+    ) -> Result<Found, Error> {
+        let farthest = map_blocks(source, monitor, |row, rows| {
+            let row = self.first_row + row;
             Ok::<_, Error>(match rows {
                 Rows::F32(points) => self.block(row, &points).farthest,
                 Rows::F64(points) => self.block(row, &points).farthest,
@@ -70,33 +109,32 @@ impl<'p> Pass<'p> {
         Ok(self.found(farthest.into_iter()))
     }
 
-    pub(super) fn first(self) -> Result<FirstReport, Error> {
-        let reports =
-            map_blocks(self.reader.source, self.reader.monitor, |row, rows| match rows {
+    pub(crate) fn first(
+        self,
+        source: &dyn PointSource,
+        monitor: &Monitor<'_>,
+    ) -> Result<FirstReport, Error> {
+        let reports = map_blocks(source, monitor, |row, rows| {
+            let row = self.first_row + row;
+            match rows {
                 Rows::F32(points) => self.first_block(row, &points),
                 Rows::F64(points) => self.first_block(row, &points),
-            })?;
-        let hashes = reports.iter().map(|report| report.hash);
+            }
+        })?;
         Ok(FirstReport {
-            hash: PointsHash::of_blocks(self.reader.len(), self.reader.source.dim(), hashes),
+            hashes: reports.iter().map(|report| report.hash).collect(),
             largest: reports.iter().filter_map(|report| report.largest).reduce(farther),
             overflow: reports.iter().any(|report| report.overflow),
             found: self.found(reports.iter().map(|report| report.farthest)),
         })
     }
 
-    fn found(self, farthest: impl Iterator<Item = Far>) -> PassResult {
+    fn found(self, farthest: impl Iterator<Item = Far>) -> Found {
         let (top, by_face) = self.lists.into_inner().unwrap_or_else(PoisonError::into_inner);
-        let far = top.into_sorted();
-        let listed_above = match far.last() {
-            Some(last) if far.len() == self.query.keep => last.reach2,
-            _ => self.query.above,
-        };
-        PassResult {
+        Found {
             farthest: farthest.reduce(farther).expect("a source that is not empty has a block"),
-            far,
-            listed_above,
-            by_face: by_face.into_sorted(self.query.keep),
+            far: top.into_sorted(),
+            by_face,
         }
     }
 
@@ -116,7 +154,7 @@ impl<'p> Pass<'p> {
                 value,
             }));
         }
-        let largest = match self.reader.items {
+        let largest = match self.view.items {
             Items::Balls => Some(largest_radius(first_row, points)?),
             Items::Points | Items::Ellipsoids => None,
         };
@@ -125,12 +163,12 @@ impl<'p> Pass<'p> {
 
     /// Measures a block; its far items are merged with those of the pass.
     fn block<T: Scalar>(&self, first_row: u64, points: &Points<'_, T>) -> Measured {
-        if self.reader.scale == 1.0 {
+        if self.view.scale == 1.0 {
             return self.measure(first_row, points);
         }
         // Rare and not worth a kernel of its own: scale the block, then go on as usual.
         let mut scaled: Vec<f64> = points.values().iter().map(|&v| v.into()).collect();
-        self.reader.scale_rows(&mut scaled);
+        self.view.scale_rows(&mut scaled);
         let scaled = Points::new(&scaled, points.dim()).expect("the shape is that of the block");
         self.measure(first_row, &scaled)
     }
@@ -147,7 +185,7 @@ impl<'p> Pass<'p> {
             let part = points.slice(start..points.len().min(start + ROWS_AT_ONCE));
             let reaches = &mut reaches[..part.len()];
             squared_distances(part.values(), part.dim(), query.center, reaches);
-            if self.reader.items == Items::Balls {
+            if self.view.items == Items::Balls {
                 add_radii(&part, reaches);
             }
             finite &= all_finite(reaches);
@@ -172,7 +210,7 @@ impl<'p> Pass<'p> {
                         top.offer(far);
                     }
                     if reach2 > face_above {
-                        let row = &part.row(group * GROUP_SIZE + at)[..self.reader.dim];
+                        let row = &part.row(group * GROUP_SIZE + at)[..self.view.dim];
                         by_face.offer(face(row, query.center), far);
                     }
                 }
@@ -186,9 +224,10 @@ impl<'p> Pass<'p> {
     }
 }
 
-/// The one that reaches farther; the first of two that reach equally far.
-fn farther(a: Far, b: Far) -> Far {
-    if b.reach2 > a.reach2 { b } else { a }
+/// The one that reaches farther; the lower row of two that reach equally far.
+pub(crate) fn farther(a: Far, b: Far) -> Far {
+    let is_farther = b.reach2 > a.reach2 || b.reach2 == a.reach2 && b.id < a.id;
+    if is_farther { b } else { a }
 }
 
 fn largest_radius<T: Scalar>(first_row: u64, balls: &Points<'_, T>) -> Result<Far, Error> {

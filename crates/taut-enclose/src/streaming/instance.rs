@@ -1,6 +1,6 @@
 //! One guess of the radius, and points of the stream that are more than twice that apart.
 
-use taut_points::{Monitor, Points, ReadError, Scalar};
+use taut_points::{ByteReader, ByteWriter, Monitor, PartsError, Points, ReadError, Scalar};
 
 use super::{SeparatedSet, rounded_up};
 use crate::Error;
@@ -41,6 +41,37 @@ impl Instance {
         let mut instance = Instance { k, dim, ratio, guess, centers, rows, reaches };
         instance.merge(monitor)?;
         Ok(instance)
+    }
+
+    pub(super) fn write(&self, bytes: &mut ByteWriter) {
+        bytes.float(self.ratio);
+        bytes.float(self.guess);
+        bytes.floats(&self.centers);
+        bytes.wholes(&self.rows);
+        bytes.floats(&self.reaches);
+    }
+
+    /// Reads what [`write`](Self::write) wrote.
+    ///
+    /// # Errors
+    /// [`PartsError::Bytes`].
+    pub(super) fn read(
+        bytes: &mut ByteReader<'_>,
+        k: usize,
+        dim: usize,
+    ) -> Result<Self, PartsError> {
+        let (ratio, guess) = (bytes.float()?, bytes.float()?);
+        let (centers, rows, reaches) = (bytes.floats()?, bytes.wholes()?, bytes.floats()?);
+        let fits = (1..=k).contains(&rows.len())
+            && reaches.len() == rows.len()
+            && rows.len().checked_mul(dim) == Some(centers.len());
+        // A guess has to grow, and to get anywhere.
+        let grows = (1.001..=1001.0).contains(&ratio)
+            && (f64::MIN_POSITIVE..f64::INFINITY).contains(&guess);
+        if !fits || !grows || !centers.iter().all(|x| x.is_finite()) {
+            return Err(bytes.wrong());
+        }
+        Ok(Instance { k, dim, ratio, guess, centers, rows, reaches })
     }
 
     pub(super) fn centers(&self) -> &[f64] {

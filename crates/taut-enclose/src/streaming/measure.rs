@@ -1,11 +1,12 @@
 //! One pass that measures centers: how far the farthest point is from the nearest of them.
 
-use taut_points::{Monitor, PointSource, Points, PointsHash, Rows, Scalar, map_blocks};
+use taut_points::{BlockHash, Monitor, PointSource, Points, PointsHash, Rows, Scalar, map_blocks};
 
 use crate::Error;
-use crate::frame::{SQUARE_MIN, survey_and};
+use crate::frame::{SQUARE_MIN, survey_blocks};
 use crate::kernel::extremes::largest;
 use crate::kernel::{Center, squared_distances};
+use crate::passes::ask_reach;
 
 use super::distance;
 
@@ -20,6 +21,15 @@ pub(super) struct Measured {
     pub(super) passes: u64,
 }
 
+/// The way to measure how far the farthest point is from the nearest center.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Reach {
+    /// Squared, by the kernels; not finite or tiny where squares leave the range. Rows are hashed, and refused if they are no points.
+    Square,
+    /// As a distance, for coordinates of any size; infinite where it is no `f64`.
+    Distance,
+}
+
 /// The largest distance of a point of `source` to the nearest of `centers`.
 ///
 /// # Errors
@@ -29,33 +39,81 @@ pub(super) fn measure(
     centers: &[Vec<f64>],
     monitor: &Monitor<'_>,
 ) -> Result<Measured, Error> {
+    if source.is_empty() {
+        return Err(Error::Empty);
+    }
+    monitor.pass(1, source.len());
+    let (square, points_hash) = match source.elsewhere() {
+        Some(elsewhere) => ask_reach(elsewhere, source, centers, Reach::Square)?,
+        None => {
+            let (square, hashes) = Reach::Square.of(source, centers, monitor)?;
+            (square, PointsHash::of_blocks(source.len(), source.dim(), hashes))
+        }
+    };
+    if (SQUARE_MIN..f64::INFINITY).contains(&square) {
+        return Ok(Measured { radius: square.sqrt(), points_hash, passes: 1 });
+    }
+    let radius = match source.elsewhere() {
+        Some(elsewhere) => ask_reach(elsewhere, source, centers, Reach::Distance)?.0,
+        None => Reach::Distance.of(source, centers, monitor)?.0,
+    };
+    if radius.is_finite() {
+        Ok(Measured { radius, points_hash, passes: 2 })
+    } else {
+        Err(Error::Overflow)
+    }
+}
+
+impl Reach {
+    /// That of some rows; with squares also the hashes of their blocks.
+    pub(crate) fn of(
+        self,
+        source: &dyn PointSource,
+        centers: &[Vec<f64>],
+        monitor: &Monitor<'_>,
+    ) -> Result<(f64, Vec<BlockHash>), Error> {
+        match self {
+            Reach::Square => squares(source, centers, monitor),
+            Reach::Distance => Ok((distances(source, centers, monitor)?, vec![])),
+        }
+    }
+}
+
+fn squares(
+    source: &dyn PointSource,
+    centers: &[Vec<f64>],
+    monitor: &Monitor<'_>,
+) -> Result<(f64, Vec<BlockHash>), Error> {
     let centers: Vec<Center> =
         centers.iter().map(|c| Center { high: c.clone(), low: vec![] }).collect();
-    let (frame_pass, blocks) = survey_and(source, monitor, |rows| match rows {
+    let blocks = survey_blocks(source, monitor, |rows| match rows {
         Rows::F32(points) => farthest(points, &centers),
         Rows::F64(points) => farthest(points, &centers),
     })?;
-    let square = blocks.into_iter().fold(0.0, f64::max);
-    if (SQUARE_MIN..f64::INFINITY).contains(&square) {
-        return Ok(Measured { radius: square.sqrt(), points_hash: frame_pass.hash, passes: 1 });
-    }
+    let square = blocks.iter().map(|block| block.more).fold(0.0, f64::max);
+    Ok((square, blocks.into_iter().map(|block| block.hash).collect()))
+}
+
+fn distances(
+    source: &dyn PointSource,
+    centers: &[Vec<f64>],
+    monitor: &Monitor<'_>,
+) -> Result<f64, Error> {
     let blocks = map_blocks(source, monitor, |_, rows| {
         let (mut row, mut radius) = (vec![0.0; source.dim()], 0.0f64);
         for i in 0..rows.len() {
             rows.copy_row(i, &mut row);
             let mut nearest = f64::INFINITY;
-            for center in &centers {
+            for center in centers {
                 // A center too far away for a number is not the nearest, unless all are.
-                nearest = nearest.min(distance(&row, &center.high).unwrap_or(f64::INFINITY));
+                nearest = nearest.min(distance(&row, center).unwrap_or(f64::INFINITY));
             }
             radius = radius.max(nearest);
         }
-        if radius.is_finite() { Ok(radius) } else { Err(Error::Overflow) }
+        Ok::<_, Error>(radius)
     })?;
-    let radius = blocks.into_iter().fold(0.0, f64::max);
-    Ok(Measured { radius, points_hash: frame_pass.hash, passes: 2 })
+    Ok(blocks.into_iter().fold(0.0, f64::max))
 }
-
 /// The largest squared distance of a point to the nearest center; not finite or tiny where squares leave the range.
 fn farthest<T: Scalar>(points: &Points<'_, T>, centers: &[Center]) -> f64 {
     let (mut farthest, mut values, mut least) = (0.0, [0.0; CHUNK], [0.0; CHUNK]);

@@ -40,6 +40,7 @@ mod ellipsoids;
 mod farthest_first;
 mod inscribed_ellipsoid;
 mod kernel_ball;
+mod passes;
 mod robust;
 mod robust_far;
 mod robust_mcd;

@@ -70,7 +70,12 @@ impl<'a> Enclosure<'a> {
         }
     }
 
-    fn block(&self, first: u64, rows: &Rows<'_>) -> Result<Option<Violation>, Violation> {
+    /// The first row of a block that is outside; an error if a row is no point or ball at all.
+    pub(super) fn block(
+        &self,
+        first: u64,
+        rows: &Rows<'_>,
+    ) -> Result<Option<Violation>, Violation> {
         match (rows, self.scale.is_needed()) {
             (Rows::F32(points), false) => self.rows::<f32, false>(first, points),
             (Rows::F32(points), true) => self.rows::<f32, true>(first, points),

@@ -1,7 +1,5 @@
 //! Refusals before any point is read: lengths, ranges, the support and the sum of the multipliers.
 
-use taut_points::PointSource;
-
 use super::super::{Ball, BallCertificate};
 use crate::arithmetic::{Compensated, U, two_sum};
 use crate::{Items, Violation};
@@ -9,17 +7,18 @@ use crate::{Items, Violation};
 pub(super) fn check(
     ball: &Ball,
     certificate: &BallCertificate,
-    source: &dyn PointSource,
+    n: u64,
+    columns: usize,
 ) -> Result<(), Violation> {
-    let dim = certificate.items.dim(source.dim());
+    let dim = certificate.items.dim(columns);
     match certificate.items {
-        Items::Balls if dim == 0 => return Err(Violation::NoRadius { columns: source.dim() }),
-        Items::Ellipsoids if dim == 0 => return Err(Violation::NoShape { columns: source.dim() }),
+        Items::Balls if dim == 0 => return Err(Violation::NoRadius { columns }),
+        Items::Ellipsoids if dim == 0 => return Err(Violation::NoShape { columns }),
         _ => {}
     }
     answer(ball, dim)?;
     number("the claimed gap", certificate.gap)?;
-    support(certificate, source.len())?;
+    support(certificate, n)?;
     multipliers(&certificate.multipliers)?;
     directions(certificate.items, &certificate.directions, certificate.support.len(), dim)
 }

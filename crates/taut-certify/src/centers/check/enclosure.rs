@@ -49,15 +49,25 @@ impl<'a> Enclosure<'a> {
         let wanted = WantedRows::of(certificate.core_set.iter().chain(&self.answer.rows));
         let claimed = certificate.points_hash;
         let (blocks, kept) = hashed_pass(source, claimed, wanted, monitor, |first, rows| {
-            let mut meter = Meter::of(monitor);
-            match rows {
-                Rows::F32(points) => self.rows(first, points, &mut meter),
-                Rows::F64(points) => self.rows(first, points, &mut meter),
-            }
+            self.block(first, rows, monitor)
         })?;
         match blocks.into_iter().flatten().next() {
             Some(problem) => Err(problem.into()),
             None => Ok(kept),
+        }
+    }
+
+    /// The first row of a block that is outside or assigned wrongly; an error if a row is no item at all.
+    pub(super) fn block(
+        &self,
+        first: u64,
+        rows: &Rows<'_>,
+        monitor: &Monitor<'_>,
+    ) -> Result<Option<CentersViolation>, CheckError> {
+        let mut meter = Meter::of(monitor);
+        match rows {
+            Rows::F32(points) => self.rows(first, points, &mut meter),
+            Rows::F64(points) => self.rows(first, points, &mut meter),
         }
     }
 

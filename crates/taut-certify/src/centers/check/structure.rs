@@ -1,7 +1,5 @@
 //! Refusals before any row is read: lengths, ranges, lists, and the gap between the bounds.
 
-use taut_points::PointSource;
-
 use super::super::{Centers, CentersCertificate, CentersViolation, Placement};
 use super::item::Layout;
 use crate::arithmetic::U;
@@ -54,23 +52,24 @@ impl Reading {
 pub(super) fn check(
     answer: &Centers,
     certificate: &CentersCertificate,
-    source: &dyn PointSource,
+    n: u64,
+    columns: usize,
 ) -> Result<(Reading, f64), Violation> {
-    let reading = Reading::of(certificate, source.dim())?;
-    if source.is_empty() {
+    let reading = Reading::of(certificate, columns)?;
+    if n == 0 {
         return Err(CentersViolation::Empty.into());
     }
     number("the radius", answer.radius)?;
     number("the lower bound", answer.lower_bound)?;
     number("the claimed gap", certificate.gap)?;
     centers(answer, certificate, reading.dim())?;
-    rows(answer, certificate, source.len())?;
-    outliers(answer, certificate, source.len())?;
+    rows(answer, certificate, n)?;
+    outliers(answer, certificate, n)?;
     if !answer.assignment.is_empty() {
-        let expected = usize::try_from(source.len()).unwrap_or(usize::MAX);
+        let expected = usize::try_from(n).unwrap_or(usize::MAX);
         length("the assignment", answer.assignment.len(), expected)?;
     }
-    core_set(certificate, source.len())?;
+    core_set(certificate, n)?;
     let (points, dim) = (certificate.core_set.len(), reading.dim());
     directions(certificate.items, &certificate.directions, points, dim)?;
     Ok((reading, gap(answer, certificate)?))

@@ -68,16 +68,25 @@ impl<'a> Enclosure<'a> {
         let wanted = WantedRows::of(&certificate.support);
         let claimed = certificate.points_hash;
         let (blocks, support) = hashed_pass(source, claimed, wanted, monitor, |first, rows| {
-            if !is_finite(rows) {
-                all_finite(first, rows)?;
-            }
-            Ok(self.block(first, rows))
+            Ok(self.valid_block(first, rows)?)
         })?;
         let mut all = Enclosed::nothing(self.frame.dim);
         for block in blocks {
             all.merge(&block?);
         }
         Ok((all, support))
+    }
+
+    /// What a block of rows finds, or the first item outside; an error if a number is NaN or infinite.
+    pub(super) fn valid_block(
+        &self,
+        first: u64,
+        rows: &Rows<'_>,
+    ) -> Result<Result<Enclosed, Violation>, Violation> {
+        if !is_finite(rows) {
+            all_finite(first, rows)?;
+        }
+        Ok(self.block(first, rows))
     }
 
     fn block(&self, first: u64, rows: &Rows<'_>) -> Result<Enclosed, Violation> {
@@ -222,6 +231,12 @@ fn reaches_outside(row: u64, excess: f64) -> Result<(), Violation> {
 }
 
 impl Enclosed {
+    /// What rows of full rank were found to reach.
+    pub(super) fn of(excess: f64, extents: Vec<f64>) -> Self {
+        let nothing = Enclosed::nothing(extents.len());
+        Enclosed { excess, extents, ..nothing }
+    }
+
     fn nothing(dim: usize) -> Self {
         Enclosed {
             excess: 0.0,

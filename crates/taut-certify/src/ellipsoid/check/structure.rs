@@ -1,7 +1,5 @@
 //! Refusals before any point is read: lengths, ranges, the lists of rows and the sum of the multipliers.
 
-use taut_points::PointSource;
-
 use super::super::{Ellipsoid, EllipsoidCertificate, Hull};
 use crate::arithmetic::{Compensated, U, two_sum};
 use crate::{Items, Violation};
@@ -9,17 +7,18 @@ use crate::{Items, Violation};
 pub(crate) fn check(
     ellipsoid: &Ellipsoid,
     certificate: &EllipsoidCertificate,
-    source: &dyn PointSource,
+    n: u64,
+    columns: usize,
 ) -> Result<(), Violation> {
-    let dim = certificate.items.dim(source.dim());
+    let dim = certificate.items.dim(columns);
     match certificate.items {
-        Items::Balls if dim == 0 => return Err(Violation::NoRadius { columns: source.dim() }),
-        Items::Ellipsoids if dim == 0 => return Err(Violation::NoShape { columns: source.dim() }),
+        Items::Balls if dim == 0 => return Err(Violation::NoRadius { columns }),
+        Items::Ellipsoids if dim == 0 => return Err(Violation::NoShape { columns }),
         _ => {}
     }
     answer(ellipsoid, dim)?;
     at_least_zero("the claimed gap", certificate.gap)?;
-    lists_of_rows(certificate, source.len())?;
+    lists_of_rows(certificate, n)?;
     multipliers(&certificate.multipliers, certificate.support.len())?;
     directions(certificate, dim)
 }

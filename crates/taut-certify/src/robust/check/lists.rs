@@ -53,9 +53,12 @@ pub(super) fn check(
     kept(certificate, n)?;
     match &certificate.enclosure {
         None => Ok(()),
-        Some(enclosure) if enclosure.certificate.items == Items::Points => {
-            structure::check(&enclosure.ellipsoid, &enclosure.certificate, source)
-        }
+        Some(enclosure) if enclosure.certificate.items == Items::Points => structure::check(
+            &enclosure.ellipsoid,
+            &enclosure.certificate,
+            source.len(),
+            source.dim(),
+        ),
         Some(_) => Err(Violation::NoPoints),
     }
 }

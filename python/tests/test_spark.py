@@ -1,0 +1,342 @@
+"""Answers about DataFrames of Spark have the bytes of those in memory. Skipped where PySpark or Java are missing."""
+
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import taut
+
+pyspark = pytest.importorskip("pyspark", reason="PySpark is not installed: pip install 'taut[spark]'")
+pytest.importorskip("pyarrow", reason="pyarrow is not installed: pip install 'taut[spark]'")
+if shutil.which("java") is None:
+    pytest.skip("Java is not installed", allow_module_level=True)
+
+LONG = pytest.mark.skipif("TAUT_LONG_TESTS" not in os.environ, reason="takes minutes: TAUT_LONG_TESTS is not set")
+pytestmark = pytest.mark.filterwarnings("ignore")
+
+
+@pytest.fixture(scope="module")
+def spark():
+    """Two executors, each a process of its own with one core."""
+    from pyspark.sql import SparkSession
+
+    os.environ["PYSPARK_PYTHON"] = sys.executable
+    # Workers find what the tests find.
+    os.environ["PYTHONPATH"] = os.pathsep.join(path for path in sys.path if path)
+    session = (
+        SparkSession.builder.master("local-cluster[2,1,1024]")
+        .config("spark.driver.host", "127.0.0.1")
+        .config("spark.driver.bindAddress", "127.0.0.1")
+        .config("spark.ui.enabled", "false")
+        .config("spark.ui.showConsoleProgress", "false")
+        .config("spark.driver.memory", "1g")
+        .config("spark.sql.shuffle.partitions", "4")
+        .config("spark.sql.execution.arrow.pyspark.enabled", "true")
+        .config("spark.executorEnv.PYTHONPATH", os.environ["PYTHONPATH"])
+        .getOrCreate()
+    )
+    session.sparkContext.setLogLevel("FATAL")
+    yield session
+    session.stop()
+
+
+def frame(spark, rows, ids=None, partitions=4):
+    import pandas
+
+    columns = {f"x{at}": rows[:, at] for at in range(rows.shape[1])}
+    if ids is not None:
+        columns["key"] = ids
+    return spark.createDataFrame(pandas.DataFrame(columns)).repartition(partitions), list(columns)[: rows.shape[1]]
+
+
+@pytest.mark.parametrize(
+    ("distribution", "d", "partitions"),
+    [("poisson", 3, 7), ("sphere", 10, 1), *[pytest.param(*more, marks=LONG) for more in (("poisson", 3, 1), ("sphere", 10, 7))]],
+)
+def test_shuffled_rows_with_ids(spark, distribution, d, partitions):
+    import taut.spark
+
+    n = 200_000 // d
+    rows = taut.generate(distribution, n, d, seed=2)
+    order = np.random.default_rng(0).permutation(n)
+    df, columns = frame(spark, rows[order], [f"{at:09}" for at in order])
+    wanted = taut.ball(rows)
+    with taut.spark.Points(df, columns, id="key", partitions=partitions) as points:
+        assert points.shape == rows.shape
+        found = points.ball()
+        assert found.to_json() == wanted.to_json()
+        assert points.verify(found) == wanted.check(rows)
+        assert points.ids(found.certificate.support) == [f"{at:09}" for at in found.certificate.support]
+        radius = found.answer.radius
+        smaller = found.to_json().replace(repr(radius), repr(radius * 0.99))
+        with pytest.raises(taut.Violation) as wanted:
+            taut.verify(smaller, rows)
+        with pytest.raises(taut.Violation) as raised:
+            points.verify(smaller)
+        assert str(raised.value) == str(wanted.value)
+
+
+def test_rows_as_they_come_and_from_files(spark, tmp_path):
+    import taut.spark
+
+    rows = taut.generate("normal", 100_000, 2, seed=2).astype(np.float32)
+    df, columns = frame(spark, rows, np.arange(len(rows)), partitions=3)
+    df.orderBy("key").write.parquet(str(tmp_path / "rows"), compression="gzip")
+    stored = spark.read.parquet(str(tmp_path / "rows")).orderBy("key")
+    assert taut.spark.ball(stored, columns).to_json() == taut.ball(rows).to_json()
+    sparse = stored.where("key < 30000 or key >= 31000")
+    kept = np.delete(rows, np.s_[30_000:31_000], axis=0)
+    assert taut.spark.ball(sparse, columns, id="key").to_json() == taut.ball(kept).to_json()
+
+
+def test_ellipsoids_and_centers(spark):
+    import taut.spark
+
+    rows = taut.generate("poisson", 70_000, 3, seed=2)
+    order = np.random.default_rng(0).permutation(len(rows))
+    df, columns = frame(spark, rows[order], order)
+    with taut.spark.Points(df, columns, id="key", partitions=5) as points:
+        for found, wanted in (
+            (points.ellipsoid(), taut.ellipsoid(rows)),
+            (points.centers(6), taut.centers(rows, 6, method="stream")),
+            (points.centers(6, discrete=True), taut.centers(rows, 6, method="stream", discrete=True)),
+        ):
+            assert found.to_json() == wanted.to_json()
+            assert points.verify(found.to_json()) == wanted.check(rows)
+        flat = rows.copy()
+        flat[:, 2] = 1
+    df, columns = frame(spark, flat, np.arange(len(flat)))
+    with pytest.raises(ValueError, match="lie in a flat of dimension 2 in 3 dimensions"):
+        taut.spark.ellipsoid(df, columns, id="key")
+
+
+@pytest.mark.parametrize("distribution", ["grid", *[pytest.param(more, marks=LONG) for more in ("uniform", "clusters")]])
+def test_triangulations(spark, distribution):
+    import taut.spark
+
+    rows = taut.generate(distribution, 20_000, 2, seed=2)
+    wanted = taut.delaunay(rows)
+    df, columns = frame(spark, rows, [f"{at:09}" for at in range(len(rows))])
+    with taut.spark.Points(df, columns, id="key", partitions=3) as points:
+        # Sixteen leaves, one, and 32, of which fronts go up twice.
+        for leaf_points in (1250, 10**6, 625):
+            found = points.delaunay(leaf_points=leaf_points)
+            assert found.fingerprint == wanted.fingerprint
+            assert found.total == len(wanted.simplices)
+            assert found.hull == len(wanted.hull)
+            assert found.duplicates == len(wanted.duplicates)
+            assert (found.passed_up == 0) == (leaf_points == 10**6)
+        table = found.simplices.toPandas().astype(int).to_numpy()
+        assert {tuple(sorted(row)) for row in table.tolist()} == {tuple(sorted(row)) for row in wanted.simplices.tolist()}
+        assert len(table) == found.total
+        with pytest.raises(ValueError, match="at least 1"):
+            points.delaunay(leaf_points=0)
+    df, columns = frame(spark, rows)
+    with taut.spark.Points(df, [*columns, columns[0]]) as points:
+        with pytest.raises(ValueError, match="have 3 coordinates"):
+            points.delaunay()
+
+
+def test_bad_input(spark, tmp_path):
+    import taut.spark
+
+    rows = taut.generate("normal", 1000, 2, seed=2)
+    df, columns = frame(spark, rows, np.arange(1000))
+    ball = taut.spark.ball
+    with pytest.raises(ValueError, match="no column 'z'"):
+        ball(df, ["x0", "z"])
+    with pytest.raises(ValueError, match="'name' is of type string"):
+        ball(df.selectExpr("*", "string(key) as name"), ["x0", "name"])
+    with pytest.raises(ValueError, match="no columns"):
+        ball(df, [])
+    with pytest.raises(ValueError, match="has no rows"):
+        ball(df.where("x0 > 1e9"), columns)
+    odd = df.selectExpr("x0", "if(key = 700, double('NaN'), x1) as x1", "key")
+    with pytest.raises(ValueError, match=r"column 'x1' of id 700 in partition \d is nan"):
+        ball(odd, columns, id="key")
+    with pytest.raises(ValueError, match=r"column 'x1' of row \d+ in partition \d is nan"):
+        ball(odd, columns)
+    odd = df.selectExpr("if(key = 700, null, x0) as x0", "x1", "key")
+    with pytest.raises(ValueError, match=r"column 'x0' of id 700 in partition \d is null"):
+        ball(odd, columns, id="key")
+    odd = df.selectExpr("x0", "x1", "if(key = 700, 3, key) as key")
+    with pytest.raises(ValueError, match=r"'key', the id, has 3 twice"):
+        ball(odd, columns, id="key")
+    odd = df.selectExpr("x0", "x1", "if(key = 700, null, key) as key")
+    with pytest.raises(ValueError, match=r"'key', the id, is null"):
+        ball(odd, columns, id="key")
+    far = df.selectExpr("key * bigint(9007199254740993) as x0", "key")
+    with pytest.raises(ValueError, match=r"column 'x0' of id 1 in partition \d is 9007199254740993, which float64"):
+        ball(far, ["x0"], id="key")
+    # Nothing is left behind.
+    with pytest.raises(ValueError, match="is null"):
+        taut.spark.Points(odd, columns, id="key", scratch=str(tmp_path))
+    assert not [path for path in tmp_path.rglob("*") if path.is_file()]
+    # Empty partitions are none of these.
+    kept = rows[:50]
+    found = ball(df.where("key < 50").repartition(80), columns, id="key", partitions=60)
+    assert found.to_json() == taut.ball(kept).to_json()
+
+
+def test_files_that_are_lost(spark, tmp_path):
+    import taut.spark
+    from pyspark.sql.functions import udf
+
+    def lose():
+        lost = [path.unlink() for path in tmp_path.rglob("*.rows")]
+        assert lost
+
+    rows = taut.generate("normal", 100_000, 2, seed=2)
+    df, columns = frame(spark, rows, np.arange(len(rows)))
+    with taut.spark.Points(df, columns, id="key", scratch=str(tmp_path)) as points:
+        lose()
+        found = points.ball()
+        assert found.to_json() == taut.ball(rows).to_json()
+        lose()
+        assert points.centers(3).to_json() == taut.centers(rows, 3, method="stream").to_json()
+        lose()
+        assert points.ids(found.certificate.support) == found.certificate.support.tolist()
+    assert not list(tmp_path.rglob("*.ids"))
+    # Other rows each time they are made.
+    odd = udf(lambda key: key + int.from_bytes(os.urandom(2)) / 2**16, "double").asNondeterministic()
+    df = spark.range(1000).select(odd("id").alias("x0"))
+    with taut.spark.Points(df, ["x0"], scratch=str(tmp_path)) as points:
+        lose()
+        with pytest.raises(RuntimeError, match=r"partition \d has other rows when the DataFrame is read again"):
+            points.ball()
+
+
+def executors():
+    """The processes of the executors that this process started."""
+    listed = subprocess.run(["ps", "-ewwo", "pid,ppid,args"], capture_output=True, text=True, check=True).stdout
+    # A process that just begins may have no arguments yet.
+    lines = [fields for line in listed.splitlines()[1:] if len(fields := line.split(None, 2)) == 3]
+    children = {os.getpid()}
+    for _ in range(5):
+        children |= {int(pid) for pid, parent, _ in lines if int(parent) in children}
+    return [int(pid) for pid, _, args in lines if int(pid) in children and "CoarseGrainedExecutorBackend" in args]
+
+
+def killed_in_pass(points, caplog, number, delay):
+    """The ball, with an executor killed some time after a pass began; and whether that was before it ended."""
+    caplog.clear()
+    before = []
+
+    def kill():
+        while not any(f"pass {number} " in record.getMessage() for record in caplog.records):
+            time.sleep(0.001)
+        time.sleep(delay)
+        os.kill(executors()[0], signal.SIGKILL)
+        before.extend(record.getMessage() for record in caplog.records)
+
+    thread = threading.Thread(target=kill)
+    thread.start()
+    found = points.ball()
+    thread.join()
+    return found, before[-1].startswith(f"pass {number} ") and before[-1].endswith("begins")
+
+
+def test_a_killed_executor_changes_nothing(spark, caplog):
+    import taut.spark
+
+    caplog.set_level("INFO", "taut.spark")
+    rows = taut.generate("sphere", 200_000, 10, seed=2)
+    df, columns = frame(spark, rows, np.arange(len(rows)))
+    wanted = taut.ball(rows).to_json()
+    with taut.spark.Points(df, columns, id="key") as points:
+        found, fell_within = killed_in_pass(points, caplog, 2, 0.01)
+        assert found.to_json() == wanted
+        assert fell_within
+        assert points.verify(wanted) == taut.verify(wanted, rows)
+
+
+@LONG
+def test_executors_killed_at_random_moments(spark, caplog):
+    import taut.spark
+
+    caplog.set_level("INFO", "taut.spark")
+    rows = taut.generate("normal", 1_000_000, 10, seed=2)
+    df, columns = frame(spark, rows, np.arange(len(rows)))
+    wanted = taut.ball(rows).to_json()
+    rng = np.random.default_rng(5)
+    with taut.spark.Points(df, columns, id="key") as points:
+        points.ball()
+        caplog.clear()
+        begin = time.monotonic()
+        points.ball()
+        undisturbed = time.monotonic() - begin
+        times = {record.getMessage(): record.created for record in caplog.records}
+        passes = sum(message.startswith("pass") and message.endswith("begins") for message in times)
+        kills = 0
+        for _ in range(20):
+            if kills == 5:
+                break
+            number = int(rng.integers(1, passes + 1))
+            [start], [end] = ([at for name, at in times.items() if name.startswith(f"pass {number} ") and name.endswith(how)]
+                              for how in ("begins", "ends"))
+            begin = time.monotonic()
+            found, fell_within = killed_in_pass(points, caplog, number, rng.uniform(0, end - start) * 0.8)
+            took = time.monotonic() - begin
+            assert found.to_json() == wanted
+            if fell_within:
+                kills += 1
+                print(f"killed within pass {number} of {passes}: {took:.1f} s, undisturbed {undisturbed:.1f} s")
+                assert took <= 3 * undisturbed + 15
+        assert kills == 5
+
+
+def sets_with_ties():
+    """Thirty point sets of three blocks, most with ties or copies."""
+    for d in (1, 2, 3, 10, 30):
+        n = 3 * (65_536 // d) - 5
+        for distribution in ("normal", "cube", "sphere", "poisson", "uniform"):
+            yield f"{distribution}, {d}", taut.generate(distribution, n, d, seed=d)
+        grid = np.random.default_rng(d).integers(0, 4, (n, d))
+        yield f"grid, {d}", grid / 4
+
+
+@LONG
+def test_thirty_sets_with_ties_in_any_partitions(spark, tmp_path):
+    import taut.spark
+
+    rng, compared = np.random.default_rng(1), 0
+    for number, (name, rows) in enumerate(sets_with_ties()):
+        order = rng.permutation(len(rows))
+        df, columns = frame(spark, rows[order], order)
+        path = str(tmp_path / str(number))
+        df.write.parquet(path, compression="gzip")
+        wanted = taut.ball(rows)
+        for at, partitions in enumerate((1, 4, 7, 16)):
+            source = df.cache() if (number + at) % 2 else spark.read.parquet(path)
+            with taut.spark.Points(source, columns, id="key", partitions=partitions) as points:
+                assert points.ball().to_json() == wanted.to_json(), (name, partitions)
+                compared += 1
+                if partitions == 7:
+                    cover = points.centers(4)
+                    assert cover.to_json() == taut.centers(rows, 4, method="stream").to_json(), name
+                    assert points.verify(cover) == cover.check(rows), name
+                    ellipsoid = points.ellipsoid()
+                    assert ellipsoid.to_json() == taut.ellipsoid(rows).to_json(), name
+                    assert points.verify(ellipsoid) == ellipsoid.check(rows), name
+                    compared += 2
+        df.unpersist()
+    print(f"{compared} answers have the bytes of those in memory")
+    assert compared == 30 * 6
+
+
+@LONG
+def test_balls_take_few_passes():
+    """Passes are those in memory, as answers have the same bytes."""
+    for n, d in ((10**7, 10), (10**6, 100)):
+        for distribution in ("normal", "sphere", "cube", "uniform", "clusters"):
+            rows = taut.generate(distribution, n, d, seed=1)
+            passes = taut.ball(rows).trace.passes
+            print(f"{distribution}, {n} x {d}: {passes} passes")
+            assert passes <= 8
