@@ -105,6 +105,8 @@ pub struct Field {
     pub remark: Option<String>,
     /// The strength of the evidence for it; `None` for what is only told.
     pub standing: Option<EvidenceKind>,
+    /// The rows that the remark names, from 0.
+    pub rows: Vec<u64>,
 }
 
 /// The strength of the evidence for a claim: `docs/certificates.md` says for each why.
@@ -129,7 +131,7 @@ impl EvidenceKind {
 impl Field {
     /// What is only told.
     pub fn new(name: &'static str, value: impl Into<String>) -> Self {
-        Field { name, value: value.into(), remark: None, standing: None }
+        Field { name, value: value.into(), remark: None, standing: None, rows: vec![] }
     }
 
     /// A claim that the checker derived.
@@ -201,7 +203,7 @@ fn plural(outliers: u64) -> &'static str {
 }
 
 /// A number of rows and which part of all rows that is: "200 (50 %)".
-pub(crate) fn share(some: u64, all: u64) -> String {
+pub fn share(some: u64, all: u64) -> String {
     if some == 0 {
         return "none".to_owned();
     }
@@ -239,15 +241,21 @@ const SHOWN_ROWS_MAX: usize = 8;
 
 /// Returns how many rows there are, and the numbers of the first, counted from 1 as in the file.
 pub(crate) fn rows_of(name: &'static str, rows: &[u64]) -> Field {
-    let field = Field::new(name, count(rows.len() as u64));
-    let row = |&row: &u64| row.saturating_add(1).to_string();
-    let named: Vec<String> = rows.iter().take(SHOWN_ROWS_MAX).map(row).collect();
+    let mut field = Field::new(name, count(rows.len() as u64));
+    field.rows = rows.to_vec();
+    field.remark = remark_of_rows(rows, |row| row.saturating_add(1).to_string());
+    field
+}
+
+/// Names the first of some rows; `None` where there are none.
+pub fn remark_of_rows(rows: &[u64], name: impl Fn(u64) -> String) -> Option<String> {
+    let named: Vec<String> = rows.iter().take(SHOWN_ROWS_MAX).map(|&row| name(row)).collect();
     let more =
         if rows.len() > SHOWN_ROWS_MAX { ", …; the JSON holds them (-o FILE)" } else { "" };
     match named.len() {
-        0 => field,
-        1 => field.remark(format!("row {}", named[0])),
-        _ => field.remark(format!("rows {}{more}", named.join(", "))),
+        0 => None,
+        1 => Some(format!("row {}", named[0])),
+        _ => Some(format!("rows {}{more}", named.join(", "))),
     }
 }
 
@@ -283,7 +291,7 @@ pub fn stopped(stop: Stop) -> &'static str {
 /// Title and fields as text, a field a line, the values in one column.
 pub fn text(title: &str, fields: &[Field]) -> String {
     let width = fields.iter().map(|field| field.name.len() + 1).max().unwrap_or(0).max(10);
-    let lines = fields.iter().map(|Field { name, value, remark, standing }| {
+    let lines = fields.iter().map(|Field { name, value, remark, standing, .. }| {
         let said = match (standing, remark) {
             (Some(standing), Some(remark)) => format!("; {}: {remark}", standing.word()),
             (Some(standing), None) => format!("; {}", standing.word()),
