@@ -115,7 +115,7 @@ fn explain<A: Summary>(violation: &Violation, points: &Opened) -> String {
 }
 
 fn listed(fields: &[Field]) -> Vec<Value> {
-    let one = |Field { name, value, remark, standing }: &Field| {
+    let one = |Field { name, value, remark, standing, .. }: &Field| {
         let standing = standing.map(|standing| standing.word());
         json!({ "name": name, "value": value, "remark": remark, "standing": standing })
     };
