@@ -1,5 +1,6 @@
 //! Tables of results: columns of numbers or names, to csv, tsv, npy, parquet and arrow.
 
+#[cfg(feature = "arrow")]
 use std::io::Write;
 use std::path::Path;
 #[cfg(feature = "arrow")]
