@@ -25,8 +25,8 @@ use crate::{AnySolution, AnyVerdict, CheckError, Violation};
 pub struct PartialVerdict {
     n: u64,
     columns: usize,
-    /// The hash that the certificate names, which tells it from others.
-    claimed: PointsHash,
+    /// The fingerprint of the answer with its certificate.
+    answer: u64,
     blocks: BlockRuns,
     /// Rows that the certificate names.
     rows: BTreeMap<u64, Vec<f64>>,
@@ -42,7 +42,7 @@ impl PartialVerdict {
     /// # Errors
     /// [`PartsError::Question`] where they are about two answers, [`PartsError::Twice`] for a block that both have.
     pub fn merge(self, other: Self) -> Result<Self, PartsError> {
-        let about = |part: &Self| (part.n, part.columns, part.claimed);
+        let about = |part: &Self| (part.n, part.columns, part.answer);
         if about(&self) != about(&other) {
             return Err(PartsError::Question);
         }
@@ -60,7 +60,7 @@ impl PartialVerdict {
     /// The partial verdict as bytes.
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut bytes = ByteWriter::new(VERDICT);
-        for number in [self.n, self.columns as u64, self.claimed.0] {
+        for number in [self.n, self.columns as u64, self.answer] {
             bytes.whole(number);
         }
         self.blocks.write(&mut bytes);
@@ -79,7 +79,7 @@ impl PartialVerdict {
     /// [`PartsError::Bytes`].
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, PartsError> {
         let mut bytes = ByteReader::new(VERDICT, bytes)?;
-        let (n, columns, claimed) = (bytes.whole()?, bytes.size()?, bytes.whole()?);
+        let (n, columns, answer) = (bytes.whole()?, bytes.size()?, bytes.whole()?);
         let blocks = BlockRuns::read(&mut bytes)?;
         let mut rows = BTreeMap::new();
         for _ in 0..bytes.count(16)? {
@@ -90,14 +90,7 @@ impl PartialVerdict {
             rows.insert(id, row);
         }
         let findings = Findings::read(&mut bytes)?;
-        bytes.end(PartialVerdict {
-            n,
-            columns,
-            claimed: PointsHash(claimed),
-            blocks,
-            rows,
-            findings,
-        })
+        bytes.end(PartialVerdict { n, columns, answer, blocks, rows, findings })
     }
 }
 
@@ -116,6 +109,13 @@ impl AnySolution {
             }
             other => Err(CheckError::NoParts { kind: other.kind() }),
         }
+    }
+
+    /// Returns the FNV-1a hash of the JSON, which tells an answer from others about the same points.
+    fn fingerprint(&self) -> u64 {
+        self.to_json().bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+            (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+        })
     }
 
     /// The hash and the rows that the certificate names.
@@ -176,7 +176,7 @@ impl AnySolution {
         let columns = part.dim();
         self.check_structure(n, columns)?;
         check_part(part, first_row, n)?;
-        let (claimed, support) = self.named()?;
+        let (_, support) = self.named()?;
         let wanted = WantedRows::of(&support);
         let found = map_blocks(part, monitor, |row, rows| {
             let first = first_row + row;
@@ -191,7 +191,8 @@ impl AnySolution {
         let rows = ids.iter().copied().zip(values.map(<[f64]>::to_vec)).collect();
         let findings = found.into_iter().map(|block| block.2);
         let findings = findings.reduce(Findings::merge).unwrap_or_default();
-        Ok(PartialVerdict { n, columns, claimed, blocks, rows, findings })
+        let answer = self.fingerprint();
+        Ok(PartialVerdict { n, columns, answer, blocks, rows, findings })
     }
 
     /// The verdict over all rows, from what was found in all parts.
@@ -207,7 +208,7 @@ impl AnySolution {
         self.check_structure(*n, *columns)?;
         let (claimed, support) = self.named()?;
         let found = blocks.hash(*n, *columns)?;
-        if merged.claimed != claimed {
+        if merged.answer != self.fingerprint() {
             return Err(PartsError::Question.into());
         }
         findings.refuse_invalid()?;
@@ -241,7 +242,7 @@ impl AnySolution {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Ball, BallCertificate, Items, Solution, Trace};
+    use crate::{Ball, BallCertificate, Ellipsoid, EllipsoidCertificate, Items, Solution, Trace};
     use taut_points::{Points, hash_points};
 
     /// Two points at distance 2 among many between them, and the ball around them.
@@ -255,6 +256,30 @@ mod tests {
             directions: vec![],
             gap: 1e-15,
             points_hash: hash_points(&points, &Monitor::silent()).unwrap(),
+        };
+        Solution { answer, certificate, trace: Trace::default() }.into()
+    }
+
+    /// The unit circle as an ellipsoid that claims to be about the points of this ball.
+    fn ellipsoid(ball: &AnySolution) -> AnySolution {
+        let AnySolution::Ball(ball) = ball else { unreachable!() };
+        let unit = vec![vec![1.0, 0.0], vec![0.0, 1.0]];
+        let answer = Ellipsoid {
+            center: vec![0.0, 0.0],
+            center_tail: vec![],
+            matrix: unit.clone(),
+            factor: unit,
+            hull: None,
+            log_volume: std::f64::consts::PI.ln(),
+        };
+        let certificate = EllipsoidCertificate {
+            items: Items::Points,
+            support: ball.certificate.support.clone(),
+            multipliers: vec![1.0, 1.0],
+            directions: vec![],
+            left_out: vec![],
+            gap: 1e-9,
+            points_hash: ball.certificate.points_hash,
         };
         Solution { answer, certificate, trace: Trace::default() }.into()
     }
@@ -327,6 +352,13 @@ mod tests {
         let other = ball(&values[..199_998].iter().copied().chain([1.0, 0.5]).collect::<Vec<_>>());
         let all = b.merge(a).unwrap();
         let question = other.check_parts(&all, &monitor);
+        assert!(matches!(question, Err(CheckError::Parts(PartsError::Question))));
+        // Parts of the right ball prove neither another ball nor an ellipsoid, of the same points.
+        let AnySolution::Ball(mut moved) = solution.clone() else { unreachable!() };
+        moved.answer.center[0] = 1e-13;
+        let question = AnySolution::from(moved).check_parts(&all, &monitor);
+        assert!(matches!(question, Err(CheckError::Parts(PartsError::Question))));
+        let question = ellipsoid(&solution).check_parts(&all, &monitor);
         assert!(matches!(question, Err(CheckError::Parts(PartsError::Question))));
         let odd = solution.check_part(&points.slice(0..7), 0, 100_000, &monitor);
         assert!(matches!(odd, Err(CheckError::Parts(PartsError::Boundary { .. }))));

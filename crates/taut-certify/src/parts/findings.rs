@@ -63,6 +63,9 @@ impl Findings {
     }
 }
 
+/// The number of faults that have no form in bytes; readers know it as little as any other.
+const OTHER_FAULT: u64 = 6;
+
 fn write_fault(fault: Option<&Violation>, bytes: &mut ByteWriter) {
     let (kind, row, column, numbers): (u64, u64, usize, [f64; 3]) = match fault {
         Some(&Violation::NonFinite { row, column, value }) => (1, row, column, [value, 0.0, 0.0]),
@@ -80,7 +83,9 @@ fn write_fault(fault: Option<&Violation>, bytes: &mut ByteWriter) {
             radius,
             excess,
         })) => (5, row, center, [distance, radius, excess]),
-        _ => (0, 0, 0, [0.0; 3]),
+        None => (0, 0, 0, [0.0; 3]),
+        // No faults of rows: whoever reads them refuses the bytes, and does not take them for none.
+        Some(_) => (OTHER_FAULT, 0, 0, [0.0; 3]),
     };
     bytes.whole(kind);
     bytes.whole(row);
@@ -114,5 +119,22 @@ fn row_of(fault: &Violation) -> u64 {
         | Violation::OutsideEllipsoid { row, .. }
         | Violation::Centers(CentersViolation::Outside { row, .. }) => row,
         _ => u64::MAX,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_fault_without_a_form_in_bytes_is_not_taken_for_none() {
+        let fault = Violation::Hash { claimed: String::new(), found: String::new() };
+        for (outside, is_readable) in [(None, true), (Some(fault), false)] {
+            let mut bytes = ByteWriter::new("test");
+            Findings { outside, ..Findings::default() }.write(&mut bytes);
+            let bytes = bytes.into_bytes();
+            let read = Findings::read(&mut ByteReader::new("test", &bytes).unwrap());
+            assert_eq!(read.is_ok(), is_readable);
+        }
     }
 }
