@@ -158,7 +158,9 @@ impl BlockRuns {
                 Ok(PointsHash::of_run(n, dim, hash))
             }
             [Run { first: 0, hash }, ..] => {
-                Err(PartsError::Missing { row: blocks.range(hash.blocks()).start })
+                // Blocks may be more than there are, where bytes were forged.
+                let row = hash.blocks().saturating_mul(blocks.range(0).end);
+                Err(PartsError::Missing { row })
             }
             _ => Err(PartsError::Missing { row: 0 }),
         }
@@ -242,6 +244,9 @@ mod tests {
         let gap = run(0, 2).merge(run(3, 5), rows).unwrap();
         assert_eq!(gap.hash(n, dim), Err(PartsError::Missing { row: 2 * rows }));
         assert_eq!(run(1, 5).hash(n, dim), Err(PartsError::Missing { row: 0 }));
+        let forged =
+            BlockRuns { runs: vec![Run { first: 0, hash: HashRun::from_bits(u64::MAX, 7) }] };
+        assert_eq!(forged.hash(n, dim), Err(PartsError::Missing { row: u64::MAX }));
         assert_eq!(run(2, 2).hash(n, dim), Err(PartsError::Missing { row: 0 }));
     }
 
