@@ -91,11 +91,11 @@ type Node<'py> =
 
 fn node<'py>(
     py: Python<'py>,
-    extent: &[u8],
+    extent: &Extent<D>,
     work: impl FnOnce(&Whole<D>, &mut Vec<u8>, &Monitor<'_>) -> Result<(TileCounts, Front<D>), Error>
     + Send,
 ) -> PyResult<Node<'py>> {
-    let whole = Extent::<D>::from_bytes(extent).map_err(refused)?.whole();
+    let whole = extent.whole();
     let done = interruptible(py, |monitor| {
         let mut tile = vec![];
         work(&whole, &mut tile, monitor).map(|(counts, front)| (tile, counts, front))
@@ -123,8 +123,15 @@ pub(crate) fn triangulate_leaf<'py>(
     if sites.coordinates.len() != sites.rows.len() {
         return Err(PyValueError::new_err("there are not as many row numbers as points"));
     }
+    let extent = Extent::<D>::from_bytes(extent).map_err(refused)?;
+    let (found, expected) = (sites.rows.len(), extent.points_of(number));
+    if found as u64 != expected {
+        return Err(PyValueError::new_err(format!(
+            "node {number} has {expected} points, and {found} came"
+        )));
+    }
     let job = NodeJob { node: number, row_bytes: 8, output: "memory" };
-    node(py, extent, move |whole, tile, monitor| summarize(whole, job, sites, tile, monitor))
+    node(py, &extent, move |whole, tile, monitor| summarize(whole, job, sites, tile, monitor))
 }
 
 /// Triangulates what is unfinished in the nodes below one; 0 is the root.
@@ -139,8 +146,9 @@ pub(crate) fn triangulate_fronts<'py>(
     for front in fronts {
         all.append(Front::from_bytes(front.as_bytes()).map_err(raise)?);
     }
+    let extent = Extent::<D>::from_bytes(extent).map_err(refused)?;
     let job = NodeJob { node: number, row_bytes: 8, output: "memory" };
-    node(py, extent, move |whole, tile, monitor| match number {
+    node(py, &extent, move |whole, tile, monitor| match number {
         0 => Ok((finish(whole, job, all, tile, monitor)?, Front::empty())),
         _ => merge(whole, job, all, tile, monitor),
     })

@@ -51,6 +51,15 @@ impl<const D: usize> Extent<D> {
         self.cells.iter().map(|cell| cell.count).sum()
     }
 
+    /// Points in the cells of a node: 0 is the root, and 2i + 1 and 2i + 2 lie below i.
+    pub fn points_of(&self, node: u32) -> u64 {
+        let number = u64::from(node) + 1;
+        let level = number.ilog2();
+        let (first, count) =
+            ((number - (1 << level)) as usize, self.cells.len().checked_shr(level).unwrap_or(0));
+        self.cells[first * count..][..count].iter().map(|cell| cell.count).sum()
+    }
+
     /// Returns true if there is no point.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
@@ -157,11 +166,15 @@ mod tests {
                 extent = extent.merge(&Extent::from_bytes(&seen.to_bytes()).unwrap()).unwrap();
             }
             assert_eq!(extent.len(), points.len() as u64);
-            let extent = extent.to_bytes();
+            assert_eq!(extent.points_of(0), extent.len());
+            assert_eq!(extent.points_of(4000), 0, "below all cells");
+            let (whole, extent) = (extent.clone(), extent.to_bytes());
             let mut counts = vec![];
             let mut fronts = [vec![], vec![]];
             for (leaf, points) in leaves.into_iter().enumerate() {
-                let (tile, front) = run(&extent, 7 + leaf as u32, Ok(points));
+                let node = 7 + leaf as u32;
+                assert_eq!(whole.points_of(node), points.rows.len() as u64, "{name}");
+                let (tile, front) = run(&extent, node, Ok(points));
                 counts.push(tile);
                 fronts[leaf / 4].push(front);
             }
