@@ -1,6 +1,7 @@
 //! `taut.passes`: solvers that ask, and the answers of parts, all but the solver as bytes.
 
 use std::sync::{Mutex, PoisonError};
+use std::thread::available_parallelism;
 
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -8,7 +9,7 @@ use pyo3::types::PyBytes;
 use taut::certify::{AnySolution, CheckError, PartialVerdict, Placement};
 use taut::enclose::passes::{Partial, Query, Solver};
 use taut::enclose::{Error, StreamingCenters, StreamingOptions};
-use taut::points::{Blocks, PartsError, on_threads};
+use taut::points::{Blocks, PartsError, THREADS_MAX, on_threads};
 use taut::{BallMethod, BallOptions, Items};
 
 use crate::ellipsoid::options;
@@ -53,7 +54,7 @@ impl PassSolver {
             batch: whole("batch", batch, "at least 1, or None")?,
             delta,
             max_passes: whole("max_passes", max_passes, "at least 3")?,
-            threads: whole("threads", threads, "1 to 1024, or None")?,
+            threads: Some(living(whole("threads", threads, "1 to 1024, or None")?)),
             seed: whole("seed", seed, "0 to 2**64 - 1")?,
             ..BallOptions::default()
         };
@@ -72,7 +73,8 @@ impl PassSolver {
         threads: &Bound<'_, PyAny>,
         seed: &Bound<'_, PyAny>,
     ) -> PyResult<Self> {
-        let options = options(epsilon, "newton", max_passes, threads, seed)?;
+        let mut options = options(epsilon, "newton", max_passes, threads, seed)?;
+        options.threads = Some(living(options.threads));
         let items = Items::Points;
         let solver = Solver::ellipsoid(rows, columns, options)
             .map_err(|error| raise(error, items, columns))?;
@@ -123,6 +125,15 @@ impl PassSolver {
     fn raise(&self, error: Error) -> PyErr {
         raise(error, self.items, self.columns)
     }
+}
+
+/// The threads of a solver, which works on a thread of its own.
+///
+/// *Trap.* It outlives the call that starts it, and the global pool has no threads in a process that was forked: so it takes a pool of
+/// its own.
+fn living(threads: Option<usize>) -> usize {
+    let all = || available_parallelism().map_or(1, |count| count.get().min(THREADS_MAX));
+    threads.unwrap_or_else(all)
 }
 
 /// Rows, columns and whether it is a pass, of a query.

@@ -56,7 +56,7 @@ def rows_of_block(columns: int) -> int:
 @final
 @dataclass(frozen=True, slots=True)
 class Partial:
-    """What some blocks of rows answer to a query. Its bytes travel, and it can be pickled."""
+    """The answer of some blocks of rows to a query. Its bytes travel, and it can be pickled."""
 
     data: bytes
 
@@ -64,7 +64,7 @@ class Partial:
 @final
 @dataclass(frozen=True, slots=True)
 class PartialVerdict:
-    """What the checker found in some blocks of rows. Its bytes travel, and it can be pickled."""
+    """The findings of the checker in some blocks of rows. Its bytes travel, and it can be pickled."""
 
     data: bytes
     columns: int
@@ -73,7 +73,7 @@ class PartialVerdict:
 @final
 @dataclass(frozen=True, slots=True)
 class Query:
-    """What a solver asks of all rows. Its bytes travel, and it can be pickled."""
+    """A question of a solver about all rows. Its bytes travel, and it can be pickled."""
 
     data: bytes
 
@@ -288,6 +288,8 @@ class Solver:
         ValueError
             As the function in memory, and while a query is open.
         """
+        if self.query() is not None:
+            raise ValueError("the solver still has a question: run it on all parts and feed the answer")
         return Solution(self._native.solution())
 
 

@@ -55,6 +55,28 @@ def test_a_fork_and_its_fork_solve_check_and_generate():
     assert said == ["child", "grandchild", "sibling"]
 
 
+def test_a_fork_drives_solvers():
+    said = run(
+        """
+        import os
+        import taut
+        from taut import passes
+
+        points = taut.generate("normal", 20_000, 3)
+        ball, ellipsoid = taut.ball(points), taut.ellipsoid(points)
+        child = os.fork()
+        if child == 0:
+            ask = lambda query: query.run(points)
+            assert passes.solve(passes.Solver.ball(*points.shape), ask) == ball
+            assert passes.solve(passes.Solver.ellipsoid(*points.shape), ask) == ellipsoid
+            print("child", flush=True)
+            os._exit(0)
+        assert os.waitpid(child, 0)[1] == 0
+        """
+    )
+    assert said == ["child"]
+
+
 def test_a_pool_of_forked_processes_solves():
     said = run(
         """

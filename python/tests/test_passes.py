@@ -1,7 +1,11 @@
 """Solutions from parts have the bytes of those in memory."""
 
 import doctest
+import json
+import os
 import pickle
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -107,6 +111,45 @@ def test_a_wrong_answer_is_refused_with_the_first_row():
         )
 
 
+def test_parts_of_one_answer_prove_no_other():
+    rows = taut.generate("uniform", 70_000, 2, seed=4)
+    found = taut.ball(rows)
+    parts = [passes.check_part(found, block, first, len(rows)) for first, block in in_parts(rows, 2)]
+    assert passes.check_parts(found, parts) == found.check(rows)
+    forged = json.loads(found.to_json())
+    forged["answer"]["center"][0] += 1e-12
+    moved = taut.Solution.from_json(json.dumps(forged))
+    for other in (moved, taut.ellipsoid(rows)):
+        with pytest.raises(ValueError, match="another question"):
+            passes.check_parts(other, parts)
+
+
+def test_kernels_that_round_differently_are_not_mixed():
+    rows = taut.generate("uniform", 70_000, 2, seed=4)
+    solver = passes.Solver.ball(*rows.shape)
+    first, rest = rows[:32_768], rows[32_768:]
+    solver.feed(passes.merge([solver.query().run(first, 0), solver.query().run(rest, 32_768)]))
+    query = solver.query()
+    script = (
+        "import sys, taut; from taut import passes\n"
+        "rows = taut.generate('uniform', 70_000, 2, seed=4)\n"
+        "sys.stdout.buffer.write(passes.Query(sys.stdin.buffer.read()).run(rows[32_768:], 32_768).data)"
+    )
+    found = {
+        kernels: subprocess.run(
+            [sys.executable, "-c", script], input=query.data, capture_output=True, check=True,
+            env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path)), **kernels_of},
+        ).stdout
+        for kernels, kernels_of in (("own", {}), ("portable", {"TAUT_KERNELS": "portable"}))
+    }
+    mine = query.run(first, 0)
+    passes.merge([mine, passes.Partial(found["own"])])
+    if found["own"] == found["portable"]:
+        pytest.skip("this processor has no other kernels than the portable ones")
+    with pytest.raises(ValueError, match="kernels .* round differently: set TAUT_KERNELS"):
+        passes.merge([mine, passes.Partial(found["portable"])])
+
+
 def test_refusals():
     rows = taut.generate("uniform", 100_000, 2, seed=4)
     solver = passes.Solver.ball(*rows.shape)
@@ -121,6 +164,9 @@ def test_refusals():
         query.run(rows[:1000], 0)
     with pytest.raises(ValueError, match="still has a question"):
         passes.Solver.ball(*rows.shape).solution()
+    with pytest.raises(ValueError, match="still has a question"):
+        solver.solution()
+    assert solver.query() == query
     solver.feed(passes.merge([second, first]))
     with pytest.raises(ValueError, match="another question"):
         solver.feed(passes.merge([second, first]))
