@@ -274,7 +274,7 @@ pub(crate) fn check_parts<'py>(
     }
 }
 
-/// What the checker found, as an exception.
+/// Returns the exception for an error of the checker.
 fn judgment(error: CheckError, solution: &AnySolution, columns: usize) -> PyErr {
     let items = match solution {
         AnySolution::Ball(found) => found.certificate.items,

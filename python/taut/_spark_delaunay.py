@@ -68,7 +68,7 @@ def sample(elements: Iterator[tasks.Record], layout: tasks.Layout) -> Iterator[A
 
 
 def extent(elements: Iterator[tasks.Record], layout: tasks.Layout, cut: Cut) -> Iterator[bytes | None]:
-    """What all nodes must know of the rows of partitions; None where a file is not here."""
+    """Yields the extents of partitions, which all nodes must know; None where a file is not here."""
     taut = tasks.import_taut()
     for record in elements:
         if not tasks.is_here(record, layout):
@@ -83,14 +83,15 @@ def merge_extents(a: bytes | None, b: bytes | None) -> bytes | None:
 
 
 def deal(elements: Iterator[tasks.Record], layout: tasks.Layout, cut: Cut) -> Iterator[tuple[int, Any]]:
-    """The rows of partitions by leaf: points, row numbers and ids; leaf -1 for a file that is not here."""
+    """Yields the rows of partitions by leaf: points, row numbers and ids. A file that is not here may have had rows of any leaf: None
+    for each."""
     import numpy as np
     import pyarrow
 
     taut = tasks.import_taut()
     for record in elements:
         if not tasks.is_here(record, layout):
-            yield -1, None
+            yield from ((leaf, None) for leaf in range(1 << cut.levels))
             return
         rows = tasks.mapped(record, layout)
         ids = tasks.ids(record)
@@ -102,11 +103,6 @@ def deal(elements: Iterator[tasks.Record], layout: tasks.Layout, cut: Cut) -> It
             numbers = (here + layout.starts[record[0]]).astype(np.uint64)
             named = None if ids is None else ids.take(pyarrow.array(here))
             yield int(leaves[here[0]]), (np.array(rows[here], np.float64), numbers, named)
-
-
-def place(leaf: int) -> int:
-    """The partition of a leaf."""
-    return max(leaf, 0)
 
 
 def named(rows: Any, numbers: Any, ids: Any) -> Any:
@@ -128,7 +124,7 @@ def joined(parts: list[Any]) -> Any:
 
 
 def node(number: int, found: tuple[bytes, bytes, Any, Any], numbers: Any, ids: Any) -> Node:
-    """What was found at a node, with the ids of its sites."""
+    """Returns the node with the ids of its sites."""
     tile, front, front_rows, counts = found
     rows = tasks.import_taut()._tiles.Tile.from_bytes(tile, 2).rows
     return number, tile, named(rows, numbers, ids), front, front_rows, named(front_rows, numbers, ids), counts
@@ -139,8 +135,8 @@ def triangulate_leaf(group: tuple[int, Any], whole: bytes, levels: int) -> Node 
     import numpy as np
 
     taut = tasks.import_taut()
-    leaf, pieces = group
-    if leaf < 0:
+    leaf, pieces = group[0], list(group[1])
+    if any(piece is None for piece in pieces):
         return None
     points, numbers, ids = zip(*pieces)
     number, rows = (1 << levels) - 1 + leaf, np.concatenate(numbers)
@@ -148,9 +144,16 @@ def triangulate_leaf(group: tuple[int, Any], whole: bytes, levels: int) -> Node 
     return node(number, found, rows, joined(list(ids)))
 
 
-def climb(below: Node, levels: int) -> tuple[int, Any]:
-    """The front of a node, for the node so many levels above."""
-    number, _, _, front, rows, ids, _ = below
+def there(found: Node | None) -> Node:
+    """Refuses a node that was there when the points were triangulated, and is not now that it is made again."""
+    if found is None:
+        raise RuntimeError("files of the workers were lost since the points were triangulated: triangulate them again")
+    return found
+
+
+def climb(below: Node | None, levels: int) -> tuple[int, Any]:
+    """Sends the front of a node to the node so many levels above."""
+    number, _, _, front, rows, ids, _ = there(below)
     for _ in range(levels):
         number = (number - 1) // 2
     return number, (front, rows, ids)
@@ -175,16 +178,14 @@ def as_row(found: Node | None) -> tuple[bytearray, bytearray | None]:
     """A tile and the ids of its sites as bytes."""
     import pyarrow
 
-    if found is None:
-        raise RuntimeError("files of the workers were lost since the points were triangulated: triangulate them again")
-    ids = found[2]
+    _, tile, ids, *_ = there(found)
     if ids is None:
-        return bytearray(found[1]), None
+        return bytearray(tile), None
     batch = pyarrow.RecordBatch.from_arrays([ids], names=["id"])
     sink = pyarrow.BufferOutputStream()
     with pyarrow.ipc.new_stream(sink, batch.schema) as writer:
         writer.write_batch(batch)
-    return bytearray(found[1]), bytearray(sink.getvalue())
+    return bytearray(tile), bytearray(sink.getvalue())
 
 
 def simplices(batches: Iterator[Any]) -> Iterator[Any]:
@@ -233,7 +234,7 @@ def triangulate(
     whole = records.mapPartitions(functools.partial(extent, layout=layout, cut=cut)).treeReduce(merge_extents)
     if whole is None:
         return None
-    pieces = records.mapPartitions(functools.partial(deal, layout=layout, cut=cut)).groupByKey(1 << levels, place)
+    pieces = records.mapPartitions(functools.partial(deal, layout=layout, cut=cut)).groupByKey(1 << levels)
     level = pieces.map(functools.partial(triangulate_leaf, whole=whole, levels=levels))
     kept: list[Any] = []
     found: list[Any] = []

@@ -1,10 +1,12 @@
-"""What runs in the workers of `taut.spark`: rows are written to files of the worker once, and mapped into memory by each pass.
+"""The tasks that `taut.spark` runs in the workers: rows are written to files of the worker once, and mapped into memory by each pass.
 
 *Idea.* A partition becomes a file of its rows as they come. Once all partitions are counted, the number of each row is known,
 and the whole blocks within a partition are read where they lie. Blocks that two partitions share are few: their rows are
 fetched and dealt out again (`edges`).
-*Trap.* A worker may be asked for a file that it does not have: its executor was lost, and what Spark remembers of the partition
-was read from another one. It says so, and the partition is made again from the DataFrame.
+*Trap.* A worker may be asked for a file that it does not have: its executor was lost and Spark remembers the record of another
+one, or the worker with the file was busy for too long. It says so, and the driver asks again.
+*Trap.* A shuffle hides which tasks missed a file. So they send None in place of each piece, under the key of that piece: whoever
+needs it fails, and no one works on part of the rows.
 *Trap.* Spark makes a lost partition again without a word, and a DataFrame with `rand()` or a limit then has other rows. Each record
 has a hash of its rows, which is compared with the first one before they are used.
 *Trap.* This module travels to the workers by value, so that they need not have taut installed: it imports taut within functions.
@@ -14,6 +16,7 @@ from __future__ import annotations
 
 import hashlib
 import os
+import shutil
 import sys
 import tempfile
 from collections.abc import Iterator
@@ -42,6 +45,8 @@ class Layout(NamedTuple):
     starts: dict[int, int]
     # The number of rows and their hash.
     digests: dict[int, tuple[int, str]]
+    # Rows have ids.
+    is_named: bool
 
     def whole_blocks(self, partition: int, count: int) -> tuple[int, int]:
         """From which row of all to which a partition has whole blocks; equal numbers where it has none."""
@@ -55,7 +60,8 @@ class Layout(NamedTuple):
 def is_here(record: Record, layout: Layout) -> bool:
     """Tests whether a partition has the rows that it had at first, in a file of this worker."""
     partition, count, path, digest, _ = record
-    return layout.digests[partition] == (count, digest) and os.path.exists(path)
+    paths = [path, path + ".ids"] if layout.is_named and count else [path]
+    return layout.digests[partition] == (count, digest) and all(map(os.path.exists, paths))
 
 
 def mapped(record: Record, layout: Layout) -> Any:
@@ -74,19 +80,20 @@ def ids(record: Record) -> Any:
     path = record[2] + ".ids"
     if not os.path.exists(path):
         return None
-    with pyarrow.OSFile(path) as file:
+    with pyarrow.memory_map(path) as file:
         return pyarrow.ipc.open_file(file).read_all().column("id").combine_chunks()
 
 
 def import_taut() -> Any:
-    """The package, from the environment or from the wheel that was sent along."""
-    try:
-        import taut.passes
-    except ImportError:
+    """Imports the package: from the wheel that was sent along, if there is one, else from the environment."""
+    if "taut" not in sys.modules:
         from pyspark import SparkFiles
 
-        sys.path.insert(0, os.path.join(SparkFiles.getRootDirectory(), ARCHIVE))
-        import taut.passes
+        sent = os.path.join(SparkFiles.getRootDirectory(), ARCHIVE)
+        if os.path.isdir(sent):
+            sys.path.insert(0, sent)
+    import taut.passes
+
     return taut
 
 
@@ -130,8 +137,9 @@ def _write(
     import numpy as np
     import pyarrow
 
-    os.makedirs(os.path.dirname(path), exist_ok=True)
-    digest = hashlib.blake2b(digest_size=16)
+    # Other users of the machine do not read them.
+    os.makedirs(os.path.dirname(path), mode=0o700, exist_ok=True)
+    digest, names = hashlib.blake2b(digest_size=16), hashlib.blake2b()
     rows, last_id, writer = 0, None, None
     with open(path, "wb") as file:
         for batch in batches:
@@ -143,6 +151,7 @@ def _write(
                 table = pyarrow.RecordBatch.from_arrays([ids], names=["id"])
                 writer = writer or pyarrow.ipc.new_file(path + ".ids", table.schema)
                 writer.write_batch(table)
+                names.update("".join(f"{name!r}\n" for name in ids.to_pylist()).encode())
             block = np.empty((batch.num_rows, len(columns)), dtype)
             first = batch.num_columns - len(columns)
             for at, name in enumerate(columns):
@@ -152,6 +161,7 @@ def _write(
             rows += batch.num_rows
     if writer is not None:
         writer.close()
+        digest.update(names.digest())
     return rows, digest.hexdigest()
 
 
@@ -216,33 +226,31 @@ def blocks(element: Any, layout: Layout) -> tuple[int, Any] | None:
 
 
 def edge_pieces(elements: Iterator[Record], layout: Layout) -> Iterator[tuple[int, Any]]:
-    """The rows of partitions that are not among their whole blocks, each with its block; block -1 for a file that is not here."""
+    """Yields the rows of partitions that are not among their whole blocks, each with its block; None for rows that are not here."""
     import numpy as np
 
     for record in elements:
-        if not is_here(record, layout):
-            yield -1, None
-            return
-        partition, count, *_ = record
-        start = layout.starts[partition]
+        partition = record[0]
+        start, count = layout.starts[partition], layout.digests[partition][0]
         end = start + count
         first, last = layout.whole_blocks(partition, count)
         if count == 0 or (first, last) == (start, end):
             continue
-        every = mapped(record, layout)
+        every = mapped(record, layout) if is_here(record, layout) else None
         for low, high in ((start, min(first, end)), (last, end)):
             while low < high:
                 cut = min(high, (low // layout.step + 1) * layout.step)
-                yield low // layout.step, (low, np.array(every[low - start : cut - start]))
+                piece = None if every is None else (low, np.array(every[low - start : cut - start]))
+                yield low // layout.step, piece
                 low = cut
 
 
 def join_edge(edge: tuple[int, Any]) -> tuple[int, Any] | None:
-    """A block from its pieces."""
+    """Joins the pieces of a block; None where one was not there."""
     import numpy as np
 
-    block, pieces = edge
-    if block < 0:
+    pieces = list(edge[1])
+    if any(piece is None for piece in pieces):
         return None
     ordered = sorted(pieces, key=lambda piece: piece[0])
     return ordered[0][0], np.concatenate([rows for _, rows in ordered])
@@ -315,13 +323,10 @@ def ids_of(elements: Iterator[Any], layout: Layout, wanted: list[int]) -> Iterat
         yield from [(row, names[row - start].as_py()) for row in mine]
 
 
-def remove(elements: Iterator[Record]) -> Iterator[int]:
-    """Removes the files of partitions, those of lost and repeated tasks as well."""
-    for partition, _, path, _, _ in elements:
-        place = os.path.dirname(path)
-        for name in os.listdir(place) if path and os.path.isdir(place) else ():
-            if name.startswith(f"{partition}-"):
-                os.remove(os.path.join(place, name))
+def remove(elements: Iterator[Record], place: tuple[str | None, str]) -> Iterator[int]:
+    """Removes the folder with the files of partitions, with those of lost and repeated tasks."""
+    for partition, *_ in elements:
+        shutil.rmtree(folder(*place), ignore_errors=True)
         yield partition
 
 

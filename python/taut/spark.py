@@ -12,12 +12,15 @@ each pass is one job over these files, and what comes back of it are a few rows.
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import itertools
 import logging
 import uuid
-from collections.abc import Iterable, Iterator, Sequence
-from typing import Any, Self
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import Any, Self, TypeVar
+
+import numpy as np
 
 from . import _native, _spark_delaunay as delaunay, _spark_tasks as tasks, passes
 from ._ball import BallMethod
@@ -26,18 +29,27 @@ from ._spark_delaunay import Triangulation
 
 __all__ = ["Points", "Triangulation", "ball", "centers", "ellipsoid", "ship", "verify"]
 
+T = TypeVar("T")
+
 # Says which pass is made.
 log = logging.getLogger("taut.spark")
 
 # Types of columns that are numbers, and whether float32 holds all of them.
 NUMBERS = {"byte": False, "short": False, "integer": False, "long": False, "float": True, "double": False}
 
-# Up to this many partitions the driver merges their answers; of more, the workers merge some first.
+# The driver merges the answers of up to this many partitions. Where there are more, workers merge some of them first.
 MERGED_BY_DRIVER_MAX = 64
 
-# How often partitions whose files were lost are made again within one pass.
-REBUILDS_MAX = 5
+# A pass is tried this many times where files are missing. The second time it finds them if tasks only ran away from their files
+# (spark.locality.wait); from the third time on they are made again.
+ATTEMPTS_MAX = 6
 LOST = "files of the workers were lost again and again: give a folder that they keep as scratch"
+
+# Types of ids: those whose values are equal in Arrow when they are equal in Spark, which NaN is not.
+IDS = ("byte", "short", "integer", "long", "string", "date", "timestamp", "timestamp_ntz", "decimal", "binary")
+
+# The collation of strings under which only equal bytes are equal.
+BINARY = "UTF8_BINARY"
 
 # One task takes the shared blocks of this many partitions.
 PARTITIONS_PER_EDGES = 8
@@ -67,12 +79,14 @@ class Points:
     columns : sequence of str
         The coordinates: columns of numbers, without null, NaN and infinity. float32 if all of them are, else float64.
     id : str, optional
-        A column of different values that names the rows. Rows are put in its order, so that answers do not depend on the order and
-        the partitions of the DataFrame. Without it rows are taken as they come.
+        A column of different values that names the rows: whole numbers, strings, dates, times, decimals or bytes. Rows are put in
+        its order, so that answers do not depend on the order and the partitions of the DataFrame. Without it rows are taken as they
+        come.
     partitions : int, optional
         Partitions to sort by id into; by default as many as the DataFrame has.
     scratch : str, optional
-        A folder of each worker for its files; by default that of Spark, which Spark removes.
+        A folder of each worker for its files; by default that of Spark, which Spark removes. The files of a node that is lost stay
+        there.
     """
 
     def __init__(
@@ -83,17 +97,18 @@ class Points:
         self._id = id
         self._session = df.sparkSession
         self._kept: list[Any] = []
+        self._edges: Any = None
         dtype = _dtype(df, self._columns, id)
         self._id_type = "bigint" if id is None else df.schema[id].dataType.simpleString()
-        coordinates = [df[name].alias(f"taut_{at}") for at, name in enumerate(self._columns)]
+        coordinates = [df[_quoted(name)].alias(f"taut_{at}") for at, name in enumerate(self._columns)]
         if id is None:
             picked = df.select(*coordinates)
         else:
             count = partitions or df.rdd.getNumPartitions()
-            picked = df.select(df[id].alias("taut_id"), *coordinates)
+            picked = df.select(df[_quoted(id)].alias("taut_id"), *coordinates)
             picked = picked.repartitionByRange(count, "taut_id").sortWithinPartitions("taut_id")
         _register_tasks()
-        place = (scratch, uuid.uuid4().hex)
+        place = self._place = (scratch, uuid.uuid4().hex)
         names, write_partition = self._columns, tasks.write_partition
 
         def write(batches: Iterator[Any]) -> Iterator[Any]:
@@ -101,19 +116,29 @@ class Points:
 
         schema = "partition int, rows long, path string, digest string, error string"
         # The DataFrame of records is planned once: made again, a partition holds the same rows.
-        self._records = picked.mapInArrow(write, schema).rdd.map(tuple).persist()
+        self._records = picked.mapInArrow(write, schema).rdd.map(tuple).persist(_level())
+        try:
+            self._layout = self._layout_of(dtype)
+            self._parts = self._with_edges()
+        except BaseException:
+            # It may fail for the same reason, which is the one to raise.
+            with contextlib.suppress(Exception):
+                self.close()
+            raise
+
+    def _layout_of(self, dtype: str) -> tasks.Layout:
+        """Writes the files."""
         records = sorted(self._records.collect())
         problems = [error for *_, error in records if error]
         rows = sum(count for _, count, *_ in records)
         if problems or rows == 0:
-            self.close()
             raise ValueError(*problems[:1] or ["the DataFrame has no rows: an enclosing shape needs at least one point"])
         ends = itertools.accumulate((count for _, count, *_ in records), initial=0)
         starts = {partition: start for (partition, *_), start in zip(records, ends)}
         digests = {partition: (count, digest) for partition, count, _, digest, _ in records}
         width = len(self._columns)
-        self._layout = tasks.Layout(rows, dtype, width, _native.rows_of_block(width), starts, digests)
-        self._parts = self._with_edges()
+        step = _native.rows_of_block(width)
+        return tasks.Layout(rows, dtype, width, step, starts, digests, self._id is not None)
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -124,13 +149,29 @@ class Points:
         """The partitions, and the blocks that lie in several of them: few rows, the only ones that move."""
         pieces = self._records.mapPartitions(functools.partial(tasks.edge_pieces, layout=self._layout))
         count = -(-self._records.getNumPartitions() // PARTITIONS_PER_EDGES)
-        return self._records.union(pieces.groupByKey(count).map(tasks.join_edge).persist())
+        if self._edges is not None:
+            self._edges.unpersist()
+        self._edges = pieces.groupByKey(count).map(tasks.join_edge).persist(_level())
+        return self._records.union(self._edges)
+
+    def _tried(self, attempt: Callable[[], T | None]) -> T:
+        """Returns the result of an attempt, which is None where files are missing: then of the next one."""
+        for number in range(ATTEMPTS_MAX):
+            if number == 1:
+                log.warning("a task did not find its file: the pass is made again")
+                self._parts = self._with_edges()
+            elif number > 1:
+                self._rebuild()
+            found = attempt()
+            if found is not None:
+                return found
+        raise RuntimeError(LOST)
 
     def _rebuild(self) -> None:
         """Makes the files of all partitions again."""
         log.warning("files of a worker are lost: they are made again")
         self._records.unpersist(blocking=True)
-        self._records.persist()
+        self._records.persist(_level())
         for record in self._records.collect():
             partition, count, _, digest, _ = record
             if (count, digest) != self._layout.digests[partition]:
@@ -142,17 +183,19 @@ class Points:
     def _ask(self, kind: str, data: bytes) -> bytes:
         """One pass: the merged answer of all parts."""
         work = functools.partial(tasks.answer, layout=self._layout, question=(kind, data))
-        for _ in range(REBUILDS_MAX):
+
+        def attempt() -> bytes | None:
             found = self._parts.mapPartitions(work)
             if found.getNumPartitions() <= MERGED_BY_DRIVER_MAX:
                 answers = found.collect()
             else:
                 answers = [found.treeReduce(functools.partial(tasks.merge_answers, kind=kind), depth=2)]
-            if not any(missing for missing, _ in answers):
-                parts = [data for _, data in answers if data is not None]
-                return _native.merge_partials(parts) if kind == "query" else _native.merge_verdicts(parts)
-            self._rebuild()
-        raise RuntimeError(LOST)
+            if any(missing for missing, _ in answers):
+                return None
+            parts = [data for _, data in answers if data is not None]
+            return _native.merge_partials(parts) if kind == "query" else _native.merge_verdicts(parts)
+
+        return self._tried(attempt)
 
     def _solve(self, solver: passes.Solver, count: int = 0) -> Solution[Any]:
         """The solution, after so many passes that were made already."""
@@ -242,12 +285,8 @@ class Points:
 
     def _add_to_stream(self, partition: int, data: bytes) -> bytes:
         work = functools.partial(tasks.add_to_stream, layout=self._layout, data=data)
-        for _ in range(REBUILDS_MAX):
-            added = self._records.context.runJob(self._records, work, [partition])
-            if added != [None]:
-                return bytes(added[0])
-            self._rebuild()
-        raise RuntimeError(LOST)
+        run = self._records.context.runJob
+        return bytes(self._tried(lambda: run(self._records, work, [partition])[0]))
 
     def delaunay(self, *, leaf_points: int = 2**18) -> Triangulation:
         """Delaunay triangulation of points in the plane: the simplices of `taut.delaunay` over them on one machine.
@@ -269,13 +308,11 @@ class Points:
             raise ValueError(f"the points have {columns} coordinates: on a cluster, triangulations are those of the plane")
         if leaf_points < 1 or rows > leaf_points * 2**delaunay.LEVELS_MAX:
             raise ValueError(f"leaf_points is {leaf_points}: expected at least {max(1, rows >> delaunay.LEVELS_MAX)}")
-        for _ in range(REBUILDS_MAX):
-            made = delaunay.triangulate(self._session, self._records, self._layout, self._id_type, leaf_points)
-            if made is not None:
-                self._kept += made[1]
-                return made[0]
-            self._rebuild()
-        raise RuntimeError(LOST)
+        found, kept = self._tried(
+            lambda: delaunay.triangulate(self._session, self._records, self._layout, self._id_type, leaf_points)
+        )
+        self._kept += kept
+        return found
 
     def verify(self, solution: Solution[Any] | str) -> Any:
         """Check an answer over the points, in one pass: the verdict of `taut.verify` over them on one machine.
@@ -296,6 +333,8 @@ class Points:
         """
         if isinstance(solution, str):
             solution = Solution.from_json(solution)
+        # Faults that need no row are raised here, and not within a worker.
+        passes.check_part(solution, np.empty((0, self.shape[1]), self._layout.dtype), 0, self.shape[0])
         data = self._ask("verify", solution.to_json().encode())
         return passes.check_parts(solution, [passes.PartialVerdict(data, self.shape[1])])
 
@@ -315,20 +354,25 @@ class Points:
         if self._id is None:
             raise ValueError("the points have no ids: name the column of ids when the points are made")
         wanted = [int(row) for row in rows]
+        for row in wanted:
+            if not 0 <= row < self.shape[0]:
+                raise ValueError(f"there is no row {row}: rows are numbered from 0 to {self.shape[0] - 1}")
         work = functools.partial(tasks.ids_of, layout=self._layout, wanted=wanted)
-        for _ in range(REBUILDS_MAX):
+
+        def attempt() -> dict[int, Any] | None:
             pairs = self._records.mapPartitions(work).collect()
-            if None not in pairs:
-                names = dict(pairs)
-                return [names[row] for row in wanted]
-            self._rebuild()
-        raise RuntimeError(LOST)
+            return None if None in pairs else dict(pairs)
+
+        names = self._tried(attempt)
+        return [names[row] for row in wanted]
 
     def close(self) -> None:
         """Removes the files of the workers."""
         for rdd in self._kept:
             rdd.unpersist()
-        self._records.mapPartitions(tasks.remove).count()
+        if self._edges is not None:
+            self._edges.unpersist()
+        self._records.mapPartitions(functools.partial(tasks.remove, place=self._place)).count()
         self._records.unpersist()
 
     def __enter__(self) -> Self:
@@ -433,7 +477,23 @@ def _dtype(df: Any, columns: list[str], id_column: str | None) -> str:
     for name in columns:
         if types[name] not in NUMBERS:
             raise ValueError(f"column {name!r} is of type {types[name]}: expected {', '.join(NUMBERS)}")
+    if id_column is not None and types[id_column] not in IDS:
+        raise ValueError(f"column {id_column!r}, the id, is of type {types[id_column]}: expected {', '.join(IDS)}")
+    if id_column is not None and getattr(df.schema[id_column].dataType, "collation", BINARY) != BINARY:
+        raise ValueError(f"column {id_column!r}, the id, is collated: expected the collation {BINARY}")
     return "float32" if all(NUMBERS[types[name]] for name in columns) else "float64"
+
+
+def _quoted(name: str) -> str:
+    """The name of a column that may have dots, which else are fields of it."""
+    return "`" + name.replace("`", "``") + "`"
+
+
+def _level() -> Any:
+    """Where records and shared blocks are kept: what memory drops would be made again from the DataFrame."""
+    from pyspark import StorageLevel
+
+    return StorageLevel.MEMORY_AND_DISK
 
 
 @functools.cache
