@@ -20,7 +20,7 @@ use crate::ellipsoid::check::parts as ellipsoid;
 use crate::hashed_pass::WantedRows;
 use crate::{AnySolution, AnyVerdict, CheckError, Violation};
 
-/// What the checker found in some blocks of rows.
+/// The findings of the checker in some blocks of rows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PartialVerdict {
     n: u64,
@@ -37,7 +37,7 @@ pub struct PartialVerdict {
 const VERDICT: &str = "verdict";
 
 impl PartialVerdict {
-    /// What was found in these blocks and in those of another part, whichever is named first.
+    /// Merges these findings with those in other blocks, in either order.
     ///
     /// # Errors
     /// [`PartsError::Question`] where they are about two answers, [`PartsError::Twice`] for a block that both have.

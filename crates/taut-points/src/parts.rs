@@ -60,7 +60,7 @@ pub enum PartsError {
         /// Another one.
         second: &'static str,
     },
-    /// What was found in a part belongs to another question.
+    /// A part was looked at for another question.
     #[error("a part answers another question than the one that was asked")]
     Question,
     /// A solution was asked for before the last question was answered.
@@ -69,7 +69,7 @@ pub enum PartsError {
     /// Bytes are not what they should be.
     #[error("the bytes are no {what} of this version of taut")]
     Bytes {
-        /// What they should be.
+        /// The word for these bytes.
         what: &'static str,
     },
 }
@@ -82,7 +82,7 @@ pub trait Elsewhere: Send + Sync {
     /// [`ReadError`] when nobody answers.
     fn rows(&self, ids: &[u64]) -> Result<Vec<f64>, ReadError>;
 
-    /// What all parts together answer to a question, both as bytes.
+    /// Returns the answer of all parts together to a question, both as bytes.
     ///
     /// # Errors
     /// [`ReadError`] when nobody answers.

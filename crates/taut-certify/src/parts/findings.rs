@@ -1,4 +1,4 @@
-//! What a checker finds in some rows, and how that merges with what it finds in others.
+//! The findings of a checker in some rows, and how they merge with those in others.
 
 use taut_points::{ByteReader, ByteWriter, PartsError};
 

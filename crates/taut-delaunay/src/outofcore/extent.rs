@@ -1,4 +1,4 @@
-//! What a node has to know of points that lie elsewhere, as bytes: the boxes of all cells, and the magnitudes.
+//! The facts about points elsewhere that a node has to know, as bytes: the boxes of all cells, and the magnitudes.
 //!
 //! *Idea.* Whoever has points adds them to an extent of his own; extents are merged in any order. All nodes take the same one.
 
@@ -65,7 +65,7 @@ impl<const D: usize> Extent<D> {
         self.len() == 0
     }
 
-    /// What all nodes have in common, once this is of all points.
+    /// Returns the facts that all nodes have in common, once this is of all points.
     pub fn whole(&self) -> Whole<D> {
         Whole::new(&Tree::new(&self.cells), self.magnitudes, true)
     }

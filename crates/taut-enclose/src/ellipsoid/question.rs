@@ -31,9 +31,9 @@ pub(crate) struct Question {
 pub(crate) enum Kind {
     /// The points beyond a threshold with the largest |M(x − c)|², so many.
     Leverage { above: f64, keep: usize },
-    /// The same with their rows: of each block a share.
+    /// These points with their rows: of each block a share.
     Take { above: f64, share: f64 },
-    /// Whether coordinates are finite.
+    /// Tests whether coordinates are finite.
     Finite,
     /// The point farthest outside a span.
     Span,
@@ -185,7 +185,7 @@ impl Question {
 }
 
 impl Answer {
-    /// The same with row numbers that begin later.
+    /// Returns the answer with row numbers that begin later.
     fn moved(mut self, first_row: u64) -> Self {
         match &mut self {
             Answer::Leverage { far, .. } | Answer::Border(far) => {

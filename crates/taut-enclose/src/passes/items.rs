@@ -176,7 +176,7 @@ pub(super) enum ItemBody {
     Spread { spread: f64, largest: f64 },
 }
 
-/// What a first pass finds beside.
+/// The largest row and whether squares overflow, which a first pass finds as well.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct First {
     largest: Option<Far>,

@@ -1,4 +1,4 @@
-//! What some of the rows answer to a query, and how such answers are put together.
+//! Answers of some of the rows to a query, and how they are merged.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,7 +11,7 @@ use super::items::ItemBody;
 use super::query::{Query, Question, Stamp};
 use crate::ellipsoid::question::Answer;
 
-/// What some blocks of rows answer to a [`Query`].
+/// The answer of some blocks of rows to a [`Query`].
 ///
 /// It holds what was asked for, the rows by number that it names, with their coordinates, and which blocks it is about: with
 /// their hash where the query is a first pass.

@@ -13,7 +13,7 @@ use super::partial::{Body, Partial};
 use super::points::PointQuestion;
 use crate::Error;
 
-/// What a solver asks of all rows.
+/// A question of a solver about all rows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Query {
     n: u64,
@@ -179,7 +179,7 @@ impl Query {
     }
 }
 
-/// What partials must have in common to be merged.
+/// The facts that partials must have in common to be merged.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Stamp {
     /// The hash of the query.

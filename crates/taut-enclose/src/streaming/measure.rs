@@ -114,6 +114,7 @@ fn distances(
     })?;
     Ok(blocks.into_iter().fold(0.0, f64::max))
 }
+
 /// The largest squared distance of a point to the nearest center; not finite or tiny where squares leave the range.
 fn farthest<T: Scalar>(points: &Points<'_, T>, centers: &[Center]) -> f64 {
     let (mut farthest, mut values, mut least) = (0.0, [0.0; CHUNK], [0.0; CHUNK]);

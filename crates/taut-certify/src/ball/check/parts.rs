@@ -24,7 +24,7 @@ pub(crate) fn check_structure(
     Ok(structure::check(ball, certificate, n, columns)?)
 }
 
-/// What is wrong with the rows of a block.
+/// Finds the first fault of the rows of a block.
 pub(crate) fn check_block(
     ball: &Ball,
     certificate: &BallCertificate,

@@ -33,7 +33,7 @@ pub(crate) fn check_structure(
     Err(CheckError::NoParts { kind })
 }
 
-/// What is wrong with the rows of a block.
+/// Finds the first fault of the rows of a block.
 pub(crate) fn check_block(
     answer: &Centers,
     certificate: &CentersCertificate,

@@ -35,7 +35,7 @@ pub(crate) fn check_structure(
     Ok(())
 }
 
-/// What is wrong with the points of a block, and how far they reach.
+/// Finds the first fault of the points of a block, and how far they reach.
 pub(crate) fn check_block(
     ellipsoid: &Ellipsoid,
     certificate: &EllipsoidCertificate,
