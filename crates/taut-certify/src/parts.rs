@@ -275,7 +275,7 @@ mod tests {
         let certificate = EllipsoidCertificate {
             items: Items::Points,
             support: ball.certificate.support.clone(),
-            multipliers: vec![1.0, 1.0],
+            multipliers: vec![0.5, 0.5],
             directions: vec![],
             left_out: vec![],
             gap: 1e-9,
