@@ -191,6 +191,20 @@ impl Reading {
         self.open(path)
     }
 
+    /// The format that was asked for.
+    pub(crate) fn format(&self) -> Option<Format> {
+        self.format
+    }
+
+    /// Tests whether no option asks for some rows or columns, or for another way to read cells.
+    pub(crate) fn is_plain(&self) -> bool {
+        self.keeps_all()
+            && self.columns.is_none()
+            && self.select.is_none()
+            && self.header == Header::Auto
+            && self.table.choice() == ReadingChoice::default()
+    }
+
     /// Tests whether all points are kept.
     fn keeps_all(&self) -> bool {
         self.classes.is_none() && self.bounds.is_none() && self.thin.is_none()
@@ -583,9 +597,8 @@ impl Opened {
 /// Says how many rows were left out because they lack a value.
 fn missing_rows(input: &Input) -> Option<Field> {
     let dropped = input.dropped_rows();
-    let all = input.source.len() + dropped;
     (dropped > 0).then(|| {
-        Field::new("missing", share(dropped, all)).remark(format!(
+        Field::new("missing", share(dropped, input.rows_in_file())).remark(format!(
             "row{} left out, as a value is missing; rows are numbered as in the file",
             if dropped == 1 { "" } else { "s" }
         ))
