@@ -28,8 +28,7 @@ fn read_chunks<R: ChunkReader + 'static>(job: &Job<'_>, chunks: R) -> Result<Dec
     };
     let builder = thrift::open(chunks).map_err(|e| damaged(first_line(&e)))?;
     let schema = builder.schema().clone();
-    let geometries = geoparquet::column(&schema).filter(|_| job.options.columns.is_none());
-    if let Some(number) = geometries {
+    if let Some(number) = geoparquet::column(job, &schema)? {
         let mask = ProjectionMask::roots(builder.parquet_schema(), [number]);
         let batches = builder.with_projection(mask).build().map_err(|e| damaged(first_line(&e)))?;
         let batches = batches
