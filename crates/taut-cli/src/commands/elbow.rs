@@ -172,6 +172,7 @@ pub(crate) fn run(
         let fields: Vec<Field> = [end_of(&rows, range), Some(verified), Some(clock.field())]
             .into_iter()
             .flatten()
+            .chain(points.notes())
             .collect();
         outputs.print(&reports::text("", &fields)[1..]);
     }
@@ -292,10 +293,11 @@ fn drawing(
         taut_draw::Field::new(format!("k = {k}"), value)
     };
     let verified = taut_draw::Field::new(verified.name, verified.value.clone());
+    let notes = points.notes().into_iter().map(taut_draw::Field::from);
     Ok(Drawing {
         title: title.to_owned(),
         heading: points.name().to_owned(),
-        fields: rows.iter().map(field).chain([verified]).collect(),
+        fields: rows.iter().map(field).chain([verified]).chain(notes).collect(),
         figures: vec![figure],
     })
 }

@@ -90,10 +90,13 @@ impl Drawing {
         let options = style.options(points.names(A::dim(report)));
         let figures = A::figures(report.found, report.points, &options)
             .map_err(|error| refused(error, points))?;
+        let mut fields = report.fields();
+        points.name_rows(&mut fields);
+        fields.extend(points.notes());
         Ok(Drawing {
             title: report.title(),
             heading: points.name().to_owned(),
-            fields: report.fields().into_iter().map(Into::into).collect(),
+            fields: fields.into_iter().map(Into::into).collect(),
             figures,
         })
     }

@@ -153,3 +153,25 @@ fn points_and_meshes_are_converted() {
     folder.taut("convert cloud.csv -o cloud.csv").ends(2).stderr_has(&["is the input"]);
     folder.taut("convert twice.csv -o x.ply").ends(2);
 }
+
+#[test]
+fn options_of_reading_choose_rows_of_meshes_without_triangles() {
+    let folder = TestFolder::new();
+    folder.put("scan.xyz", "0 0 0\n0.1 0 0\n5 5 5\n");
+    let to = |line: &str| folder.taut(&format!("convert {line}")).ends(0).out;
+    assert!(to("scan.xyz -o thin.ply --thin 1").contains("2 vertices"));
+    to("thin.ply -o near.obj --bounds 0,0,0,1,1,1");
+    assert_eq!(numbers(&csv(&folder, "near.obj")), [0.0, 0.0, 0.0]);
+    folder.put("cube.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n");
+    folder
+        .taut("convert cube.off -o cut.ply --bounds 0,0,0,1,1,0")
+        .ends(2)
+        .stderr_has(&["cube.off", "not the triangles of a mesh"]);
+    folder.taut("convert scan.xyz -o n.ply --id 0 --columns 0-").ends(2);
+    // The format that is asked for is that of the file, also of a pipe.
+    folder.put("cube.dat", folder.bytes("cube.off"));
+    assert!(to("cube.dat --format off -o named.ply").contains("1 triangle"));
+    let piped = folder.pipe(folder.bytes("cube.off"), "convert - --format off -o piped.ply");
+    assert!(piped.ends(0).out.contains("1 triangle"));
+    folder.taut("info cube.dat --format off").ends(0).stdout_has(&["triangles   1\n"]);
+}

@@ -158,3 +158,52 @@ fn units_make_columns_comparable_and_are_kept() {
     folder.put("lie.json", lie);
     folder.taut("verify lie.json people.csv").ends(2).stderr_has(&["not positive"]);
 }
+
+#[test]
+fn mistyped_numbers_are_not_passed_over() {
+    let folder = TestFolder::new();
+    folder.put("first.csv", "1O,2,3\n4,5,6\n");
+    folder.taut("ball first.csv --columns numeric").ends(2).stderr_has(&["row 1", "`1O`"]);
+    folder.put("later.csv", "x,y,z\n4,5,6\n1,2,3\n1O,2,3\n");
+    folder
+        .taut("ball later.csv --columns numeric")
+        .ends(2)
+        .stderr_has(&["row 3 (line 4), column 0 (`x`): `1O` is not a number"]);
+    // A description counts it among words.
+    folder.taut("info later.csv").ends(0).stdout_has(&["\n  x       text "]);
+}
+
+#[test]
+fn rows_keep_their_numbers_in_a_box() {
+    let folder = TestFolder::new();
+    folder.put("p.csv", "x,y\n99,99\nNA,1\n0,0\n4,0\n2,1\n");
+    folder
+        .taut("ball p.csv --missing drop --bounds 0,0,9,9 --table support=s.csv -o b.json")
+        .ends(0)
+        .stdout_has(&["3 points in 2 dimensions", "1 (20 %)"]);
+    let text = folder.text("s.csv");
+    let mut rows: Vec<&str> =
+        text.lines().skip(1).filter_map(|line| line.split(',').next()).collect();
+    rows.sort_unstable();
+    assert_eq!(rows, ["2", "3"]);
+}
+
+#[test]
+fn pictures_name_rows_as_reports_do() {
+    let folder = messy();
+    folder.put("far.csv", "town,x,y\nUlm,0,0\nBonn,,0\nKiel,0,3\nHof,90,90\n");
+    let line = "centers far.csv -k 1 --outliers 1 --columns x,y --missing drop --id town -o c.json";
+    folder.taut(line).ends(0).stdout_has(&["row 4 (Hof)"]);
+    folder.taut("draw c.json far.csv -o c.html").ends(0);
+    let page = folder.text("c.html");
+    assert!(page.contains("row 4 (Hof)") && page.contains("rows are numbered as in the file"));
+}
+
+#[test]
+fn the_elbow_tells_what_was_left_out() {
+    let folder = messy();
+    folder
+        .taut("centers towns.csv --columns x,y --missing drop --elbow 1..2 --scale range")
+        .ends(0)
+        .stdout_has(&["\n  scale ", "\n  missing ", "2 (29 %)"]);
+}
