@@ -37,8 +37,8 @@ pub(crate) struct Reading {
     columns: Option<String>,
     #[command(flatten)]
     table: TableOptions,
-    /// Of a GeoJSON, WKT or SVG file the feature to read, by its number from 0 or its name: in GeoJSON the property `name`, in SVG
-    /// the id of a path [default: the only one]
+    /// Of a GeoJSON, WKT, SVG, npz or shapefile the feature, array or shape to read, by its number from 0 or its name: in GeoJSON the
+    /// property `name`, in SVG the id of a path, in npz that of an array [default: the only one; all shapes]
     #[arg(long, value_name = "NAME|NUMBER")]
     select: Option<Feature>,
     /// Of a LAS or LAZ file the classes of points to keep, such as 2 or 2,9; points are numbered after that [default: all]
@@ -147,8 +147,19 @@ impl Reading {
         if path == Path::new("-") && std::io::stdin().is_terminal() {
             writing::print_error("reading points from the terminal; Ctrl-D ends them");
         }
-        let opened = Opened::of(taut_io::open(path, &self.options()?)?);
-        opened.chosen(self.choice(), self.table.units.as_ref())
+        let options = self.options()?;
+        let input = match taut_io::open(path, &options) {
+            // A stream cannot be read twice.
+            Err(
+                taut_io::Error::NoNames { .. }
+                | taut_io::Error::ColumnName { .. }
+                | taut_io::Error::ColumnNumber { .. },
+            ) if self.table.is_id_stored && !writing::is_stream(path) => {
+                taut_io::open(path, &ReadOptions { label: None, ..options })
+            }
+            input => input,
+        };
+        Opened::of(input?).chosen(self.choice(), self.table.units.as_ref())
     }
 
     /// Returns what was chosen, for the JSON of an answer.
@@ -158,10 +169,10 @@ impl Reading {
     }
 
     /// The same, with what was chosen for an answer where nothing else is asked for.
-    pub(crate) fn as_for(&self, choice: Option<&ReadingChoice>) -> Self {
-        let Some(choice) = choice else { return self.clone() };
+    pub(crate) fn as_for(&self, choice: Option<&ReadingChoice>) -> anyhow::Result<Self> {
+        let Some(choice) = choice else { return Ok(self.clone()) };
         let columns = self.columns.clone().or_else(|| choice.columns.clone());
-        Self { columns, table: self.table.as_for(choice), ..self.clone() }
+        Ok(Self { columns, table: self.table.as_for(choice)?, ..self.clone() })
     }
 
     /// The same, but says before how much disk the points of a laser scan take while the work lasts, and refuses what surely does

@@ -175,3 +175,21 @@ fn options_of_reading_choose_rows_of_meshes_without_triangles() {
     assert!(piped.ends(0).out.contains("1 triangle"));
     folder.taut("info cube.dat --format off").ends(0).stdout_has(&["triangles   1\n"]);
 }
+
+#[test]
+fn whole_numbers_and_bytes_of_clouds_are_not_lost() {
+    let folder = folder();
+    let mut more = folder.bytes("binary.pcd");
+    more.push(0);
+    folder.put("more.pcd", &more);
+    folder
+        .taut("info more.pcd")
+        .ends(2)
+        .stderr_has(&["more.pcd", "more bytes follow its 12 points"]);
+    let head = "VERSION 0.7\nFIELDS x\nSIZE 8\nTYPE U\nCOUNT 1\nPOINTS 1\nDATA binary\n";
+    for (value, code) in [(1_u64 << 53, 0), ((1 << 53) + 1, 2), (u64::MAX, 2)] {
+        folder.put("large.pcd", [head.as_bytes(), &value.to_le_bytes()].concat());
+        let run = folder.taut("info large.pcd").ends(code);
+        assert_eq!(run.err.contains("is not exact as f64"), code == 2, "{run:?}");
+    }
+}

@@ -207,3 +207,23 @@ fn the_elbow_tells_what_was_left_out() {
         .ends(0)
         .stdout_has(&["\n  scale ", "\n  missing ", "2 (29 %)"]);
 }
+
+#[test]
+fn what_an_answer_remembers_can_be_changed() {
+    let folder = messy();
+    let line = "ball towns.csv --columns x,y --missing drop --id town -o b.json";
+    folder.taut(line).ends(0);
+    // Names are no part of an answer.
+    folder.put("bare.csv", "x,y\n0,0\n10,0\n10,10\n0,10\n90,90\n");
+    folder.taut("verify b.json bare.csv").ends(0).stdout_has(&["Verified"]);
+    folder.taut("verify b.json bare.csv --id town").ends(2).stderr_has(&["no column `town`"]);
+    for (word, wrong) in [("\"drop\"", "\"dorp\""), ("\"missing\": \"drop\"", "\"decimal\": \";\"")]
+    {
+        let text = folder.text("b.json");
+        let lie = text.replacen(word, wrong, 1);
+        assert_ne!(lie, text);
+        folder.put("lie.json", lie);
+        folder.taut("verify lie.json towns.csv").ends(2).stderr_has(&["lie.json: key `"]);
+        folder.taut("draw lie.json towns.csv -o x.svg").ends(2).stderr_has(&["lie.json: key `"]);
+    }
+}
