@@ -343,7 +343,7 @@ fn open_medium(
     let with_label = labels::selecting(options, label.as_ref(), format);
     let job = Job { path: display, format, options: with_label.as_ref().unwrap_or(options) };
     let mut decoded = read::read(&job, medium, filter)?;
-    if let Some(label) = label.filter(|_| !format.has_text_labels()) {
+    if let Some(label) = label.filter(|_| !format.reads_labels()) {
         decoded = labels::split(decoded, &label, display, with_label.is_some())?;
     }
     let mut dropped = Dropped::default();
