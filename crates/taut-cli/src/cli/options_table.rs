@@ -189,3 +189,18 @@ fn no_name_has_two_meanings() {
         assert!(uses().contains_key(*name), "--{name} is gone: take it out of MEANINGS");
     }
 }
+
+#[test]
+fn no_short_name_has_two_meanings() {
+    let mut longs: BTreeMap<char, (String, String)> = BTreeMap::new();
+    visit(&crate::cli::Cli::command(), "", &mut |name, command| {
+        for option in command.get_arguments() {
+            let (Some(short), Some(long)) = (option.get_short(), option.get_long()) else {
+                continue;
+            };
+            let first = longs.entry(short).or_insert_with(|| (long.to_owned(), name.to_owned()));
+            assert_eq!(first.0, long, "-{short} of `{}` and of `{name}`", first.1);
+        }
+    });
+    assert!(longs.contains_key(&'o'), "{longs:?}");
+}

@@ -128,7 +128,7 @@ impl Args {
     }
 }
 
-/// The points with their names in the first column.
+/// The points with their names in the first column, whose name no coordinate has.
 fn table(points: &Opened) -> anyhow::Result<Table> {
     let dim = points.source().dim();
     let mut columns = vec![vec![]; dim];
@@ -136,7 +136,11 @@ fn table(points: &Opened) -> anyhow::Result<Table> {
         columns.iter_mut().zip(row).for_each(|(column, &value)| column.push(value));
     })?;
     let names = points.names(dim);
-    let table = Table::new().with("id", Column::Text(points.labels().to_vec()));
+    let mut id = "id".to_owned();
+    while names.contains(&id) {
+        id.push('_');
+    }
+    let table = Table::new().with(id, Column::Text(points.labels().to_vec()));
     Ok(columns.into_iter().enumerate().fold(table, |table, (at, column)| {
         let name = names.get(at).cloned().unwrap_or_else(|| format!("x{at}"));
         table.with(name, Column::Real(column))

@@ -226,3 +226,15 @@ fn what_an_answer_remembers_can_be_changed() {
         folder.taut("draw lie.json towns.csv -o x.svg").ends(2).stderr_has(&["lie.json: key `"]);
     }
 }
+
+#[test]
+fn a_unit_beyond_double_precision_is_refused() {
+    let folder = TestFolder::new();
+    folder.put("far.csv", "x,y\n-1.7e308,0\n1.7e308,1\n");
+    for unit in ["range", "std", "robust"] {
+        folder
+            .taut(&format!("ball far.csv --scale {unit}"))
+            .ends(2)
+            .stderr_has(&["far.csv", "of column 0 is too large"]);
+    }
+}
