@@ -293,11 +293,10 @@ fn drawing(
         taut_draw::Field::new(format!("k = {k}"), value)
     };
     let verified = taut_draw::Field::new(verified.name, verified.value.clone());
-    let notes = points.notes().into_iter().map(taut_draw::Field::from);
     Ok(Drawing {
         title: title.to_owned(),
         heading: points.name().to_owned(),
-        fields: rows.iter().map(field).chain([verified]).chain(notes).collect(),
+        fields: rows.iter().map(field).chain([verified]).chain(picture::notes(points)).collect(),
         figures: vec![figure],
     })
 }

@@ -90,16 +90,21 @@ impl Drawing {
         let options = style.options(points.names(A::dim(report)));
         let figures = A::figures(report.found, report.points, &options)
             .map_err(|error| refused(error, points))?;
-        let mut fields = report.fields();
-        points.name_rows(&mut fields);
-        fields.extend(points.notes());
         Ok(Drawing {
             title: report.title(),
             heading: points.name().to_owned(),
-            fields: fields.into_iter().map(Into::into).collect(),
+            fields: report.fields().into_iter().map(Into::into).chain(notes(points)).collect(),
             figures,
         })
     }
+}
+
+/// What is known of how the points were read or made, with all its words.
+pub(crate) fn notes(points: &Opened) -> impl Iterator<Item = Field> {
+    points.notes().into_iter().map(|note| match note.remark {
+        Some(remark) => Field::new(note.name, format!("{}; {remark}", note.value)),
+        None => Field::new(note.name, note.value),
+    })
 }
 
 fn themes() -> impl TypedValueParser<Value = Theme> {

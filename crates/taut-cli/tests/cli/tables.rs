@@ -189,14 +189,16 @@ fn rows_keep_their_numbers_in_a_box() {
 }
 
 #[test]
-fn pictures_name_rows_as_reports_do() {
+fn pages_tell_what_was_left_out() {
     let folder = messy();
     folder.put("far.csv", "town,x,y\nUlm,0,0\nBonn,,0\nKiel,0,3\nHof,90,90\n");
     let line = "centers far.csv -k 1 --outliers 1 --columns x,y --missing drop --id town -o c.json";
     folder.taut(line).ends(0).stdout_has(&["row 4 (Hof)"]);
     folder.taut("draw c.json far.csv -o c.html").ends(0);
     let page = folder.text("c.html");
-    assert!(page.contains("row 4 (Hof)") && page.contains("rows are numbered as in the file"));
+    assert!(page.contains("1 (25 %); row left out, as a value is missing"));
+    folder.taut("centers far.csv --elbow 1..2 --columns x,y --missing drop --draw e.html").ends(0);
+    assert!(folder.text("e.html").contains("1 (25 %); row left out"));
 }
 
 #[test]
