@@ -38,7 +38,9 @@ fn clouds_of_the_point_cloud_library() {
     let folder = folder();
     let expected = numbers(&folder.text("cloud32.csv"));
     for file in ["ascii.pcd", "binary.pcd", "compressed.pcd"] {
-        let found = numbers(&csv(&folder, file));
+        let text = csv(&folder, file);
+        assert!(text.starts_with("x,y,z\n"), "{file}: {text}");
+        let found = numbers(&text);
         let same = found.iter().zip(&expected).all(|(a, b)| (*a as f32) == (*b as f32));
         assert!(same && found.len() == 36, "{file}: {found:?}");
         // The last value of a field of three.

@@ -106,6 +106,11 @@ fn nulls_and_nan_of_other_formats_are_left_out_too() {
         .taut("verify b.json raw.f64 --raw-dim 2 --raw-type f64")
         .ends(0)
         .stdout_has(&["2 points in 2 dimensions", "1 (33 %)"]);
+    // A pipe is not mapped.
+    folder
+        .pipe(folder.bytes("raw.f64"), "ball - --raw-dim 2 --type f64 --missing drop")
+        .ends(0)
+        .stdout_has(&["2 points in 2 dimensions", "1 (33 %)"]);
 }
 
 #[test]
