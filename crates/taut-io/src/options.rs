@@ -20,7 +20,8 @@ pub struct ReadOptions {
     /// The mark before the decimals of numbers in text. Default [`Decimal::Point`].
     pub decimal: Decimal,
     /// A column of labels, by name or by number from 0: no coordinate, whatever the selection. In CSV, TSV,
-    /// whitespace, parquet and arrow labels are any text; in other formats they are numbers. They are in [`Input::labels`](crate::Input::labels).
+    /// whitespace, parquet and arrow labels are any text; in other formats they are numbers. They are in
+    /// [`Input::labels`](crate::Input::labels).
     pub label: Option<String>,
     /// States whether the first row of a text file holds names. Default [`Header::Auto`].
     pub header: Header,

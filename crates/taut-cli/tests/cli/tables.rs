@@ -245,3 +245,17 @@ fn a_unit_beyond_double_precision_is_refused() {
             .stderr_has(&["far.csv", "of column 0 is too large"]);
     }
 }
+
+#[test]
+fn names_of_rows_are_not_dropped_unsaid() {
+    let folder = TestFolder::new();
+    folder.put("p.csv", "town,x,id\nUlm,0,1\nHof,2,3\n");
+    folder
+        .taut("memory order p.csv --id town -o o.csv --ordered s.csv")
+        .ends(2)
+        .stderr_has(&["--ordered", "--id"]);
+    folder.taut("memory order p.csv --id town -o o.csv").ends(0);
+    assert!(folder.text("o.csv").starts_with("row,id\n"));
+    folder.taut("convert p.csv --id town -o c.csv").ends(0);
+    assert_eq!(folder.text("c.csv"), "id_,x,id\nUlm,0,1\nHof,2,3\n");
+}

@@ -141,6 +141,16 @@ fn a_null_shape_among_points_is_a_gap() {
     assert_eq!((values(&found), rows(&found)), (vec![1.0, 2.0, 3.0, 4.0], vec![0, 2]));
 }
 
+#[test]
+fn columns_of_a_table_have_names_of_their_own() {
+    use taut_io::{Column, Table};
+
+    let one = || Column::Whole(vec![1]);
+    let table = Table::new().with("row", one()).with("row", one()).with("row", one());
+    let names = Table::new().with("row", one()).with("row_", one()).with("row__", one());
+    assert_eq!(table, names);
+}
+
 #[cfg(feature = "arrow")]
 mod geometries {
     use std::collections::HashMap;
