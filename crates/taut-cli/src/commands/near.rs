@@ -20,8 +20,8 @@ use table::Table;
 #[derive(Debug, clap::Args)]
 #[command(group(clap::ArgGroup::new("question").required(true).args(["queries", "rays", "pairs", "diameter"])))]
 #[command(after_help = "\
-A line of the output is a row found, with its distance; rows and queries are counted from 0 as in their files. Distances are calculated in \
-double precision, and of equal ones the lowest row comes first. The distance to a ball is that to its near side, negative inside, \
+A line of the output is a row found, with its distance; rows and queries are counted from 0 as in their files. Distances are \
+calculated in double precision, and of equal ones the lowest row comes first. The distance to a ball is that to its near side, negative inside, \
 and with --farthest to its far side; along a ray it is that to where the ray enters.
 Exit: 0 done · 2 bad input or usage, nothing written
 Example: taut near towns.csv --queries homes.csv -k 3 -o nearest.csv

@@ -1,6 +1,8 @@
 //! Rows that lack a value, and values that are mistyped: none is lost unsaid.
 
-use taut_io::{Bounds, Decimal, Input, Missing, RawLayout, ReadOptions, Thinning, open_bytes};
+use taut_io::{
+    Bounds, Decimal, Format, Input, Missing, RawLayout, ReadOptions, Thinning, open_bytes,
+};
 
 use super::{message, text_with, values};
 
@@ -106,11 +108,11 @@ fn raw_values_that_are_not_mapped_are_left_out_too() {
     let bytes: Vec<u8> =
         [0.0, 1.0, f64::NAN, 3.0, 4.0, 5.0].iter().flat_map(|value| value.to_le_bytes()).collect();
     let scalar = taut_points::ScalarKind::F64;
-    let raw = Some(RawLayout { dim: 2, scalar, offset: 0 });
-    let options = ReadOptions { raw, ..dropping() };
+    let (raw, format) = (Some(RawLayout { dim: 2, scalar, offset: 0 }), Some(Format::Raw));
+    let options = ReadOptions { raw, format, ..dropping() };
     let found = open_bytes(bytes.clone(), "t.raw", &options).unwrap();
     assert_eq!((values(&found), rows(&found)), (vec![0.0, 1.0, 4.0, 5.0], vec![0, 2]));
-    let options = ReadOptions { raw, ..Default::default() };
+    let options = ReadOptions { raw, format, ..Default::default() };
     assert!(message(open_bytes(bytes, "t.raw", &options)).contains("row 2, column 0"));
 }
 
