@@ -107,7 +107,7 @@ pub fn describe(path: &Path, options: &ReadOptions) -> Result<Description, Error
     };
     let mut columns: Vec<ColumnDescription> =
         columns.into_iter().enumerate().map(|(at, counts)| counts.describe(name(at))).collect();
-    if numeric && input.format.has_text_labels() && path.as_os_str() != "-" && !path.is_dir() {
+    if numeric && input.format.is_delimited() && path.as_os_str() != "-" && !path.is_dir() {
         columns.extend(text_columns(path, &options, input.format)?);
     }
     let duplicates = is_held.then(|| duplicates(&values, dim));

@@ -73,8 +73,13 @@ impl Filter {
         Ok(Sieve { filter: self, path: path.to_owned(), axes })
     }
 
-    /// Keeps what is to be kept of points that were read.
-    pub(crate) fn apply(&mut self, job: &Job<'_>, decoded: Decoded) -> Result<Decoded, Error> {
+    /// Keeps what is to be kept of points that were read, and hands its rows to `note`.
+    pub(crate) fn apply(
+        &mut self,
+        job: &Job<'_>,
+        decoded: Decoded,
+        mut note: impl FnMut(u64),
+    ) -> Result<Decoded, Error> {
         let Decoded { source, columns, numbers, mut labels } = decoded;
         let mut sieve = self.sieve(job.path, source.dim(), &columns)?;
         let mut kept = Kept::new(job, source.scalar(), source.dim());
@@ -84,6 +89,7 @@ impl Filter {
             let range = blocks.range(block);
             let rows = source.read(range.clone(), &mut scratch)?;
             kept.add(&rows, range.start, &mut sieve, |row| {
+                note(row);
                 if let Some(label) = labels.get_mut(row as usize) {
                     labels_kept.push(std::mem::take(label));
                 }

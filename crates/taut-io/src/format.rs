@@ -171,9 +171,14 @@ impl Format {
         self.entry().uses.iter().any(|(_, access, _)| *access != Access::Read)
     }
 
-    /// Returns true if a column of labels can be any text.
-    pub(crate) fn has_text_labels(self) -> bool {
+    /// Returns true if it is a text with columns.
+    pub(crate) fn is_delimited(self) -> bool {
         matches!(self, Format::Csv | Format::Tsv | Format::Whitespace)
+    }
+
+    /// Returns true if its reader knows of a column of labels.
+    pub(crate) fn reads_labels(self) -> bool {
+        self.is_delimited() || matches!(self, Format::Parquet | Format::Arrow)
     }
 
     /// Returns true if its points have classes to choose from.

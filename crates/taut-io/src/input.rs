@@ -79,6 +79,13 @@ impl Input {
         self.dropped.count() + parts
     }
 
+    /// The number of rows in the file, or in all files of a folder, with those that were left out because they lack a value or by
+    /// a box or a grid; known where the former were asked to be left out.
+    pub fn rows_in_file(&self) -> u64 {
+        let parts: u64 = self.parts.iter().map(|part| part.dropped.all()).sum();
+        self.dropped.all() + parts
+    }
+
     /// The number in the file of a row of the points, both from 0; in a folder that in its own file.
     pub fn row_in_file(&self, row: u64) -> u64 {
         let part = self.parts.partition_point(|part| part.start <= row).checked_sub(1);
@@ -336,7 +343,7 @@ fn open_medium(
     let with_label = labels::selecting(options, label.as_ref(), format);
     let job = Job { path: display, format, options: with_label.as_ref().unwrap_or(options) };
     let mut decoded = read::read(&job, medium, filter)?;
-    if let Some(label) = label.filter(|_| !format.has_text_labels()) {
+    if let Some(label) = label.filter(|_| !format.reads_labels()) {
         decoded = labels::split(decoded, &label, display, with_label.is_some())?;
     }
     let mut dropped = Dropped::default();
@@ -344,7 +351,12 @@ fn open_medium(
         (decoded, dropped) = drop_rows(&job, decoded)?;
     }
     if !filter.keeps_all() && !format.filters_as_it_reads() {
-        decoded = filter.apply(&job, decoded).map_err(nothing_kept)?;
+        let (mut rows, has_gaps) = (vec![], dropped.count() > 0);
+        let note = |row| rows.extend(has_gaps.then_some(row));
+        decoded = filter.apply(&job, decoded, note).map_err(nothing_kept)?;
+        if has_gaps {
+            dropped.keep(rows);
+        }
     }
     let Decoded { source, columns, numbers, labels } = decoded;
     let (path, parts) = (display.to_owned(), vec![]);

@@ -13,7 +13,7 @@ pub(crate) fn selecting(
 ) -> Option<ReadOptions> {
     let (columns, label) = options.columns.as_ref().zip(label)?;
     let columns = Some(columns.with(label));
-    (!format.has_text_labels()).then(|| ReadOptions { columns, ..options.clone() })
+    (!format.reads_labels()).then(|| ReadOptions { columns, ..options.clone() })
 }
 
 /// Refuses a selection that leaves no column beside the label.

@@ -9,20 +9,37 @@ use crate::read::Decoded;
 use crate::sink::Sink;
 use crate::{Error, FilterError};
 
-/// The rows of a file that were left out, ascending, from 0.
+/// The rows of a file that were left out.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Dropped {
+    /// Those that lack a value, ascending, from 0.
     rows: Vec<u64>,
+    /// All rows of the file.
+    all: u64,
+    /// The rows that a filter kept, as they are numbered without those above; all where none.
+    kept: Option<Vec<u64>>,
 }
 
 impl Dropped {
-    /// The number of them.
+    /// The number of those that lack a value.
     pub(crate) fn count(&self) -> u64 {
         self.rows.len() as u64
     }
 
+    /// The number of all rows of the file.
+    pub(crate) fn all(&self) -> u64 {
+        self.all
+    }
+
+    /// Takes note of the rows that a filter kept.
+    pub(crate) fn keep(&mut self, kept: Vec<u64>) {
+        self.kept = Some(kept);
+    }
+
     /// The number in the file of a row that was kept.
     pub(crate) fn in_file(&self, row: u64) -> u64 {
+        let at = |kept: &Vec<u64>| usize::try_from(row).ok().and_then(|row| kept.get(row).copied());
+        let row = self.kept.as_ref().and_then(at).unwrap_or(row);
         // Before the k-th row left out there are rows[k] − k rows that were kept.
         let (mut low, mut high) = (0, self.rows.len());
         while low < high {
@@ -48,7 +65,7 @@ pub(crate) fn drop_rows(job: &Job<'_>, decoded: Decoded) -> Result<(Decoded, Dro
         rows.extend(numbers.into_iter().map(|row| first + row));
         Ok(())
     })?;
-    let dropped = Dropped { rows };
+    let dropped = Dropped { rows, all: source.len(), kept: None };
     if dropped.rows.is_empty() {
         return Ok((Decoded { source, columns, numbers, labels }, dropped));
     }
@@ -123,10 +140,16 @@ mod tests {
     #[test]
     fn rows_that_are_kept_have_their_numbers_in_the_file() {
         for rows in [vec![], vec![0], vec![4], vec![0, 1, 2, 5, 6, 9]] {
-            let dropped = Dropped { rows };
+            let dropped = Dropped { rows, all: 12, kept: None };
             let kept = (0..12).filter(|row| !dropped.rows.contains(row));
             for (at, row) in (0..).zip(kept) {
                 assert_eq!(dropped.in_file(at), row, "{dropped:?}");
+            }
+            // A filter that keeps each second of the others.
+            let mut thinned = dropped.clone();
+            thinned.keep((0..12).step_by(2).collect());
+            for at in 0..3 {
+                assert_eq!(thinned.in_file(at), dropped.in_file(2 * at), "{thinned:?}");
             }
         }
     }

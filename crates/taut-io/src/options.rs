@@ -19,8 +19,9 @@ pub struct ReadOptions {
     pub missing: Missing,
     /// The mark before the decimals of numbers in text. Default [`Decimal::Point`].
     pub decimal: Decimal,
-    /// A column of labels, by name or by number from 0: no coordinate, whatever the selection. In CSV, TSV and whitespace labels are
-    /// any text; in other formats they are numbers. They are in [`Input::labels`](crate::Input::labels).
+    /// A column of labels, by name or by number from 0: no coordinate, whatever the selection. In CSV, TSV,
+    /// whitespace, parquet and arrow labels are any text; in other formats they are numbers. They are in
+    /// [`Input::labels`](crate::Input::labels).
     pub label: Option<String>,
     /// States whether the first row of a text file holds names. Default [`Header::Auto`].
     pub header: Header,
@@ -32,7 +33,8 @@ pub struct ReadOptions {
     /// text or a point of an array of more than an eighth of this memory, vertices and triangles of a mesh of more than half,
     /// a message of arrow or an array in Fortran order of more than all of it. All but the last may have 1 MiB in any case.
     pub memory: Option<u64>,
-    /// The feature of a GeoJSON, WKT or SVG file whose positions are read; by default the only one.
+    /// The feature of a GeoJSON, WKT or SVG file, the array of an npz file or the shape of a shapefile that is read; by default the
+    /// only one, and of a shapefile all.
     pub feature: Option<Feature>,
     /// The classes of points to keep, of a LAS or LAZ file; by default all. Points are numbered after that.
     pub classes: Option<Vec<u8>>,
@@ -105,9 +107,9 @@ pub struct Thinning {
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Feature {
-    /// The number of a feature of GeoJSON, a geometry of WKT or a path of SVG, from 0.
+    /// The number of a feature of GeoJSON, a geometry of WKT, a path of SVG, an array of npz or a shape of a shapefile, from 0.
     Number(u64),
-    /// The property `name` (in either case) of a feature of GeoJSON, or the `id` of a path of SVG.
+    /// The property `name` (in either case) of a feature of GeoJSON, the `id` of a path of SVG, or the name of an array of npz.
     Name(String),
 }
 

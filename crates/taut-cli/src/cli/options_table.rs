@@ -43,6 +43,9 @@ const MEANINGS: &[(&str, &str)] = &[
     ("type", "Type of a coordinate, f32 or f64"),
 ];
 
+/// Short names that stand for a second option in subcommands without the first: -k and -n count there, too.
+const SECOND_LONGS: &[(char, &str)] = &[('k', "directions"), ('n', "count")];
+
 /// An option of a subcommand.
 struct Use {
     command: String,
@@ -188,4 +191,22 @@ fn no_name_has_two_meanings() {
     for (name, _) in MEANINGS {
         assert!(uses().contains_key(*name), "--{name} is gone: take it out of MEANINGS");
     }
+}
+
+#[test]
+fn no_short_name_has_two_meanings() {
+    let mut longs: BTreeMap<char, (String, String)> = BTreeMap::new();
+    visit(&crate::cli::Cli::command(), "", &mut |name, command| {
+        for option in command.get_arguments() {
+            let (Some(short), Some(long)) = (option.get_short(), option.get_long()) else {
+                continue;
+            };
+            if SECOND_LONGS.contains(&(short, long)) {
+                continue;
+            }
+            let first = longs.entry(short).or_insert_with(|| (long.to_owned(), name.to_owned()));
+            assert_eq!(first.0, long, "-{short} of `{}` and of `{name}`", first.1);
+        }
+    });
+    assert!(longs.contains_key(&'o'), "{longs:?}");
 }

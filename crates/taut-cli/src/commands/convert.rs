@@ -94,11 +94,31 @@ impl Args {
     /// The mesh of the file, or its points as vertices.
     fn mesh(&self) -> anyhow::Result<Mesh> {
         let path = &self.points.path;
-        let from = Format::of_path(path).0;
-        if from.is_some_and(|format| format.reads(Content::Surface)) && !writing::is_stream(path) {
-            return Ok(open_mesh(path, Content::Surface, None)?);
+        let is_plain = self.reading.is_plain();
+        let from = self.reading.format().or(Format::of_path(path).0);
+        // A cloud of points is no mesh, so that options choose rows of it; read plainly it keeps normals and colors.
+        let is_cloud = from == Some(Format::Xyz) && !is_plain;
+        if from.is_some_and(|format| format.reads(Content::Surface)) && !is_cloud {
+            let mesh = open_mesh(path, Content::Surface, from)?;
+            if is_plain {
+                return Ok(mesh);
+            }
+            if !mesh.triangles().is_empty() {
+                bail!(
+                    "{}: options of reading choose points, not the triangles of a mesh: leave them out",
+                    path.display()
+                );
+            }
+            if writing::is_stream(path) {
+                bail!(
+                    "options of reading need a second walk over the vertices of a mesh: name a file"
+                );
+            }
         }
         let opened = self.reading.open(path)?;
+        if !opened.labels().is_empty() {
+            bail!("{}: vertices have no names: leave out --id", self.out.display());
+        }
         if opened.source().dim() != 3 {
             bail!("{}: vertices have 3 coordinates: choose these with --columns", opened.name());
         }
@@ -108,7 +128,7 @@ impl Args {
     }
 }
 
-/// The points with their names in the first column.
+/// The points with their names in the first column, whose name no coordinate has.
 fn table(points: &Opened) -> anyhow::Result<Table> {
     let dim = points.source().dim();
     let mut columns = vec![vec![]; dim];
@@ -116,7 +136,11 @@ fn table(points: &Opened) -> anyhow::Result<Table> {
         columns.iter_mut().zip(row).for_each(|(column, &value)| column.push(value));
     })?;
     let names = points.names(dim);
-    let table = Table::new().with("id", Column::Text(points.labels().to_vec()));
+    let mut id = "id".to_owned();
+    while names.contains(&id) {
+        id.push('_');
+    }
+    let table = Table::new().with(id, Column::Text(points.labels().to_vec()));
     Ok(columns.into_iter().enumerate().fold(table, |table, (at, column)| {
         let name = names.get(at).cloned().unwrap_or_else(|| format!("x{at}"));
         table.with(name, Column::Real(column))

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::bail;
+use anyhow::{anyhow, bail};
 use taut::Solution;
 use taut::certify::Violation;
 use taut::certify::with_solution;
@@ -60,6 +60,8 @@ impl Args {
             (false, Some(path)) => {
                 let (answer, choice) = read_answer(&self.answer, path)?;
                 let reading = self.reading.as_for(choice.as_ref());
+                let reading =
+                    reading.map_err(|error| anyhow!("{}: {error}", shown(&self.answer)))?;
                 let points = reading.open_for(path, &self.obstacles, &answer)?;
                 with_solution!(&answer, found => self.drawing(found, &points, &watch)?)
                     .map_err(|violation| points.explain_violation(&violation, &shown(&self.answer)))

@@ -172,6 +172,7 @@ pub(crate) fn run(
         let fields: Vec<Field> = [end_of(&rows, range), Some(verified), Some(clock.field())]
             .into_iter()
             .flatten()
+            .chain(points.notes())
             .collect();
         outputs.print(&reports::text("", &fields)[1..]);
     }
@@ -295,7 +296,7 @@ fn drawing(
     Ok(Drawing {
         title: title.to_owned(),
         heading: points.name().to_owned(),
-        fields: rows.iter().map(field).chain([verified]).collect(),
+        fields: rows.iter().map(field).chain([verified]).chain(picture::notes(points)).collect(),
         figures: vec![figure],
     })
 }

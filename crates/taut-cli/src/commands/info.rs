@@ -35,7 +35,7 @@ impl Args {
         self.effort.start()?;
         let path = &self.points.path;
         let found = describe(path, &self.reading.options()?)?;
-        let triangles = triangles(path)?;
+        let triangles = triangles(path, self.reading.format())?;
         let text = match self.json {
             true => format!("{:#}\n", to_json(&found, triangles)),
             false => to_text(&self.points.path, &found, triangles),
@@ -48,13 +48,13 @@ impl Args {
 }
 
 /// The triangles of a file that can be a mesh, if it has some.
-fn triangles(path: &Path) -> anyhow::Result<Option<u64>> {
-    let format = Format::of_path(path).0;
+fn triangles(path: &Path, format: Option<Format>) -> anyhow::Result<Option<u64>> {
+    let format = format.or(Format::of_path(path).0);
     let is_mesh = format.is_some_and(|format| format.reads(Content::Surface));
     if !is_mesh || format == Some(Format::Xyz) || writing::is_stream(path) || path.is_dir() {
         return Ok(None);
     }
-    let mesh = open_mesh(path, Content::Surface, None)?;
+    let mesh = open_mesh(path, Content::Surface, format)?;
     Ok(Some(mesh.triangles().len() as u64).filter(|&triangles| triangles > 0))
 }
 

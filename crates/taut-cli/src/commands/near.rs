@@ -12,7 +12,7 @@ use crate::commands::ball::items;
 use crate::effort::Effort;
 use crate::exit::Outcome;
 use crate::input::reading::{Opened, Points, Reading, wrong_option};
-use crate::output::writing::{self, Outputs};
+use crate::output::writing::{self, Outputs, print_error};
 use crate::watch::Watch;
 use table::Table;
 
@@ -20,8 +20,8 @@ use table::Table;
 #[derive(Debug, clap::Args)]
 #[command(group(clap::ArgGroup::new("question").required(true).args(["queries", "rays", "pairs", "diameter"])))]
 #[command(after_help = "\
-A line of the output is a row found, with its distance; rows and queries are counted from 0. Distances are calculated in \
-double precision, and of equal ones the lowest row comes first. The distance to a ball is that to its near side, negative inside, \
+A line of the output is a row found, with its distance; rows and queries are counted from 0 as in their files. Distances are \
+calculated in double precision, and of equal ones the lowest row comes first. The distance to a ball is that to its near side, negative inside, \
 and with --farthest to its far side; along a ray it is that to where the ray enters.
 Exit: 0 done · 2 bad input or usage, nothing written
 Example: taut near towns.csv --queries homes.csv -k 3 -o nearest.csv
@@ -128,6 +128,26 @@ impl Args {
             None => self.ask_alone(&search, &points, &watch)?,
             Some(other) => self.ask(&search, other, &watch)?,
         };
+        let files = match &other {
+            None => [&points, &points],
+            Some(other) if self.pairs.is_some() => [&points, other],
+            Some(other) => [other, &points],
+        };
+        let table = table.of_files(files);
+        if !self.effort.quiet {
+            for opened in [Some(&points), other.as_ref()].into_iter().flatten() {
+                for note in opened.notes() {
+                    let remark = note.remark.map(|remark| format!("; {remark}"));
+                    let remark = remark.unwrap_or_default();
+                    print_error(&format!(
+                        "{}: {} {}{remark}",
+                        opened.name(),
+                        note.name,
+                        note.value
+                    ));
+                }
+            }
+        }
         let mut outputs = Outputs::default();
         outputs.add(&self.out, table.text(as_json).as_bytes())?;
         outputs.finish()?;

@@ -90,6 +90,7 @@ impl Args {
             AnyDocument::Points(answer) => *answer,
         };
         let reading = self.reading.as_for(choice.as_ref());
+        let reading = reading.map_err(|error| anyhow!("{}: {error}", shown(&self.answer)))?;
         let points = reading.open_for(self.only_file()?, &self.obstacles, &answer)?;
         let source = points.source();
         let judged = with_solution!(&answer, found => {

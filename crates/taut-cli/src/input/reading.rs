@@ -37,8 +37,8 @@ pub(crate) struct Reading {
     columns: Option<String>,
     #[command(flatten)]
     table: TableOptions,
-    /// Of a GeoJSON, WKT or SVG file the feature to read, by its number from 0 or its name: in GeoJSON the property `name`, in SVG
-    /// the id of a path [default: the only one]
+    /// Of a GeoJSON, WKT, SVG, npz or shapefile the feature, array or shape to read, by its number from 0 or its name: in GeoJSON the
+    /// property `name`, in SVG the id of a path, in npz that of an array [default: the only one; all shapes]
     #[arg(long, value_name = "NAME|NUMBER")]
     select: Option<Feature>,
     /// Of a LAS or LAZ file the classes of points to keep, such as 2 or 2,9; points are numbered after that [default: all]
@@ -147,8 +147,19 @@ impl Reading {
         if path == Path::new("-") && std::io::stdin().is_terminal() {
             writing::print_error("reading points from the terminal; Ctrl-D ends them");
         }
-        let opened = Opened::of(taut_io::open(path, &self.options()?)?);
-        opened.chosen(self.choice(), self.table.units.as_ref())
+        let options = self.options()?;
+        let input = match taut_io::open(path, &options) {
+            // A stream cannot be read twice.
+            Err(
+                taut_io::Error::NoNames { .. }
+                | taut_io::Error::ColumnName { .. }
+                | taut_io::Error::ColumnNumber { .. },
+            ) if self.table.is_id_stored && !writing::is_stream(path) => {
+                taut_io::open(path, &ReadOptions { label: None, ..options })
+            }
+            input => input,
+        };
+        Opened::of(input?).chosen(self.choice(), self.table.units.as_ref())
     }
 
     /// Returns what was chosen, for the JSON of an answer.
@@ -158,10 +169,10 @@ impl Reading {
     }
 
     /// The same, with what was chosen for an answer where nothing else is asked for.
-    pub(crate) fn as_for(&self, choice: Option<&ReadingChoice>) -> Self {
-        let Some(choice) = choice else { return self.clone() };
+    pub(crate) fn as_for(&self, choice: Option<&ReadingChoice>) -> anyhow::Result<Self> {
+        let Some(choice) = choice else { return Ok(self.clone()) };
         let columns = self.columns.clone().or_else(|| choice.columns.clone());
-        Self { columns, table: self.table.as_for(choice), ..self.clone() }
+        Ok(Self { columns, table: self.table.as_for(choice)?, ..self.clone() })
     }
 
     /// The same, but says before how much disk the points of a laser scan take while the work lasts, and refuses what surely does
@@ -189,6 +200,20 @@ impl Reading {
             }
         }
         self.open(path)
+    }
+
+    /// The format that was asked for.
+    pub(crate) fn format(&self) -> Option<Format> {
+        self.format
+    }
+
+    /// Tests whether no option asks for some rows or columns, or for another way to read cells.
+    pub(crate) fn is_plain(&self) -> bool {
+        self.keeps_all()
+            && self.columns.is_none()
+            && self.select.is_none()
+            && self.header == Header::Auto
+            && self.table.choice() == ReadingChoice::default()
     }
 
     /// Tests whether all points are kept.
@@ -583,9 +608,8 @@ impl Opened {
 /// Says how many rows were left out because they lack a value.
 fn missing_rows(input: &Input) -> Option<Field> {
     let dropped = input.dropped_rows();
-    let all = input.source.len() + dropped;
     (dropped > 0).then(|| {
-        Field::new("missing", share(dropped, all)).remark(format!(
+        Field::new("missing", share(dropped, input.rows_in_file())).remark(format!(
             "row{} left out, as a value is missing; rows are numbered as in the file",
             if dropped == 1 { "" } else { "s" }
         ))

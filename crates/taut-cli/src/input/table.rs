@@ -1,5 +1,6 @@
 //! Options for tables as people keep them: with gaps, names, decimal commas, and columns in different units.
 
+use anyhow::bail;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use taut::certify::{ReadingChoice, ScaleChoice};
 use taut_io::{Decimal, Missing};
@@ -25,6 +26,9 @@ pub(crate) struct TableOptions {
     /// The units that an answer is in.
     #[arg(skip)]
     pub(super) units: Option<ScaleChoice>,
+    /// True if the column of names is that of an answer, so that a file need not have it: names are no part of an answer.
+    #[arg(skip)]
+    pub(super) is_id_stored: bool,
 }
 
 fn missing() -> impl TypedValueParser<Value = Missing> {
@@ -67,20 +71,23 @@ impl TableOptions {
     }
 
     /// The same, with what was chosen for an answer where nothing else is asked for.
-    pub(super) fn as_for(&self, choice: &ReadingChoice) -> Self {
-        let missing = choice.missing.as_ref().map(|word| match &**word {
-            DROP => Missing::Drop,
-            _ => Missing::Refuse,
-        });
-        let decimal = choice.decimal.as_ref().map(|mark| match &**mark {
-            "," => Decimal::Comma,
-            _ => Decimal::Point,
-        });
-        TableOptions {
+    pub(super) fn as_for(&self, choice: &ReadingChoice) -> anyhow::Result<Self> {
+        let missing = match choice.missing.as_deref() {
+            None => None,
+            Some(DROP) => Some(Missing::Drop),
+            Some(word) => bail!("key `missing` of `reading` is {word:?}: expected {DROP:?}"),
+        };
+        let decimal = match choice.decimal.as_deref() {
+            None => None,
+            Some(",") => Some(Decimal::Comma),
+            Some(mark) => bail!("key `decimal` of `reading` is {mark:?}: expected \",\""),
+        };
+        Ok(TableOptions {
             missing: self.missing.or(missing),
             decimal: self.decimal.or(decimal),
             id: self.id.clone().or_else(|| choice.id.clone()),
             units: choice.scale.clone(),
-        }
+            is_id_stored: self.id.is_none() && choice.id.is_some(),
+        })
     }
 }

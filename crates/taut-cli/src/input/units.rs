@@ -70,18 +70,30 @@ impl UnitOptions {
 
 /// The unit of each column; 1 of a column that is constant.
 fn units_of(points: &Opened, unit: Unit) -> anyhow::Result<Vec<f64>> {
-    let positive = |value: f64| if value > 0.0 && value.is_finite() { value } else { 1.0 };
-    Ok(match unit {
-        Unit::Std => deviations(points)?.into_iter().map(positive).collect(),
-        Unit::Range => ranges(points, u64::MAX)?.into_iter().map(positive).collect(),
+    let units: Vec<f64> = match unit {
+        Unit::Std => deviations(points)?,
+        Unit::Range => ranges(points, u64::MAX)?,
         Unit::Robust => {
             let ranges = ranges(points, u64::MAX)?;
             let quartiles = quartiles(points)?;
             // Where half of a column is one value, its range is the unit.
             let both = quartiles.into_iter().zip(ranges);
-            both.map(|(span, range)| positive(if span > 0.0 { span } else { range })).collect()
+            both.map(|(span, range)| if span > 0.0 { span } else { range }).collect()
         }
-    })
+    };
+    if let Some(column) = units.iter().position(|unit| !unit.is_finite()) {
+        bail!(
+            "{}: the {} of column {column} is too large for double precision: leave out --scale, or choose other columns with \
+             --columns",
+            points.name(),
+            match unit {
+                Unit::Std => "standard deviation",
+                Unit::Range => "range",
+                Unit::Robust => "span of the quartiles",
+            }
+        );
+    }
+    Ok(units.into_iter().map(|unit| if unit > 0.0 { unit } else { 1.0 }).collect())
 }
 
 /// Hands each of the first rows to `visit`; all must be finite.

@@ -93,10 +93,18 @@ impl Drawing {
         Ok(Drawing {
             title: report.title(),
             heading: points.name().to_owned(),
-            fields: report.fields().into_iter().map(Into::into).collect(),
+            fields: report.fields().into_iter().map(Into::into).chain(notes(points)).collect(),
             figures,
         })
     }
+}
+
+/// What is known of how the points were read or made, with all its words.
+pub(crate) fn notes(points: &Opened) -> impl Iterator<Item = Field> {
+    points.notes().into_iter().map(|note| match note.remark {
+        Some(remark) => Field::new(note.name, format!("{}; {remark}", note.value)),
+        None => Field::new(note.name, note.value),
+    })
 }
 
 fn themes() -> impl TypedValueParser<Value = Theme> {

@@ -55,10 +55,13 @@ fn extension_of(path: &Path) -> Option<String> {
 /// Refuses the extension of anything else where JSON is written.
 pub(crate) fn check_json(path: &Path, option: &str) -> anyhow::Result<()> {
     let shown = path.display();
-    match Format::of_path(path).0 {
+    match Format::of_path(path) {
         _ if names_json(path) => Ok(()),
-        Some(format) => bail!("{shown}: {option} writes JSON, no {format} file: name it .json"),
-        None => bail!("{shown}: {option} writes JSON: name it .json"),
+        (_, Some(_)) => bail!("{shown}: {option} writes JSON, not compressed: name it .json"),
+        (Some(format), _) => {
+            bail!("{shown}: {option} writes JSON, no {format} file: name it .json")
+        }
+        _ => bail!("{shown}: {option} writes JSON: name it .json"),
     }
 }
 

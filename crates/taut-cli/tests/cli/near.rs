@@ -125,3 +125,30 @@ fn what_is_wrong_is_named() {
         .ends(2)
         .stderr_has(&["is the input"]);
 }
+
+#[test]
+fn rows_have_their_numbers_and_names_in_their_files() {
+    let folder = TestFolder::new();
+    folder.put("p.csv", "town,x,y\nUlm,NA,0\n\"Au, Hallertau\",0,0\nHof,,1\nKiel,5,0\n");
+    folder.put("q.csv", "town,x,y\nA,,\nB,1,0\nC,4,0\n");
+    let line = "near p.csv --columns x,y --missing drop";
+    let run = folder.taut(&format!("{line} --queries q.csv")).ends(0);
+    assert_eq!(run.out, "query,row,distance\n1,1,1\n2,3,1\n");
+    assert!(run.err.contains("p.csv: missing 2 (50 %)"), "{}", run.err);
+    assert!(run.err.contains("q.csv: missing 1 (33 %)"), "{}", run.err);
+    assert_eq!(folder.taut(&format!("{line} --queries q.csv -q")).ends(0).err, "");
+    let named = folder.taut(&format!("{line} --id town --queries q.csv")).ends(0).out;
+    assert_eq!(
+        named,
+        "query,row,distance,query_id,row_id\n1,1,1,B,\"Au, Hallertau\"\n2,3,1,C,Kiel\n"
+    );
+    let pairs = folder.taut(&format!("{line} --id town --pairs --distance 9 --json")).ends(0);
+    assert_eq!(
+        pairs.json(),
+        json!([{"row": 1, "other": 3, "distance": 5.0, "row_id": "Au, Hallertau", "other_id": "Kiel"}])
+    );
+    let pairs = folder.taut(&format!("{line} --pairs q.csv --distance 1")).ends(0).out;
+    assert_eq!(pairs, "row,other,distance\n1,1,1\n3,2,1\n");
+    let diameter = folder.taut(&format!("{line} --diameter")).ends(0).out;
+    assert!(diameter.contains("\n1,3,5,5\n"), "{diameter}");
+}

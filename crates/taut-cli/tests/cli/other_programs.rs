@@ -38,7 +38,9 @@ fn clouds_of_the_point_cloud_library() {
     let folder = folder();
     let expected = numbers(&folder.text("cloud32.csv"));
     for file in ["ascii.pcd", "binary.pcd", "compressed.pcd"] {
-        let found = numbers(&csv(&folder, file));
+        let text = csv(&folder, file);
+        assert!(text.starts_with("x,y,z\n"), "{file}: {text}");
+        let found = numbers(&text);
         let same = found.iter().zip(&expected).all(|(a, b)| (*a as f32) == (*b as f32));
         assert!(same && found.len() == 36, "{file}: {found:?}");
         // The last value of a field of three.
@@ -152,4 +154,44 @@ fn points_and_meshes_are_converted() {
     folder.taut("convert cloud.csv -o cloud.json").ends(2).stderr_has(&["cloud.json"]);
     folder.taut("convert cloud.csv -o cloud.csv").ends(2).stderr_has(&["is the input"]);
     folder.taut("convert twice.csv -o x.ply").ends(2);
+}
+
+#[test]
+fn options_of_reading_choose_rows_of_meshes_without_triangles() {
+    let folder = TestFolder::new();
+    folder.put("scan.xyz", "0 0 0\n0.1 0 0\n5 5 5\n");
+    let to = |line: &str| folder.taut(&format!("convert {line}")).ends(0).out;
+    assert!(to("scan.xyz -o thin.ply --thin 1").contains("2 vertices"));
+    to("thin.ply -o near.obj --bounds 0,0,0,1,1,1");
+    assert_eq!(numbers(&csv(&folder, "near.obj")), [0.0, 0.0, 0.0]);
+    folder.put("cube.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n");
+    folder
+        .taut("convert cube.off -o cut.ply --bounds 0,0,0,1,1,0")
+        .ends(2)
+        .stderr_has(&["cube.off", "not the triangles of a mesh"]);
+    folder.taut("convert scan.xyz -o n.ply --id 0 --columns 0-").ends(2);
+    // The format that is asked for is that of the file, also of a pipe.
+    folder.put("cube.dat", folder.bytes("cube.off"));
+    assert!(to("cube.dat --format off -o named.ply").contains("1 triangle"));
+    let piped = folder.pipe(folder.bytes("cube.off"), "convert - --format off -o piped.ply");
+    assert!(piped.ends(0).out.contains("1 triangle"));
+    folder.taut("info cube.dat --format off").ends(0).stdout_has(&["triangles   1\n"]);
+}
+
+#[test]
+fn whole_numbers_and_bytes_of_clouds_are_not_lost() {
+    let folder = folder();
+    let mut more = folder.bytes("binary.pcd");
+    more.push(0);
+    folder.put("more.pcd", &more);
+    folder
+        .taut("info more.pcd")
+        .ends(2)
+        .stderr_has(&["more.pcd", "more bytes follow its 12 points"]);
+    let head = "VERSION 0.7\nFIELDS x\nSIZE 8\nTYPE U\nCOUNT 1\nPOINTS 1\nDATA binary\n";
+    for (value, code) in [(1_u64 << 53, 0), ((1 << 53) + 1, 2), (u64::MAX, 2)] {
+        folder.put("large.pcd", [head.as_bytes(), &value.to_le_bytes()].concat());
+        let run = folder.taut("info large.pcd").ends(code);
+        assert_eq!(run.err.contains("is not exact as f64"), code == 2, "{run:?}");
+    }
 }

@@ -106,6 +106,11 @@ fn nulls_and_nan_of_other_formats_are_left_out_too() {
         .taut("verify b.json raw.f64 --raw-dim 2 --raw-type f64")
         .ends(0)
         .stdout_has(&["2 points in 2 dimensions", "1 (33 %)"]);
+    // A pipe is not mapped.
+    folder
+        .pipe(folder.bytes("raw.f64"), "ball - --raw-dim 2 --type f64 --missing drop")
+        .ends(0)
+        .stdout_has(&["2 points in 2 dimensions", "1 (33 %)"]);
 }
 
 #[test]
@@ -157,4 +162,100 @@ fn units_make_columns_comparable_and_are_kept() {
     let lie = folder.text("range.json").replace("80000", "-1");
     folder.put("lie.json", lie);
     folder.taut("verify lie.json people.csv").ends(2).stderr_has(&["not positive"]);
+}
+
+#[test]
+fn mistyped_numbers_are_not_passed_over() {
+    let folder = TestFolder::new();
+    folder.put("first.csv", "1O,2,3\n4,5,6\n");
+    folder.taut("ball first.csv --columns numeric").ends(2).stderr_has(&["row 1", "`1O`"]);
+    folder.put("later.csv", "x,y,z\n4,5,6\n1,2,3\n1O,2,3\n");
+    folder
+        .taut("ball later.csv --columns numeric")
+        .ends(2)
+        .stderr_has(&["row 3 (line 4), column 0 (`x`): `1O` is not a number"]);
+    // A description counts it among words.
+    folder.taut("info later.csv").ends(0).stdout_has(&["\n  x       text "]);
+}
+
+#[test]
+fn rows_keep_their_numbers_in_a_box() {
+    let folder = TestFolder::new();
+    folder.put("p.csv", "x,y\n99,99\nNA,1\n0,0\n4,0\n2,1\n");
+    folder
+        .taut("ball p.csv --missing drop --bounds 0,0,9,9 --table support=s.csv -o b.json")
+        .ends(0)
+        .stdout_has(&["3 points in 2 dimensions", "1 (20 %)"]);
+    let text = folder.text("s.csv");
+    let mut rows: Vec<&str> =
+        text.lines().skip(1).filter_map(|line| line.split(',').next()).collect();
+    rows.sort_unstable();
+    assert_eq!(rows, ["2", "3"]);
+}
+
+#[test]
+fn pages_tell_what_was_left_out() {
+    let folder = messy();
+    folder.put("far.csv", "town,x,y\nUlm,0,0\nBonn,,0\nKiel,0,3\nHof,90,90\n");
+    let line = "centers far.csv -k 1 --outliers 1 --columns x,y --missing drop --id town -o c.json";
+    folder.taut(line).ends(0).stdout_has(&["row 4 (Hof)"]);
+    folder.taut("draw c.json far.csv -o c.html").ends(0);
+    let page = folder.text("c.html");
+    assert!(page.contains("1 (25 %); row left out, as a value is missing"));
+    folder.taut("centers far.csv --elbow 1..2 --columns x,y --missing drop --draw e.html").ends(0);
+    assert!(folder.text("e.html").contains("1 (25 %); row left out"));
+}
+
+#[test]
+fn the_elbow_tells_what_was_left_out() {
+    let folder = messy();
+    folder
+        .taut("centers towns.csv --columns x,y --missing drop --elbow 1..2 --scale range")
+        .ends(0)
+        .stdout_has(&["\n  scale ", "\n  missing ", "2 (29 %)"]);
+}
+
+#[test]
+fn what_an_answer_remembers_can_be_changed() {
+    let folder = messy();
+    let line = "ball towns.csv --columns x,y --missing drop --id town -o b.json";
+    folder.taut(line).ends(0);
+    // Names are no part of an answer.
+    folder.put("bare.csv", "x,y\n0,0\n10,0\n10,10\n0,10\n90,90\n");
+    folder.taut("verify b.json bare.csv").ends(0).stdout_has(&["Verified"]);
+    folder.taut("verify b.json bare.csv --id town").ends(2).stderr_has(&["no column `town`"]);
+    for (word, wrong) in [("\"drop\"", "\"dorp\""), ("\"missing\"", "\"decimal\"")] {
+        let text = folder.text("b.json");
+        let lie = text.replacen(word, wrong, 1);
+        assert_ne!(lie, text);
+        folder.put("lie.json", lie);
+        folder.taut("verify lie.json towns.csv").ends(2).stderr_has(&["lie.json: key `"]);
+        folder.taut("draw lie.json towns.csv -o x.svg").ends(2).stderr_has(&["lie.json: key `"]);
+    }
+}
+
+#[test]
+fn a_unit_beyond_double_precision_is_refused() {
+    let folder = TestFolder::new();
+    folder.put("far.csv", "x,y\n-1.7e308,0\n1.7e308,1\n");
+    for unit in ["range", "std", "robust"] {
+        folder
+            .taut(&format!("ball far.csv --scale {unit}"))
+            .ends(2)
+            .stderr_has(&["far.csv", "of column 0 is too large"]);
+    }
+}
+
+#[test]
+fn names_of_rows_are_not_dropped_unsaid() {
+    let folder = TestFolder::new();
+    folder.put("p.csv", "town,x,id\nUlm,0,1\nHof,2,3\n");
+    folder
+        .taut("memory order p.csv --id town -o o.csv --ordered s.csv")
+        .ends(2)
+        .stderr_has(&["--ordered", "--id"]);
+    folder.taut("memory order p.csv --id town -o o.csv").ends(0);
+    assert!(folder.text("o.csv").starts_with("row,id\n"));
+    folder.taut("convert p.csv --id town -o c.csv").ends(0);
+    assert_eq!(folder.text("c.csv"), "id_,x,id\nUlm,0,1\nHof,2,3\n");
 }

@@ -29,9 +29,7 @@ pub(super) fn read(job: &Job<'_>, stream: Box<dyn BufRead>) -> Result<Decoded, E
     guarded(job, || {
         let mut batches = Batches::new(job, stream)?;
         let plan = Plan::new(job, &batches.schema)?;
-        let mut held = plan.numbers.clone();
-        held.sort_unstable();
-        held.dedup();
+        let held = plan.held();
         batches.held = held.clone();
         plan.read(job, &held, batches)
     })
@@ -93,7 +91,7 @@ impl<'a> Batches<'a> {
                     self.count += 1;
                     return self.decode(message, &body).map(Some);
                 }
-                // Dictionaries encode text, and no column of text is held.
+                // No column with a dictionary is held.
                 MessageHeader::DictionaryBatch | MessageHeader::NONE => {}
                 _ => {
                     return Err(damaged(self.job, "a message is neither a batch nor a dictionary"));

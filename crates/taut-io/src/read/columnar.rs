@@ -7,18 +7,21 @@ use arrow_array::types::{
 };
 use arrow_array::{Array, ArrayRef, RecordBatch};
 use arrow_schema::{DataType, Schema};
-use taut_points::{Scalar, ScalarKind};
+use taut_points::{Scalar, ScalarKind, shown_number};
 
 use super::Decoded;
 use crate::input::Job;
+use crate::labels;
 use crate::sink::Sink;
-use crate::{Error, Missing, Place};
+use crate::{Columns, Error, Missing, Place};
 
 /// Which columns of a schema are coordinates.
 pub(super) struct Plan {
     /// Their numbers in the schema, in the order of the coordinates; of a list column only its own.
-    pub(super) numbers: Vec<usize>,
+    numbers: Vec<usize>,
     names: Vec<String>,
+    /// The column of labels and its name.
+    label: Option<(usize, String)>,
     /// True if the only column holds whole points.
     list: bool,
     pub(super) scalar: ScalarKind,
@@ -39,8 +42,23 @@ impl Plan {
             let columns = fields.iter().map(typed).collect();
             Err(Error::NoCoordinates { path: job.path.to_owned(), problem, columns })
         };
+        let label = job.options.label.as_deref().map(Columns::of_label);
+        let label = label.map(|label| -> Result<(usize, Columns), Error> {
+            let number = label.resolve(job.path, &names, fields.len())?[0];
+            match fields[number].data_type() {
+                kind if is_number(kind) || is_text(kind) => Ok((number, label)),
+                kind => Err(not_numeric(job, &names[number], kind)),
+            }
+        });
+        let label = label.transpose()?;
+        let is_other = |number: &usize| label.as_ref().is_none_or(|label| label.0 != *number);
+        let find = |wanted| find(wanted).into_iter().filter(is_other).collect::<Vec<_>>();
         let numbers = match &job.options.columns {
-            Some(columns) => columns.resolve(job.path, &names, fields.len())?,
+            Some(columns) => {
+                let mut numbers = columns.resolve(job.path, &names, fields.len())?;
+                numbers.retain(is_other);
+                numbers
+            }
             None => match find(is_number) {
                 numbers if !numbers.is_empty() => numbers,
                 _ => match find(is_list) {
@@ -50,15 +68,14 @@ impl Plan {
                 },
             },
         };
+        if let Some((_, label)) = &label {
+            labels::check_others(numbers.len(), label)?;
+        }
         let list = numbers.len() == 1 && is_list(fields[numbers[0]].data_type());
         if !list {
             for &number in &numbers {
                 if !is_number(fields[number].data_type()) {
-                    return Err(Error::NotNumeric {
-                        path: job.path.to_owned(),
-                        column: names[number].clone(),
-                        kind: fields[number].data_type().to_string(),
-                    });
+                    return Err(not_numeric(job, &names[number], fields[number].data_type()));
                 }
             }
         }
@@ -67,8 +84,18 @@ impl Plan {
             matches!(kind, DataType::Float32 | DataType::Float16)
         };
         let scalar = if numbers.iter().all(narrow) { ScalarKind::F32 } else { ScalarKind::F64 };
+        let label = label.map(|(number, _)| (number, names[number].clone()));
         let names = numbers.iter().map(|&number| names[number].clone()).collect();
-        Ok(Plan { numbers, names, list, scalar })
+        Ok(Plan { numbers, names, label, list, scalar })
+    }
+
+    /// The columns that are needed, rising.
+    pub(super) fn held(&self) -> Vec<usize> {
+        let label = self.label.iter().map(|(number, _)| *number);
+        let mut held: Vec<usize> = self.numbers.iter().copied().chain(label).collect();
+        held.sort_unstable();
+        held.dedup();
+        held
     }
 
     /// Reads `batches`, which hold the columns `held` of the schema (rising), to points.
@@ -91,20 +118,21 @@ impl Plan {
         batches: impl Iterator<Item = Result<RecordBatch, Error>>,
     ) -> Result<Decoded, Error> {
         let mut sink: Option<Sink<'_, T>> = None;
+        let mut labels = Vec::new();
         for batch in batches {
             let batch = batch?;
             if batch.num_rows() == 0 {
                 continue;
             }
             let first = sink.as_ref().map_or(0, Sink::len);
-            let columns: Vec<&ArrayRef> = self
-                .numbers
-                .iter()
-                .map(|number| {
-                    let at = held.binary_search(number);
-                    batch.column(at.expect("every planned column is held"))
-                })
-                .collect();
+            let column = |number: usize| {
+                let at = held.binary_search(&number);
+                batch.column(at.expect("every planned column is held"))
+            };
+            let columns: Vec<&ArrayRef> = self.numbers.iter().copied().map(column).collect();
+            if let Some((number, name)) = &self.label {
+                read_labels(job, column(*number), (*number, name), first, &mut labels)?;
+            }
             let (dim, points) = match self.list {
                 true => self.lists::<T>(job, columns[0], first, sink.as_ref().map(Sink::dim))?,
                 false => (columns.len(), self.scalars::<T>(job, &columns, first)?),
@@ -114,13 +142,8 @@ impl Plan {
         let sink = sink.ok_or_else(|| Error::NoRows { path: job.path.to_owned() })?;
         let source = sink.finish()?;
         Ok(match self.list {
-            true => Decoded { source, columns: Vec::new(), numbers: None, labels: Vec::new() },
-            false => Decoded {
-                source,
-                columns: self.names,
-                numbers: Some(self.numbers),
-                labels: Vec::new(),
-            },
+            true => Decoded { source, columns: Vec::new(), numbers: None, labels },
+            false => Decoded { source, columns: self.names, numbers: Some(self.numbers), labels },
         })
     }
 
@@ -192,6 +215,47 @@ impl Plan {
             .map_err(|fault| fault.at(job, first, dim, fault.index % dim, &self.names[0]))?;
         Ok((dim, values))
     }
+}
+
+/// Appends the labels of a batch whose first row is `first`.
+fn read_labels(
+    job: &Job<'_>,
+    array: &ArrayRef,
+    (number, name): (usize, &str),
+    first: u64,
+    labels: &mut Vec<String>,
+) -> Result<(), Error> {
+    let texts: Vec<Option<String>> = match array.data_type() {
+        DataType::Utf8 => owned(array.as_string::<i32>()),
+        DataType::LargeUtf8 => owned(array.as_string::<i64>()),
+        DataType::Utf8View => owned(array.as_string_view()),
+        _ => {
+            let values = numbers::<f64>(array, Missing::Keep)
+                .map_err(|fault| fault.at(job, first, 1, number, name))?;
+            let text = |value: f64| (!value.is_nan()).then(|| shown_number(value));
+            values.into_iter().map(text).collect()
+        }
+    };
+    for (row, text) in (first + 1..).zip(texts) {
+        match text.filter(|text| !text.trim().is_empty()) {
+            Some(text) => labels.push(text),
+            None => {
+                let (path, name) = (job.path.to_owned(), Some(name.to_owned()));
+                let place = Place { path, row, line: None, column: number, name };
+                return Err(Error::NoLabel { place });
+            }
+        }
+    }
+    Ok(())
+}
+
+fn owned<'a>(texts: impl IntoIterator<Item = Option<&'a str>>) -> Vec<Option<String>> {
+    texts.into_iter().map(|text| text.map(str::to_owned)).collect()
+}
+
+fn not_numeric(job: &Job<'_>, column: &str, kind: &DataType) -> Error {
+    let (path, column, kind) = (job.path.to_owned(), column.to_owned(), kind.to_string());
+    Error::NotNumeric { path, column, kind }
 }
 
 /// Why the value at an index is no coordinate.
@@ -285,6 +349,10 @@ fn element(kind: &DataType) -> &DataType {
 
 fn is_list(kind: &DataType) -> bool {
     element(kind) != kind && is_number(element(kind))
+}
+
+fn is_text(kind: &DataType) -> bool {
+    matches!(kind, DataType::Utf8 | DataType::LargeUtf8 | DataType::Utf8View)
 }
 
 fn is_number(kind: &DataType) -> bool {

@@ -113,6 +113,11 @@ fn find_delimiter(line: &[u8], decimal: Decimal) -> Delimiter {
     }
     // Spaces are the last resort only: they stand inside names and labels.
     let fields = |delimiter: Delimiter| split(line, delimiter).len();
+    if decimal == Decimal::Comma {
+        // Commas stand inside numbers and names, so that the most frequent mark need not part anything.
+        let found = [semicolon, tab, comma].into_iter().find(|&mark| fields(mark) > 1);
+        return found.unwrap_or(Delimiter::White);
+    }
     let mut best = candidates[0];
     for other in candidates[1..].iter().filter(|other| **other != Delimiter::White) {
         if fields(*other) > fields(best) {
@@ -226,9 +231,7 @@ pub(crate) fn is_failed_value(field: &[u8]) -> bool {
 }
 
 /// The same with another mark before the decimals.
-fn is_failed_with(field: &[u8], decimal: Decimal) -> bool {
-    const MISSING_WORDS: [&[u8]; 6] = [b"", b"NA", b"N/A", b"null", b"none", b"?"];
+pub(super) fn is_failed_with(field: &[u8], decimal: Decimal) -> bool {
     let starts = matches!(field.first(), Some(b'0'..=b'9' | b'+' | b'-' | b'.'));
-    !is_number_with(field, decimal)
-        && (starts || MISSING_WORDS.iter().any(|missing| field.eq_ignore_ascii_case(missing)))
+    !is_number_with(field, decimal) && (starts || is_missing(field))
 }

@@ -17,19 +17,40 @@ use crate::{Error, Missing, Place};
 /// Bytes that the description of the geometries may take.
 const DESCRIPTION_BYTES_MAX: u64 = 1 << 24;
 
-/// The number of the column of geometries; none in other files.
-pub(super) fn column(schema: &Schema) -> Option<usize> {
+/// The position of a row that has none, which is left out and counted like a row without a value.
+const GAP: [[f64; 2]; 1] = [[f64::NAN; 2]];
+
+/// The number of the column of geometries; none in other files, and where columns are chosen.
+///
+/// # Errors
+/// Geometries that are not well-known binary are refused: the other columns of numbers would be taken for coordinates.
+pub(super) fn column(job: &Job<'_>, schema: &Schema) -> Result<Option<usize>, Error> {
+    if job.options.columns.is_some() {
+        return Ok(None);
+    }
+    let Some(name) = primary(schema) else { return Ok(None) };
+    let Ok(number) = schema.index_of(&name) else { return Ok(None) };
+    match schema.field(number).data_type() {
+        DataType::Binary | DataType::LargeBinary => Ok(Some(number)),
+        other => {
+            let problem = format!(
+                "its geometries in column `{name}` are {other}, not well-known binary: write them so, or choose columns of numbers"
+            );
+            Err(Error::Feature { path: job.path.to_owned(), problem })
+        }
+    }
+}
+
+/// The name of the column of geometries.
+fn primary(schema: &Schema) -> Option<String> {
     let text = schema.metadata().get("geo")?;
     let Ok(Value::Object(fields)) = json::parse(text.as_bytes(), DESCRIPTION_BYTES_MAX) else {
         return None;
     };
-    let name = fields.iter().find_map(|(name, value)| match value {
+    fields.iter().find_map(|(name, value)| match value {
         Value::Text(text) if name == "primary_column" => Some(text.clone()),
         _ => None,
-    })?;
-    let number = schema.index_of(&name).ok()?;
-    let kind = schema.field(number).data_type();
-    matches!(kind, DataType::Binary | DataType::LargeBinary).then_some(number)
+    })
 }
 
 /// Reads batches that hold the column of geometries alone.
@@ -52,6 +73,7 @@ pub(super) fn read(
                 if job.options.missing == Missing::Refuse {
                     return Err(Error::Missing { place: place() });
                 }
+                chains.push(GAP.to_vec());
                 continue;
             };
             let refused = |problem: String| Error::Feature {
@@ -59,13 +81,26 @@ pub(super) fn read(
                 problem: format!("row {row} of column `{name}`: {problem}"),
             };
             let (found, is_point) = wkb::chains(bytes).map_err(refused)?;
+            if is_point && found.iter().flatten().flatten().any(|value| value.is_nan()) {
+                if job.options.missing == Missing::Refuse {
+                    return Err(Error::Missing { place: place() });
+                }
+                chains.push(GAP.to_vec());
+                continue;
+            }
             is_points &= is_point;
             chains.extend(found);
         }
     }
-    decode(job, !is_points && chains.len() > 1, |put| {
-        for (chain, positions) in chains.into_iter().enumerate() {
-            positions.into_iter().try_for_each(|at| put(chain, at))?;
+    let is_gap = |chain: &wkb::Chain| chain.iter().flatten().any(|value| value.is_nan());
+    let whole = chains.iter().filter(|chain| !is_gap(chain)).count();
+    decode(job, !is_points && whole > 1, |put| {
+        let mut number = 0;
+        for positions in chains {
+            // A gap has no number of its own, so that those of rings have none between them.
+            let next = number + usize::from(!is_gap(&positions));
+            positions.into_iter().try_for_each(|at| put(number, at))?;
+            number = next;
         }
         Ok(())
     })

@@ -58,7 +58,7 @@ impl<'a> Lines<'a> {
             let line = &self.buffer[self.start..self.start + length];
             // The mark is not white, so it must be looked past here too.
             let line = if number == 1 { without_mark(line) } else { line };
-            if matches!(line.trim_ascii_start().first(), None | Some(b'#')) {
+            if line.trim_ascii_start().is_empty() || is_comment(line) {
                 self.take(length);
                 continue;
             }
@@ -138,6 +138,17 @@ impl<'a> Lines<'a> {
         self.stream.consume(used);
         Ok(())
     }
+}
+
+/// Tests whether a line is a comment; Excel begins a field without a value with the mark of one.
+fn is_comment(line: &[u8]) -> bool {
+    const MISSING: &[u8] = b"#N/A";
+    let line = line.trim_ascii_start();
+    let is_missing = line.split_at_checked(MISSING.len()).is_some_and(|(word, rest)| {
+        let ends = matches!(rest.first(), None | Some(b',' | b';' | b'\t' | b' ' | b'\r'));
+        ends && word.eq_ignore_ascii_case(MISSING)
+    });
+    line.starts_with(b"#") && !is_missing
 }
 
 fn without_mark(line: &[u8]) -> &[u8] {

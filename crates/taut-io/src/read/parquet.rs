@@ -10,7 +10,8 @@ use taut_points::Blocks;
 use super::columnar::Plan;
 use super::{Decoded, Seekable, first_line, geoparquet, guarded, thrift};
 use crate::input::{Job, Medium};
-use crate::{Error, FilePlace, Format};
+use crate::labels;
+use crate::{Columns, Error, FilePlace, Format};
 
 pub(super) fn read(job: &Job<'_>, medium: Medium) -> Result<Decoded, Error> {
     guarded(job, || match medium.seekable(job)? {
@@ -28,18 +29,19 @@ fn read_chunks<R: ChunkReader + 'static>(job: &Job<'_>, chunks: R) -> Result<Dec
     };
     let builder = thrift::open(chunks).map_err(|e| damaged(first_line(&e)))?;
     let schema = builder.schema().clone();
-    let geometries = geoparquet::column(&schema).filter(|_| job.options.columns.is_none());
-    if let Some(number) = geometries {
+    if let Some(number) = geoparquet::column(job, &schema)? {
         let mask = ProjectionMask::roots(builder.parquet_schema(), [number]);
         let batches = builder.with_projection(mask).build().map_err(|e| damaged(first_line(&e)))?;
         let batches = batches
             .map(|batch| batch.map_err(|e| damaged(first_line(&e))) as Result<RecordBatch, Error>);
-        return geoparquet::read(job, (number, schema.field(number).name().as_str()), batches);
+        let read = geoparquet::read(job, (number, schema.field(number).name().as_str()), batches)?;
+        return match job.options.label.as_deref().map(Columns::of_label) {
+            Some(label) => labels::split(read, &label, job.path, false),
+            None => Ok(read),
+        };
     }
     let plan = Plan::new(job, &schema)?;
-    let mut held = plan.numbers.clone();
-    held.sort_unstable();
-    held.dedup();
+    let held = plan.held();
     let width = width(builder.metadata(), builder.parquet_schema(), &held);
     let mask = ProjectionMask::roots(builder.parquet_schema(), held.iter().copied());
     let batches = builder

@@ -249,7 +249,15 @@ fn binary<'a>(
         }
         sink.push(&row)?;
     }
-    Ok(sink)
+    let rest = stream.fill_buf().map_err(|source| Error::reading(job.path, source))?;
+    match rest.is_empty() {
+        true => Ok(sink),
+        false => {
+            let at = FilePlace::Line(header.lines);
+            let problem = format!("more bytes follow its {} points", header.points);
+            Err(damaged(job, at, problem))
+        }
+    }
 }
 
 /// Fields one after the other, packed.
@@ -285,6 +293,10 @@ fn compressed<'a>(
     }
     let mut bytes = Vec::new();
     stream.take(packed).read_to_end(&mut bytes).map_err(failed)?;
+    // What was not read must not decide how much memory is taken.
+    if (bytes.len() as u64) < packed {
+        return Err(damaged(job, at, "its packed points are cut short or damaged"));
+    }
     let fields = unpack(&bytes, whole as usize)
         .ok_or_else(|| damaged(job, at, "its packed points are cut short or damaged"))?;
     let mut sink = Sink::new(job, numbers.len());
@@ -315,22 +327,28 @@ fn value(
     let size = column.kind.size();
     raw[..size].copy_from_slice(&bytes[..size]);
     let word = u64::from_le_bytes(raw);
+    let place = || {
+        let (path, name) = (job.path.to_owned(), Some(column.name.clone()));
+        Place { path, row: row + 1, line: None, column: number, name }
+    };
+    let exact = |integer: i128| match integer as f64 as i128 == integer {
+        true => Ok(integer as f64),
+        false => Err(Error::Inexact { place: place(), value: integer.to_string() }),
+    };
     let value = match column.kind {
         Kind::F32 => f32::from_bits(word as u32).into(),
         Kind::F64 => f64::from_bits(word),
         Kind::I8 => f64::from(word as i8),
         Kind::I16 => f64::from(word as i16),
         Kind::I32 => f64::from(word as i32),
-        Kind::I64 => word as i64 as f64,
-        Kind::U8 | Kind::U16 | Kind::U32 | Kind::U64 => word as f64,
+        Kind::I64 => exact((word as i64).into())?,
+        Kind::U8 | Kind::U16 | Kind::U32 | Kind::U64 => exact(word.into())?,
     };
     let is_gap = value.is_nan() && job.options.missing != Missing::Refuse;
     if value.is_finite() || is_gap {
         return Ok(value);
     }
-    let (path, name) = (job.path.to_owned(), Some(column.name.clone()));
-    let place = Place { path, row: row + 1, line: None, column: number, name };
-    Err(Error::NonFinite { place, value: value.to_string() })
+    Err(Error::NonFinite { place: place(), value: value.to_string() })
 }
 
 /// Unpacks LZF to so many bytes; `None` where it stands for another number of them.

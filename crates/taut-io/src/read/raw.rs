@@ -8,7 +8,7 @@ use super::Decoded;
 use crate::input::Job;
 use crate::limits;
 use crate::sink::Sink;
-use crate::{Error, Place, RawLayout};
+use crate::{Error, Missing, Place, RawLayout};
 
 /// The layout the options must give.
 pub(super) fn layout(job: &Job<'_>) -> Result<RawLayout, Error> {
@@ -80,7 +80,7 @@ fn decode_as<T: Scalar>(
             let at = column * size_of::<T>();
             let value: T = bytemuck::pod_read_unaligned(&bytes[at..at + size_of::<T>()]);
             let wide: f64 = value.into();
-            if wide.is_finite() {
+            if wide.is_finite() || wide.is_nan() && job.options.missing != Missing::Refuse {
                 return Ok(value);
             }
             let path = job.path.to_owned();

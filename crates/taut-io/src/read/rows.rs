@@ -116,6 +116,11 @@ pub(crate) fn is_missing(field: &[u8]) -> bool {
     WORDS.iter().any(|word| field.eq_ignore_ascii_case(word))
 }
 
+/// Tests whether a field is such a word, or NaN.
+pub(super) fn is_gap_with(field: &[u8], decimal: Decimal) -> bool {
+    is_missing(field) || parse_with(field.trim_ascii(), decimal).is_ok_and(|value| value.is_nan())
+}
+
 /// Appends the numbers of a row to `out`; false (and some rubbish in `out`) when it is not all plain finite numbers.
 fn walk(line: &[u8], delimiter: Delimiter, out: &mut Vec<f64>) -> bool {
     let mut rest = line;
@@ -262,7 +267,7 @@ impl<'a> Rows<'a> {
 }
 
 /// Returns what to do about a field that is no number.
-fn hint(text: &[u8], decimal: Decimal) -> &'static str {
+pub(super) fn hint(text: &[u8], decimal: Decimal) -> &'static str {
     let has = |mark| text.contains(&mark) && text.iter().all(|b| b"0123456789,.+-eE".contains(b));
     match text {
         [] => "fill in the missing value, or leave out such rows with --missing drop",

@@ -2,7 +2,7 @@
 //!
 //! *Read.* Points in their order, with z where they have it. Lines and polygons as their vertices, ring by ring: where there are several
 //! parts a last column has the number of each, from 0. One shape of several can be chosen by its number.
-//! *Refused.* Patches of surfaces (type 31).
+//! *Refused.* Patches of surfaces (type 31), and of points a null shape, which lacks its coordinates.
 //! *Trap.* Lengths are counted in 16-bit words and the highest byte comes first, but coordinates are little-endian. A ring ends
 //! with its first vertex.
 //! *Reference.* ESRI Shapefile Technical Description, 1998.
@@ -12,7 +12,7 @@ use std::io::{BufRead, Read};
 use super::Decoded;
 use crate::input::Job;
 use crate::sink::Sink;
-use crate::{Error, Feature, FilePlace, Format, limits};
+use crate::{Error, Feature, FilePlace, Format, Missing, Place, limits};
 
 /// Bytes of the header of the file.
 const HEADER_BYTES: usize = 100;
@@ -49,6 +49,7 @@ pub(super) fn read(job: &Job<'_>, mut stream: Box<dyn BufRead>) -> Result<Decode
         return Err(damaged(job, FilePlace::File, "it does not begin as a .shp file"));
     }
     let has_z = matches!(word(&header, 32), 11 | 13 | 15 | 18);
+    let is_of_points = matches!(word(&header, 32), 1 | 11 | 21);
     let promised =
         2 * u64::from(u32::from_be_bytes([header[24], header[25], header[26], header[27]]));
     let mut found = HEADER_BYTES as u64;
@@ -83,7 +84,16 @@ pub(super) fn read(job: &Job<'_>, mut stream: Box<dyn BufRead>) -> Result<Decode
             return Err(damaged(job, place, "the file ends here, too early"));
         }
         if wanted.is_none_or(|wanted| wanted == number) {
-            let (kind, found) = shape(&content).map_err(|problem| damaged(job, place, problem))?;
+            let (mut kind, mut found) =
+                shape(&content).map_err(|problem| damaged(job, place, problem))?;
+            if kind == Kind::Null && is_of_points {
+                if job.options.missing == Missing::Refuse {
+                    let (path, name) = (job.path.to_owned(), Some("x".to_owned()));
+                    let place = Place { path, row: number + 1, line: None, column: 0, name };
+                    return Err(Error::Missing { place });
+                }
+                (kind, found) = (Kind::Point, vec![vec![[f64::NAN; 3]]]);
+            }
             has_parts |= kind == Kind::Parts;
             match (kind, parts.last_mut()) {
                 // Points go on; each part of a line or a polygon is one of its own.

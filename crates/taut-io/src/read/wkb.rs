@@ -39,16 +39,32 @@ impl Reader<'_> {
         Ok(if is_little { u32::from_le_bytes(bytes) } else { u32::from_be_bytes(bytes) })
     }
 
-    fn position(&mut self, is_little: bool, numbers: usize) -> Result<[f64; 2], String> {
+    fn values(&mut self, is_little: bool, numbers: usize) -> Result<[f64; 2], String> {
         let mut all = [0.0; 4];
         for value in &mut all[..numbers] {
             let bytes = self.take::<8>()?;
             *value = if is_little { f64::from_le_bytes(bytes) } else { f64::from_be_bytes(bytes) };
         }
-        match all[0].is_finite() && all[1].is_finite() {
-            true => Ok([all[0], all[1]]),
+        Ok([all[0], all[1]])
+    }
+
+    fn position(&mut self, is_little: bool, numbers: usize) -> Result<[f64; 2], String> {
+        let at = self.values(is_little, numbers)?;
+        match at.iter().all(|value| value.is_finite()) {
+            true => Ok(at),
             false => Err("a position is not finite".to_owned()),
         }
+    }
+
+    /// The position of a point. An empty point, which is all NaN, is a gap where it is not within another geometry.
+    fn point(&mut self, is_little: bool, numbers: usize, depth: usize) -> Result<[f64; 2], String> {
+        let begin = self.at;
+        let at = self.values(is_little, numbers)?;
+        if depth == 0 && at.iter().all(|value| value.is_nan()) {
+            return Ok(at);
+        }
+        self.at = begin;
+        self.position(is_little, numbers)
     }
 
     fn chain(&mut self, is_little: bool, numbers: usize) -> Result<Chain, String> {
@@ -76,7 +92,7 @@ impl Reader<'_> {
         let numbers = 2 + usize::from(has_z) + usize::from(has_m);
         let kind = kind % 1000;
         match kind {
-            1 => found.push(vec![self.position(is_little, numbers)?]),
+            1 => found.push(vec![self.point(is_little, numbers, depth)?]),
             2 => found.push(self.chain(is_little, numbers)?),
             3 => {
                 for _ in 0..self.word(is_little)? {

@@ -52,7 +52,7 @@ impl Table {
         Self::default()
     }
 
-    /// The table with one column more, of as many values as the others.
+    /// The table with one column more, of as many values as the others. Where its name is taken, underscores follow it.
     ///
     /// # Panics
     /// If it has another number of values.
@@ -60,7 +60,11 @@ impl Table {
     pub fn with(mut self, name: impl Into<String>, column: Column) -> Self {
         let rows = self.columns.first().map_or(column.len(), |(_, first)| first.len());
         assert_eq!(rows, column.len(), "columns of a table have one length");
-        self.columns.push((name.into(), column));
+        let mut name = name.into();
+        while self.columns.iter().any(|(taken, _)| *taken == name) {
+            name.push('_');
+        }
+        self.columns.push((name, column));
         self
     }
 

@@ -91,6 +91,49 @@ fn numbers_of_other_formats_are_labels_too() {
     assert!(said.contains("there is no column 3"), "{said}");
 }
 
+/// Text or whole numbers beside numbers, in the formats of columns.
+#[cfg(feature = "arrow")]
+#[test]
+fn columns_of_text_are_labels() {
+    use taut_io::{Column, Table, table_file};
+
+    let towns = ["Ulm", "a, b", "Köln"].map(str::to_owned).to_vec();
+    let table = Table::new()
+        .with("x", Column::Real(vec![0.5, 1.5, 2.5]))
+        .with("town", Column::Text(towns.clone()))
+        .with("id", Column::Whole(vec![7, 8, 9]));
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["t.parquet", "t.arrow"] {
+        let path = folder.path().join(name);
+        table_file(&table, &path).unwrap().commit().unwrap();
+        for label in ["town", "1"] {
+            let input = open(&path, &labeled(label)).unwrap();
+            assert_eq!(values(&input), [0.5, 7.0, 1.5, 8.0, 2.5, 9.0], "{name}");
+            assert_eq!(
+                (input.labels, input.columns),
+                (towns.clone(), vec!["x".into(), "id".into()])
+            );
+        }
+        let columns = Some("id,x".parse::<Columns>().unwrap());
+        let input = open(&path, &ReadOptions { columns, ..labeled("id") }).unwrap();
+        assert_eq!(
+            (values(&input), input.labels),
+            (vec![0.5, 1.5, 2.5], vec!["7".into(), "8".into(), "9".into()])
+        );
+        let columns = Some("town".parse::<Columns>().unwrap());
+        let said = message(open(&path, &ReadOptions { columns, ..labeled("town") }));
+        assert!(said.contains("columns beside that of the label"), "{said}");
+        assert!(message(open(&path, &labeled("none"))).contains("there is no column `none`"));
+    }
+    let gap = Table::new()
+        .with("x", Column::Real(vec![1.0, 2.0]))
+        .with("town", Column::Text(vec!["a".into(), String::new()]));
+    let path = folder.path().join("gap.parquet");
+    table_file(&gap, &path).unwrap().commit().unwrap();
+    let said = message(open(&path, &labeled("town")));
+    assert!(said.contains("row 2, column 1 (`town`): the label is missing"), "{said}");
+}
+
 #[test]
 fn columns_are_selected_by_any_name() {
     let names = ["x, y", "1-2"].map(str::to_owned);

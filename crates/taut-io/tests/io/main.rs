@@ -13,6 +13,7 @@ mod damaged;
 mod data;
 mod filter;
 mod folders;
+mod gaps;
 mod geojson;
 mod labels;
 mod las;

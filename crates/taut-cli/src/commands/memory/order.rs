@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::anyhow;
+use anyhow::{anyhow, bail};
 use taut::certify::{Order, OrderCurve};
 use taut::points::{OwnedPoints, ScalarKind, Scratch};
 use taut::{Monitor, OrderOptions, PointSource, Solution, spatial_order};
@@ -95,6 +95,9 @@ impl Find for Args {
             None => {}
         }
         if let Some(path) = &self.sorted {
+            if !points.labels().is_empty() {
+                bail!("--ordered writes coordinates, which have no names: leave out --id");
+            }
             let names = points.names(points.source().dim());
             let sorted = reordered(points, &found.answer.rows)?;
             write_points(&*sorted, &names, path, None, monitor)?;

@@ -23,7 +23,8 @@ use crate::output::writing;
 /// Sort a file of records of fixed width by their key, which may be larger than memory.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-An .npy file says itself what it holds: its rows are sorted by their first number, and the output is one of the same shape. Another \
+An .npy file says itself what it holds: its rows are sorted by their first number, or by all their bytes where they hold bytes, and \
+the output is one of the same shape. Another \
 file holds records of --item-bytes from its first byte on.
 Records with equal keys keep their order. Before it takes its name the output is read again and proved to be in order \
 and to hold the records that were read, by a hash of 128 bits of all of them; `taut verify` reads the input once more, \
