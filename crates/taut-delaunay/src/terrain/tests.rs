@@ -96,7 +96,8 @@ fn folders_of_many_tiles_give_the_bits_of_memory() {
                     [(Interpolation::Linear, 23.0), (Interpolation::Natural, 4.0)]
                 {
                     // Within a circle of sites each center has all of them as neighbors: once is enough.
-                    if interpolation == Interpolation::Natural && levels == 1 {
+                    let is_once = levels == 4 && std::ptr::eq(heights, &noise);
+                    if interpolation == Interpolation::Natural && !is_once {
                         continue;
                     }
                     let Some(frame) = frame_of(&memory, columns) else { continue };
