@@ -14,7 +14,8 @@
 //! assert!(claims.contains("ball of radius 1 around 3 points in 2 dimensions\n"), "{claims}");
 //! assert!(claims.contains("≤ smallest radius ≤ 1; proved\n"), "{claims}");
 //! let report = Report { found: &found, points: &points, verdict: Some(verdict) };
-//! assert!(text(&report.title(), &report.fields()).starts_with("Smallest ball around 3 points in 2 dimensions\n  radius     1\n"));
+//! let printed = text(&report.title(), &report.fields());
+//! assert!(printed.starts_with("Smallest ball around 3 points in 2 dimensions\n  radius    1\n"), "{printed}");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 #![forbid(unsafe_code)]
