@@ -44,7 +44,8 @@ const MEANINGS: &[(&str, &str)] = &[
 ];
 
 /// Short names that stand for a second option in subcommands without the first: -k and -n count there, too.
-const SECOND_LONGS: &[(char, &str)] = &[('k', "directions"), ('n', "count")];
+const SECOND_LONGS: &[(char, &str)] =
+    &[('k', "directions"), ('k', "draws"), ('n', "count"), ('n', "of")];
 
 /// An option of a subcommand.
 struct Use {

@@ -119,22 +119,26 @@ fn each_row(points: &Opened, most: u64, mut visit: impl FnMut(&[f64])) -> anyhow
     Ok(())
 }
 
-/// The standard deviation of each column, about its first value, so that few digits are lost.
+/// The standard deviation of each column, about its first value and in units of its range, so that few digits are lost and no
+/// square overflows or underflows.
 fn deviations(points: &Opened) -> anyhow::Result<Vec<f64>> {
+    let ranges = ranges(points, u64::MAX)?;
     let mut first: Option<Vec<f64>> = None;
-    let mut sums = vec![[0.0; 2]; points.source().dim()];
+    let mut sums = vec![[0.0; 2]; ranges.len()];
     each_row(points, u64::MAX, |row| {
         let first = first.get_or_insert_with(|| row.to_vec());
-        for ((sum, x), origin) in sums.iter_mut().zip(row).zip(first) {
-            let x = x - *origin;
-            (sum[0], sum[1]) = (sum[0] + x, sum[1] + x * x);
+        for (column, [sum, squares]) in sums.iter_mut().enumerate() {
+            let x = (row[column] - first[column]) / ranges[column];
+            (*sum, *squares) = (*sum + x, *squares + x * x);
         }
     })?;
     let n = points.source().len() as f64;
-    Ok(sums
-        .into_iter()
-        .map(|[sum, squares]| (squares / n - (sum / n).powi(2)).max(0.0).sqrt())
-        .collect())
+    let deviation =
+        |(&range, [sum, squares]): (&f64, [f64; 2])| match range > 0.0 && range.is_finite() {
+            true => range * (squares / n - (sum / n).powi(2)).max(0.0).sqrt(),
+            false => range,
+        };
+    Ok(ranges.iter().zip(sums).map(deviation).collect())
 }
 
 /// The largest value less the least of each column.

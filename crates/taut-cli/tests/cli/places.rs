@@ -25,12 +25,12 @@ fn is_verified(folder: &TestFolder, points: &str, sites: &str) {
     folder
         .taut(&format!("delaunay {points} -o mesh.ply"))
         .ends(0)
-        .stdout_has(&[&format!("\n  sites     {sites}\n"), "\n  verified  yes; "]);
+        .stdout_has(&[&format!("\n  sites       {sites}\n"), "\n  verified    yes; "]);
     let distinct = sites.split(';').next().unwrap();
     folder
         .taut(&format!("verify mesh.ply {points}"))
         .ends(0)
-        .stdout_has(&["Verified", &format!("\n  sites     {distinct}; proved: distinct points\n")]);
+        .stdout_has(&["Verified", &format!("\n  sites       {distinct}; proved: distinct points\n")]);
 }
 
 #[test]

@@ -239,7 +239,11 @@ fn thin_rectangles_have_proved_answers_or_a_reason() {
     let mut answers = 0;
     for exponent in 2..15 {
         for width in [1.0, 0.4].map(|w| w * 10f64.powi(-exponent)) {
-            for angle in [0.0f64, 0.3, 0.576, std::f64::consts::FRAC_PI_4] {
+            let angles = match exponent % 2 {
+                0 => [0.0f64, 0.576],
+                _ => [0.3, std::f64::consts::FRAC_PI_4],
+            };
+            for angle in angles {
                 let (sine, cosine) = angle.sin_cos();
                 let at = |x: f64, y: f64| [cosine * x - sine * y, sine * x + cosine * y];
                 let ring = vec![at(0.0, 0.0), at(1.0, 0.0), at(1.0, width), at(0.0, width)];
@@ -260,7 +264,7 @@ fn thin_rectangles_have_proved_answers_or_a_reason() {
             }
         }
     }
-    assert!(answers > 52, "{answers} of 104");
+    assert!(answers > 26, "{answers} of 52");
 }
 
 #[test]

@@ -155,8 +155,8 @@ fn what_no_sample_allows_is_refused() {
         let radius = 1.0 + 0.2 * angle / std::f64::consts::TAU + width;
         [radius * angle.cos(), radius * angle.sin()]
     };
-    spiral.extend((0..400).map(|i| arm(0.1 * f64::from(i), 0.0)));
-    spiral.extend((0..400).rev().map(|i| arm(0.1 * f64::from(i), 1e-3)));
+    spiral.extend((0..200).map(|i| arm(0.2 * f64::from(i), 0.0)));
+    spiral.extend((0..200).rev().map(|i| arm(0.2 * f64::from(i), 1e-3)));
     let thesis = TriangleThesisOptions { sample_count: 5, seed: 2 };
     let error = triangle(&[spiral], thesis).unwrap_err();
     assert!(matches!(error, Error::NoneAmongSamples { method: "thesis", samples: 5 }), "{error}");

@@ -50,11 +50,11 @@ fn a_folder_holds_the_triangulation_in_memory() {
     let generated = |distribution, n, dim| {
         GeneratedSource::new(distribution, n, dim, 3, ScalarKind::F64).unwrap()
     };
-    let found = same_as_in_memory::<2>(&generated(Distribution::Uniform, 400_000, 2));
+    let found = same_as_in_memory::<2>(&generated(Distribution::Uniform, 250_000, 2));
     assert!(found.tiles.len() > 4, "{found:?}");
-    same_as_in_memory::<2>(&generated(Distribution::Kuzmin, 200_000, 2));
-    same_as_in_memory::<2>(&generated(Distribution::Grid { side: 500, angle: 0.0 }, 250_000, 2));
-    let found = same_as_in_memory::<3>(&generated(Distribution::Uniform, 200_000, 3));
+    same_as_in_memory::<2>(&generated(Distribution::Kuzmin, 100_000, 2));
+    same_as_in_memory::<2>(&generated(Distribution::Grid { side: 300, angle: 0.0 }, 90_000, 2));
+    let found = same_as_in_memory::<3>(&generated(Distribution::Uniform, 100_000, 3));
     assert!(found.tiles.len() > 4, "{found:?}");
     same_as_in_memory::<2>(&generated(Distribution::Uniform, 3, 2));
     same_as_in_memory::<3>(&generated(Distribution::Uniform, 0, 3));
