@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 use taut::points::{ReadError, Rows as SourceRows, ScalarKind, Scratch, try_reserve_exact};
 use taut::{Monitor, PointSource};
 use taut_io::{
-    Bounds, Encoding, Error, Feature, Format, Header, Mesh, MeshOptions, MeshView, ReadOptions,
+    Bounds, Decimal, Encoding, Error, Feature, Format, Header, Mesh, MeshOptions, MeshView, Missing, ReadOptions,
 };
 
 use crate::rows::Rows;
@@ -37,6 +37,7 @@ pub(crate) fn read_points<'py>(
     select: Option<String>,
     classes: Option<Vec<u8>>,
     bounds: Option<&str>,
+    (numeric, is_missing_dropped, has_decimal_commas): (bool, bool, bool),
 ) -> PyResult<Bound<'py, PyAny>> {
     let options = ReadOptions {
         format: format.map(str::parse).transpose().map_err(raise)?,
@@ -49,6 +50,9 @@ pub(crate) fn read_points<'py>(
         feature: select.map(|text| text.parse::<Feature>().unwrap_or_else(|never| match never {})),
         classes,
         bounds: bounds.map(str::parse::<Bounds>).transpose().map_err(PyValueError::new_err)?,
+        numeric,
+        missing: if is_missing_dropped { Missing::Drop } else { Missing::Refuse },
+        decimal: if has_decimal_commas { Decimal::Comma } else { Decimal::Point },
         ..ReadOptions::default()
     };
     let read = interruptible(py, |monitor| {
@@ -134,8 +138,16 @@ pub(crate) fn write_mesh(
 }
 
 /// A file that the system refuses is an `OSError`, a lack of memory a `MemoryError`, all else a `ValueError`.
+/// The options of reading as errors advise them, and as they are said here.
+const OPTIONS: [(&str, &str); 3] = [
+    ("--missing drop", "missing=\"drop\""),
+    ("--decimal ,", "decimal=\",\""),
+    ("say with --header whether", "say with header=True or header=False whether"),
+];
+
 fn raise(error: Error) -> PyErr {
     let said = error.to_string();
+    let said = OPTIONS.iter().fold(said, |said, (option, here)| said.replace(option, here));
     match error {
         Error::NotFound { .. } => PyFileNotFoundError::new_err(said),
         Error::Permission { .. } => PyPermissionError::new_err(said),

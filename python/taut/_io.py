@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -26,6 +26,8 @@ def read_points(
     select: str | int | None = None,
     classes: Sequence[int] | None = None,
     bounds: Sequence[float] | None = None,
+    missing: Literal["refuse", "drop"] = "refuse",
+    decimal: Literal[".", ","] = ".",
 ) -> Rows:
     """Read the points of a file, or of all files of a folder.
 
@@ -41,7 +43,7 @@ def read_points(
         The name of the format (``"csv"``, ``"npy"``, ``"ply"``, ``"las"``, ``"geojson"``, …); by default that of the extension.
     columns : str, or sequence of str and int, optional
         The columns that are coordinates, by name or by number from 0, in this order; as a text with commas it may hold ranges
-        (``"x,y"``, ``"0-2"``). By default all.
+        (``"x,y"``, ``"0-2"``), and ``"numeric"`` stands for all columns of numbers. By default all.
     header : bool, optional
         Whether the first row of a text file holds names; by default its contents tell.
     select : str or int, optional
@@ -50,6 +52,10 @@ def read_points(
         The classes of a LAS or LAZ file to keep.
     bounds : sequence of float, optional
         The least coordinates and then the largest ones of a box: points outside are left out.
+    missing : {"refuse", "drop"}, default "refuse"
+        What becomes of rows that lack a value (nothing, ``NA``, ``null``, ``NaN`` and the like): an error, or they are left out.
+    decimal : {".", ","}, default "."
+        The mark before decimals in text. With a comma, columns are parted by ``;`` or tabs.
 
     Returns
     -------
@@ -76,11 +82,21 @@ def read_points(
     array([[0., 0.],
            [2., 1.]])
     """
-    wanted = columns if columns is None or isinstance(columns, str) else ",".join(map(_column, columns))
+    if missing not in ("refuse", "drop"):
+        raise ValueError(f"missing is {missing!r}: it is 'refuse' or 'drop'")
+    if decimal not in (".", ","):
+        raise ValueError(f"decimal is {decimal!r}: it is '.' or ','")
+    is_numeric = isinstance(columns, str) and columns == "numeric"
+    if columns is None or is_numeric:
+        wanted = None
+    else:
+        wanted = columns if isinstance(columns, str) else ",".join(map(_column, columns))
     box = None if bounds is None else ",".join(repr(float(value)) for value in bounds)
     kept = None if classes is None else [int(value) for value in classes]
     feature = None if select is None else str(select)
-    return _native.read_points(os.fspath(path), format, wanted, header, feature, kept, box)
+    return _native.read_points(
+        os.fspath(path), format, wanted, header, feature, kept, box, (is_numeric, missing == "drop", decimal == ","),
+    )
 
 
 def _column(column: str | int) -> str:

@@ -213,7 +213,7 @@ def generate(
 ) -> None: ...
 def read_points(
     path: str, format: str | None, columns: str | None, header: bool | None, select: str | None, classes: list[int] | None,
-    bounds: str | None,
+    bounds: str | None, choices: tuple[bool, bool, bool],
 ) -> Rows: ...
 def write_mesh(
     path: str, points: Rows, simplices: NDArray[np.uint32], normals: list[list[float]] | None, colors: list[list[int]] | None,

@@ -45,6 +45,21 @@ def test_a_feature_by_name_or_number(tmp_path):
     assert taut.read_points(path, select=0).tolist() == [[5, 1], [2, 3]]
 
 
+def test_messy_tables_are_read(tmp_path):
+    path = tmp_path / "messy.csv"
+    path.write_text("town;x;y\nUlm;1,5;2\nHof;NA;3\nHof;4;5,25\n")
+    found = taut.read_points(path, columns="numeric", missing="drop", decimal=",")
+    assert found.tolist() == [[1.5, 2], [4, 5.25]]
+    with pytest.raises(ValueError, match=r'missing="drop"'):
+        taut.read_points(path, columns="x,y", decimal=",")
+    with pytest.raises(ValueError, match=r'decimal=","'):
+        taut.read_points(path, columns="x,y", missing="drop")
+    with pytest.raises(ValueError, match="missing is 'keep'"):
+        taut.read_points(path, missing="keep")
+    with pytest.raises(ValueError, match="decimal is ';'"):
+        taut.read_points(path, decimal=";")
+
+
 def test_what_is_wrong_is_named(tmp_path):
     path = tmp_path / "bad.csv"
     path.write_text("x,y\n1,2\n3,oops\n")
