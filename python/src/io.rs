@@ -11,7 +11,8 @@ use pyo3::prelude::*;
 use taut::points::{ReadError, Rows as SourceRows, ScalarKind, Scratch, try_reserve_exact};
 use taut::{Monitor, PointSource};
 use taut_io::{
-    Bounds, Decimal, Encoding, Error, Feature, Format, Header, Mesh, MeshOptions, MeshView, Missing, ReadOptions,
+    Bounds, Decimal, Encoding, Error, Feature, Format, Header, Mesh, MeshOptions, MeshView,
+    Missing, ReadOptions,
 };
 
 use crate::rows::Rows;
@@ -37,8 +38,9 @@ pub(crate) fn read_points<'py>(
     select: Option<String>,
     classes: Option<Vec<u8>>,
     bounds: Option<&str>,
-    (numeric, is_missing_dropped, has_decimal_commas): (bool, bool, bool),
+    choices: (bool, bool, bool),
 ) -> PyResult<Bound<'py, PyAny>> {
+    let (numeric, is_missing_dropped, has_decimal_commas) = choices;
     let options = ReadOptions {
         format: format.map(str::parse).transpose().map_err(raise)?,
         columns: columns.map(str::parse).transpose().map_err(raise)?,

@@ -27,10 +27,10 @@ fn is_verified(folder: &TestFolder, points: &str, sites: &str) {
         .ends(0)
         .stdout_has(&[&format!("\n  sites       {sites}\n"), "\n  verified    yes; "]);
     let distinct = sites.split(';').next().unwrap();
-    folder
-        .taut(&format!("verify mesh.ply {points}"))
-        .ends(0)
-        .stdout_has(&["Verified", &format!("\n  sites       {distinct}; proved: distinct points\n")]);
+    folder.taut(&format!("verify mesh.ply {points}")).ends(0).stdout_has(&[
+        "Verified",
+        &format!("\n  sites       {distinct}; proved: distinct points\n"),
+    ]);
 }
 
 #[test]

@@ -238,33 +238,32 @@ fn answers_are_the_same_for_every_number_of_threads_and_of_each_seed() {
 fn thin_rectangles_have_proved_answers_or_a_reason() {
     let mut answers = 0;
     for exponent in 2..15 {
-        for width in [1.0, 0.4].map(|w| w * 10f64.powi(-exponent)) {
-            let angles = match exponent % 2 {
-                0 => [0.0f64, 0.576],
-                _ => [0.3, std::f64::consts::FRAC_PI_4],
-            };
-            for angle in angles {
-                let (sine, cosine) = angle.sin_cos();
-                let at = |x: f64, y: f64| [cosine * x - sine * y, sine * x + cosine * y];
-                let ring = vec![at(0.0, 0.0), at(1.0, 0.0), at(1.0, width), at(0.0, width)];
-                match solve_with(
-                    std::slice::from_ref(&ring),
-                    &ConvexOptions { rounds: 4, ..Default::default() },
-                ) {
-                    Ok(found) => {
-                        let verdict = check(&found, std::slice::from_ref(&ring));
-                        assert!(verdict.is_ok(), "{width:e}, {angle}: {verdict:?}, {ring:?}");
-                        answers += 1;
-                    }
-                    Err(error) => assert!(
-                        matches!(error, Error::TooThin | Error::NotSimple { .. }),
-                        "{width:e}, {angle}: {error}"
-                    ),
+        let (factor, angles) = match exponent % 2 {
+            0 => (1.0, [0.0f64, 0.576]),
+            _ => (0.4, [0.3, std::f64::consts::FRAC_PI_4]),
+        };
+        let width = factor * 10f64.powi(-exponent);
+        for angle in angles {
+            let (sine, cosine) = angle.sin_cos();
+            let at = |x: f64, y: f64| [cosine * x - sine * y, sine * x + cosine * y];
+            let ring = vec![at(0.0, 0.0), at(1.0, 0.0), at(1.0, width), at(0.0, width)];
+            match solve_with(
+                std::slice::from_ref(&ring),
+                &ConvexOptions { rounds: 4, ..Default::default() },
+            ) {
+                Ok(found) => {
+                    let verdict = check(&found, std::slice::from_ref(&ring));
+                    assert!(verdict.is_ok(), "{width:e}, {angle}: {verdict:?}, {ring:?}");
+                    answers += 1;
                 }
+                Err(error) => assert!(
+                    matches!(error, Error::TooThin | Error::NotSimple { .. }),
+                    "{width:e}, {angle}: {error}"
+                ),
             }
         }
     }
-    assert!(answers > 26, "{answers} of 52");
+    assert!(answers > 13, "{answers} of 26");
 }
 
 #[test]
