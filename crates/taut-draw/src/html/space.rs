@@ -1,18 +1,19 @@
 //! A scene of space as the data of the page's viewer.
 
 use crate::base64::base64;
-use crate::number::short;
-use crate::svg::{EYE_DISTANCE, Stage, WIRED_SPHERES_MAX, finite, stage};
+use crate::number::digits;
+use crate::svg::{EYE_DISTANCE, Stage, WIRED_SPHERES_MAX, enlargement, finite, stage};
 use crate::text::json;
-use crate::{Layer3, LineStyle, Projection, Scene3, Shading, Shape3};
+use crate::{Layer3, LineStyle, Projection, Scene3, Shading, Shape3, View};
 
 /// The scene as JSON: places in the unit ball of the view, words as they are to be shown.
 pub(super) fn data(scene: &Scene3) -> String {
     let stage = stage(scene);
+    let map = stage.map();
     let names: Vec<_> = scene.axes.iter().map(|axis| json(&axis.name)).collect();
-    let layers: Vec<_> = scene.layers.iter().map(|l| layer(l, &stage)).collect();
+    let layers: Vec<_> = scene.layers.iter().map(|l| layer(l, &stage, &map)).collect();
     format!(
-        "{{\"names\":[{}],\"eye\":{EYE_DISTANCE},\"wired\":{WIRED_SPHERES_MAX},\"perspective\":{},\"azimuth\":{},\"elevation\":{},\
+        "{{\"names\":[{}],\"eye\":{EYE_DISTANCE},\"wired\":{WIRED_SPHERES_MAX},\"map\":{map:?},\"perspective\":{},\"azimuth\":{},\"elevation\":{},\
          \"width\":{},\"height\":{},\"layers\":[{}]}}",
         names.join(","),
         scene.projection == Projection::Perspective,
@@ -21,6 +22,22 @@ pub(super) fn data(scene: &Scene3) -> String {
         number(scene.width.max(1.0)),
         number(scene.height.max(1.0)),
         layers.join(",\n"),
+    )
+}
+
+/// Fixed views of a scene that is on the page already, in panels of one size and one scale: as large as the fullest of them allows.
+pub(super) fn views(scene: &Scene3, views: &[View], [width, height]: [f64; 2]) -> String {
+    let directions: Vec<_> = views
+        .iter()
+        .map(|view| format!("[{},{}]", number(view.azimuth), number(view.elevation)))
+        .collect();
+    format!(
+        "{{\"views\":[{}],\"perspective\":{},\"zoom\":{},\"width\":{},\"height\":{}}}",
+        directions.join(","),
+        scene.projection == Projection::Perspective,
+        number(enlargement(scene, views, [width, height])),
+        number(width),
+        number(height),
     )
 }
 
@@ -37,12 +54,18 @@ fn place(p: [f64; 3]) -> String {
 /// Place, size, number and words in one list: a page can have many.
 fn mark(at: [f64; 3], size: f64, id: Option<u64>, words: &[String]) -> String {
     let id = id.map_or_else(|| "null".to_owned(), |id| id.to_string());
-    let words: Vec<_> = words.iter().map(|w| json(w)).collect();
-    let all = at.map(number).into_iter().chain([number(size), id]).chain(words);
-    format!("[{}]", all.collect::<Vec<_>>().join(","))
+    format!("[{},{},{id}{}]", place(at), number(size), super::words(words))
 }
 
-fn layer(layer: &Layer3, stage: &Stage) -> String {
+/// A point whose size and label are those of its layer, if its coordinates as told are its place to a fraction of a pixel.
+fn told(at: [f64; 3], id: Option<u64>, words: &[String], map: &[[f64; 2]; 3]) -> Option<String> {
+    let off = |k: usize| Some(map[k][0] + map[k][1] * words[k].parse::<f64>().ok()? - at[k]);
+    let id = id.map_or_else(|| "null".to_owned(), |id| id.to_string());
+    let is_told = (0..3).all(|k| off(k).is_some_and(|off| off.abs() < 5e-4));
+    is_told.then(|| format!("[{id}{}]", super::words(&words[..3])))
+}
+
+fn layer(layer: &Layer3, stage: &Stage, map: &[[f64; 2]; 3]) -> String {
     let line_style = match layer.line_style {
         LineStyle::Solid => "solid",
         LineStyle::Dashed => "dashed",
@@ -52,12 +75,18 @@ fn layer(layer: &Layer3, stage: &Stage) -> String {
     let mut marks = Vec::new();
     let mut more = String::new();
     let said = |at: &[f64; 3], last: String| -> Vec<String> {
-        at.iter().map(|&v| short(v, 6)).chain([last]).collect()
+        at.iter().map(|&v| digits(v, 6)).chain([last]).collect()
     };
     let kind = match &layer.shape {
         Shape3::Points(points) => {
+            // Most are alike.
+            let common = points.first().map_or((0.0, ""), |p| (p.size, &*p.label));
+            more = format!(",\"size\":{},\"label\":{}", number(common.0), json(common.1));
             for p in points.iter().filter(|p| finite(&p.at)) {
-                marks.push(mark(stage.place(&p.at), p.size, p.id, &said(&p.at, p.label.clone())));
+                let (at, words) = (stage.place(&p.at), said(&p.at, p.label.clone()));
+                let is_common = (p.size, &*p.label) == common;
+                let short = is_common.then(|| told(at, p.id, &words, map)).flatten();
+                marks.push(short.unwrap_or_else(|| mark(at, p.size, p.id, &words)));
             }
             "points"
         }
@@ -72,7 +101,7 @@ fn layer(layer: &Layer3, stage: &Stage) -> String {
                 .iter()
                 .filter(|s| finite(&s.center) && s.radius.is_finite() && s.radius >= 0.0)
             {
-                let words = said(&s.center, format!("radius {}", short(s.radius, 6)));
+                let words = said(&s.center, format!("radius {}", digits(s.radius, 6)));
                 marks.push(mark(stage.place(&s.center), stage.length(s.radius), s.id, &words));
             }
             "spheres"
