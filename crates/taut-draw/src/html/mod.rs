@@ -320,7 +320,11 @@ fn flat(out: &mut String, figure: &Figure, names: &[&str]) {
         let said = if is_nameless { &[] } else { &hover.words[..] };
         let at = match !is_nameless && map.is_some_and(|map| is_told(hover, &map)) {
             true => String::new(),
-            false => format!("[{},{}],", px(hover.at[0]), px(hover.at[1])),
+            // Tenths are enough for a pointer.
+            false => {
+                let [x, y] = hover.at.map(|x| px((x * 10.0).round() / 10.0));
+                format!("[{x},{y}],")
+            }
         };
         let id = hover.id.map_or_else(|| "null".to_owned(), |id| id.to_string());
         let _ = write!(out, "{comma}[{at}{id}{}]", words(said));

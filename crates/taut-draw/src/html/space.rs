@@ -65,6 +65,20 @@ fn told(at: [f64; 3], id: Option<u64>, words: &[String], map: &[[f64; 2]; 3]) ->
     is_told.then(|| format!("[{id}{}]", super::words(&words[..3])))
 }
 
+/// Vertices and triangles as bytes: four for a coordinate and four for a corner.
+fn packed(
+    vertices: &[[f64; 3]],
+    triangles: impl Iterator<Item = [u32; 3]>,
+    stage: &Stage,
+) -> String {
+    // A corner that is not finite is of no triangle; JSON and the viewer get a 0.
+    let finite = |x: f64| if x.is_finite() { x as f32 } else { 0.0 };
+    let places = vertices.iter().flat_map(|p| stage.place(p)).map(finite);
+    let vertices: Vec<u8> = places.flat_map(f32::to_le_bytes).collect();
+    let triangles: Vec<u8> = triangles.flatten().flat_map(u32::to_le_bytes).collect();
+    format!(",\"vertices\":\"{}\",\"triangles\":\"{}\"", base64(&vertices), base64(&triangles))
+}
+
 fn layer(layer: &Layer3, stage: &Stage, map: &[[f64; 2]; 3]) -> String {
     let line_style = match layer.line_style {
         LineStyle::Solid => "solid",
@@ -119,33 +133,23 @@ fn layer(layer: &Layer3, stage: &Stage, map: &[[f64; 2]; 3]) -> String {
         Shape3::Mesh(mesh) => {
             let drawable =
                 |t: &&[usize; 3]| t.iter().all(|&i| mesh.vertices.get(i).is_some_and(finite));
-            let vertices: Vec<_> = mesh.vertices.iter().map(|p| place(stage.place(p))).collect();
-            let triangles: Vec<_> =
-                mesh.triangles.iter().filter(drawable).map(|t| format!("{t:?}")).collect();
-            more = format!(
-                ",\"vertices\":[{}],\"triangles\":[{}]",
-                vertices.join(","),
-                triangles.join(",")
-            );
+            let triangles = mesh.triangles.iter().filter(drawable).map(|t| t.map(|i| i as u32));
+            more = packed(&mesh.vertices, triangles, stage);
             "mesh"
         }
         Shape3::Surface(surface) => {
             let drawable = |t: &&[u32; 3]| {
                 t.iter().all(|&i| surface.vertices.get(i as usize).is_some_and(finite))
             };
-            let places = surface.vertices.iter().flat_map(|p| stage.place(p));
-            // A corner that is not finite is of no triangle; JSON and the viewer get a 0.
-            let places = places.map(|x| if x.is_finite() { x as f32 } else { 0.0 });
-            let vertices: Vec<u8> = places.flat_map(f32::to_le_bytes).collect();
-            let triangles: Vec<u8> = (surface.triangles.iter().filter(drawable))
-                .flat_map(|t| t.iter().flat_map(|i| i.to_le_bytes()))
-                .collect();
             more = format!(
-                ",\"back\":\"{}\",\"smooth\":{},\"vertices\":\"{}\",\"triangles\":\"{}\"",
+                ",\"back\":\"{}\",\"smooth\":{}{}",
                 surface.back.name(),
                 surface.shading == Shading::Smooth,
-                base64(&vertices),
-                base64(&triangles)
+                packed(
+                    &surface.vertices,
+                    surface.triangles.iter().filter(drawable).copied(),
+                    stage
+                ),
             );
             "surface"
         }

@@ -65,7 +65,7 @@
     const { names, ends, map, marks } = data(figure), svg = figure.querySelector(".sheet svg");
     const all = marks.map((list) => mark(list, map)), plot = !!svg.querySelector("[data-layer=dots], [data-layer=zeros]"), box = svg.viewBox.baseVal, whole = [box.x, box.y, box.width, box.height];
     const off = new Set(), layer = all.map((_, i) => ends.findIndex((end) => i < end));
-    const named = (number) => svg.querySelector(`[data-entry="${number}"]`)?.textContent;
+    const named = (number) => svg.querySelector(`[data-entry="${number}"]`)?.textContent.trim();
     let shown = all;
     const place = (event) => {
       const at = svg.getBoundingClientRect(), unit = box.width / at.width;
@@ -139,6 +139,10 @@
   // A scene as its data, read once for all its pictures.
   const read = (figure) => {
     const scene = data(figure);
+    const triples = (numbers) => Array.from({ length: numbers.length / 3 }, (_, i) => Array.from(numbers.slice(3 * i, 3 * i + 3)));
+    for (const l of scene.layers) if (l.kind === "mesh") {
+      l.vertices = triples(new Float32Array(surfaces.bytes(l.vertices))); l.triangles = triples(new Uint32Array(surfaces.bytes(l.triangles)));
+    }
     for (const l of scene.layers) l.marks = l.marks.map((m) => {
       const [at, size, id, ...words] = Array.isArray(m[0]) ? m : [placed(m, scene.map), l.size, ...m, l.label];
       return { at, size, id, words: words.map(String) };

@@ -80,6 +80,7 @@ pub(super) fn draw(plot: &Plot, chrome: Chrome, canvas: &mut Canvas) {
             canvas.close();
         }
     }
+    let mut labels = Vec::new();
     for level in &plot.levels {
         let (tone, label, from, to, at, anchor) = match level {
             Level::AtX { x: value, tone, label } => {
@@ -106,9 +107,7 @@ pub(super) fn draw(plot: &Plot, chrome: Chrome, canvas: &mut Canvas) {
         canvas.open(&classes, &format!("data-layer=\"level\" {attributes}"));
         canvas.line(from, to);
         canvas.close();
-        canvas.open(&format!("f-{}", tone.name()), "");
-        canvas.text(at, "t-level", anchor, label);
-        canvas.close();
+        labels.push((tone, at, anchor, label));
     }
     for (number, series) in plot.series.iter().enumerate() {
         canvas.open_layer(number, chrome);
@@ -150,6 +149,12 @@ pub(super) fn draw(plot: &Plot, chrome: Chrome, canvas: &mut Canvas) {
         }
         canvas.close();
         canvas.close_layer(chrome);
+    }
+    // Above the marks.
+    for (tone, at, anchor, label) in labels {
+        canvas.open(&format!("f-{}", tone.name()), "");
+        canvas.text(at, "t-level", anchor, label);
+        canvas.close();
     }
 }
 
