@@ -1,4 +1,4 @@
-//! Pages as a browser shows them: every figure is there and whole and no two texts overlap, on a desk, on phones and on paper, in both
+//! Pages as a browser shows them: every figure is there and whole and no two texts overlap, on a laptop, on phones and on paper, in both
 //! color schemes.
 //!
 //! One headless Chromium looks at all pages; where there is none, the tests say that they are skipped.
@@ -12,9 +12,9 @@ use serde_json::Value;
 use self::browser::{Browser, Screen};
 use crate::test_folder::TestFolder;
 
-const DESK: Screen = Screen { width: 1280, dark: false, print: false };
-const DESK_AT_NIGHT: Screen = Screen { dark: true, ..DESK };
-const TABLET: Screen = Screen { width: 500, ..DESK };
+const LAPTOP: Screen = Screen { width: 1280, dark: false, print: false };
+const LAPTOP_DARK: Screen = Screen { dark: true, ..LAPTOP };
+const TABLET: Screen = Screen { width: 500, ..LAPTOP };
 const PHONE: Screen = Screen { width: 390, dark: true, print: false };
 /// A sheet of A4 without its margins; paper is white whatever the screen is.
 const PAPER: Screen = Screen { width: 718, dark: true, print: true };
@@ -32,7 +32,7 @@ const LONE_WIDTH_MAX: f64 = 640.0;
 fn faults(browser: &mut Browser, page: &Path) -> Vec<String> {
     browser.open(page);
     let mut faults = Vec::new();
-    for screen in [DESK, DESK_AT_NIGHT, TABLET, PHONE, PAPER] {
+    for screen in [LAPTOP, LAPTOP_DARK, TABLET, PHONE, PAPER] {
         browser.show_on(screen);
         let found = faults_on(browser, screen);
         faults.extend(found.into_iter().map(|fault| format!("{screen:?}: {fault}")));
@@ -75,7 +75,7 @@ fn faults_on(browser: &mut Browser, screen: Screen) -> Vec<String> {
         }
     }
     // Of the others the drawings are the same, but for their size or their colors.
-    if [DESK, PHONE, PAPER].contains(&screen) {
+    if [LAPTOP, PHONE, PAPER].contains(&screen) {
         faults.extend(blank_figures(browser, &seen, [width, height]));
     }
     faults

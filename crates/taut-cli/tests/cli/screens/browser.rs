@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use tempfile::TempDir;
 
 /// The browser has ended or hangs if it says nothing for so long: machines of tests are slow and shared.
-const PATIENCE: Duration = Duration::from_secs(60);
+const SILENCE_MAX: Duration = Duration::from_secs(60);
 
 /// A browser with one page.
 pub(super) struct Browser {
@@ -90,7 +90,7 @@ impl Browser {
     }
 
     fn message(&mut self) -> Value {
-        self.messages.recv_timeout(PATIENCE).expect("the browser answers")
+        self.messages.recv_timeout(SILENCE_MAX).expect("the browser answers")
     }
 
     /// Sends a command, and returns its result.
@@ -134,11 +134,11 @@ impl Browser {
             json!({ "width": width, "height": 800, "deviceScaleFactor": 1, "mobile": false });
         self.ask("Emulation.setDeviceMetricsOverride", size);
         let scheme = if dark { "dark" } else { "light" };
-        let media = json!({
+        let emulated = json!({
             "media": if print { "print" } else { "screen" },
             "features": [{ "name": "prefers-color-scheme", "value": scheme }],
         });
-        self.ask("Emulation.setEmulatedMedia", media);
+        self.ask("Emulation.setEmulatedMedia", emulated);
         let frame = "new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(() => drawn(0))))";
         self.evaluate(frame);
     }
