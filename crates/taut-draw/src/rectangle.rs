@@ -79,7 +79,7 @@ impl Picture {
             shape,
         };
         let gap = options.gap_words("relative gap", self.gap);
-        let [one, other] = self.sides.map(|x| exact(x));
+        let [one, other] = self.sides.map(exact);
         let points = counted(source.len(), "point");
         let scene = Scene2 {
             title: format!("Largest {} in a polygon of {points}", self.name),
