@@ -5,7 +5,7 @@
 //! numbers are very large, very small or very close together, the axis says what they are counted in or from.
 //! *Trap.* Points that differ only in their last digits: labels are differences from an offset named in the title.
 
-use crate::number::{short, superscript};
+use crate::number::{superscript, typeset};
 
 /// The power of two near the largest of `values`; 1 if all are 0.
 pub(crate) fn unit(values: impl Iterator<Item = f64>) -> f64 {
@@ -29,11 +29,18 @@ pub(crate) struct Span {
 
 impl Span {
     pub(crate) fn place(&self, value: f64) -> f64 {
-        self.pixels[0] + self.fraction(value) * (self.pixels[1] - self.pixels[0])
+        self.at_fraction(self.fraction(value))
     }
 
     fn fraction(&self, value: f64) -> f64 {
         (value / self.unit - self.low) / (self.high - self.low)
+    }
+
+    /// The map from numbers to pixels, if it has numbers itself.
+    pub(crate) fn map(&self, is_log: bool) -> Option<AxisMap> {
+        let scale = (self.pixels[1] - self.pixels[0]) / (self.high - self.low);
+        let map = [self.pixels[0] - self.low * scale, scale / self.unit];
+        map.iter().all(|x| x.is_finite()).then_some(AxisMap { zero: map[0], one: map[1], is_log })
     }
 
     /// Pixels of a length, positive.
@@ -42,7 +49,31 @@ impl Span {
     }
 
     pub(crate) fn tick(&self, tick: &Tick) -> f64 {
-        self.pixels[0] + tick.fraction * (self.pixels[1] - self.pixels[0])
+        self.at_fraction(tick.fraction)
+    }
+
+    pub(crate) fn at_fraction(&self, fraction: f64) -> f64 {
+        self.pixels[0] + fraction * (self.pixels[1] - self.pixels[0])
+    }
+}
+
+/// A map from numbers of an axis to pixels, for a page.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct AxisMap {
+    zero: f64,
+    one: f64,
+    /// True if the logarithm to base 10 is mapped.
+    is_log: bool,
+}
+
+impl AxisMap {
+    pub(crate) fn place(&self, value: f64) -> f64 {
+        self.zero + self.one * if self.is_log { value.log10() } else { value }
+    }
+
+    /// As a list for a script.
+    pub(crate) fn json(&self) -> String {
+        format!("[{:?},{:?},{}]", self.zero, self.one, self.is_log)
     }
 }
 
@@ -65,10 +96,12 @@ pub(crate) struct Tick {
     pub(crate) label: String,
 }
 
-/// The ticks of an axis, and what its title has to add: " − 1000", ", in 10⁻³".
+/// The ticks of an axis, places between them without a label, and what its title has to add: " − 1000", ", in 10⁻³".
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Ticks {
     pub(crate) ticks: Vec<Tick>,
+    /// As parts of the interval.
+    pub(crate) between: Vec<f64>,
     pub(crate) offset: String,
     pub(crate) scale: String,
 }
@@ -126,10 +159,11 @@ pub(crate) fn linear(span: &Span, most: usize) -> Ticks {
     let offset = offset * 10.0_f64.powi(shift);
     Ticks {
         ticks,
+        between: Vec::new(),
         offset: match offset {
             0.0 => String::new(),
-            o if o < 0.0 => format!(" + {}", short(-o, 16)),
-            o => format!(" − {}", short(o, 16)),
+            o if o < 0.0 => format!(" + {}", typeset(-o, 16)),
+            o => format!(" − {}", typeset(o, 16)),
         },
         scale: if counted == 0 {
             String::new()
@@ -161,7 +195,7 @@ pub(crate) fn logarithmic(span: &Span, most: usize) -> Ticks {
     if marks.len() < 3 {
         for e in first - 1..=last {
             for digit in [2.0_f64, 5.0] {
-                marks.push((f64::from(e) + digit.log10(), multiple(digit, e)));
+                marks.push((f64::from(e) + digit.log10(), multiple(digit, e, plain)));
             }
         }
     }
@@ -176,17 +210,17 @@ pub(crate) fn logarithmic(span: &Span, most: usize) -> Ticks {
 }
 
 fn power(exponent: i32) -> String {
-    short(10.0_f64.powi(exponent), 6)
+    typeset(10.0_f64.powi(exponent), 6)
 }
 
 fn raised(exponent: i32) -> String {
     if exponent == 0 { "1".into() } else { format!("10{}", superscript(exponent)) }
 }
 
-fn multiple(digit: f64, exponent: i32) -> String {
-    match exponent {
-        -3..=4 => short(digit * 10.0_f64.powi(exponent), 6),
-        e => format!("{digit}·10{}", superscript(e)),
+fn multiple(digit: f64, exponent: i32, plain: bool) -> String {
+    match plain {
+        true => typeset(digit * 10.0_f64.powi(exponent), 6),
+        false => format!("{digit}·10{}", superscript(exponent)),
     }
 }
 
@@ -249,6 +283,7 @@ mod tests {
         };
         assert_eq!(at(-6.1, 0.2), ["10⁻⁶", "10⁻⁴", "10⁻²", "1"]);
         assert_eq!(at(0.1, 1.2), ["2", "5", "10"]);
+        assert_eq!(at(4.1, 5.2), ["2·10⁴", "5·10⁴", "10⁵"]);
     }
 
     fn vec_of(labels: &[&str]) -> Vec<String> {

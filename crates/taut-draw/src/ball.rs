@@ -11,7 +11,7 @@ use taut_points::PointSource;
 
 use crate::item_pass::{Measure, PassQuery, Scaled};
 use crate::marks::{agree, all_finite, all_there, support_marks};
-use crate::number::{count, counted, short};
+use crate::number::{count, counted, digits, exact};
 use crate::passes::{Words, passes};
 use crate::project::{dot, plane, to_unit_reach};
 use crate::scene::{Histogram, Input, Layer, Marks, Projected, Scene, histogram};
@@ -96,9 +96,9 @@ impl Picture<'_> {
         &self.solution.certificate
     }
 
-    /// The lower bound on the radius that the certificate claims.
+    /// The lower bound on the radius that is proved, or that the certificate claims.
     fn lower(&self) -> f64 {
-        let gap = self.certificate().gap;
+        let gap = self.input.options.gap(self.certificate().gap);
         if gap.is_finite() && gap >= 0.0 { self.ball().radius / (1.0 + gap) } else { 0.0 }
     }
 
@@ -110,10 +110,7 @@ impl Picture<'_> {
 
     /// Radius and gap in words.
     fn facts(&self) -> String {
-        let gap = match self.certificate().gap {
-            gap if !gap.is_finite() => "no gap is certified".to_owned(),
-            gap => format!("certified relative gap {}", short(gap, 3)),
-        };
+        let gap = self.input.options.gap_words("relative gap", self.certificate().gap);
         let bound = match (self.lower_is_visible(), self.input.dim) {
             (false, _) => "",
             (true, 1) => " The dashed line is the lower bound: no enclosing interval is shorter.",
@@ -123,7 +120,7 @@ impl Picture<'_> {
                 " The dashed circle has the radius of the lower bound: no enclosing ball is smaller."
             }
         };
-        format!("Radius {}; {gap}.{bound}", short(self.ball().radius, 8))
+        format!("Radius {}; {gap}.{bound}", exact(self.ball().radius))
     }
 
     /// Returns what is drawn of how many, and what the support is.
@@ -216,8 +213,8 @@ impl Picture<'_> {
                     directions.each_ref().map(|u| weighted(&|v| dot(v, u).powi(2)) / total);
                 format!(
                     " Along them lie {} % and {} % of the squared radius; the other {} directions hold the rest.",
-                    short(100.0 * a, 2),
-                    short(100.0 * b, 2),
+                    digits(100.0 * a, 2),
+                    digits(100.0 * b, 2),
                     count(dim as u64 - 2),
                 )
             }
@@ -253,7 +250,7 @@ impl Picture<'_> {
                 Items::Points => "distance from the center",
                 Items::Balls | Items::Ellipsoids => "distance from the center to the far side",
             },
-            border: ("radius", format!("radius {}", short(radius, 6))),
+            border: "radius",
             reach: radius,
             left_out: 0,
             support: Some((self.support_name(), reaches?)),

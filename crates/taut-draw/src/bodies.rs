@@ -9,7 +9,7 @@ use taut_certify::{InscribedBodies, Solution};
 use taut_points::{Blocks, PointSource, Scratch, gather};
 
 use crate::marks::{agree, all_there, dot_size};
-use crate::number::{count, counted, short};
+use crate::number::{count, counted, exact};
 use crate::{
     DrawOptions, Error, Figure, Layer3, LineStyle, Mesh3, Point3, Scene3, Shading, Shape3,
     Surface3, Tone,
@@ -47,7 +47,7 @@ pub fn bodies_figures(
     let caption = format!(
         "{bodies}{}; their volumes add up to {}.{closed_by}{note}{of_obstacles}",
         if answer.disjoint { " that are disjoint" } else { "" },
-        short(volume, 6)
+        exact(volume)
     );
     let layer = |name: &str, tone, shape| Layer3 {
         name: name.to_owned(),
@@ -82,7 +82,9 @@ pub fn bodies_figures(
     if !points.is_empty() {
         let _ = write!(title, " and among {}", counted(points.len() as u64, "point"));
     }
-    Ok(vec![Figure::Space(Scene3::space(title, caption, layers, options))])
+    // The columns are those of triangles.
+    let options = DrawOptions { columns: Vec::new(), ..options.clone() };
+    Ok(vec![Figure::Space(Scene3::space(title, caption, layers, &options))])
 }
 
 /// The facets of all bodies as triangles.

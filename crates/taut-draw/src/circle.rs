@@ -7,7 +7,7 @@ use taut_certify::{InscribedCircle, Solution};
 use taut_points::PointSource;
 
 use crate::marks::{all_finite, all_there};
-use crate::number::{counted, short};
+use crate::number::{counted, exact};
 use crate::rings::{Rings, nearest};
 use crate::{
     Aspect, Circle2, DrawOptions, Error, Figure, Layer2, LineStyle, Point2, Scene2, Shape2, Tone,
@@ -48,15 +48,12 @@ pub fn circle_figures(
     let lines = touching.iter().map(|edge| edge.to_vec()).collect();
     let vertices = counted(source.len(), "point");
     let outline = Shape2::Polygons(rings.outlines(options));
-    let gap = match certificate.gap {
-        gap if gap.is_finite() => format!("certified gap {}", short(gap, 3)),
-        _ => "no gap is certified".to_owned(),
-    };
+    let gap = options.gap_words("relative gap", certificate.gap);
     let scene = Scene2 {
         title: format!("Largest circle in a polygon of {vertices}"),
         caption: format!(
             "Radius {}; {gap}. It touches {}.",
-            short(answer.radius, 8),
+            exact(answer.radius),
             counted(certificate.touching.len() as u64, "edge")
         ),
         x: options.axis(0, 2),

@@ -6,7 +6,7 @@ use taut_certify::{ConvexPolygon, Solution};
 use taut_points::PointSource;
 
 use crate::marks::all_finite;
-use crate::number::{counted, short};
+use crate::number::{counted, exact};
 use crate::rings::Rings;
 use crate::{Aspect, DrawOptions, Error, Figure, Layer2, LineStyle, Scene2, Shape2, Tone};
 
@@ -30,15 +30,12 @@ pub fn convex_figures(
         line_style,
         shape,
     };
-    let gap = match certificate.gap {
-        gap if gap.is_finite() => format!("certified gap {}", short(gap, 3)),
-        _ => "no gap is certified".to_owned(),
-    };
+    let gap = options.gap_words("relative gap", certificate.gap);
     let scene = Scene2 {
         title: format!("Large convex polygon in a polygon of {}", counted(source.len(), "point")),
         caption: format!(
             "Area {}; {gap}; {}.",
-            short(answer.area, 8),
+            exact(answer.area),
             counted(answer.vertices.len() as u64, "corner")
         ),
         x: options.axis(0, 2),

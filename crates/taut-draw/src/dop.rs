@@ -7,7 +7,7 @@ use taut_certify::{BoundingDop, Solution};
 use taut_points::{PointSource, gather};
 
 use crate::marks::{agree, all_there, dot_size};
-use crate::number::{counted, short};
+use crate::number::{counted, exact};
 use crate::{DrawOptions, Error, Figure, Layer3, LineStyle, Mesh3, Point3, Scene3, Shape3, Tone};
 
 /// The radius of the disc of a point that is touched, in pixels.
@@ -75,7 +75,7 @@ pub fn dop_figures(
         true => format!(" Of the points {} are drawn.", counted(shown, "point")),
         false => String::new(),
     };
-    let caption = format!("Its volume is {}.{note}", short(answer.volume, 6));
+    let caption = format!("Its volume is {}.{note}", exact(answer.volume));
     let title = format!("{}-dop around {}", answer.normals.len(), counted(source.len(), "point"));
     Ok(vec![Figure::Space(Scene3::space(title, caption, layers, options))])
 }

@@ -8,7 +8,7 @@ use taut_certify::{Kernel, KernelBall, KernelCenter, Solution};
 use taut_points::{PointSource, gather};
 
 use crate::marks::{agree, all_finite, all_there, dot_size};
-use crate::number::{count, counted, short};
+use crate::number::{count, counted, exact};
 use crate::{
     Aspect, Axis, Bar, DrawOptions, Error, Figure, Layer2, Level, LineStyle, Plot, Point2, Scene2,
     Shape2, Tone,
@@ -98,17 +98,14 @@ impl Picture<'_> {
             Some(nu) => format!(
                 "Soft ball of a {} kernel, ν = {}, around {points}",
                 self.ball().kernel.name(),
-                short(nu, 3)
+                exact(nu)
             ),
         }
     }
 
     fn caption(&self) -> String {
         let ball = self.ball();
-        let gap = match self.solution.certificate.gap {
-            gap if gap.is_finite() => format!("certified relative gap {}", short(gap, 3)),
-            _ => "no gap is certified".to_owned(),
-        };
+        let gap = self.options.gap_words("relative gap", self.solution.certificate.gap);
         let drawn = match (self.ids.len() as u64) < self.source.len() {
             true => format!(" Of the points {} are drawn.", count(self.ids.len() as u64)),
             false => String::new(),
@@ -116,7 +113,7 @@ impl Picture<'_> {
         let support = counted(ball.support.len() as u64, "point");
         format!(
             "Squared radius {}; {gap}. Its center is made of {support}.{drawn}",
-            short(ball.squared_radius, 6)
+            exact(ball.squared_radius)
         )
     }
 

@@ -5,7 +5,7 @@ use taut_certify::Items;
 
 use crate::Error;
 use crate::item_pass::noun;
-use crate::number::{count, counted, short};
+use crate::number::{count, counted, digits};
 use crate::scene::Mark;
 
 /// An error unless both numbers are the same.
@@ -63,7 +63,7 @@ pub(crate) fn support_marks(
     let pairs = support.iter().zip(multipliers).enumerate();
     pairs
         .map(|(k, (&id, &multiplier))| {
-            let label = format!("support, multiplier {}", short(multiplier, 4));
+            let label = format!("support, multiplier {}", digits(multiplier, 4));
             Ok(Mark { id, at: place(k, id)?, size: support_size(multiplier, largest), label })
         })
         .collect()

@@ -1,4 +1,8 @@
 //! Numbers as people read them, and as SVG needs them.
+//!
+//! *Guarantee.* Words write a number as the reports beside pictures do; only the ticks of axes are typeset.
+
+use taut_points::shown_number;
 
 /// A pixel coordinate: two decimals, no trailing zeros, always finite.
 pub(crate) fn px(value: f64) -> String {
@@ -8,13 +12,25 @@ pub(crate) fn px(value: f64) -> String {
     format!("{}", rounded + 0.0)
 }
 
-/// At most `digits` significant digits, without trailing zeros; powers of ten where the plain form would be long.
-pub(crate) fn short(value: f64, digits: usize) -> String {
+/// All digits that matter, as reports write them: the shortest that reads back to the same number.
+pub(crate) fn exact(value: f64) -> String {
+    shown_number(value)
+}
+
+/// At most `most` significant digits, as reports write them.
+pub(crate) fn digits(value: f64, most: usize) -> String {
+    format!("{value:.*e}", most.max(1) - 1).parse().map_or_else(|_| exact(value), exact)
+}
+
+/// A gap, as reports write it: two digits are enough.
+pub(crate) fn gap(value: f64) -> String {
+    if value == 0.0 { "0".to_owned() } else { format!("{value:.1e}") }
+}
+
+/// A number of a scale, at most `digits` significant digits: with raised powers of ten where the plain form would be long.
+pub(crate) fn typeset(value: f64, digits: usize) -> String {
     if value == 0.0 {
         return "0".into();
-    }
-    if !value.is_finite() {
-        return if value.is_nan() { "undefined" } else { "∞" }.into();
     }
     let scientific = format!("{:.*e}", digits.max(1) - 1, value.abs());
     let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
@@ -35,12 +51,12 @@ fn trim(number: &str) -> &str {
     if number.contains('.') { number.trim_end_matches('0').trim_end_matches('.') } else { number }
 }
 
-/// A whole number in groups of three.
+/// A whole number, in groups of three from five digits on.
 pub(crate) fn count(value: u64) -> String {
     let digits = value.to_string();
     let mut out = String::new();
     for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+        if i > 0 && digits.len() > 4 && (digits.len() - i).is_multiple_of(3) {
             out.push(',');
         }
         out.push(digit);
@@ -48,7 +64,7 @@ pub(crate) fn count(value: u64) -> String {
     out
 }
 
-/// `count` of a thing, in singular or plural: "1 point", "2,000 points".
+/// `count` of a thing, in singular or plural: "1 point", "20,000 points".
 pub(crate) fn counted(value: u64, thing: &str) -> String {
     format!("{} {thing}{}", count(value), if value == 1 { "" } else { "s" })
 }
@@ -70,7 +86,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_are_short_and_true() {
+    fn ticks_are_typeset() {
         let cases = [
             (0.0, "0"),
             (1.0, "1"),
@@ -84,12 +100,20 @@ mod tests {
             (99999.99, "100000"),
         ];
         for (value, text) in cases {
-            assert_eq!(short(value, 5), text);
+            assert_eq!(typeset(value, 5), text);
         }
+    }
+
+    #[test]
+    fn words_write_numbers_as_reports_do() {
+        assert_eq!(exact(0.1 + 0.2), "0.30000000000000004");
+        assert_eq!([exact(-2.0), exact(1.5e-9)], ["-2", "1.5e-9"]);
+        assert_eq!([digits(1234.5678, 5), digits(99999.99, 5)], ["1234.6", "100000"]);
+        assert_eq!([gap(0.0), gap(1.234e-16), gap(0.25)], ["0", "1.2e-16", "2.5e-1"]);
         assert_eq!(px(-0.001), "0");
         assert_eq!(px(12.3456), "12.35");
         assert_eq!(px(f64::NAN), "0");
-        assert_eq!([count(7), count(1000), count(20_000_000)], ["7", "1,000", "20,000,000"]);
+        assert_eq!([count(7), count(1000), count(20_000_000)], ["7", "1000", "20,000,000"]);
         assert_eq!(superscript(-1024), "⁻¹⁰²⁴");
     }
 }

@@ -2,7 +2,11 @@
 
 use taut_points::shown_number;
 
+use crate::number::gap;
 use crate::{Axis, Error};
+
+/// What captions say of an answer without a gap.
+pub(crate) const NO_GAP: &str = "no gap is certified";
 
 /// Options to draw. Write `DrawOptions { max_points: 5_000, ..Default::default() }`.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,11 +20,20 @@ pub struct DrawOptions {
     pub height: f64,
     /// Names of the columns, for the axes; where one is missing, x, y, z or the number of the column stands in.
     pub columns: Vec<String>,
+    /// The gap that a checker proved for the answer, by default none: captions and plots tell it rather than the gap that the solver
+    /// says, which they mark as such.
+    pub proved_gap: Option<f64>,
 }
 
 impl Default for DrawOptions {
     fn default() -> Self {
-        DrawOptions { max_points: 20_000, width: 720.0, height: 560.0, columns: Vec::new() }
+        DrawOptions {
+            max_points: 20_000,
+            width: 720.0,
+            height: 560.0,
+            columns: Vec::new(),
+            proved_gap: None,
+        }
     }
 }
 
@@ -37,6 +50,20 @@ impl DrawOptions {
             return wrong("height", shown_number(self.height), "180 to 10,000");
         }
         Ok(())
+    }
+
+    /// The gap to tell: the one that is proved, else the one that the solver says.
+    pub(crate) fn gap(&self, claimed: f64) -> f64 {
+        self.proved_gap.unwrap_or(claimed)
+    }
+
+    /// The gap in words, and who says so.
+    pub(crate) fn gap_words(&self, name: &str, claimed: f64) -> String {
+        match (self.gap(claimed), self.proved_gap) {
+            (told, _) if !told.is_finite() => NO_GAP.to_owned(),
+            (told, Some(_)) => format!("{name} {}, proved by the checker", gap(told)),
+            (told, None) => format!("{name} {}, as the solver says", gap(told)),
+        }
     }
 
     /// The axis of a column in a space of `dim` dimensions.

@@ -1,5 +1,7 @@
 //! Bounds and gap by pass, or by whatever steps a solver takes, from the trace.
 
+use std::borrow::Cow;
+
 use taut_certify::PassBounds;
 
 use crate::number::count;
@@ -45,6 +47,7 @@ pub(crate) fn passes(history: &[PassBounds], words: &Words, options: &DrawOption
     if history.is_empty() {
         return Vec::new();
     }
+    let history = &*ended(history, words, options);
     let long = history.len() > 200;
     let drawn = chosen(history.len(), 400);
     let series = |name: &str, tone, style, value: &dyn Fn(usize) -> f64| Series {
@@ -97,6 +100,9 @@ pub(crate) fn passes(history: &[PassBounds], words: &Words, options: &DrawOption
             if unbounded == 1 { step.to_owned() } else { steps(unbounded as u64) }
         );
     }
+    if options.proved_gap.is_some_and(f64::is_finite) {
+        gap_words += " The last is the gap that the checker proved.";
+    }
     if exact {
         gap_words += " An open mark at the lower edge is a gap of 0.";
     }
@@ -123,6 +129,27 @@ pub(crate) fn passes(history: &[PassBounds], words: &Words, options: &DrawOption
             vec![series("", Tone::Third, style, &gap)],
         ),
     ]
+}
+
+/// The history with the bounds at its end that have the proved gap, where there is one: the answer has that, whatever the solver
+/// knew of it.
+fn ended<'a>(
+    history: &'a [PassBounds],
+    words: &Words,
+    options: &DrawOptions,
+) -> Cow<'a, [PassBounds]> {
+    let mut history = Cow::Borrowed(history);
+    let Some(proved) = options.proved_gap.filter(|gap| gap.is_finite()) else { return history };
+    if let Some(last) = history.to_mut().last_mut() {
+        // The bound that is the answer stays.
+        match (words.gap, words.upper.1) {
+            (Gap::Relative, Tone::Answer) => last.lower = last.upper / (1.0 + proved),
+            (Gap::Relative, _) => last.upper = last.lower * (1.0 + proved),
+            (Gap::Difference, Tone::Answer) => last.lower = last.upper - proved,
+            (Gap::Difference, _) => last.upper = last.lower + proved,
+        }
+    }
+    history
 }
 
 /// At most about `most` of `n` indices, evenly on a logarithmic axis, with the first and the last.

@@ -6,7 +6,7 @@ use taut_certify::{InscribedOrientedRectangle, InscribedRectangle, Solution};
 use taut_points::PointSource;
 
 use crate::marks::all_finite;
-use crate::number::{counted, short};
+use crate::number::{counted, exact};
 use crate::rings::Rings;
 use crate::{Aspect, DrawOptions, Error, Figure, Layer2, LineStyle, Scene2, Shape2, Tone};
 
@@ -78,15 +78,12 @@ impl Picture {
             line_style: LineStyle::Solid,
             shape,
         };
-        let gap = match self.gap {
-            gap if gap.is_finite() => format!("certified gap {}", short(gap, 3)),
-            _ => "no gap is certified".to_owned(),
-        };
-        let [one, other] = self.sides.map(|x| short(x, 6));
+        let gap = options.gap_words("relative gap", self.gap);
+        let [one, other] = self.sides.map(exact);
         let points = counted(source.len(), "point");
         let scene = Scene2 {
             title: format!("Largest {} in a polygon of {points}", self.name),
-            caption: format!("Area {}, {one} by {other}; {gap}.", short(self.area, 8)),
+            caption: format!("Area {}, {one} by {other}; {gap}.", exact(self.area)),
             x: options.axis(0, 2),
             y: options.axis(1, 2),
             aspect: Aspect::Equal,

@@ -5,7 +5,7 @@
 
 use taut_points::PointSource;
 
-use crate::number::{counted, short};
+use crate::number::{counted, exact};
 use crate::rings::Rings;
 use crate::{Aspect, DrawOptions, Error, Figure, Layer2, LineStyle, Scene2, Shape2, Tone};
 
@@ -40,16 +40,13 @@ impl ShapeInRings<'_> {
             line_style: LineStyle::Solid,
             shape,
         };
-        let gap = match self.gap {
-            gap if gap.is_finite() => format!("certified gap {}", short(gap, 3)),
-            _ => "no gap is certified".to_owned(),
-        };
+        let gap = options.gap_words("relative gap", self.gap);
         let outlines = Shape2::Polygons(rings.outlines(options));
         let scene = Scene2 {
             title: format!("Largest {name} in a polygon of {}", counted(source.len(), "point")),
             caption: format!(
                 "Area {}; {gap}. It touches {}.",
-                short(self.area, 8),
+                exact(self.area),
                 counted(self.touching.len() as u64, "edge")
             ),
             x: options.axis(0, 2),

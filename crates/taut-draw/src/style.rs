@@ -143,7 +143,7 @@ pub(crate) fn classes(color: impl Fn(&str) -> String) -> String {
          .t-halo{{stroke:{ground};stroke-width:1.4}}\
          .t-title{{fill:{ink};font-weight:600;font-size:17px}}.t-name{{fill:{ink};font-size:13px}}\
          .t-tick{{fill:{muted};font-size:12px}}.t-caption{{fill:{muted};font-size:12.5px}}\
-         .t-legend{{fill:{ink};font-size:12.5px}}.t-level{{font-size:12px;font-weight:600}}\
+         .t-legend{{fill:{ink};font-size:12.5px}}.t-level{{font-size:12px;font-weight:600;stroke:{ground};stroke-width:2.5;stroke-linejoin:round;paint-order:stroke}}\
          .t-back{{opacity:.3}}.t-front{{opacity:.6}}",
         ground = color("ground"),
         grid = color("grid"),

@@ -64,7 +64,7 @@ impl PictureOptions {
     /// Returns these options as the library takes them; `columns` are the names of the coordinates.
     pub(crate) fn options(&self, columns: Vec<String>) -> DrawOptions {
         let PictureOptions { max_points, width, height, .. } = *self;
-        DrawOptions { max_points, width, height, columns }
+        DrawOptions { max_points, width, height, columns, ..DrawOptions::default() }
     }
 }
 
@@ -87,7 +87,11 @@ impl Drawing {
         if let Some(why) = A::no_picture(report.found) {
             bail!(why)
         }
-        let options = style.options(points.names(A::dim(report)));
+        let claims = |verdict| A::claims(report.found, verdict, report.points);
+        let options = DrawOptions {
+            proved_gap: report.verdict.as_ref().and_then(|verdict| claims(verdict).gap),
+            ..style.options(points.names(A::dim(report)))
+        };
         let figures = A::figures(report.found, report.points, &options)
             .map_err(|error| refused(error, points))?;
         Ok(Drawing {

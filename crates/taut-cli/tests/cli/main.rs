@@ -37,6 +37,8 @@ mod pages;
 mod pictures;
 mod places;
 mod robust;
+#[cfg(unix)]
+mod screens;
 mod shapes;
 mod stream;
 mod surface;

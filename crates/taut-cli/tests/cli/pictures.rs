@@ -118,6 +118,29 @@ fn the_tour_shows_and_verifies_every_tool() {
         assert!(page.contains(part), "no {part}");
     }
     assert_eq!(page.matches("verified</th><td>yes</td>").count(), 16);
+    let mut told = [0; 4];
+    for section in page.split("<section>") {
+        let field = |name: &str| {
+            let (_, rest) = section.split_once(&format!("\"row\">{name}</th><td>"))?;
+            Some(rest.split_once("</td>").unwrap().0)
+        };
+        // One gap, and each number written in one way.
+        for (count, (name, words)) in told.iter_mut().zip([
+            ("gap", [("gap ", ", proved by"), ("gap in log-volume ", ", proved by")]),
+            ("radius", [("<figcaption>Radius ", ";"); 2]),
+            ("log-volume", [("<figcaption>Log-volume ", ";"); 2]),
+            ("area", [("<figcaption>Area ", ";"); 2]),
+        ]) {
+            let Some(number) = field(name).filter(|_| !section.contains("Robust")) else {
+                continue;
+            };
+            *count += 1;
+            let is_told = |(before, after)| section.contains(&format!("{before}{number}{after}"));
+            assert!(words.into_iter().any(is_told), "{name} {number}");
+        }
+        assert!(!section.contains("as the solver says"));
+    }
+    assert_eq!(told, [10, 6, 3, 1]);
     // Each command of the page does what it says.
     for tool in [
         "ball",
@@ -139,4 +162,65 @@ fn the_tour_shows_and_verifies_every_tool() {
     let again = TestFolder::new();
     again.taut("tour --threads 1 --quiet").ends(0);
     assert_eq!(again.text("tour.html"), page);
+}
+
+/// The largest page of 10⁴ points.
+const PAGE_BYTES_MAX: usize = 1_000_000;
+
+#[test]
+fn a_page_of_ten_thousand_points_is_below_a_megabyte() {
+    let folder = TestFolder::new();
+    for (name, points) in [
+        ("plane", "clusters -d 2"),
+        ("sphere", "sphere -d 3"),
+        ("many", "normal -d 7"),
+        ("torus", "torus -d 3"),
+        ("curve", "curve -d 2 --shape bumpy"),
+    ] {
+        folder.taut(&format!("generate {points} -n 10000 --seed 1 -o {name}.npy -q")).ends(0);
+    }
+    let ring: String = (0..10_000)
+        .map(|i| {
+            let (sin, cos) = (f64::from(i) * std::f64::consts::TAU / 1e4).sin_cos();
+            let radius =
+                1.0 + 0.1 * (f64::from(i) * 0.7).sin() + 0.2 * (f64::from(i) * 0.005).cos();
+            format!("{},{}\n", radius * cos, radius * sin)
+        })
+        .collect();
+    folder.put("ring.csv", format!("x,y\n{ring}"));
+    let mut commands = vec![
+        "ball plane.npy",
+        "ball sphere.npy",
+        "ball many.npy",
+        "ellipsoid plane.npy",
+        "ellipsoid sphere.npy",
+        "ellipsoid many.npy",
+        "centers plane.npy -k 5 --epsilon 0.2",
+        "centers sphere.npy -k 5 --epsilon 0.5",
+        "dop sphere.npy -k 18",
+        "delaunay plane.npy",
+        "delaunay sphere.npy",
+        "curve curve.npy",
+        "surface torus.npy -o torus.ply",
+        "inscribe bodies torus.ply --max-events 1000",
+        "inscribe circle ring.csv --epsilon 0.1",
+    ];
+    if std::env::var_os("TAUT_LONG_TESTS").is_some() {
+        commands.extend([
+            "ellipsoid plane.npy --robust mcd",
+            "ellipsoid sphere.npy --robust mcd",
+            "ball plane.npy --kernel gaussian --gamma 0.1 --nu 0.5 --epsilon 0.5",
+            "ball many.npy --kernel gaussian --gamma 0.1 --nu 0.5 --epsilon 0.5",
+        ]);
+    }
+    let mut large = Vec::new();
+    for command in commands {
+        folder.taut(&format!("{command} --draw page.html --quiet")).ends(0);
+        let bytes = folder.bytes("page.html").len();
+        println!("{bytes:>8} bytes: {command}");
+        if bytes > PAGE_BYTES_MAX {
+            large.push(format!("{command}: {bytes} bytes"));
+        }
+    }
+    assert!(large.is_empty(), "{large:#?}");
 }

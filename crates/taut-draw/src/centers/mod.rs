@@ -18,7 +18,8 @@ use self::groups::WithoutColumn;
 use self::nearest::Nearest;
 use crate::item_pass::{Measure, PassQuery};
 use crate::marks::{agree, all_finite, all_there, support_size};
-use crate::number::{count, counted, short};
+use crate::number::{count, counted, exact};
+use crate::options::NO_GAP;
 use crate::passes::{Words, passes};
 use crate::project::{plane, to_unit_reach};
 use crate::scene::{Histogram, Input, Layer, Marks, Projected, Scene, histogram};
@@ -31,7 +32,7 @@ const PROJECTION_ITEM_WEIGHT: f64 = 1e-4;
 const PROJECTION_ITEM_COUNT: usize = 64;
 
 /// The tones of items, by the number of their center.
-const CLUSTER_TONES: [Tone; 4] = [Tone::Point, Tone::Second, Tone::Fourth, Tone::Muted];
+const CLUSTER_TONES: [Tone; 4] = [Tone::Point, Tone::Second, Tone::Fourth, Tone::Bound];
 
 /// The noun for the steps between two pairs of bounds.
 const STEP_WORDS: Words =
@@ -161,9 +162,9 @@ impl<'a> Picture<'a> {
     /// Radius, gap and lower bound in words.
     fn facts(&self) -> String {
         let Centers { radius, lower_bound, .. } = *self.answer;
-        let gap = match self.certificate.gap {
-            _ if radius > 0.0 && lower_bound <= 0.0 => "no gap is certified".to_owned(),
-            gap => format!("certified relative gap {}", short(gap, 3)),
+        let gap = match radius > 0.0 && lower_bound <= 0.0 {
+            true => NO_GAP.to_owned(),
+            false => self.input.options.gap_words("relative gap", self.certificate.gap),
         };
         let shape = match self.input.dim {
             1 => "interval",
@@ -188,7 +189,7 @@ impl<'a> Picture<'a> {
             }
             false => "",
         };
-        format!("Radius {}; {gap}.{bound}{weights}", short(radius, 8))
+        format!("Radius {}; {gap}.{bound}{weights}", exact(radius))
     }
 
     /// The rows of the core-set, ascending: several points of one ellipsoid are one.
@@ -322,7 +323,7 @@ impl<'a> Picture<'a> {
                 self.input.thing()
             ),
             axis: "distance from the nearest center",
-            border: ("radius", format!("radius {}", short(radius, 6))),
+            border: "radius",
             reach: radius,
             left_out: self.answer.outliers.len(),
             support: None,

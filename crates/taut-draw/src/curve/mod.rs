@@ -16,7 +16,7 @@ use taut_points::{PointSource, gather};
 use self::window::Window;
 use crate::item_pass::spread;
 use crate::marks::{agree, all_finite, all_there, dot_size, drawn_of};
-use crate::number::{count, counted, short};
+use crate::number::{count, counted, digits};
 use crate::{DrawOptions, Error, Figure, Layer2, LineStyle, Point2, Scene2, Shape2, Tone};
 
 /// The marks of outliers are this many times as large as those of the other points.
@@ -83,7 +83,7 @@ impl Picture<'_> {
         };
         if self.answer.noise > 0.0 {
             words +=
-                &format!(" Noise of half-width {}, as estimated.", short(self.answer.noise, 4));
+                &format!(" Noise of half-width {}, as estimated.", digits(self.answer.noise, 9));
         }
         words
     }
@@ -162,9 +162,9 @@ impl Picture<'_> {
         }
         let caption = format!(
             "A part of the picture before, {} wide: {} and the band of noise, of half-width {}.",
-            short(window.side(), 3),
+            digits(window.side(), 3),
             counted((others.len() + outliers.len()) as u64, "point"),
-            short(self.answer.noise, 4)
+            digits(self.answer.noise, 9)
         );
         let mut scene =
             self.scene(format!("{}: a window", self.title()), caption, chains, &others, &outliers);

@@ -15,7 +15,7 @@ use self::robust::Robust;
 use crate::body::{Body, touching};
 use crate::item_pass::{Measure, PassQuery};
 use crate::marks::{agree, all_finite, all_there, support_marks};
-use crate::number::{count, counted, short};
+use crate::number::{count, counted, exact};
 use crate::passes::{Gap, Words, passes};
 use crate::scene::pairs::most;
 use crate::scene::{Histogram, Input, Layer, Marks, Pairs, Scene, histogram};
@@ -194,7 +194,7 @@ impl<'a> Picture<'a> {
                 Items::Points => "|F(x − c)|: 0 at the center, 1 on the border",
                 Items::Balls | Items::Ellipsoids => "largest |F(x − c)|: 1 on the border",
             },
-            border: ("border", "border".into()),
+            border: "border",
             reach: 1.0,
             left_out: left_out.len(),
             support: Some((self.support_name(), reaches?)),
@@ -228,7 +228,7 @@ impl<'a> Picture<'a> {
 
     /// By which factor the axes of the ellipsoid shrink to give it the volume of the lower bound.
     fn lower(&self) -> f64 {
-        let gap = self.certificate.gap;
+        let gap = self.input.options.gap(self.certificate.gap);
         if gap.is_finite() && gap >= 0.0 { (-gap / self.rank().max(1) as f64).exp() } else { 0.0 }
     }
 
@@ -242,10 +242,7 @@ impl<'a> Picture<'a> {
         if let Some(robust) = &self.robust {
             return robust.facts();
         }
-        let gap = match self.certificate.gap {
-            gap if !gap.is_finite() => "no gap is certified".to_owned(),
-            gap => format!("certified gap {} in log-volume", short(gap, 3)),
-        };
+        let gap = self.input.options.gap_words("gap in log-volume", self.certificate.gap);
         let flat = match (self.rank(), self.dim()) {
             (r, d) if r == d => String::new(),
             (0, _) => " All lie in one point.".into(),
@@ -259,7 +256,7 @@ impl<'a> Picture<'a> {
             }
             _ => "",
         };
-        format!("Log-volume {}; {gap}.{flat}{bound}", short(self.ellipsoid.log_volume, 8))
+        format!("Log-volume {}; {gap}.{flat}{bound}", exact(self.ellipsoid.log_volume))
     }
 
     /// Returns what is drawn of how many, and what the support is.

@@ -9,7 +9,7 @@ use taut_points::PointSource;
 use super::{Picture, check};
 use crate::body::Body;
 use crate::item_pass::Measure;
-use crate::number::{count, counted, short};
+use crate::number::{count, counted, digits};
 use crate::scene::{Layer, Marks};
 use crate::{Axis, Error, Figure, Level, LineStyle, Plot, Scale, Series, Tone};
 
@@ -87,7 +87,7 @@ impl<'a> Robust<'a> {
     pub(super) fn name(&self) -> String {
         match self.certificate.method {
             RobustMethod::Trim => "smallest ellipsoid around the points kept".into(),
-            _ => format!("tolerance ellipsoid, {} %", short(100.0 * self.certificate.level, 4)),
+            _ => format!("tolerance ellipsoid, {} %", digits(100.0 * self.certificate.level, 4)),
         }
     }
 
@@ -97,7 +97,7 @@ impl<'a> Robust<'a> {
             RobustMethod::Trim => "Its border is that of the points kept.".to_owned(),
             _ => format!(
                 "Were all points normal, it would hold {} % of them.",
-                short(100.0 * level, 4)
+                digits(100.0 * level, 4)
             ),
         };
         let flat = match self.answer.hull {

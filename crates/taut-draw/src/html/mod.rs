@@ -10,11 +10,12 @@ mod space;
 
 use std::fmt::Write as _;
 
-use crate::number::px;
+use crate::axes::AxisMap;
+use crate::number::{exact, px};
 use crate::style::classes;
-use crate::svg::{Chrome, Drawn, draw, legend};
+use crate::svg::{Chrome, Drawn, Hover, draw, legend};
 use crate::text::{escape, json};
-use crate::{Figure, Layer3, Scene3, Shape3, Theme, Views};
+use crate::{Figure, Layer3, Scene3, Shape3, Theme, View, Views};
 
 /// A report: what [`to_html`] writes as one file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -147,8 +148,17 @@ fn section(out: &mut String, part: &Section) {
     }
     if !rest.is_empty() {
         out.push_str("<div class=\"rest\">\n");
+        let mut before = lead;
         for each in rest {
-            figure(out, each, BESIDE_SIZE);
+            match (each, before) {
+                (Figure::Views(views), Some(Figure::Space(scene)))
+                    if views.scene.layers == scene.layers =>
+                {
+                    fixed_views(out, views);
+                }
+                _ => figure(out, each, BESIDE_SIZE),
+            }
+            before = Some(each);
         }
         out.push_str("</div>\n");
     }
@@ -211,6 +221,36 @@ fn figure(out: &mut String, figure: &Figure, [width, height]: [f64; 2]) {
     let _ = writeln!(out, "<figcaption>{caption}</figcaption>\n</figure>");
 }
 
+/// Fixed views of the scene before them, which a script draws from the data that are there already.
+fn fixed_views(out: &mut String, Views { scene, views }: &Views) {
+    let (title, caption) = (escape(&scene.title), escape(&scene.caption));
+    let size = [BESIDE_SIZE[0] / 2.0, 0.45 * BESIDE_SIZE[0]];
+    let _ = writeln!(
+        out,
+        "<figure class=\"space views\">\n<h3>{title}</h3>\n{}<div class=\"sheet\">",
+        legend(scene)
+    );
+    for View { name, .. } in views {
+        let name = escape(name);
+        let [w, h] = size.map(px);
+        let _ = writeln!(
+            out,
+            "<div><p>{name}</p><canvas width=\"{w}\" height=\"{h}\" tabindex=\"0\" role=\"img\" aria-label=\"{title}: {name}\">\
+             </canvas></div>",
+        );
+    }
+    let _ = writeln!(
+        out,
+        "</div>\n<noscript>{NO_SCRIPT}</noscript>\n<script type=\"application/json\" class=\"data\">{}</script>\n\
+         <figcaption>{caption}</figcaption>\n</figure>",
+        space::views(scene, views, size)
+    );
+}
+
+/// What readers without scripts see where a script draws.
+const NO_SCRIPT: &str =
+    "<p>A script of this page draws this scene, but scripts do not run here.</p>";
+
 /// A picture of space where no script runs, if it costs neither much time nor much room.
 fn still(figure: &Figure, scene: &Scene3) -> String {
     let marks = |layer: &Layer3| match &layer.shape {
@@ -225,33 +265,69 @@ fn still(figure: &Figure, scene: &Scene3) -> String {
     let all = scene.layers.iter().map(marks).fold(0, usize::saturating_add);
     match all <= STILL_MARKS_MAX {
         true => draw(figure, Chrome::Bare).document,
-        false => {
-            "<p>A script of this page draws this scene, but scripts do not run here.</p>".into()
-        }
+        false => NO_SCRIPT.into(),
     }
 }
 
+/// Words as the end of a list, numbers as such where a script writes them alike; an empty last one is left out.
+fn words(words: &[String]) -> String {
+    let shown = match words.split_last() {
+        Some((last, before)) if last.is_empty() => before,
+        _ => words,
+    };
+    let is_plain = |word: &str| {
+        let digits = word.strip_prefix('-').unwrap_or(word);
+        let is_number = digits.chars().all(|c| c.is_ascii_digit() || c == '.');
+        is_number
+            && word.parse().is_ok_and(|value: f64| {
+                (value == 0.0 && word == "0" || (1e-4..1e15).contains(&value.abs()))
+                    && exact(value) == word
+            })
+    };
+    let word = |word: &String| match is_plain(word) {
+        true => format!(",{word}"),
+        false => format!(",{}", json(word)),
+    };
+    shown.iter().map(word).collect()
+}
+
+/// Returns true if the first words of a mark tell its place to a twentieth of a pixel.
+fn is_told(hover: &Hover, map: &[AxisMap; 2]) -> bool {
+    let at = |k: usize| {
+        let value: f64 = hover.words.get(k)?.parse().ok()?;
+        Some(map[k].place(value) - hover.at[k])
+    };
+    (0..2).all(|k| at(k).is_some_and(|off| off.abs() < 0.05))
+}
+
 fn flat(out: &mut String, figure: &Figure, names: &[&str]) {
-    let Drawn { document, hovers, ends } = draw(figure, Chrome::Bare);
+    let Drawn { document, hovers, ends, map } = draw(figure, Chrome::Bare);
     let names: Vec<_> = names.iter().map(|name| json(name)).collect();
     let _ = write!(
         out,
-        "<div class=\"sheet\">{}</div>\n<script type=\"application/json\" class=\"data\">{{\"names\":[{}],\"ends\":{:?},\"marks\":[",
+        "<div class=\"sheet\">{}</div>\n<script type=\"application/json\" class=\"data\">{{\"names\":[{}],\"ends\":{:?},{}\"marks\":[",
         document,
         names.join(","),
-        ends
+        ends,
+        map.map_or_else(String::new, |[x, y]| format!("\"map\":[{},{}],", x.json(), y.json())),
     );
     for (i, hover) in hovers.iter().enumerate() {
+        let comma = if i == 0 { "" } else { "," };
+        // Where no axis has a name nobody reads coordinates.
+        let is_nameless = hover.words.len() > 2
+            && hover.words[2..].iter().all(String::is_empty)
+            && names.iter().all(|name| name == "\"\"");
+        let said = if is_nameless { &[] } else { &hover.words[..] };
+        let at = match !is_nameless && map.is_some_and(|map| is_told(hover, &map)) {
+            true => String::new(),
+            // Tenths are enough for a pointer.
+            false => {
+                let [x, y] = hover.at.map(|x| px((x * 10.0).round() / 10.0));
+                format!("[{x},{y}],")
+            }
+        };
         let id = hover.id.map_or_else(|| "null".to_owned(), |id| id.to_string());
-        let words: Vec<_> = hover.words.iter().map(|w| json(w)).collect();
-        let comma = if i == 0 { "" } else { ",\n" };
-        let _ = write!(
-            out,
-            "{comma}[{},{},{id},{}]",
-            px(hover.at[0]),
-            px(hover.at[1]),
-            words.join(",")
-        );
+        let _ = write!(out, "{comma}[{at}{id}{}]", words(said));
     }
     out.push_str("]}</script>\n");
 }

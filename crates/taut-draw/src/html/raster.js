@@ -134,5 +134,5 @@ const surfaces = (() => {
     return { width, height, paint, hides };
   };
 
-  return { decode, draw };
+  return { bytes, decode, draw };
 })();

@@ -26,7 +26,12 @@
     }
     return best;
   };
-  const mark = (list) => ({ at: [list[0], list[1]], id: list[2], words: list.slice(3) });
+  // A mark is its place, number and words, or number and words alone if these tell the place.
+  const placed = (list, map) => map.map(([zero, one, log], k) => zero + one * (log ? Math.log10(list[k + 1]) : Number(list[k + 1])));
+  const mark = (list, map) => {
+    const [at, id, ...words] = Array.isArray(list[0]) ? list : [placed(list, map), ...list];
+    return { at, id, words: words.map(String) };
+  };
 
   // A picture as a file of its own: the colors of the page go with it, its fonts do not.
   const save = (svg, name) => {
@@ -57,9 +62,10 @@
   const file = (figure, end) => figure.querySelector("h3").textContent.toLowerCase().replace(/[^a-z0-9]+/g, "-").slice(0, 60) + end;
 
   for (const figure of document.querySelectorAll("figure.flat")) {
-    const { names, ends, marks } = data(figure), svg = figure.querySelector(".sheet svg");
-    const all = marks.map(mark), box = svg.viewBox.baseVal, whole = [box.x, box.y, box.width, box.height];
+    const { names, ends, map, marks } = data(figure), svg = figure.querySelector(".sheet svg");
+    const all = marks.map((list) => mark(list, map)), plot = !!svg.querySelector("[data-layer=dots], [data-layer=zeros]"), box = svg.viewBox.baseVal, whole = [box.x, box.y, box.width, box.height];
     const off = new Set(), layer = all.map((_, i) => ends.findIndex((end) => i < end));
+    const named = (number) => svg.querySelector(`[data-entry="${number}"]`)?.textContent.trim();
     let shown = all;
     const place = (event) => {
       const at = svg.getBoundingClientRect(), unit = box.width / at.width;
@@ -85,7 +91,7 @@
       const [x, y, unit] = place(event);
       if (held) { view(box.x + held[0] - x, box.y + held[1] - y, box.width); return; }
       const found = nearest(shown, x, y, 12 * unit);
-      if (found) show(words(names, found), event); else hide();
+      if (found) show([words(names, found), plot && named(layer[all.indexOf(found)])].filter(Boolean).join("\n"), event); else hide();
     });
     svg.addEventListener("pointerleave", hide);
     // The wheel scrolls the page until the picture was clicked.
@@ -130,20 +136,33 @@
     return [Math.cos(s) * Math.cos(t), Math.cos(s) * Math.sin(t), Math.sin(s)];
   })));
 
-  const view = (figure) => {
+  // A scene as its data, read once for all its pictures.
+  const read = (figure) => {
     const scene = data(figure);
-    for (const l of scene.layers) l.marks = l.marks.map((m) => ({ at: m.slice(0, 3), size: m[3], id: m[4], words: m.slice(5) }));
-    const canvas = figure.querySelector("canvas"), pen = canvas.getContext("2d");
-    const eye = scene.eye, perspective = scene.perspective, count = scene.layers.reduce((n, l) => n + l.marks.length, 0);
-    let azimuth = scene.azimuth, elevation = scene.elevation, zoom = 1, marks = [], queued = false, moving = false, rest = 0;
-    const off = new Set(), shown = () => scene.layers.filter((l) => !off.has(l));
-    const bodies = scene.layers.filter((l) => l.kind === "surface").map((l) => [l, surfaces.decode(l)]), sheet = document.createElement("canvas");
+    const triples = (numbers) => Array.from({ length: numbers.length / 3 }, (_, i) => Array.from(numbers.slice(3 * i, 3 * i + 3)));
+    for (const l of scene.layers) if (l.kind === "mesh") {
+      l.vertices = triples(new Float32Array(surfaces.bytes(l.vertices))); l.triangles = triples(new Uint32Array(surfaces.bytes(l.triangles)));
+    }
+    for (const l of scene.layers) l.marks = l.marks.map((m) => {
+      const [at, size, id, ...words] = Array.isArray(m[0]) ? m : [placed(m, scene.map), l.size, ...m, l.label];
+      return { at, size, id, words: words.map(String) };
+    });
+    scene.bodies = scene.layers.filter((l) => l.kind === "surface").map((l) => [l, surfaces.decode(l)]);
+    return scene;
+  };
+
+  // Draws a scene on a canvas as `start` says, without the layers that are off, and lets it be turned; returns how to draw it again.
+  const view = (scene, canvas, start, off) => {
+    const pen = canvas.getContext("2d"), { bodies, eye } = scene, perspective = start.perspective;
+    const count = scene.layers.reduce((n, l) => n + l.marks.length, 0), side = start.height / start.width, small = start.width < 500 ? .5 : 1;
+    let { azimuth, elevation, zoom } = start, marks = [], queued = false, moving = false, rest = 0;
+    const shown = () => scene.layers.filter((l) => !off.has(l)), sheet = document.createElement("canvas");
 
     const draw = () => {
       queued = false;
       const layers = shown(), solids = bodies.filter(([l]) => !off.has(l)).map(([, body]) => body);
       const css = getComputedStyle(document.documentElement), color = (name) => css.getPropertyValue("--" + name).trim();
-      const w = canvas.clientWidth || scene.width, h = w * scene.height / scene.width, dpr = devicePixelRatio || 1;
+      const w = canvas.clientWidth || start.width, h = w * side, dpr = devicePixelRatio || 1;
       canvas.width = Math.round(w * dpr); canvas.height = Math.round(h * dpr);
       pen.setTransform(dpr, 0, 0, dpr, 0, 0);
       pen.lineJoin = "round";
@@ -250,7 +269,7 @@
         const low = bulk ? (many ? .12 : .25) : .6, high = bulk && many ? .6 : .95;
         pen.globalAlpha = p.hidden ? .2 : low + (high - low) * Math.min(1, Math.max(0, (p.z + 1) / 2));
         pen.fillStyle = pen.strokeStyle = ink;
-        if (p.face) { pen.globalAlpha = .25 + .5 * p.light; path(p.face, true); pen.fill(); pen.lineWidth = .4; pen.stroke(); }
+        if (p.face) { pen.globalAlpha = (seen ? .3 : 1) * (.25 + .5 * p.light); path(p.face, true); pen.fill(); pen.lineWidth = .4; pen.stroke(); }
         else if (p.chain) { pen.lineWidth = p.layer.look === "thin" ? .8 : 2; pen.setLineDash(p.layer.look === "dashed" ? [6, 5] : []); path(p.chain, false); pen.stroke(); pen.setLineDash([]); }
         else if (p.layer.kind === "crosses") {
           pen.lineWidth = 2; pen.beginPath();
@@ -265,9 +284,10 @@
       pen.globalAlpha = 1; pen.font = "12px " + getComputedStyle(document.body).fontFamily; pen.fillStyle = pen.strokeStyle = color("muted");
       pen.textAlign = "center"; pen.textBaseline = "middle"; pen.lineWidth = 1;
       scene.names.forEach((name, k) => {
-        const v = turned([0, 1, 2].map((j) => j === k ? 1 : 0)), tip = (t) => [56 + t * v[0], h - 56 - t * v[1]];
-        path([tip(0), tip(26)], false); pen.stroke();
-        pen.fillText(name.length > 14 ? name.slice(0, 13) + "…" : name, ...tip(37));
+        const v = turned([0, 1, 2].map((j) => j === k ? 1 : 0)), tip = (t) => [56 * small + t * v[0], h - 56 * small - t * v[1]];
+        if (Math.hypot(v[0], v[1]) < .05) return;
+        path([tip(0), tip(26 * small)], false); pen.stroke();
+        pen.fillText(name.length > 14 ? name.slice(0, 13) + "…" : name, ...tip(26 * small + 11));
       });
     };
     const redraw = () => { if (!queued) { queued = true; requestAnimationFrame(draw); } };
@@ -310,11 +330,21 @@
       if (keys[event.key]) rotate(...keys[event.key]);
       else if (event.key === "+" || event.key === "=") enlarge(1.15);
       else if (event.key === "-") enlarge(1 / 1.15);
-      else if (event.key === "0") { azimuth = scene.azimuth; elevation = scene.elevation; zoom = 1; redraw(); }
+      else if (event.key === "0") { ({ azimuth, elevation, zoom } = start); redraw(); }
       else return;
       event.preventDefault();
     });
-    // An entry of the legend hides its layer, and shows it again.
+    addEventListener("resize", redraw);
+    document.fonts.ready.then(redraw);
+    for (const query of ["(prefers-color-scheme: dark)", "print"]) matchMedia(query).addEventListener("change", draw);
+    draw();
+    return redraw;
+  };
+
+  // The canvases of a figure show one scene; an entry of the legend hides its layer in all of them, and shows it again.
+  const space = (figure, scene, starts) => {
+    const canvases = [...figure.querySelectorAll("canvas")], off = new Set();
+    const redraws = canvases.map((canvas, i) => view(scene, canvas, starts[i], off)), redraw = () => redraws.forEach((again) => again());
     for (const entry of figure.querySelectorAll(".legend li")) {
       const layer = scene.layers[entry.dataset.layer], toggle = () => {
         if (off.has(layer)) off.delete(layer); else off.add(layer);
@@ -329,13 +359,17 @@
       entry.addEventListener("keydown", (event) => { if (event.key === "Enter" || event.key === " ") { event.preventDefault(); toggle(); } });
     }
     hint(figure, "Click an entry above to hide it.", () => {
-      const link = document.createElement("a");
-      link.href = canvas.toDataURL("image/png"); link.download = file(figure, ".png"); link.click();
+      const across = Math.ceil(Math.sqrt(canvases.length)), [{ width, height }] = canvases, link = document.createElement("a");
+      const all = document.createElement("canvas"), pen = all.getContext("2d");
+      all.width = across * width; all.height = Math.ceil(canvases.length / across) * height;
+      canvases.forEach((canvas, i) => pen.drawImage(canvas, i % across * width, Math.floor(i / across) * height));
+      link.href = all.toDataURL("image/png"); link.download = file(figure, ".png"); link.click();
     });
-    addEventListener("resize", redraw);
-    document.fonts.ready.then(redraw);
-    for (const query of ["(prefers-color-scheme: dark)", "print"]) matchMedia(query).addEventListener("change", draw);
-    draw();
   };
-  document.querySelectorAll("figure.space").forEach(view);
+  // Fixed views are of the scene before them.
+  let scene = null;
+  for (const figure of document.querySelectorAll("figure.space")) {
+    if (!figure.matches(".views")) { scene = read(figure); space(figure, scene, [{ zoom: 1, ...scene }]); }
+    else { const { views, ...start } = data(figure); space(figure, scene, views.map(([azimuth, elevation]) => ({ ...start, azimuth, elevation }))); }
+  }
 })();

@@ -16,7 +16,7 @@ use taut_points::PointSource;
 use self::sides::{Side, Sides, TOUCH_TOLERANCE};
 use crate::body::Body;
 use crate::marks::{agree, all_finite, all_there, support_size};
-use crate::number::{count, counted, short};
+use crate::number::{count, counted, digits, exact};
 use crate::passes::{Gap, Words, passes};
 use crate::scene::{Layer, Mark, Marks, Scene};
 use crate::{DrawOptions, Error, Figure, LineStyle, Tone};
@@ -127,7 +127,7 @@ impl Picture<'_> {
             id: side.id,
             at: self.place(&side.seen),
             size: support_size(side.weight, self.sides.largest),
-            label: format!("touching half-space, weight {}", short(side.weight, 4)),
+            label: format!("touching half-space, weight {}", digits(side.weight, 4)),
         };
         let marks = self.sides.support().map(mark).collect();
         let mut layers = vec![
@@ -151,11 +151,8 @@ impl Picture<'_> {
 
     /// Volume, gap and support in words, and what is drawn of how many.
     fn caption(&self, is_whole: bool) -> String {
-        let gap = match self.certificate().gap {
-            gap if !gap.is_finite() => "no gap is certified".to_owned(),
-            gap => format!("certified gap {} in log-volume", short(gap, 3)),
-        };
-        let mut words = format!("Log-volume {}; {gap}.", short(self.ellipsoid().log_volume, 8));
+        let gap = self.options.gap_words("gap in log-volume", self.certificate().gap);
+        let mut words = format!("Log-volume {}; {gap}.", exact(self.ellipsoid().log_volume));
         let touching = self.sides.support().count() as u64;
         words += &format!(
             " {} the ellipsoid{}.",
@@ -198,7 +195,7 @@ impl Picture<'_> {
             "{} of {} come within {} % of touching.",
             count(self.sides.close),
             counted(self.source.len(), "half-space"),
-            short(100.0 * TOUCH_TOLERANCE, 2)
+            digits(100.0 * TOUCH_TOLERANCE, 2)
         )
     }
 }

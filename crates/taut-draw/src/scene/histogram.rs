@@ -2,7 +2,7 @@
 
 use super::Input;
 use crate::item_pass::BORDER_TOLERANCE;
-use crate::number::{count, counted, short};
+use crate::number::{count, counted, digits};
 use crate::{Axis, Bar, Figure, Level, Plot, Scale, Series, Tone};
 
 /// About how many bars there are.
@@ -14,8 +14,8 @@ const LINEAR_HEIGHT_MAX: u64 = 200;
 pub(crate) struct Histogram {
     pub(crate) title: String,
     pub(crate) axis: &'static str,
-    /// The name of the border in the caption, and beside its line.
-    pub(crate) border: (&'static str, String),
+    /// The name of the border, in the caption and beside its line; its number is in the caption of the scene.
+    pub(crate) border: &'static str,
     /// Where the border is on the axis.
     pub(crate) reach: f64,
     /// The number of items that are not measured.
@@ -26,7 +26,7 @@ pub(crate) struct Histogram {
 
 /// A bar for each range of distances.
 pub(crate) fn histogram(input: &Input<'_>, words: Histogram) -> Figure {
-    let Histogram { title, axis, border: (border, label), reach, left_out, support } = words;
+    let Histogram { title, axis, border, reach, left_out, support } = words;
     let bins = input.item_pass.bins(BAR_COUNT);
     let tallest = bins.iter().map(|bin| bin.2).max().unwrap_or(0);
     let y_scale = if tallest >= LINEAR_HEIGHT_MAX { Scale::Log } else { Scale::Linear };
@@ -45,7 +45,7 @@ pub(crate) fn histogram(input: &Input<'_>, words: Histogram) -> Figure {
         "{} of {} come within {} % of the {border}. Each bar counts the {thing}s of one range of distances{}{}.",
         count(input.item_pass.close),
         counted(measured, thing),
-        short(100.0 * BORDER_TOLERANCE, 2),
+        digits(100.0 * BORDER_TOLERANCE, 2),
         match y_scale {
             Scale::Log => "; the count is logarithmic, so that few are seen beside many",
             Scale::Linear | Scale::NormalDeviate => "",
@@ -60,7 +60,7 @@ pub(crate) fn histogram(input: &Input<'_>, words: Histogram) -> Figure {
         y_scale,
         series: support.into_iter().map(dots).collect(),
         bars: bins.into_iter().map(bar).collect(),
-        levels: vec![Level::AtX { x: reach, tone: Tone::Answer, label }],
+        levels: vec![Level::AtX { x: reach, tone: Tone::Answer, label: border.into() }],
         ..Plot::empty(title, caption, [Axis::named(axis), y], input.options)
     })
 }

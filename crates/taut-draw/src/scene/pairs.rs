@@ -11,7 +11,7 @@ use super::plane::{LARGE_CORNERS, Place, SMALL_CORNERS};
 use super::{Group, Layer, Mark, Marks, Scene};
 use crate::body::{Body, Shadow};
 use crate::item_pass::Measure;
-use crate::number::{count, short};
+use crate::number::{count, digits};
 use crate::{DrawOptions, Figure, Layer2, LineStyle, Point2, Scene2, Shape2, Text2, Tone};
 
 /// Up to this many coordinates are all drawn; of more, one less.
@@ -105,7 +105,7 @@ fn diagonal(body: &Body, chosen: &[usize], options: &DrawOptions) -> Vec<Text2> 
     let words = |(i, &j): (usize, &usize)| {
         let (c, w) = (body.center[j], body.half_width(j));
         let at = [i as f64, -(i as f64)];
-        let text = format!("{} to {}", short(c - w, 3), short(c + w, 3));
+        let text = format!("{} to {}", digits(c - w, 3), digits(c + w, 3));
         [
             Text2 { at: [at[0], at[1] + 0.08], text: options.axis(j, body.dim()).name },
             Text2 { at: [at[0], at[1] - 0.12], text },

@@ -2,12 +2,20 @@
 
 use std::fmt::Write as _;
 
+use super::trails::trails;
 use super::{Chrome, Hover};
+use crate::axes::AxisMap;
 use crate::base64::base64;
 use crate::number::px;
 use crate::raster::{Image, png};
 use crate::text::escape;
 use crate::{LineStyle, Tone};
+
+/// At most this many lines are in one path: programs that show SVG slow down over very long ones.
+const TRAILS_PER_PATH: usize = 50;
+
+/// About this many dots are in one path.
+const DOTS_PER_PATH: usize = 50;
 
 /// Elements written so far.
 pub(super) struct Canvas {
@@ -25,6 +33,8 @@ pub(super) struct Canvas {
     pub(super) hovers: Vec<Hover>,
     /// The number of these after each layer that an entry of the legend can hide.
     pub(super) ends: Vec<usize>,
+    /// From numbers to pixels, where both axes have such a map.
+    pub(super) map: Option<[AxisMap; 2]>,
     /// True if marks carry titles of their own; a page shows their words itself.
     pub(super) titled: bool,
 }
@@ -57,6 +67,7 @@ impl Canvas {
             size: [0.0; 2],
             hovers: Vec::new(),
             ends: Vec::new(),
+            map: None,
             titled: false,
         }
     }
@@ -169,6 +180,55 @@ impl Canvas {
             true => self.body.truncate(before),
             false => self.body.push_str("\"/>"),
         }
+    }
+
+    /// Segments as long lines, some of them in each path; lines begin at places, and go on by steps.
+    pub(super) fn segments(&mut self, segments: &[[[f64; 2]; 2]]) {
+        let hundredths = |at: [f64; 2]| at.map(|x| (x.clamp(-1e6, 1e6) * 100.0).round() as i64);
+        let segments: Vec<_> = segments.iter().map(|ends| ends.map(hundredths)).collect();
+        let shown = |x: i64| {
+            let text = px(x as f64 / 100.0);
+            match (text.strip_prefix("0."), text.strip_prefix("-0.")) {
+                (Some(rest), _) => format!(".{rest}"),
+                (_, Some(rest)) => format!("-.{rest}"),
+                _ => text,
+            }
+        };
+        for some in trails(&segments).chunks(TRAILS_PER_PATH) {
+            self.body.push_str("<path d=\"");
+            for trail in some {
+                let _ = write!(self.body, "M{} {}l", shown(trail[0][0]), shown(trail[0][1]));
+                for (i, pair) in trail.windows(2).enumerate() {
+                    let [x, y] = [0, 1].map(|k| shown(pair[1][k] - pair[0][k]));
+                    // A sign separates numbers, too.
+                    let before = if i == 0 || x.starts_with('-') { "" } else { " " };
+                    let between = if y.starts_with('-') { "" } else { " " };
+                    let _ = write!(self.body, "{before}{x}{between}{y}");
+                }
+            }
+            self.body.push_str("\"/>");
+        }
+    }
+
+    /// Discs of one radius as dots of round lines, a third of the room. Those of one path are far apart, as they do not add up where they
+    /// overlap.
+    pub(super) fn dots(&mut self, name: &str, radius: f64, opacity: &str, places: &[[f64; 2]]) {
+        let width = px(2.0 * radius);
+        self.open(
+            &format!("s-{name}"),
+            &format!(
+                "data-layer=\"points\" stroke-linecap=\"round\" stroke-width=\"{width}\" stroke-opacity=\"{opacity}\""
+            ),
+        );
+        let paths = places.len().div_ceil(DOTS_PER_PATH);
+        for first in 0..paths {
+            self.body.push_str("<path d=\"");
+            for [x, y] in places.iter().skip(first).step_by(paths) {
+                let _ = write!(self.body, "M{} {}h0", px(*x), px(*y));
+            }
+            self.body.push_str("\"/>");
+        }
+        self.close();
     }
 
     /// A closed chain with a color of its own.

@@ -37,6 +37,9 @@ const MARGIN: f64 = 22.0;
 const LINE: f64 = 18.0;
 const KEY: f64 = 22.0;
 
+/// The length of a mark without a label below an axis.
+const BETWEEN_TICK: f64 = 4.0;
+
 /// The place of the marks: left, top, right, bottom.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PlotArea {
@@ -184,6 +187,10 @@ pub(super) fn axes(
     canvas.open("t-axis", "");
     if !x_axis.name.is_empty() {
         canvas.line([room.left, room.bottom], [room.right, room.bottom]);
+        for fraction in &x_ticks.between {
+            let at = x.at_fraction(*fraction);
+            canvas.line([at, room.bottom], [at, room.bottom + BETWEEN_TICK]);
+        }
     }
     if !y_axis.name.is_empty() {
         canvas.line([room.left, room.top], [room.left, room.bottom]);

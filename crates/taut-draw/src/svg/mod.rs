@@ -13,14 +13,16 @@ mod plane;
 mod plot;
 mod space;
 mod stage;
+mod trails;
 
+use crate::axes::AxisMap;
 use crate::{Figure, Style};
 pub(crate) use camera::{EYE_DISTANCE, V3, add, cross, dot};
 use canvas::Canvas;
 #[cfg(feature = "png")]
 pub(crate) use canvas::PlacedImage;
 pub(crate) use frame::Chrome;
-pub(crate) use space::{WIRED_SPHERES_MAX, legend};
+pub(crate) use space::{WIRED_SPHERES_MAX, enlargement, legend};
 pub(crate) use stage::{Stage, finite, stage};
 
 /// The figure as an SVG document: title, marks, legend and caption.
@@ -37,6 +39,9 @@ pub(crate) struct Hover {
     pub(crate) words: Vec<String>,
 }
 
+/// More points than this are dots of few paths in a page.
+const DISCS_MAX: usize = 200;
+
 /// Embedded images have this many pixels to each unit of a document: those of a fine screen.
 const PIXELS_PER_UNIT: f64 = 2.0;
 
@@ -47,13 +52,15 @@ pub(crate) struct Drawn {
     pub(crate) hovers: Vec<Hover>,
     /// The number of these after each layer that can be hidden.
     pub(crate) ends: Vec<usize>,
+    /// From numbers to pixels, where both axes have such a map.
+    pub(crate) map: Option<[AxisMap; 2]>,
 }
 
 pub(crate) fn draw(figure: &Figure, chrome: Chrome) -> Drawn {
     let mut canvas = Canvas::new(PIXELS_PER_UNIT, true);
     fill(figure, chrome, &mut canvas);
     let document = canvas.document(figure.title(), figure.caption(), chrome);
-    Drawn { document, hovers: canvas.hovers, ends: canvas.ends }
+    Drawn { document, hovers: canvas.hovers, ends: canvas.ends, map: canvas.map }
 }
 
 /// A figure for a renderer that draws no images: a document, images to lay over it, and a document to lay over these.

@@ -1,10 +1,10 @@
 //! A scene of the plane as SVG.
 
-use super::Hover;
 use super::canvas::{Anchor, Canvas, stroke};
 use super::frame::{self, Chrome, Entry, Key, PlotArea};
+use super::{DISCS_MAX, Hover};
 use crate::axes::{Span, linear, padded, unit};
-use crate::number::short;
+use crate::number::digits;
 use crate::{Aspect, Axis, Layer2, LineStyle, Scene2, Shape2};
 
 pub(super) fn draw(scene: &Scene2, chrome: Chrome, canvas: &mut Canvas) {
@@ -27,9 +27,10 @@ pub(super) fn draw(scene: &Scene2, chrome: Chrome, canvas: &mut Canvas) {
     let [x, y] = spans;
     let x_ticks = linear(&x, ticks_along(room.right - room.left, apart[0]));
     frame::axes(canvas, room, [&scene.x, &scene.y], [&x, &y], [&x_ticks, &y_ticks]);
+    canvas.map = x.map(false).zip(y.map(false)).map(|(x, y)| [x, y]);
     for (number, layer) in scene.layers.iter().enumerate() {
         canvas.open_layer(number, chrome);
-        marks(canvas, layer, &x, &y, [&scene.x, &scene.y]);
+        marks(canvas, layer, &x, &y, [&scene.x, &scene.y], chrome);
         canvas.close_layer(chrome);
     }
 }
@@ -126,7 +127,14 @@ impl Extent {
     }
 }
 
-fn marks(canvas: &mut Canvas, layer: &Layer2, x: &Span, y: &Span, axes: [&Axis; 2]) {
+fn marks(
+    canvas: &mut Canvas,
+    layer: &Layer2,
+    x: &Span,
+    y: &Span,
+    axes: [&Axis; 2],
+    chrome: Chrome,
+) {
     let name = layer.tone.name();
     let place = |p: &[f64; 2]| [x.place(p[0]), y.place(p[1])];
     let finite = |p: &[f64; 2]| p[0].is_finite() && p[1].is_finite();
@@ -135,7 +143,7 @@ fn marks(canvas: &mut Canvas, layer: &Layer2, x: &Span, y: &Span, axes: [&Axis; 
         // Places on an axis that is hidden mean nothing.
         let shown = axes.iter().zip(at).filter(|(axis, _)| !axis.name.is_empty());
         let places: Vec<String> =
-            shown.map(|(axis, v)| format!("{} = {}", axis.name, short(v, 6))).collect();
+            shown.map(|(axis, v)| format!("{} = {}", axis.name, digits(v, 6))).collect();
         let places = (!places.is_empty()).then(|| places.join(", "));
         let what = (!label.is_empty()).then(|| label.to_owned());
         let said: Vec<String> = places.into_iter().chain(what).collect();
@@ -153,18 +161,33 @@ fn marks(canvas: &mut Canvas, layer: &Layer2, x: &Span, y: &Span, axes: [&Axis; 
                 201..=2000 => "0.6",
                 _ => "0.4",
             };
-            canvas.open(&classes, &format!("data-layer=\"points\" fill-opacity=\"{opacity}\""));
+            let size = points.first().map_or(0.0, |point| point.size);
+            let dots = chrome == Chrome::Bare
+                && points.len() > DISCS_MAX
+                && points.iter().all(|point| point.size == size);
+            if !dots {
+                canvas.open(&classes, &format!("data-layer=\"points\" fill-opacity=\"{opacity}\""));
+            }
+            let mut places = Vec::new();
             for point in points.iter().filter(|p| finite(&p.at)) {
                 let at = place(&point.at);
+                places.push(at);
                 // A title for each of many points would double the document; labeled ones are few.
                 let words = if point.label.is_empty() {
                     String::new()
                 } else {
                     title(point.id, point.at, &point.label)
                 };
-                canvas.disc(at, point.size, &words);
-                let words = vec![short(point.at[0], 6), short(point.at[1], 6), point.label.clone()];
+                if !dots {
+                    canvas.disc(at, point.size, &words);
+                }
+                let words =
+                    vec![digits(point.at[0], 6), digits(point.at[1], 6), point.label.clone()];
                 canvas.hovers.push(Hover { at, id: point.id, words });
+            }
+            if dots {
+                canvas.dots(name, size, opacity, &places);
+                return;
             }
         }
         Shape2::Crosses(places) => {
@@ -182,8 +205,8 @@ fn marks(canvas: &mut Canvas, layer: &Layer2, x: &Span, y: &Span, axes: [&Axis; 
                 let at = place(&circle.center);
                 canvas.ellipse(at, [x.length(circle.radius), y.length(circle.radius)], "");
                 if circle.id.is_some() {
-                    let [a, b] = circle.center.map(|v| short(v, 6));
-                    let words = vec![a, b, format!("radius {}", short(circle.radius, 6))];
+                    let [a, b] = circle.center.map(|v| digits(v, 6));
+                    let words = vec![a, b, format!("radius {}", digits(circle.radius, 6))];
                     canvas.hovers.push(Hover { at, id: circle.id, words });
                 }
             }
@@ -196,10 +219,16 @@ fn marks(canvas: &mut Canvas, layer: &Layer2, x: &Span, y: &Span, axes: [&Axis; 
                 chain.iter().filter(|p| finite(p)).map(place).collect()
             };
             let chains: Vec<_> = chains.iter().map(placed).collect();
-            // Areas stay apart: laid over each other in one path they would leave holes.
-            let together = if layer.line_style == LineStyle::Thin { CHAINS_PER_PATH } else { 1 };
-            for some in chains.chunks(together) {
-                canvas.chains(some.iter().map(Vec::as_slice), closed);
+            let thin = layer.line_style == LineStyle::Thin;
+            let segments: Vec<[[f64; 2]; 2]> =
+                chains.iter().filter_map(|chain| chain.as_slice().try_into().ok()).collect();
+            if thin && !closed && segments.len() == chains.len() {
+                canvas.segments(&segments);
+            } else {
+                // Areas stay apart: laid over each other in one path they would leave holes.
+                for some in chains.chunks(if thin { CHAINS_PER_PATH } else { 1 }) {
+                    canvas.chains(some.iter().map(Vec::as_slice), closed);
+                }
             }
         }
         Shape2::Texts(texts) => {

@@ -1,12 +1,12 @@
 //! A chart as SVG.
 
-use super::Hover;
 use super::canvas::{Anchor, Canvas, stroke};
 use super::frame::{self, Chrome, Entry, Key};
 use super::plane::ticks_along;
-use crate::axes::{Span, Ticks, linear, logarithmic, padded, unit};
+use super::{DISCS_MAX, Hover};
+use crate::axes::{AxisMap, Span, Ticks, linear, logarithmic, padded, unit};
 use crate::deviate::{self, has_place, quantile};
-use crate::number::short;
+use crate::number::digits;
 use crate::text::width;
 use crate::{Level, LineStyle, Plot, Scale, SeriesStyle};
 
@@ -58,7 +58,9 @@ pub(super) fn draw(plot: &Plot, chrome: Chrome, canvas: &mut Canvas) {
     let y_ticks = y.ticks(ticks_along(room.bottom - room.top, 50.0));
     room.left += frame::width_left(&plot.y, &y_ticks);
     let x = AxisScale::new(plot.x_scale, x_values, [room.left, room.right]);
-    let x_ticks = x.ticks(ticks_along(room.right - room.left, 85.0));
+    let mut x_ticks = x.ticks(ticks_along(room.right - room.left, 85.0));
+    x_ticks.between = x.whole_places();
+    canvas.map = x.map().zip(y.map()).map(|(x, y)| [x, y]);
     frame::axes(canvas, room, [&plot.x, &plot.y], [&x.span, &y.span], [&x_ticks, &y_ticks]);
 
     for bar in &plot.bars {
@@ -78,6 +80,7 @@ pub(super) fn draw(plot: &Plot, chrome: Chrome, canvas: &mut Canvas) {
             canvas.close();
         }
     }
+    let mut labels = Vec::new();
     for level in &plot.levels {
         let (tone, label, from, to, at, anchor) = match level {
             Level::AtX { x: value, tone, label } => {
@@ -104,9 +107,7 @@ pub(super) fn draw(plot: &Plot, chrome: Chrome, canvas: &mut Canvas) {
         canvas.open(&classes, &format!("data-layer=\"level\" {attributes}"));
         canvas.line(from, to);
         canvas.close();
-        canvas.open(&format!("f-{}", tone.name()), "");
-        canvas.text(at, "t-level", anchor, label);
-        canvas.close();
+        labels.push((tone, at, anchor, label));
     }
     for (number, series) in plot.series.iter().enumerate() {
         canvas.open_layer(number, chrome);
@@ -123,31 +124,46 @@ pub(super) fn draw(plot: &Plot, chrome: Chrome, canvas: &mut Canvas) {
         }
         let dots = matches!(series.style, SeriesStyle::Dots | SeriesStyle::LineAndDots);
         if dots {
-            let radius = match series.style {
+            let radius: f64 = match series.style {
                 SeriesStyle::Dots => 4.0,
                 _ if places.len() > 80 => 1.6,
                 _ => 2.8,
             };
-            canvas.open(&format!("f-{name} t-halo"), "data-layer=\"dots\"");
-            for (value, at) in places.iter().filter(|(v, _)| !x.below(v[0]) && !y.below(v[1])) {
-                canvas.disc(*at, radius, "");
-                canvas.hovers.push(hover(series.name.clone(), value, *at));
+            let seen: Vec<_> =
+                places.iter().filter(|(v, _)| !x.below(v[0]) && !y.below(v[1])).collect();
+            canvas.hovers.extend(seen.iter().map(|(value, at)| hover(value, *at)));
+            if chrome == Chrome::Bare && seen.len() > DISCS_MAX {
+                let places: Vec<_> = seen.iter().map(|(_, at)| *at).collect();
+                canvas.dots(name, radius.min(MANY_DOTS_RADIUS), "0.6", &places);
+            } else {
+                canvas.open(&format!("f-{name} t-halo"), "data-layer=\"dots\"");
+                seen.iter().for_each(|(_, at)| canvas.disc(*at, radius, ""));
+                canvas.close();
             }
-            canvas.close();
         }
         // Values that a logarithm cannot show: open marks at the edge, with or without dots.
         canvas.open(&format!("e-{name} t-ground"), "data-layer=\"zeros\" stroke-width=\"1.8\"");
         for (value, at) in places.iter().filter(|(v, _)| x.below(v[0]) || y.below(v[1])) {
             canvas.disc(*at, 4.0, "");
-            canvas.hovers.push(hover(series.name.clone(), value, *at));
+            canvas.hovers.push(hover(value, *at));
         }
         canvas.close();
         canvas.close_layer(chrome);
     }
+    // Above the marks.
+    for (tone, at, anchor, label) in labels {
+        canvas.open(&format!("f-{}", tone.name()), "");
+        canvas.text(at, "t-level", anchor, label);
+        canvas.close();
+    }
 }
 
-fn hover(name: String, value: &[f64; 2], at: [f64; 2]) -> Hover {
-    Hover { at, id: None, words: vec![short(value[0], 6), short(value[1], 6), name] }
+/// Many dots of a page have this radius at most.
+const MANY_DOTS_RADIUS: f64 = 2.0;
+
+/// The page adds the name of the series.
+fn hover(value: &[f64; 2], at: [f64; 2]) -> Hover {
+    Hover { at, id: None, words: vec![digits(value[0], 6), digits(value[1], 6)] }
 }
 
 struct AxisScale {
@@ -155,11 +171,14 @@ struct AxisScale {
     span: Span,
     /// True if all values are whole numbers: then so are the ticks, as half a pass says nothing.
     whole: bool,
+    /// The least and the largest value.
+    values: (f64, f64),
 }
 
 impl AxisScale {
     fn new(scale: Scale, values: impl Iterator<Item = f64> + Clone, pixels: [f64; 2]) -> Self {
         let whole = values.clone().all(|v| v.fract() == 0.0);
+        let all = range(values.clone());
         let (unit, [low, high]) = match scale {
             Scale::Linear => {
                 let unit = unit(values.clone());
@@ -183,7 +202,14 @@ impl AxisScale {
                 (1.0, padded(low, high, 0.03))
             }
         };
-        AxisScale { scale, span: Span { unit, low, high, pixels }, whole }
+        AxisScale { scale, span: Span { unit, low, high, pixels }, whole, values: all }
+    }
+
+    fn map(&self) -> Option<AxisMap> {
+        match self.scale {
+            Scale::Linear | Scale::Log => self.span.map(self.scale == Scale::Log),
+            Scale::NormalDeviate => None,
+        }
     }
 
     /// The pixel of a number; none for what is not finite.
@@ -208,12 +234,27 @@ impl AxisScale {
         }
     }
 
+    /// The place of each whole number, such as a pass, where all values are whole and there is room for their marks.
+    fn whole_places(&self) -> Vec<f64> {
+        let Span { unit, low, high, pixels } = self.span;
+        let (first, last) = self.values;
+        let room = (pixels[1] - pixels[0]).abs();
+        if self.scale != Scale::Linear
+            || !self.whole
+            || (high - low) * unit * WHOLE_PLACES_APART > room
+        {
+            return Vec::new();
+        }
+        let place = |i: i64| (i as f64 / unit - low) / (high - low);
+        (first as i64..=last as i64).map(place).collect()
+    }
+
     fn ticks(&self, most: usize) -> Ticks {
         match self.scale {
             Scale::Linear if self.whole => {
                 let width = (self.span.high - self.span.low) * self.span.unit;
                 // Each of a few whole numbers has its tick, such as passes and centers.
-                let steps = (width as usize).max(1);
+                let steps = (width.ceil() as usize).max(1);
                 linear(&self.span, if steps <= WHOLE_TICKS_MAX { steps } else { most.min(steps) })
             }
             Scale::Linear => linear(&self.span, most),
@@ -223,8 +264,11 @@ impl AxisScale {
     }
 }
 
-/// Whole numbers along an axis that have a tick each, at most.
+/// Whole numbers along an axis that have a label each, at most.
 const WHOLE_TICKS_MAX: usize = 12;
+
+/// Pixels between the marks of whole numbers, at least.
+const WHOLE_PLACES_APART: f64 = 4.0;
 
 fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     let (low, high) = values

@@ -10,9 +10,9 @@ use super::canvas::{Anchor, Canvas, stroke};
 use super::frame::{self, Chrome, Entry, Key, PlotArea};
 use super::opaque::{Coverage, solids};
 use super::stage::{Stage, balls, finite, stage};
-use crate::number::{px, short};
+use crate::number::{digits, px};
 use crate::text::{escape, fit};
-use crate::{Layer3, LineStyle, Scene3, Shape3, Tone, Views};
+use crate::{Layer3, LineStyle, Scene3, Shape3, Tone, View, Views};
 
 /// A scene of which more spheres than this are drawn has outlines only.
 pub(crate) const WIRED_SPHERES_MAX: usize = 4;
@@ -90,20 +90,33 @@ pub(super) fn draw_views(views: &Views, chrome: Chrome, canvas: &mut Canvas) {
         let camera = Camera::new(scene.projection, view.azimuth, view.elevation, room);
         all.push(Panel { room, camera, small: true });
     }
-    // One scale for all panels, as large as the fullest of them allows.
+    let factor = common_scale(scene, &all);
+    for panel in &mut all {
+        panel.camera = panel.camera.enlarged(factor);
+    }
+    panels(scene, &all, chrome, canvas);
+}
+
+/// By how much panels are enlarged to have one scale, as large as the fullest of them allows.
+fn common_scale(scene: &Scene3, panels: &[Panel]) -> f64 {
     let stage = stage(scene);
     let balls: Vec<_> = balls(scene)
         .iter()
         .map(|(place, radius)| (stage.place(place), stage.length(*radius)))
         .collect();
     let reach = |panel: &Panel| panel.camera.reach(panel.room, &balls);
-    let reach = all.iter().map(reach).fold(0.0, f64::max);
-    if reach > 0.0 {
-        for panel in &mut all {
-            panel.camera = panel.camera.enlarged(0.94 / reach);
-        }
-    }
-    panels(scene, &all, chrome, canvas);
+    let reach = panels.iter().map(reach).fold(0.0, f64::max);
+    if reach > 0.0 { 0.94 / reach } else { 1.0 }
+}
+
+/// By how much fixed views are enlarged in panels of a size of their own.
+pub(crate) fn enlargement(scene: &Scene3, views: &[View], [right, bottom]: [f64; 2]) -> f64 {
+    let room = PlotArea { left: 0.0, top: 0.0, right, bottom };
+    let panel = |view: &View| {
+        let camera = Camera::new(scene.projection, view.azimuth, view.elevation, room);
+        Panel { room, camera, small: true }
+    };
+    common_scale(scene, &views.iter().map(panel).collect::<Vec<_>>())
 }
 
 fn begin(scene: &Scene3, chrome: Chrome, canvas: &mut Canvas) -> PlotArea {
@@ -170,12 +183,12 @@ fn paint_all(canvas: &mut Canvas, mut pieces: Vec<PaintItem>, on_surface: bool) 
             let high = if many && *tone == Tone::Point { 0.6 } else { 0.95 };
             let opacity = match bucket {
                 HIDDEN_GROUP => "0.2".to_owned(),
-                _ => short(low + (high - low) * f64::from(bucket) / 4.0, 3),
+                _ => digits(low + (high - low) * f64::from(bucket) / 4.0, 3),
             };
             let halo = if *tone == Tone::Point || *hidden || rimless { "" } else { " t-halo" };
             canvas.open(&format!("f-{name}{halo}"), &format!("opacity=\"{opacity}\""));
         }
-        paint(canvas, *tone, piece);
+        paint(canvas, *tone, piece, on_surface);
     }
     if group.is_some() {
         canvas.close();
@@ -186,7 +199,7 @@ fn paint_all(canvas: &mut Canvas, mut pieces: Vec<PaintItem>, on_surface: bool) 
 fn entries(layer: &Layer3) -> Vec<Entry<'_>> {
     let front = entry(layer);
     match &layer.shape {
-        Shape3::Surface(surface) if !layer.name.is_empty() => {
+        Shape3::Surface(surface) if !layer.name.is_empty() && surface.back != layer.tone => {
             vec![front, Entry { name: "its back", tone: surface.back, key: Key::Side }]
         }
         _ => vec![front],
@@ -260,8 +273,8 @@ fn draw_spheres(
     for (center, radius, sphere) in &placed {
         canvas.chain(&camera.outline(*center, *radius), true);
         if sphere.id.is_some() {
-            let mut words: Vec<_> = sphere.center.iter().map(|&v| short(v, 6)).collect();
-            words.push(format!("radius {}", short(sphere.radius, 6)));
+            let mut words: Vec<_> = sphere.center.iter().map(|&v| digits(v, 6)).collect();
+            words.push(format!("radius {}", digits(sphere.radius, 6)));
             canvas.hovers.push(Hover { at: camera.pixel(*center), id: sphere.id, words });
         }
     }
@@ -308,7 +321,7 @@ fn collect(
             for point in points.iter().filter(|p| finite(&p.at)) {
                 let v = turned(&point.at);
                 let (at, radius) = (camera.pixel(v), point.size * camera.zoom(v[2]));
-                let mut words: Vec<_> = point.at.iter().map(|&c| short(c, 6)).collect();
+                let mut words: Vec<_> = point.at.iter().map(|&c| digits(c, 6)).collect();
                 let title = if point.label.is_empty() {
                     String::new()
                 } else {
@@ -368,7 +381,7 @@ fn collect(
     }
 }
 
-fn paint(canvas: &mut Canvas, tone: Tone, piece: &Piece) {
+fn paint(canvas: &mut Canvas, tone: Tone, piece: &Piece, on_surface: bool) {
     match piece {
         Piece::Disc { at, radius, title } => canvas.disc(*at, *radius, title),
         Piece::Cross(at) => {
@@ -383,7 +396,9 @@ fn paint(canvas: &mut Canvas, tone: Tone, piece: &Piece) {
             canvas.close();
         }
         Piece::Face { corners, light } => {
-            let opacity = px(0.25 + 0.5 * light);
+            // A translucent mesh around opaque bodies must not hide them.
+            let part = if on_surface { 0.3 } else { 1.0 };
+            let opacity = px(part * (0.25 + 0.5 * light));
             canvas.open(
                 &format!("f-{0} e-{0}", tone.name()),
                 &format!("style=\"fill-opacity:{opacity};stroke-width:.4\""),

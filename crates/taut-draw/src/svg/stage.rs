@@ -61,6 +61,14 @@ impl Stage {
         [0, 1, 2].map(|k| (p[k] / self.unit - self.middle[k]) / self.radius)
     }
 
+    /// For each coordinate the place of 0 and the length of 1; zeros where these are no numbers.
+    pub(crate) fn map(&self) -> [[f64; 2]; 3] {
+        self.middle.map(|middle| {
+            let map = [-middle / self.radius, 1.0 / self.unit / self.radius];
+            if map.iter().all(|x| x.is_finite()) { map } else { [0.0; 2] }
+        })
+    }
+
     /// A length in the unit ball.
     pub(crate) fn length(&self, r: f64) -> f64 {
         r / self.unit / self.radius

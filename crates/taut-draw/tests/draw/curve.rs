@@ -112,7 +112,7 @@ fn of_many_points_an_even_sample_is_drawn_and_counted() {
         "{}",
         scene.caption
     );
-    assert!(scene.caption.contains("of 5,000 points are drawn"), "{}", scene.caption);
+    assert!(scene.caption.contains("of 5000 points are drawn"), "{}", scene.caption);
     let Some(Shape2::Polygons(rings)) = shape(scene, "closed curves") else { panic!("a ring") };
     assert!((500..5000).contains(&rings[0].len()), "{}", rings[0].len());
 }

@@ -194,7 +194,7 @@ fn thinning_keeps_the_support_and_says_how_many() {
         let options = DrawOptions { max_points: 300, ..Default::default() };
         let figures = figures(&values, dim, &found, &options);
         assert!(
-            figures[0].caption().contains("300 of 5,000 points are drawn"),
+            figures[0].caption().contains("300 of 5000 points are drawn"),
             "{}",
             figures[0].caption()
         );

@@ -6,6 +6,7 @@ mod curve;
 mod delaunay;
 mod ellipsoids;
 mod figures;
+mod gaps;
 mod inscribed;
 mod robust;
 mod surface;

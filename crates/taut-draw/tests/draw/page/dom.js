@@ -34,7 +34,8 @@ global.document = {
   fonts: { ready: { then() {} } },
   querySelectorAll: (what) => what !== "figure.space" ? [] : scenes.slice(0, 1).map((textContent) => ({
     querySelector: (part) => part === "canvas" ? shown : { ...element(), textContent },
-    querySelectorAll: (what) => what === ".legend li" ? [entry] : [],
+    matches: () => false,
+    querySelectorAll: (what) => what === ".legend li" ? [entry] : what === "canvas" ? [shown] : [],
   })),
 };
 new Function(program)();
