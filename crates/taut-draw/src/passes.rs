@@ -78,10 +78,13 @@ pub(crate) fn passes(history: &[PassBounds], words: &Words, options: &DrawOption
         Tone::Bound if long => SeriesStyle::Dashed,
         _ => style,
     };
-    let gap = |i: usize| match (words.gap, &history[i]) {
-        (Gap::Relative, PassBounds { upper: 0.0, .. }) => 0.0,
-        (Gap::Relative, bounds) => (bounds.upper / bounds.lower - 1.0).max(0.0),
-        (Gap::Difference, bounds) => (bounds.upper - bounds.lower).max(0.0),
+    let proved = options.proved_gap.filter(|gap| gap.is_finite());
+    let gap = |i: usize| match (proved, words.gap, &history[i]) {
+        // As it is: the difference of the bounds would round it.
+        (Some(proved), ..) if i + 1 == history.len() => proved.max(0.0),
+        (_, Gap::Relative, PassBounds { upper: 0.0, .. }) => 0.0,
+        (_, Gap::Relative, bounds) => (bounds.upper / bounds.lower - 1.0).max(0.0),
+        (_, Gap::Difference, bounds) => (bounds.upper - bounds.lower).max(0.0),
     };
     let is_unbounded = |pass: &&PassBounds| match words.gap {
         Gap::Relative => pass.lower <= 0.0 && pass.upper > 0.0,
@@ -100,7 +103,7 @@ pub(crate) fn passes(history: &[PassBounds], words: &Words, options: &DrawOption
             if unbounded == 1 { step.to_owned() } else { steps(unbounded as u64) }
         );
     }
-    if options.proved_gap.is_some_and(f64::is_finite) {
+    if proved.is_some() {
         gap_words += " The last is the gap that the checker proved.";
     }
     if exact {

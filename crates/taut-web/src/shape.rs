@@ -87,7 +87,10 @@ impl<A: Summary> Shape for Found<A> {
         }
         let report = Report { found: &self.solution, points: points.source(), verdict: None };
         let columns = points.columns(A::dim(&report));
-        let options = DrawOptions { columns, ..DrawOptions::default() };
+        let claims =
+            self.verdict.as_ref().map(|proved| A::claims(&self.solution, proved, points.source()));
+        let proved_gap = claims.and_then(|claims| claims.gap);
+        let options = DrawOptions { columns, proved_gap, ..DrawOptions::default() };
         let figures = A::figures(&self.solution, points.source(), &options)
             .map_err(|error| format!("{}: {error}", points.name()))?;
         let section = Section { figures: worth_drawing(figures), ..Section::default() };

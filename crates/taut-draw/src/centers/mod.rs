@@ -154,9 +154,19 @@ impl<'a> Picture<'a> {
         !self.certificate.weights
     }
 
-    fn lower_is_visible(&self) -> bool {
+    /// The lower bound on the radius that is proved, or that the answer claims.
+    fn lower(&self) -> f64 {
         let Centers { radius, lower_bound, .. } = *self.answer;
-        self.has_balls() && lower_bound > 0.0 && radius - lower_bound > 0.004 * radius
+        match self.input.options.proved_gap {
+            Some(gap) if gap.is_finite() && gap >= 0.0 => radius / (1.0 + gap),
+            Some(_) => 0.0,
+            None => lower_bound,
+        }
+    }
+
+    fn lower_is_visible(&self) -> bool {
+        let (radius, lower) = (self.answer.radius, self.lower());
+        self.has_balls() && lower > 0.0 && radius - lower > 0.004 * radius
     }
 
     /// Radius, gap and lower bound in words.
@@ -233,7 +243,7 @@ impl<'a> Picture<'a> {
 
     /// Balls, rows of no part, the lower bound, the core-set, rows left out, and centers.
     fn layers(&self) -> Result<Vec<Layer<'a>>, Error> {
-        let Centers { centers, outliers, radius, lower_bound, .. } = self.answer;
+        let Centers { centers, outliers, radius, .. } = self.answer;
         let mut core = self.core_set();
         core.retain(|id| outliers.binary_search(id).is_err());
         let is_other =
@@ -249,7 +259,7 @@ impl<'a> Picture<'a> {
             false => layers.extend(self.clustered(&others)?),
         }
         if self.lower_is_visible() {
-            layers.push(Layer::lower_bound(balls(lower_bound)));
+            layers.push(Layer::lower_bound(balls(&self.lower())));
         }
         let name = self.input.named("core-set", core.len());
         let mut core = self.input.group(name, Tone::Support, "of the core-set", core)?;

@@ -61,7 +61,7 @@ fn mark(at: [f64; 3], size: f64, id: Option<u64>, words: &[String]) -> String {
 fn told(at: [f64; 3], id: Option<u64>, words: &[String], map: &[[f64; 2]; 3]) -> Option<String> {
     let off = |k: usize| Some(map[k][0] + map[k][1] * words[k].parse::<f64>().ok()? - at[k]);
     let id = id.map_or_else(|| "null".to_owned(), |id| id.to_string());
-    let is_told = (0..3).all(|k| off(k).is_some_and(|off| off.abs() < 5e-4));
+    let is_told = (0..3).all(|k| off(k).is_some_and(|off| off.abs() < 5e-5));
     is_told.then(|| format!("[{id}{}]", super::words(&words[..3])))
 }
 

@@ -76,6 +76,19 @@ fn captions_and_plots_have_the_gap_that_is_proved() {
     };
     assert_eq!(bounds.series[1].points[3], [4.0, 1.9375]);
     assert_eq!(gap.series[0].points[3], [4.0, 0.0625]);
+
+    // No difference of bounds has these.
+    for tiny in [2.3e-16, 1.2e-15, 1e-9] {
+        let proved = DrawOptions { proved_gap: Some(tiny), ..Default::default() };
+        for figures in [
+            ball_figures(&ball, &points, &proved).unwrap(),
+            ellipsoid_figures(&ellipsoid, &points, &proved).unwrap(),
+        ] {
+            let [_, gap] = &plots(figures)[..] else { panic!("two plots") };
+            assert_eq!(gap.series[0].points[3], [4.0, tiny]);
+            assert!(!gap.caption.contains("a gap of 0"), "{}", gap.caption);
+        }
+    }
 }
 
 #[test]

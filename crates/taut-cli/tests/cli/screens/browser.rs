@@ -6,13 +6,16 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::thread::spawn;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
 /// The browser has ended or hangs if it says nothing for so long: machines of tests are slow and shared.
-const SILENCE_MAX: Duration = Duration::from_secs(60);
+const SILENCE_MAX: Duration = Duration::from_secs(180);
+
+/// A browser that has not closed by then is ended.
+const CLOSING_MAX: Duration = Duration::from_secs(5);
 
 /// A browser with one page.
 pub(super) struct Browser {
@@ -23,7 +26,7 @@ pub(super) struct Browser {
     last: u64,
     /// The events that nobody has waited for yet.
     events: Vec<Value>,
-    _folder: TempDir,
+    folder: TempDir,
 }
 
 /// A way to look at a page.
@@ -34,21 +37,26 @@ pub(super) struct Screen {
     pub(super) print: bool,
 }
 
-/// The browser that the variable CHROMIUM names, else the first of the usual ones that is installed.
-fn program() -> Option<PathBuf> {
+/// Finds the browser that the variable CHROMIUM names, else the first of the usual ones that is installed.
+fn find_browser() -> Option<PathBuf> {
     if let Some(named) = std::env::var_os("CHROMIUM") {
         return Some(named.into());
     }
     let folders = std::env::var_os("PATH").unwrap_or_default();
-    let names = ["chromium", "chromium-browser", "google-chrome"];
+    let names = ["google-chrome", "chromium", "chromium-browser"];
     let places = |name| std::env::split_paths(&folders).map(move |folder| folder.join(name));
-    names.into_iter().flat_map(places).find(|path| path.is_file())
+    // A browser in a snap sees no folder of temporary files.
+    let is_free = |path: &PathBuf| {
+        path.canonicalize()
+            .is_ok_and(|path| !path.components().any(|part| part.as_os_str() == "snap"))
+    };
+    names.into_iter().flat_map(places).find(|path| path.is_file() && is_free(path))
 }
 
 impl Browser {
     /// Starts a browser; `None` where there is none.
     pub(super) fn start() -> Option<Browser> {
-        let program = program()?;
+        let program = find_browser()?;
         let folder = TempDir::new().unwrap();
         let [commands, answers] = ["commands", "answers"].map(|name| folder.path().join(name));
         assert!(Command::new("mkfifo").args([&commands, &answers]).status().unwrap().success());
@@ -57,10 +65,11 @@ impl Browser {
             .args(["-c", "exec \"$0\" \"$@\" 3<commands 4>answers"])
             .arg(program)
             .args(["--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars"])
-            .args(["--no-first-run", "--user-data-dir=profile", "--remote-debugging-pipe"])
+            .args(["--disable-dev-shm-usage", "--no-first-run", "--user-data-dir=profile"])
+            .arg("--remote-debugging-pipe")
             .current_dir(folder.path())
             .stdout(Stdio::null())
-            .stderr(Stdio::null())
+            .stderr(File::create(folder.path().join("stderr")).unwrap())
             .spawn()
             .unwrap();
         let commands = File::options().write(true).open(commands).unwrap();
@@ -78,8 +87,7 @@ impl Browser {
             }
         });
         let (last, events, session) = (0, Vec::new(), None);
-        let mut browser =
-            Browser { process, commands, messages, session, last, events, _folder: folder };
+        let mut browser = Browser { process, commands, messages, session, last, events, folder };
         let target = browser.ask("Target.createTarget", json!({ "url": "about:blank" }));
         let target = json!({ "targetId": target["targetId"], "flatten": true });
         let session = browser.ask("Target.attachToTarget", target);
@@ -90,7 +98,10 @@ impl Browser {
     }
 
     fn message(&mut self) -> Value {
-        self.messages.recv_timeout(SILENCE_MAX).expect("the browser answers")
+        self.messages.recv_timeout(SILENCE_MAX).unwrap_or_else(|error| {
+            let said = std::fs::read_to_string(self.folder.path().join("stderr"));
+            panic!("the browser does not answer: {error}; {}", said.unwrap_or_default())
+        })
     }
 
     /// Sends a command, and returns its result.
@@ -123,8 +134,14 @@ impl Browser {
     /// Opens a page, and waits until it is drawn.
     pub(super) fn open(&mut self, page: &Path) {
         self.events.clear();
-        self.ask("Page.navigate", json!({ "url": format!("file://{}", page.display()) }));
+        let url = format!("file://{}", page.display());
+        let found = self.ask("Page.navigate", json!({ "url": url }));
+        assert!(found.get("errorText").is_none(), "{url}: {found}");
         self.wait_for("Page.loadEventFired");
+        // The event may be that of the page before.
+        self.evaluate(
+            "new Promise((done) => document.readyState === \"complete\" ? done(0) : addEventListener(\"load\", () => done(0)))",
+        );
         self.evaluate("document.fonts.ready.then(() => 0)");
     }
 
@@ -158,7 +175,7 @@ impl Browser {
         self.ask("Page.captureScreenshot", how)["data"].as_str().unwrap().to_owned()
     }
 
-    /// What scripts of the page threw since it was opened.
+    /// Lists the exceptions that scripts threw since the page was opened.
     pub(super) fn exceptions(&self) -> Vec<&Value> {
         self.events
             .iter()
@@ -169,6 +186,12 @@ impl Browser {
 
 impl Drop for Browser {
     fn drop(&mut self) {
+        // Its helpers write to the folder until they end, too.
+        let _ = self.commands.write_all(b"{\"id\":0,\"method\":\"Browser.close\"}\0");
+        let begin = Instant::now();
+        while matches!(self.process.try_wait(), Ok(None)) && begin.elapsed() < CLOSING_MAX {
+            std::thread::sleep(Duration::from_millis(20));
+        }
         let _ = self.process.kill();
         let _ = self.process.wait();
     }

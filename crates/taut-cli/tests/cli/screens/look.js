@@ -29,7 +29,7 @@
       lines.push({ words, left: box.left + dx, right: box.right - dx, top: box.top + dy, bottom: box.bottom - dy });
       if (inside && (box.left < inside.left - 1 || box.right > inside.right + 1 || box.top + dy < inside.top - 1 || box.bottom - dy > inside.bottom + 1)) cut.push(words);
     }
-    if (contrast(svg ? style.fill : style.color, ground) < 3) faint.push(words);
+    if (!(contrast(svg ? style.fill : style.color, ground) >= 3)) faint.push(words);
   }
   lines.sort((a, b) => a.top - b.top);
   const covered = [];
