@@ -63,7 +63,7 @@ pub fn inscribed_triangle(
     let frame = Frame::of(Units::of(&polygon.edges));
     let groups = Groups::of(&frame.edges);
     let target = Target { frame: &frame, groups, edges: &polygon.edges };
-    // Before the search, so that it is not done in vain.
+    // Before the search, which takes longer and is of no use without a sample.
     let sampled = match &options.method {
         TriangleMethod::BranchAndBound => None,
         TriangleMethod::Thesis(thesis) => {
