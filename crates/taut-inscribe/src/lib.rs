@@ -43,6 +43,8 @@ mod random;
 mod rectangle;
 mod runs;
 mod simple;
+#[cfg(test)]
+mod test_length;
 mod triangle;
 mod units;
 

@@ -63,20 +63,22 @@ pub fn inscribed_triangle(
     let frame = Frame::of(Units::of(&polygon.edges));
     let groups = Groups::of(&frame.edges);
     let target = Target { frame: &frame, groups, edges: &polygon.edges };
-    let found = search::search(&target, options)?;
-    let best = found.best.ok_or(Error::TooThin)?;
-    let best_doubled = best.doubled;
-    let reported = match &options.method {
-        TriangleMethod::BranchAndBound => best,
+    // Before the search, which takes longer and is of no use without a sample.
+    let sampled = match &options.method {
+        TriangleMethod::BranchAndBound => None,
         TriangleMethod::Thesis(thesis) => {
             let levels = Levels::of(&frame.edges, frame.extent[1]);
             let sampled = thesis::sampled(&target, &levels, thesis, &options.monitor)?;
-            sampled.ok_or(Error::NoneAmongSamples {
+            Some(sampled.ok_or(Error::NoneAmongSamples {
                 method: options.method.name(),
                 samples: thesis.sample_count,
-            })?
+            })?)
         }
     };
+    let found = search::search(&target, options)?;
+    let best = found.best.ok_or(Error::TooThin)?;
+    let best_doubled = best.doubled;
+    let reported = sampled.unwrap_or(best);
     let gap_of =
         |doubled: f64| ((found.upper / doubled) * (1.0 + 16.0 * f64::EPSILON) - 1.0).max(0.0);
     if !is_measurable(reported.answer.area, gap_of(reported.doubled)) {

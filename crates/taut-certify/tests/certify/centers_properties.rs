@@ -6,6 +6,7 @@ use proptest::prelude::*;
 use taut_certify::{CentersViolation, Items, LowerBound, Placement, Violation};
 
 use crate::common;
+use crate::test_length::long_or;
 
 /// Checks what is claimed of one task, for all k and z up to 2.
 fn all_proofs(name: &str, task: &Task, exactness: f64) {
@@ -136,7 +137,7 @@ proptest! {
 
 #[test]
 fn balls_and_weights_in_the_plane() {
-    for seed in 0..4 {
+    for seed in 0..long_or(4, 2) {
         let mut values = numbers(18, seed);
         values.iter_mut().skip(2).step_by(3).for_each(|v| *v = 0.1 + 0.3 * v.abs());
         let balls = Task { items: Items::Balls, ..Task::points(&values, 3) };

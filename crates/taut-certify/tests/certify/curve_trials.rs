@@ -12,6 +12,8 @@ use taut_points::{
     hash_points,
 };
 
+use crate::test_length::long_or;
+
 /// Trials of each kind. The environment variable asks for more.
 fn trials(usual: u64) -> u64 {
     std::env::var("TAUT_TRIALS").ok().and_then(|text| text.parse().ok()).unwrap_or(usual)
@@ -255,7 +257,7 @@ fn right_curves_through_dense_samples_are_certified() {
     let (mut certified, mut all) = (0, 0);
     for name in NAMES {
         let truth = TestCurve::named(name).unwrap().build_with(3000);
-        for seed in 0..4 {
+        for seed in 0..long_or(4, 2) {
             let mut random = Random(seed + 17);
             let n = (200.0 * truth.length_over_feature) as usize;
             let noise = CurveNoise { delta: 0.05, ..CurveNoise::default() };

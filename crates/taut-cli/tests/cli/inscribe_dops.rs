@@ -127,7 +127,7 @@ fn the_procedure_of_the_thesis_gives_disjoint_bodies_with_proofs() {
     let turned = [("0 2 5", "2 0 5"), ("0 3 4", "3 0 4"), ("1 2 4", "2 1 4"), ("1 3 5", "3 1 5")];
     let outward = |mesh: String, (from, to): (&str, &str)| mesh.replace(from, to);
     folder.put("mesh.off", turned.into_iter().fold(OCTAHEDRON.to_owned(), outward));
-    let command = "inscribe dops mesh.off -k 6 --method thesis --count 3 -o bodies.json";
+    let command = "inscribe dops mesh.off -k 6 --method thesis --cells 12 --count 3 -o bodies.json";
     folder.taut(command).ends(0).stdout_has(&["method", "thesis", "disjoint", "yes"]);
     folder.taut("verify bodies.json mesh.off").ends(0).stdout_has(&["no two bodies overlap"]);
     let refused = "inscribe dops mesh.off --method thesis --votes 0";

@@ -1,4 +1,4 @@
-//! The same bytes on one, two, three and eight threads, for inputs of several blocks and searches of many nodes.
+//! The same bytes on one, three and eight threads, and on two in the long tests, for inputs of several blocks and searches of many nodes.
 
 use taut_certify::{Items, LowerBound, Placement};
 use taut_enclose::{
@@ -7,15 +7,19 @@ use taut_enclose::{
 };
 use taut_points::{Blocks, Distribution, Points, generate};
 
-const THREADS: [usize; 4] = [1, 2, 3, 8];
+use crate::test_length::long_or;
+
+/// Numbers of threads to compare one thread with.
+fn others() -> &'static [usize] {
+    long_or(&[2, 3, 8], &[3, 8])
+}
 
 /// `work` must return the same on any number of threads.
-fn same<R: PartialEq + std::fmt::Debug>(name: &str, work: impl Fn(usize) -> R) -> R {
-    let wanted = work(THREADS[0]);
-    for threads in &THREADS[1..] {
-        assert!(work(*threads) == wanted, "{name} on {threads} threads");
+fn same<R: PartialEq>(name: &str, work: impl Fn(usize) -> R) {
+    let wanted = work(1);
+    for &threads in others() {
+        assert!(work(threads) == wanted, "{name} on {threads} threads");
     }
-    wanted
 }
 
 /// The answer as it is written, which holds every bit of it.
@@ -32,8 +36,12 @@ fn same_centers(
         let options = CentersOptions { threads: Some(threads), ..options };
         centers(&points, k, &CentersOptions { inputs: items, ..options }).unwrap()
     };
-    same(name, |threads| solve(threads).to_json());
-    solve(1)
+    let found = solve(1);
+    let wanted = found.to_json();
+    for &threads in others() {
+        assert!(solve(threads).to_json() == wanted, "{name} on {threads} threads");
+    }
+    found
 }
 
 fn many(n: usize, columns: usize) -> Vec<f64> {

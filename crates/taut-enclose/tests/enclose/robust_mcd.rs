@@ -208,7 +208,7 @@ fn h_points_in_a_hyperplane_are_reported() {
 
 #[test]
 fn shifts_scales_and_turns_go_along() {
-    for (n, dim) in [(120, 3), (6000, 4)] {
+    for (n, dim) in [(120, 3), (crate::test_length::long_or(6000, 2500), 4)] {
         let values = contaminated(n, dim, n / 4, 20.0, 17);
         let plain = solve("plain", &values, dim, &mcd());
         let mut scales = vec![0.0; dim * dim];

@@ -7,10 +7,11 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use rayon::prelude::*;
 
 use crate::common::bytes;
+use crate::test_length::long_or;
 
 /// Cases of each kind; in the long tests 500 times as many, which are 10⁶ together.
 fn cases(few: u64) -> u64 {
-    if std::env::var_os("TAUT_LONG_TESTS").is_some() { 500 * few } else { few }
+    long_or(500 * few, few)
 }
 
 /// The bytes of a case: the numbers of SplitMix64.

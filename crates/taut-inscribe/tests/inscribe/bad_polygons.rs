@@ -12,6 +12,8 @@ use taut_inscribe::{
 };
 use taut_points::Points;
 
+use crate::test_length::long_or;
+
 /// How all searches end for some rings: with an answer that the checker takes, or refused.
 fn outcomes(rings: &[Ring]) -> Vec<Result<(), Error>> {
     let rows = rows(rings);
@@ -163,10 +165,11 @@ fn self_touching_countries_are_refused_fast() {
 }
 
 #[test]
-fn ten_thousand_random_rings_are_answered_or_refused_with_two_edges_that_meet() {
+fn random_rings_are_answered_or_refused_with_two_edges_that_meet() {
+    let count = long_or(10_000, 3000);
     let mut random = Random(11);
     let (mut answered, mut not_simple, mut short) = (0, 0, 0);
-    for _ in 0..10_000 {
+    for _ in 0..count {
         let size = 3 + (random.unit() * 6.0) as usize;
         let range = 2.0 + (random.unit() * 6.0).floor();
         let count = 1 + usize::from(random.unit() < 0.3);
@@ -188,5 +191,5 @@ fn ten_thousand_random_rings_are_answered_or_refused_with_two_edges_that_meet() 
         }
     }
     println!("{answered} answered, {not_simple} not simple, {short} with too few vertices");
-    assert!(answered > 500 && not_simple > 5000 && short > 10);
+    assert!(answered > count / 20 && not_simple > count / 2 && short > count / 1000);
 }

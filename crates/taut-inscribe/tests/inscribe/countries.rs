@@ -14,6 +14,8 @@ use taut_inscribe::{
 };
 use taut_points::Points;
 
+use crate::test_length::long_or;
+
 /// The rings of a file: countries by name, each a list of rings.
 pub(crate) fn rings(name: &str) -> Option<Vec<(String, Ring)>> {
     let Some(folder) = std::env::var_os("TAUT_DATA") else {
@@ -126,13 +128,15 @@ const TRIANGLES: [(&str, f64); 6] = [
 
 #[test]
 fn countries_have_a_proved_triangle() {
-    for (file, gap) in [("countries_110m.json.xz", 1e-3), ("countries_10m.json.xz", 1e-2)] {
+    for (file, gap) in
+        [("countries_110m.json.xz", 1e-3), ("countries_10m.json.xz", long_or(1e-2, 1e-1))]
+    {
         let Some(rings) = rings(file) else { return };
         for (name, ring) in rings {
             let rings = [ring];
             // Long winding coasts take too many cells for a test: they end with the gap that they reach.
             let is_large = rings[0].len() > 3500;
-            let max_cells = if is_large { 1000 } else { 200_000 };
+            let max_cells = if is_large { long_or(1000, 300) } else { 200_000 };
             let begun = std::time::Instant::now();
             let found = match triangles::solve_with(&rings, gap, max_cells) {
                 Ok(found) => found,
@@ -180,7 +184,8 @@ fn countries_have_a_proved_convex_polygon() {
         for (name, ring) in rings {
             let source = Points::new(ring.as_flattened(), 2).unwrap();
             let begun = std::time::Instant::now();
-            let found = match inscribed_polygon(&source, &ConvexOptions::default()) {
+            let options = ConvexOptions { rounds: long_or(200, 40), ..Default::default() };
+            let found = match inscribed_polygon(&source, &options) {
                 Ok(found) => found,
                 Err(Error::NotSimple { .. }) => continue,
                 Err(error) => panic!("{name}: {error}"),
@@ -250,8 +255,7 @@ fn countries_have_a_proved_oriented_rectangle() {
 fn countries_have_shapes_by_the_methods_of_the_thesis() {
     let Some(rings) = rings("countries_110m.json.xz") else { return };
     let mut shares = [vec![], vec![], vec![]];
-    let is_long = std::env::var_os("TAUT_LONG_TESTS").is_some();
-    let count = if is_long { rings.len() } else { 4 };
+    let count = long_or(rings.len(), 3);
     for (name, ring) in rings.into_iter().take(count) {
         let source = Points::new(ring.as_flattened(), 2).unwrap();
         let begun = std::time::Instant::now();

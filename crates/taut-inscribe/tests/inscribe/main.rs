@@ -1,5 +1,7 @@
 //! The tests of `taut-inscribe` from outside, in one program.
 
+mod test_length;
+
 mod any_bytes;
 mod bad_polygons;
 mod bodies;

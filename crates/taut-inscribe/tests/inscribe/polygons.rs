@@ -8,8 +8,7 @@ use taut_certify::{
 use taut_inscribe::{ConvexOptions, Error, inscribed_polygon};
 use taut_points::Points;
 
-#[path = "test_length.rs"]
-mod test_length;
+use crate::test_length::long_or;
 
 /// Edges of convex polygons may reach this far out of the ring, in the search to compare with.
 const REACH_SLACK: f64 = 1e-9;
@@ -100,7 +99,7 @@ fn images_have_the_image_of_the_answer() {
 
 #[test]
 fn areas_are_those_of_a_search_over_corners_or_larger() {
-    let (count, mut worst, mut larger) = (test_length::long_or(100, 24), f64::INFINITY, 0);
+    let (count, mut worst, mut larger) = (long_or(100, 24), f64::INFINITY, 0);
     for seed in 0..count {
         let size = 6 + (seed as usize) % 15;
         let ring = if seed % 2 == 0 { tour(seed, size) } else { star_shaped(seed, size) };

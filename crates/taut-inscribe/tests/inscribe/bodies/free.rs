@@ -3,6 +3,7 @@
 use taut_inscribe::{BodiesOptions, BodyShape, Objective};
 
 use super::shapes::{Mesh, cuboid, free, hull, l_shape, octahedron, options, proved, wavy};
+use crate::test_length::long_or;
 
 /// A mesh turned by a rotation of whole numbers over 9, and shifted.
 fn turned(mesh: &Mesh) -> Mesh {
@@ -154,8 +155,13 @@ fn merging_leaves_fewer_bodies_that_keep_what_was_asked_for() {
         for (objective, disjoint) in
             [(Objective::Volume, false), (Objective::Volume, true), (Objective::Occlusion, false)]
         {
-            let base =
-                BodiesOptions { count: 24, events: 12_000, objective, disjoint, ..base.clone() };
+            let base = BodiesOptions {
+                count: 24,
+                events: long_or(12_000, 5000),
+                objective,
+                disjoint,
+                ..base.clone()
+            };
             let (all, many) = merged(&mesh, &base);
             let mut before = many;
             for loss in [0.0, 0.05, 0.3] {

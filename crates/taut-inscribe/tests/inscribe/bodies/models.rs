@@ -9,6 +9,7 @@ use taut_inscribe::{
 
 use super::shapes::{Mesh, points, solve};
 use crate::common::Random;
+use crate::test_length::long_or;
 
 /// The triangles of an OFF file.
 fn model(name: &str) -> Option<Mesh> {
@@ -153,7 +154,7 @@ fn bodies_of_all_models_are_proved_inside() {
                 shape,
                 close_holes: true,
                 count: 6,
-                events: 10_000,
+                events: long_or(10_000, 4000),
                 ..BodiesOptions::default()
             };
             match solve(&mesh, &options) {
@@ -210,7 +211,7 @@ fn rotation(random: &mut Random) -> [[f64; 3]; 3] {
 /// checker.
 #[test]
 fn no_body_of_a_turned_model_is_outside() {
-    let rotations = if std::env::var_os("TAUT_LONG_TESTS").is_some() { 20 } else { 1 };
+    let rotations = long_or(20, 1);
     let mut random = Random(28);
     let (mut judged, mut ambiguous) = (0, 0);
     for name in ALL {

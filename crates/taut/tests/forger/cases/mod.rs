@@ -28,6 +28,9 @@ use taut::certify::CheckError;
 use taut::points::hash_points;
 use taut::{AnySolution, Monitor, PointSource, Points, Solution, certify::AnyVerdict};
 
+/// Most cells of a certificate, so that thousands of forgeries of it are soon checked.
+const CELLS_MAX: u64 = 500;
+
 /// Rows of one input.
 #[derive(Clone, Debug)]
 pub struct Input {

@@ -2,12 +2,15 @@
 
 use taut::inscribe::{OrientedRectangleOptions, inscribed_oriented_rectangle};
 
-use super::{Case, Solved, cases, circle, document};
+use super::{CELLS_MAX, Case, Solved, cases, circle, document};
 
 /// Returns the cases of the largest rectangle of any direction in a polygon.
 pub fn all() -> Vec<Case> {
     cases(circle::polygons(), |input| {
-        let base = OrientedRectangleOptions::default();
+        let base = OrientedRectangleOptions {
+            max_cells: CELLS_MAX,
+            ..OrientedRectangleOptions::default()
+        };
         let ways = [
             ("1e-2", OrientedRectangleOptions { epsilon: 1e-2, ..base.clone() }),
             ("3e-1", OrientedRectangleOptions { epsilon: 3e-1, ..base.clone() }),

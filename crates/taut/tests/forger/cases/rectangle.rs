@@ -2,16 +2,16 @@
 
 use taut::inscribe::{RectangleOptions, inscribed_rectangle};
 
-use super::{Case, Solved, cases, circle, document};
+use super::{CELLS_MAX, Case, Solved, cases, circle, document};
 
 /// Returns the cases of the largest rectangle in a polygon.
 pub fn all() -> Vec<Case> {
     cases(circle::polygons(), |input| {
-        let base = RectangleOptions::default();
+        let base = RectangleOptions { max_cells: CELLS_MAX, ..RectangleOptions::default() };
         let ways = [
             ("1e-3", base.clone()),
             ("1e-1", RectangleOptions { epsilon: 1e-1, ..base.clone() }),
-            ("1e-9", RectangleOptions { epsilon: 1e-6, max_cells: 1000, ..base.clone() }),
+            ("1e-6", RectangleOptions { epsilon: 1e-6, ..base.clone() }),
             ("one cell", RectangleOptions { max_cells: 1, ..base }),
         ];
         let solve = |(way, options): (&str, RectangleOptions<'_>)| -> (String, _) {

@@ -2,10 +2,7 @@
 
 use taut::inscribe::{TriangleOptions, inscribed_triangle};
 
-use super::{Case, Solved, cases, circle, document};
-
-/// Most cells of a certificate, so that thousands of forgeries of it are soon checked.
-const CELLS_MAX: u64 = 500;
+use super::{CELLS_MAX, Case, Solved, cases, circle, document};
 
 /// Returns the cases of the largest triangle in a polygon.
 pub fn all() -> Vec<Case> {
