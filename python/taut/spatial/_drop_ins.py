@@ -8,6 +8,9 @@ points are vertices each, which SciPy sees to.
 
 from __future__ import annotations
 
+import gc
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
@@ -265,16 +268,29 @@ class Voronoi(_Native, scipy.spatial.Voronoi):  # type: ignore[misc]
         diagram = self.triangulation.voronoi()
         self.vertices = diagram.vertices
         self.ridge_points = diagram.ridge_points
-        if points.shape[1] == 2:
-            self.ridge_vertices = diagram.ridge_vertices.reshape(-1, 2).tolist()
-        else:
-            self.ridge_vertices = _lists(diagram.ridge_starts, diagram.ridge_vertices)
-        self.regions = self._empty + _lists(diagram.region_starts, diagram.region_vertices)
+        with _collector_at_rest():
+            if points.shape[1] == 2:
+                self.ridge_vertices = diagram.ridge_vertices.reshape(-1, 2).tolist()
+            else:
+                self.ridge_vertices = _lists(diagram.ridge_starts, diagram.ridge_vertices)
+            self.regions = self._empty + _lists(diagram.region_starts, diagram.region_vertices)
         self.point_region = np.zeros(len(points), dtype=np.intp)
         self.point_region[diagram.region_rows] = np.arange(len(self._empty), len(self.regions))
         rows, firsts = self.triangulation.duplicates.T
         self.point_region[rows] = self.point_region[firsts]
         self._ridge_dict = None
+
+
+@contextmanager
+def _collector_at_rest() -> Iterator[None]:
+    """Lists of numbers have no cycles, but a million of them would set the collector of cycles off again and again."""
+    was_enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_enabled:
+            gc.enable()
 
 
 def _lists(starts: NDArray[np.int64], values: Ids) -> list[list[int]]:
