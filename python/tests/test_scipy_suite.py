@@ -34,8 +34,20 @@ def pytest_sessionfinish(session):
     json.dump(done, open(os.environ["TAUT_DONE"], "w"))
 """
 
-# What SciPy's tests ask for beyond what its documentation promises.
-EXPECTED_FAILURES = {}
+# Which tests fail, and why.
+NUMBERS = "asks for the numbers that Qhull gives to simplices, facets or vertices"
+CLOSE = "takes vertices that are 1e-16 apart, and a ridge of that length, for one; here they are two"
+EXPECTED_FAILURES = {
+    "TestUtilities::test_find_simplex": NUMBERS,
+    "TestUtilities::test_convex_hull": NUMBERS,
+    "TestDelaunay::test_2d_square": NUMBERS,
+    "TestVoronoi::test_simple": NUMBERS,
+    "TestUtilities::test_degenerate_barycentric_transforms": "counts the simplices that Qhull leaves too flat for a transform",
+    "TestVoronoi::test_ridges[pathological-2]": CLOSE,
+    "TestVoronoi::test_incremental[pathological-2-chunk-1]": CLOSE,
+    "TestVoronoi::test_incremental[pathological-2-chunk-4]": CLOSE,
+    "TestVoronoi::test_incremental[pathological-2-chunk-16]": CLOSE,
+}
 
 
 def run(tmp_path):
@@ -63,6 +75,6 @@ def test_failures_are_those_expected(tmp_path):
     outcomes = run(tmp_path)
     ours = {test: passed for test, (passed, is_native) in outcomes.items() if is_native}
     print(f"{sum(ours.values())} of {len(ours)} tests in which taut did work pass; {len(outcomes)} with those left to SciPy")
-    assert len(ours) >= 60
+    assert len(ours) >= 80
     assert all(passed for passed, is_native in outcomes.values() if not is_native)
     assert {test for test, passed in ours.items() if not passed} == set(EXPECTED_FAILURES)

@@ -277,7 +277,12 @@ class TestDropIns:
         four = RNG.random((30, 4))
         for kind in (Delaunay, Voronoi, ConvexHull):
             assert not kind(four).is_native
-            assert not kind(PLANE, qhull_options="QJ").is_native
+            assert not kind(PLANE, qhull_options="QJ Qs").is_native
+            # What only helps with rounding is nothing to ask for, unless equal points are to be vertices each.
+            assert kind(PLANE, qhull_options="QJ Pp").is_native
+            assert not kind(np.vstack([PLANE, PLANE]), qhull_options="QJ").is_native
+            with pytest.raises(ValueError):
+                kind(PLANE, qhull_options="Qz", incremental=True)
             with pytest.raises(QhullError, match="span 1 of 2 dimensions"):
                 kind([[0, 0], [1, 1], [2, 2], [3, 3]])
             with pytest.raises(ValueError):

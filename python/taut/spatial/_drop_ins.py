@@ -1,11 +1,16 @@
 """The classes of `scipy.spatial`, calculated by taut.
 
 They are derived from those of SciPy and have all their attributes, so that whatever takes those takes these. What taut does not
-do (more than three dimensions, furthest-site diagrams, options of Qhull) is left to SciPy: the attribute `is_native` tells.
+do (more than three dimensions, furthest-site diagrams, options of Qhull that ask for something else) is left to SciPy: the
+attribute `is_native` tells. Options that only help Qhull with rounding, as "QJ" does, change nothing here; but by "QJ" equal
+points are vertices each, which SciPy sees to.
 """
 
 from __future__ import annotations
 
+import gc
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
@@ -19,12 +24,28 @@ Ids = NDArray[np.int32]
 Floats = NDArray[np.float64]
 
 
+# Options by which Qhull gets along with rounding, or says less: exact arithmetic needs none of them.
+ROUNDING_OPTIONS = {"QJ", "Pp", "Q12", "Qt", "Qx"}
+# Likewise, but refused by SciPy for objects that points can be added to.
+SCALING_OPTIONS = {"Qbb", "Qz"}
+
+
+def _is_plain(options: str | None, incremental: bool, more: set[str]) -> bool:
+    """Whether options of Qhull ask for nothing but what taut does."""
+    known = ROUNDING_OPTIONS | more | (set() if incremental else SCALING_OPTIONS)
+    return options is None or (isinstance(options, str) and known.issuperset(options.split()))
+
+
 def _native_points(points: Any, is_plain: bool) -> Floats | None:
     """The points as SciPy keeps them, where taut can do what is asked; None where SciPy is to answer or to refuse."""
     if not is_plain or np.ma.isMaskedArray(points):
         return None
     rows = np.ascontiguousarray(points, dtype=np.float64)
     return rows if rows.ndim == 2 and rows.shape[1] in (2, 3) else None
+
+
+def _is_repeating(rows: Floats) -> bool:
+    return len(np.unique(rows, axis=0)) < len(rows)
 
 
 class _Native:
@@ -38,8 +59,10 @@ class _Native:
     def _solve(self, points: Floats) -> None:
         raise NotImplementedError
 
-    def _begin(self, points: Any, *, is_plain: bool, incremental: bool) -> bool:
+    def _begin(self, points: Any, options: str | None, *, is_plain: bool, incremental: bool) -> bool:
         rows = _native_points(points, is_plain)
+        if rows is not None and options is not None and "QJ" in options and _is_repeating(rows):
+            rows = None
         self.is_native = rows is not None
         if rows is not None:
             self._qhull = None
@@ -99,7 +122,7 @@ class Delaunay(_Native, scipy.spatial.Delaunay):  # type: ignore[misc]
     incremental : bool, default False
         Allows `add_points`, which builds the triangulation again.
     qhull_options : str, optional
-        Done by SciPy where given.
+        Done by SciPy where it asks for more than to get along with rounding.
 
     Attributes
     ----------
@@ -129,8 +152,8 @@ class Delaunay(_Native, scipy.spatial.Delaunay):  # type: ignore[misc]
         self.triangulation: Triangulation | None = None
         self._equations: Floats | None = None
         self._coplanar: Ids | None = None
-        is_plain = not furthest_site and qhull_options is None
-        if self._begin(points, is_plain=is_plain, incremental=incremental):
+        is_plain = not furthest_site and _is_plain(qhull_options, incremental, {"Qc"})
+        if self._begin(points, qhull_options, is_plain=is_plain, incremental=incremental):
             self.furthest_site = False
         else:
             super().__init__(points, furthest_site, incremental, qhull_options)
@@ -196,7 +219,7 @@ class Voronoi(_Native, scipy.spatial.Voronoi):  # type: ignore[misc]
     """`scipy.spatial.Voronoi`, exact.
 
     Vertices are merged where they are one exactly, not to a tolerance. Region 0 is empty, and that of row i of distinct points is
-    i + 1; equal rows have one region.
+    i + 1 (without the empty one i, where options of Qhull are given without "Qz"); equal rows have one region.
 
     Parameters
     ----------
@@ -207,7 +230,7 @@ class Voronoi(_Native, scipy.spatial.Voronoi):  # type: ignore[misc]
     incremental : bool, default False
         Allows `add_points`, which builds the diagram again.
     qhull_options : str, optional
-        Done by SciPy where given.
+        Done by SciPy where it asks for more than to get along with rounding.
 
     Attributes
     ----------
@@ -232,8 +255,10 @@ class Voronoi(_Native, scipy.spatial.Voronoi):  # type: ignore[misc]
         qhull_options: str | None = None,
     ) -> None:
         self.triangulation: Triangulation | None = None
-        is_plain = not furthest_site and qhull_options is None
-        if self._begin(points, is_plain=is_plain, incremental=incremental):
+        is_plain = not furthest_site and _is_plain(qhull_options, incremental, {"Qc"})
+        # The region of the point at infinity that "Qz", a default of SciPy, adds.
+        self._empty: list[list[int]] = [[]] if qhull_options is None or "Qz" in qhull_options else []
+        if self._begin(points, qhull_options, is_plain=is_plain, incremental=incremental):
             self.furthest_site = False
         else:
             super().__init__(points, furthest_site, incremental, qhull_options)
@@ -243,16 +268,29 @@ class Voronoi(_Native, scipy.spatial.Voronoi):  # type: ignore[misc]
         diagram = self.triangulation.voronoi()
         self.vertices = diagram.vertices
         self.ridge_points = diagram.ridge_points
-        if points.shape[1] == 2:
-            self.ridge_vertices = diagram.ridge_vertices.reshape(-1, 2).tolist()
-        else:
-            self.ridge_vertices = _lists(diagram.ridge_starts, diagram.ridge_vertices)
-        self.regions = [[], *_lists(diagram.region_starts, diagram.region_vertices)]
+        with _collector_at_rest():
+            if points.shape[1] == 2:
+                self.ridge_vertices = diagram.ridge_vertices.reshape(-1, 2).tolist()
+            else:
+                self.ridge_vertices = _lists(diagram.ridge_starts, diagram.ridge_vertices)
+            self.regions = self._empty + _lists(diagram.region_starts, diagram.region_vertices)
         self.point_region = np.zeros(len(points), dtype=np.intp)
-        self.point_region[diagram.region_rows] = np.arange(1, len(self.regions))
+        self.point_region[diagram.region_rows] = np.arange(len(self._empty), len(self.regions))
         rows, firsts = self.triangulation.duplicates.T
         self.point_region[rows] = self.point_region[firsts]
         self._ridge_dict = None
+
+
+@contextmanager
+def _collector_at_rest() -> Iterator[None]:
+    """Lists of numbers have no cycles, but a million of them would set the collector of cycles off again and again."""
+    was_enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_enabled:
+            gc.enable()
 
 
 def _lists(starts: NDArray[np.int64], values: Ids) -> list[list[int]]:
@@ -270,7 +308,7 @@ class ConvexHull(_Native, scipy.spatial.ConvexHull):  # type: ignore[misc]
     incremental : bool, default False
         Allows `add_points`, which builds the hull again.
     qhull_options : str, optional
-        Done by SciPy where given.
+        Done by SciPy where it asks for more than to get along with rounding.
 
     Attributes
     ----------
@@ -289,7 +327,7 @@ class ConvexHull(_Native, scipy.spatial.ConvexHull):  # type: ignore[misc]
 
     def __init__(self, points: ArrayLike, incremental: bool = False, qhull_options: str | None = None) -> None:
         self.polytope: Polytope | None = None
-        if not self._begin(points, is_plain=qhull_options is None, incremental=incremental):
+        if not self._begin(points, qhull_options, is_plain=_is_plain(qhull_options, incremental, set()), incremental=incremental):
             super().__init__(points, incremental, qhull_options)
 
     def _solve(self, points: Floats) -> None:
