@@ -8,7 +8,6 @@ use las::{Builder, Color, Point, Transform, Vector, Writer};
 use taut_io::{Bounds, Format, ReadOptions, Thinning, open_bytes, spill_bytes};
 
 use super::{message, values};
-use crate::test_length::long_or;
 
 /// Whole numbers that the file has for the coordinates of point `i`.
 fn raw(i: i32) -> [i32; 3] {
@@ -194,9 +193,7 @@ fn damaged_files_are_refused_with_the_place() {
             message(open_bytes(bytes[..length].to_vec(), name, &ReadOptions::default()));
         }
         // Any byte of the header, and some of the points: an error or other points, but no panic.
-        let (points, step) = long_or((40_000, 997), (2000, 97));
-        let bytes = file(points, 1, is_compressed);
-        for at in (0..700).chain((700..bytes.len()).step_by(step)) {
+        for at in (0..700).chain((700..bytes.len()).step_by(997)) {
             let mut other = bytes.clone();
             other[at] ^= 0xff;
             let _ = open_bytes(other, name, &ReadOptions::default());
