@@ -41,7 +41,11 @@ pub(super) fn read(job: &Job<'_>, medium: Medium, filter: &mut Filter) -> Result
     })
 }
 
-/// Refuses a compressed file that was cut before its table of chunks, which is at its end and which the decoder asks for first.
+/// Least bytes of a point without compression, with which each chunk of points begins.
+const POINT_BYTES_MIN: u64 = 20;
+
+/// Refuses a compressed file that was cut before its table of chunks, which is at its end and which the decoder asks for first, and one
+/// whose table claims more chunks than the file has room for: the decoder makes room for all of them before it reads one.
 fn check_chunks(job: &Job<'_>, stream: &mut (impl Read + Seek)) -> Result<(), Error> {
     let failed = |source| Error::reading(job.path, source);
     let length = stream.seek(SeekFrom::End(0)).map_err(failed)?;
@@ -49,26 +53,46 @@ fn check_chunks(job: &Job<'_>, stream: &mut (impl Read + Seek)) -> Result<(), Er
         stream.seek(SeekFrom::Start(at)).and_then(|_| stream.read_exact(bytes)).is_ok()
     };
     // The offset of the points, u32; the format of points, whose highest bits say that it is compressed; both in the header.
-    let (mut points, mut format, mut table) = ([0; 4], [0; 1], [0; 8]);
+    let (mut points, mut format, mut place) = ([0; 4], [0; 1], [0; 8]);
     let has_header = read(POINTS_OFFSET_AT, &mut points) && read(POINT_FORMAT_AT, &mut format);
     let is_compressed = has_header && format[0] & 0xc0 != 0;
     let begin = u64::from(u32::from_le_bytes(points));
-    let wanted = match read(begin, &mut table) {
-        true => u64::try_from(i64::from_le_bytes(table)).unwrap_or(0),
+    let mut table = match read(begin, &mut place) {
+        true => u64::try_from(i64::from_le_bytes(place)).unwrap_or(0),
         false => begin + 8,
     };
-    stream.rewind().map_err(failed)?;
-    match is_compressed && wanted > length {
-        false => Ok(()),
-        true => Err(Error::Damaged {
-            path: job.path.to_owned(),
-            format: Format::Las,
-            place: FilePlace::Element("byte", length),
-            problem: format!(
-                "it ends here, before its points and their table of chunks at byte {wanted}: it was cut"
-            ),
-        }),
+    let is_cut = table > length;
+    // A writer that could not go back has the place of the table in the last bytes of the file.
+    if table <= begin && length >= 8 && read(length - 8, &mut place) {
+        table = u64::from_le_bytes(place);
     }
+    // A version, u32, then the number of chunks, u32.
+    let mut count = [0; 4];
+    let has_count = table.checked_add(4).is_some_and(|at| read(at, &mut count));
+    let chunks = if has_count { u64::from(u32::from_le_bytes(count)) } else { 0 };
+    stream.rewind().map_err(failed)?;
+    let damaged = |byte: u64, problem: String| {
+        let (path, place) = (job.path.to_owned(), FilePlace::Element("byte", byte));
+        Err(Error::Damaged { path, format: Format::Las, place, problem })
+    };
+    if is_compressed && is_cut {
+        return damaged(
+            length,
+            format!(
+                "it ends here, before its points and their table of chunks at byte {table}: it was cut"
+            ),
+        );
+    }
+    // The last chunk may be empty.
+    if is_compressed && chunks > length / POINT_BYTES_MIN + 1 {
+        return damaged(
+            table + 4,
+            format!(
+                "its points are in {chunks} chunks, but {length} bytes have no room for so many"
+            ),
+        );
+    }
+    Ok(())
 }
 
 fn decode(

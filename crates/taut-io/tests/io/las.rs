@@ -200,3 +200,29 @@ fn damaged_files_are_refused_with_the_place() {
         }
     }
 }
+
+/// The decoder makes room for all chunks that a file claims before it reads one.
+#[test]
+fn more_chunks_than_a_file_has_room_for_are_refused() {
+    let bytes = file(2000, 1, true);
+    let number = |at: usize, size: usize| {
+        bytes[at..][..size].iter().rev().fold(0, |n, &b| n << 8 | b as usize)
+    };
+    let points = number(96, 4);
+    let table = number(points, 8);
+    assert_eq!(number(table + 4, 4), 1, "one chunk");
+    // With the place of the table before the points, and at the end of the file.
+    let mut at_end = bytes.clone();
+    at_end[points..][..8].fill(0xff);
+    at_end.extend((table as u64).to_le_bytes());
+    for bytes in [&bytes, &at_end] {
+        let read = |bytes| open_bytes(bytes, "scan.laz", &ReadOptions::default());
+        assert_eq!(read(bytes.clone()).unwrap().source.len(), 2000);
+        for byte in [2, 3] {
+            let mut other = bytes.clone();
+            other[table + 4 + byte] = 0xff;
+            let said = message(read(other));
+            assert!(said.starts_with("scan.laz") && said.contains("chunks"), "{said}");
+        }
+    }
+}
