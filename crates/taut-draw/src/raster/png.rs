@@ -5,8 +5,8 @@
 
 use super::Image;
 
-/// The compressor's level, 0 to 10: beyond 6 it takes twice the time for a hundredth of the size.
-const LEVEL: u8 = 6;
+/// The compressor's level, 0 to 10. Level 6 takes three times as long for files of the same shades that are a sixth smaller.
+const LEVEL: u8 = 4;
 
 /// The bytes of a file.
 pub(crate) fn png(image: &Image) -> Vec<u8> {
