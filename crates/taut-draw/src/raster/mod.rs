@@ -79,7 +79,7 @@ impl Raster {
         self.scan(facet, |raster, sample, near, light| {
             if near > raster.near[sample] {
                 raster.near[sample] = near;
-                // Rounded; a call of `round` for each sample took a tenth of the time.
+                // Rounded; a call of `round` for each sample took 6 % of drawing a sphere.
                 raster.light[sample] = (light().clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
                 raster.ink[sample] = facet.ink;
                 raster.owner[sample] = facet.owner;
