@@ -113,7 +113,7 @@ fn main() -> Result<(), Failed> {
         let [one, several] = least.map(|least| least.as_secs_f64() * 1e3);
         let said = if is_equal { "equal" } else { "DIFFERS" };
         println!(
-            "| {name} | {} | {one:.0} | {several:.0} | {:.2} | {said} |",
+            "| {name} | {} | {one:.1} | {several:.1} | {:.2} | {said} |",
             points.len(),
             one / several
         );

@@ -200,7 +200,10 @@ impl Kernel<3, 4> for Mesh {
         loop {
             let (view, _, workers) = self.share(1);
             let progress = &mut Progress::default();
-            let done = lanes::insert(&view, &mut workers[0], &mut Alone, left, progress);
+            // SAFETY: the mesh is borrowed by this thread alone.
+            #[allow(unsafe_code)]
+            let alone = &mut unsafe { Alone::new() };
+            let done = lanes::insert(&view, &mut workers[0], alone, left, progress);
             self.end_sharing();
             match done {
                 Inserted::All => return Ok(()),
@@ -344,7 +347,7 @@ fn insert_with<S: Signs, H: Hold>(
             progress.deferred.push(site);
             continue;
         }
-        let is_placed = replace(view, worker, site);
+        let is_placed = replace(view, worker, hold, site);
         hold.done();
         if !is_placed {
             return Inserted::Full(i);
@@ -447,7 +450,7 @@ fn find_again<S: Signs, H: Hold>(
 /// Puts the star of `site` in the place of the cavity that `worker` has found. Returns false, and changes nothing, if there is
 /// no room.
 #[inline(always)]
-fn replace(view: &View<'_>, worker: &mut Worker, site: u32) -> bool {
+fn replace<H: Hold>(view: &View<'_>, worker: &mut Worker, hold: &H, site: u32) -> bool {
     let Worker { last, slots: own, cavity, star, counters, .. } = worker;
     let simplices = view.simplices;
     let (facets, slots) = cavity.facets_and_slots();
@@ -466,7 +469,7 @@ fn replace(view: &View<'_>, worker: &mut Worker, site: u32) -> bool {
     for _ in 0..more {
         slots.push(own.pop());
     }
-    star.fill(simplices, facets, slots, site);
+    star.fill(simplices, hold, facets, slots, site);
     *last = slots[slots.len() - 1];
     true
 }

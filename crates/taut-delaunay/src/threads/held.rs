@@ -3,7 +3,8 @@
 use std::sync::atomic::Ordering::{Acquire, Relaxed, Release};
 
 use crate::records::zeros;
-use crate::simplex::GHOST;
+use crate::simplex::{GHOST, Simplex};
+use crate::threads::Record;
 use crate::threads::atomics::{AtomicBool, AtomicU8, fence, spin_loop};
 
 /// The vertices that a thread holds while it changes the mesh around them.
@@ -17,6 +18,12 @@ pub(crate) trait Hold {
     /// Holds a vertex that is in no simplex yet, nor ever was: who reads of it in one that is written from now on finds it held.
     fn hold_new(&mut self, vertex: u32);
 
+    /// Writes a simplex whose vertices it holds.
+    #[inline(always)]
+    fn write<const V: usize>(&self, record: &Record<V>, simplex: Simplex<V>) {
+        record.set(simplex);
+    }
+
     /// An insertion is done: gives all vertices back if there are many, or if another thread waits for one of them.
     fn done(&mut self);
 
@@ -25,7 +32,18 @@ pub(crate) trait Hold {
 }
 
 /// The only thread holds everything.
-pub(crate) struct Alone;
+pub(crate) struct Alone(());
+
+impl Alone {
+    /// A thread that is alone with a mesh.
+    ///
+    /// # Safety
+    /// While it is there no other thread looks at the mesh.
+    #[allow(unsafe_code)]
+    pub(crate) unsafe fn new() -> Self {
+        Alone(())
+    }
+}
 
 impl Hold for Alone {
     const SHARED: bool = false;
@@ -37,6 +55,13 @@ impl Hold for Alone {
 
     #[inline(always)]
     fn hold_new(&mut self, _: u32) {}
+
+    #[inline(always)]
+    #[allow(unsafe_code)]
+    fn write<const V: usize>(&self, record: &Record<V>, simplex: Simplex<V>) {
+        // SAFETY: no other thread looks at the mesh.
+        unsafe { record.set_alone(simplex) }
+    }
 
     #[inline(always)]
     fn done(&mut self) {}

@@ -55,7 +55,7 @@ fn a_folder_holds_the_triangulation_in_memory() {
     same_as_in_memory::<2>(&generated(Distribution::Kuzmin, 100_000, 2));
     same_as_in_memory::<2>(&generated(Distribution::Grid { side: 300, angle: 0.0 }, 90_000, 2));
     let found = same_as_in_memory::<3>(&generated(Distribution::Uniform, 100_000, 3));
-    assert!(found.tiles.len() > 4, "{found:?}");
+    assert!(found.tiles.len() > 2, "{found:?}");
     same_as_in_memory::<2>(&generated(Distribution::Uniform, 3, 2));
     same_as_in_memory::<3>(&generated(Distribution::Uniform, 0, 3));
 }
