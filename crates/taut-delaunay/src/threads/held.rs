@@ -1,5 +1,6 @@
 //! Who holds which vertex.
 
+use std::marker::PhantomData;
 use std::sync::atomic::Ordering::{Acquire, Relaxed, Release};
 
 use crate::records::zeros;
@@ -32,16 +33,17 @@ pub(crate) trait Hold {
 }
 
 /// The only thread holds everything.
-pub(crate) struct Alone(());
+pub(crate) struct Alone(PhantomData<*const ()>);
 
 impl Alone {
-    /// A thread that is alone with a mesh.
+    /// Returns the token of a thread that is alone with a mesh.
     ///
     /// # Safety
-    /// While it is there no other thread looks at the mesh.
+    /// While the token exists, no other thread reads or writes a record that is given to [`write`](Hold::write), and there is no
+    /// reference to the simplex in it.
     #[allow(unsafe_code)]
     pub(crate) unsafe fn new() -> Self {
-        Alone(())
+        Alone(PhantomData)
     }
 }
 
@@ -59,7 +61,7 @@ impl Hold for Alone {
     #[inline(always)]
     #[allow(unsafe_code)]
     fn write<const V: usize>(&self, record: &Record<V>, simplex: Simplex<V>) {
-        // SAFETY: no other thread looks at the mesh.
+        // SAFETY: who made the token promised it.
         unsafe { record.set_alone(simplex) }
     }
 

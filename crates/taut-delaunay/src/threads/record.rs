@@ -60,11 +60,11 @@ impl<const V: usize> Record<V> {
         }
     }
 
-    /// Writes the whole record at once, where nobody else looks at it. Number by number it takes eight stores, and who loads several
-    /// of them together soon after waits: a twentieth of the time of a torus with noise.
+    /// Writes the whole record with wide stores. After eight narrow ones a vector load that follows soon has to wait for them, which
+    /// took 4 % of the time of a torus with noise.
     ///
     /// # Safety
-    /// No other thread reads or writes the record meanwhile.
+    /// No other thread reads or writes the record meanwhile, and there is no reference to the simplex in it.
     #[cfg(not(loom))]
     #[allow(unsafe_code)]
     #[inline(always)]
@@ -78,10 +78,10 @@ impl<const V: usize> Record<V> {
         unsafe { std::ptr::from_ref(self).cast_mut().cast::<Simplex<V>>().write(simplex) }
     }
 
-    /// In models nobody is alone.
+    /// Calls [`set`](Self::set), as loom knows atomic stores only.
     ///
     /// # Safety
-    /// None is needed.
+    /// It is always safe.
     #[cfg(loom)]
     #[allow(unsafe_code)]
     pub(crate) unsafe fn set_alone(&self, simplex: Simplex<V>) {
@@ -113,7 +113,7 @@ impl<const V: usize> Record<V> {
 mod tests {
     use super::*;
 
-    /// Under Miri (`scripts/miri`) it is seen that nothing is written but the one record.
+    /// Miri (`scripts/miri`) checks that a shared reference to a record allows this write.
     #[test]
     #[allow(unsafe_code)]
     fn a_record_is_written_at_once_as_it_is_number_by_number() {

@@ -54,8 +54,8 @@ fn a_folder_holds_the_triangulation_in_memory() {
     assert!(found.tiles.len() > 4, "{found:?}");
     same_as_in_memory::<2>(&generated(Distribution::Kuzmin, 100_000, 2));
     same_as_in_memory::<2>(&generated(Distribution::Grid { side: 300, angle: 0.0 }, 90_000, 2));
-    let found = same_as_in_memory::<3>(&generated(Distribution::Uniform, 100_000, 3));
-    assert!(found.tiles.len() > 2, "{found:?}");
+    let found = same_as_in_memory::<3>(&generated(Distribution::Uniform, 150_000, 3));
+    assert!(found.tiles.len() > 4, "{found:?}");
     same_as_in_memory::<2>(&generated(Distribution::Uniform, 3, 2));
     same_as_in_memory::<3>(&generated(Distribution::Uniform, 0, 3));
 }

@@ -343,8 +343,8 @@ fn splat<L: Lane>(q: &Site) -> [L; 3] {
     [L::splat(q.0[0]), L::splat(q.0[1]), L::splat(q.0[2])]
 }
 
-/// Where the filter is sure of a conflict, and where it is open. Inlined by force: one thread and several have a copy each of what
-/// calls it, and then it would be a call.
+/// Returns which of four simplices are surely in conflict with q, and which are open. Always inlined: the insertion is compiled once for
+/// one thread and once for several, and the compiler would make a call of it.
 ///
 /// # Safety
 /// The processor has AVX2 and FMA.
@@ -397,7 +397,7 @@ fn masks8(F64x8(det): F64x8, F64x8(bound): F64x8) -> (u32, u32) {
     (positive, !(positive | negative) & 0xff)
 }
 
-/// The same for eight.
+/// Tests eight simplices as [`conflicts4`] tests four.
 ///
 /// # Safety
 /// The processor has what [`Avx512`] proves.
