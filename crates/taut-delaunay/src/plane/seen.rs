@@ -111,8 +111,9 @@ impl<'a> View<'a> {
     }
 
     /// Tests whether the perturbed circumcircle of a counter-clockwise triangle holds q, whatever it takes.
-    pub(super) fn conflict_exact(&self, triangle: [u32; 3], exact: &mut Exact) -> bool {
-        let [a, b, c] = triangle.map(|v| self.sites[v as usize]);
+    #[inline(always)]
+    pub(super) fn conflict_exact(&self, a: u32, b: u32, c: u32, exact: &mut Exact) -> bool {
+        let [a, b, c] = [a, b, c].map(|v| self.sites[v as usize]);
         let determinant =
             if self.filtered { in_circle_filter::<Separate>(a, b, c, self.q) } else { 0.0 };
         if determinant == 0.0 {

@@ -200,7 +200,10 @@ impl Kernel<3, 4> for Mesh {
         loop {
             let (view, _, workers) = self.share(1);
             let progress = &mut Progress::default();
-            let done = lanes::insert(&view, &mut workers[0], &mut Alone, left, progress);
+            // SAFETY: the mesh is borrowed by this call alone, and nothing else looks at the records of the view.
+            #[allow(unsafe_code)]
+            let alone = &mut unsafe { Alone::new() };
+            let done = lanes::insert(&view, &mut workers[0], alone, left, progress);
             self.end_sharing();
             match done {
                 Inserted::All => return Ok(()),
@@ -336,15 +339,25 @@ fn insert_with<S: Signs, H: Hold>(
         if let Some(&soon) = sites.get(i + 4) {
             signs.fetch(view.sites.as_ptr().wrapping_add(row(soon)));
         }
-        progress.attempts += 1;
-        // It fails only beside other threads.
-        if !find(signs, view, worker, hold, site)
-            && !find_again(signs, view, worker, hold, site, progress)
-        {
+        // One copy of `find`, in a function that is compiled for the processor. It fails only beside other threads.
+        let attempts = if H::SHARED { ATTEMPTS_EACH } else { 1 };
+        let mut is_found = false;
+        for attempt in 0..attempts {
+            if attempt > 0 {
+                begin_elsewhere(view, worker);
+            }
+            progress.attempts += 1;
+            is_found = find(signs, view, worker, hold, site);
+            if is_found {
+                break;
+            }
+            progress.failed += 1;
+        }
+        if !is_found {
             progress.deferred.push(site);
             continue;
         }
-        let is_placed = replace(view, worker, site);
+        let is_placed = replace(view, worker, hold, site);
         hold.done();
         if !is_placed {
             return Inserted::Full(i);
@@ -420,34 +433,18 @@ fn is_in_conflict<S: Signs>(
     judge.conflicts(signs, view.sites, view.simplices, &[t; 8][..S::WIDTH], 1, q) != 0
 }
 
-/// Tries again to [`find`] the cavity of q, from other simplices if there is none any more where the walk begins.
+/// Lets the next walk begin at another simplex, if there is none any more where the last one ended.
 #[cold]
 #[inline(never)]
-fn find_again<S: Signs, H: Hold>(
-    signs: S,
-    view: &View<'_>,
-    worker: &mut Worker,
-    hold: &mut H,
-    site: u32,
-    progress: &mut Progress,
-) -> bool {
-    progress.failed += 1;
-    for _ in 1..ATTEMPTS_EACH {
-        progress.attempts += 1;
-        let is_live = |&t: &u32| walk::is_simplex(view.simplices[t as usize].vertices());
-        worker.last = view.room.some_of(worker.last, is_live);
-        if find(signs, view, worker, hold, site) {
-            return true;
-        }
-        progress.failed += 1;
-    }
-    false
+fn begin_elsewhere(view: &View<'_>, worker: &mut Worker) {
+    let is_live = |&t: &u32| walk::is_simplex(view.simplices[t as usize].vertices());
+    worker.last = view.room.some_of(worker.last, is_live);
 }
 
 /// Puts the star of `site` in the place of the cavity that `worker` has found. Returns false, and changes nothing, if there is
 /// no room.
 #[inline(always)]
-fn replace(view: &View<'_>, worker: &mut Worker, site: u32) -> bool {
+fn replace<H: Hold>(view: &View<'_>, worker: &mut Worker, hold: &H, site: u32) -> bool {
     let Worker { last, slots: own, cavity, star, counters, .. } = worker;
     let simplices = view.simplices;
     let (facets, slots) = cavity.facets_and_slots();
@@ -466,7 +463,7 @@ fn replace(view: &View<'_>, worker: &mut Worker, site: u32) -> bool {
     for _ in 0..more {
         slots.push(own.pop());
     }
-    star.fill(simplices, facets, slots, site);
+    star.fill(simplices, hold, facets, slots, site);
     *last = slots[slots.len() - 1];
     true
 }

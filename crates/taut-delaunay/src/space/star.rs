@@ -11,7 +11,7 @@
 //! points, and no gain on a torus either.
 
 use crate::simplex::{Simplex, code, decode};
-use crate::threads::Record;
+use crate::threads::{Hold, Record};
 
 use super::cavity::Facet;
 use super::row;
@@ -47,22 +47,30 @@ impl Star {
     /// Writes one simplex (q, a, b, c) for each facet into the slot of the same place, with all neighbors on both
     /// sides.
     #[inline(always)]
-    pub(super) fn fill(
+    pub(super) fn fill<H: Hold>(
         &mut self,
         simplices: &[Record<4>],
+        hold: &H,
         facets: &[Facet],
         slots: &[u32],
         q: u32,
     ) {
         if facets.len() <= TABLE_MAX {
-            self.fill_by_table(simplices, facets, slots, q);
+            self.fill_by_table(simplices, hold, facets, slots, q);
         } else {
-            self.fill_by_hash(simplices, facets, slots, q);
+            self.fill_by_hash(simplices, hold, facets, slots, q);
         }
     }
 
     #[inline(always)]
-    fn fill_by_table(&mut self, simplices: &[Record<4>], facets: &[Facet], slots: &[u32], q: u32) {
+    fn fill_by_table<H: Hold>(
+        &mut self,
+        simplices: &[Record<4>],
+        hold: &H,
+        facets: &[Facet],
+        slots: &[u32],
+        q: u32,
+    ) {
         let stride = 3 * facets.len();
         if self.table.len() < stride * stride {
             self.table.resize(stride * stride, 0);
@@ -89,7 +97,7 @@ impl Star {
         }
         for ((facet, &slot), &[a, b, c]) in facets.iter().zip(slots).zip(&*corners) {
             let neighbors = [facet.outside, table[at(c, b)], table[at(a, c)], table[at(b, a)]];
-            place(simplices, facet, slot, q, neighbors);
+            place(simplices, hold, facet, slot, q, neighbors);
         }
     }
 
@@ -97,7 +105,14 @@ impl Star {
     /// hundreds of neighbors: an apex over a plane full of sites, the center of a sphere.
     #[cold]
     #[inline(never)]
-    fn fill_by_hash(&mut self, simplices: &[Record<4>], facets: &[Facet], slots: &[u32], q: u32) {
+    fn fill_by_hash<H: Hold>(
+        &mut self,
+        simplices: &[Record<4>],
+        hold: &H,
+        facets: &[Facet],
+        slots: &[u32],
+        q: u32,
+    ) {
         /// Multiplicative hashing with the golden ratio of 2⁶⁴; the high bits are the mixed ones.
         const HASH_FACTOR: u64 = 0x9e37_79b9_7f4a_7c15;
         let edge = |name: u32| {
@@ -105,7 +120,7 @@ impl Star {
             (facet.vertices[(i + 1) % 3], facet.vertices[(i + 2) % 3])
         };
         for (facet, &slot) in facets.iter().zip(slots) {
-            place(simplices, facet, slot, q, [facet.outside, 0, 0, 0]);
+            place(simplices, hold, facet, slot, q, [facet.outside, 0, 0, 0]);
         }
         let size = (3 * facets.len()).next_power_of_two();
         self.edges.clear();
@@ -136,9 +151,16 @@ impl Star {
 
 /// Writes a simplex and tells the one outside.
 #[inline(always)]
-fn place(simplices: &[Record<4>], facet: &Facet, slot: u32, q: u32, neighbors: [u32; 4]) {
+fn place<H: Hold>(
+    simplices: &[Record<4>],
+    hold: &H,
+    facet: &Facet,
+    slot: u32,
+    q: u32,
+    neighbors: [u32; 4],
+) {
     let [a, b, c] = facet.vertices;
-    simplices[slot as usize].set(Simplex { vertices: [q, a, b, c], neighbors });
+    hold.write(&simplices[slot as usize], Simplex { vertices: [q, a, b, c], neighbors });
     let (outside, side) = decode(facet.outside);
     simplices[outside as usize].set_neighbor(side, code(slot, 0));
 }

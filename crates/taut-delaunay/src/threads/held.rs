@@ -1,9 +1,11 @@
 //! Who holds which vertex.
 
+use std::marker::PhantomData;
 use std::sync::atomic::Ordering::{Acquire, Relaxed, Release};
 
 use crate::records::zeros;
-use crate::simplex::GHOST;
+use crate::simplex::{GHOST, Simplex};
+use crate::threads::Record;
 use crate::threads::atomics::{AtomicBool, AtomicU8, fence, spin_loop};
 
 /// The vertices that a thread holds while it changes the mesh around them.
@@ -17,6 +19,12 @@ pub(crate) trait Hold {
     /// Holds a vertex that is in no simplex yet, nor ever was: who reads of it in one that is written from now on finds it held.
     fn hold_new(&mut self, vertex: u32);
 
+    /// Writes a simplex whose vertices it holds.
+    #[inline(always)]
+    fn write<const V: usize>(&self, record: &Record<V>, simplex: Simplex<V>) {
+        record.set(simplex);
+    }
+
     /// An insertion is done: gives all vertices back if there are many, or if another thread waits for one of them.
     fn done(&mut self);
 
@@ -25,7 +33,19 @@ pub(crate) trait Hold {
 }
 
 /// The only thread holds everything.
-pub(crate) struct Alone;
+pub(crate) struct Alone(PhantomData<*const ()>);
+
+impl Alone {
+    /// Returns the token of a thread that is alone with a mesh.
+    ///
+    /// # Safety
+    /// While the token exists, no other thread reads or writes a record that is given to [`write`](Hold::write), and there is no
+    /// reference to the simplex in it.
+    #[allow(unsafe_code)]
+    pub(crate) unsafe fn new() -> Self {
+        Alone(PhantomData)
+    }
+}
 
 impl Hold for Alone {
     const SHARED: bool = false;
@@ -37,6 +57,13 @@ impl Hold for Alone {
 
     #[inline(always)]
     fn hold_new(&mut self, _: u32) {}
+
+    #[inline(always)]
+    #[allow(unsafe_code)]
+    fn write<const V: usize>(&self, record: &Record<V>, simplex: Simplex<V>) {
+        // SAFETY: who made the token promised it.
+        unsafe { record.set_alone(simplex) }
+    }
 
     #[inline(always)]
     fn done(&mut self) {}

@@ -343,14 +343,24 @@ fn splat<L: Lane>(q: &Site) -> [L; 3] {
     [L::splat(q.0[0]), L::splat(q.0[1]), L::splat(q.0[2])]
 }
 
-#[inline]
-#[target_feature(enable = "avx2,fma")]
-fn conflicts4(sites: &[Site], simplices: &[Record<4>], group: &[u32], q: &Site) -> (u32, u32) {
-    // SAFETY: this function has the features.
+/// Returns which of four simplices are surely in conflict with q, and which are open. Always inlined: the insertion is compiled once for
+/// one thread and once for several, and the compiler would make a call of it.
+///
+/// # Safety
+/// The processor has AVX2 and FMA.
+#[inline(always)]
+unsafe fn conflicts4(
+    sites: &[Site],
+    simplices: &[Record<4>],
+    group: &[u32],
+    q: &Site,
+) -> (u32, u32) {
+    // SAFETY: the caller's promise.
     let [a, b, c, d] = unsafe { corners4(sites, simplices, group) };
     let q = splat(q);
     let (det, bound) = in_sphere([less(a, q), less(b, q), less(c, q), less(d, q)]);
-    masks4(det, bound)
+    // SAFETY: the caller's promise.
+    unsafe { masks4(det, bound) }
 }
 
 #[inline(never)]
@@ -387,14 +397,23 @@ fn masks8(F64x8(det): F64x8, F64x8(bound): F64x8) -> (u32, u32) {
     (positive, !(positive | negative) & 0xff)
 }
 
-#[inline]
-#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
-fn conflicts8(sites: &[Site], simplices: &[Record<4>], group: &[u32], q: &Site) -> (u32, u32) {
-    // SAFETY: this function has the features.
+/// Tests eight simplices as [`conflicts4`] tests four.
+///
+/// # Safety
+/// The processor has what [`Avx512`] proves.
+#[inline(always)]
+unsafe fn conflicts8(
+    sites: &[Site],
+    simplices: &[Record<4>],
+    group: &[u32],
+    q: &Site,
+) -> (u32, u32) {
+    // SAFETY: the caller's promise.
     let [a, b, c, d] = unsafe { corners8(sites, simplices, group) };
     let q = splat(q);
     let (det, bound) = in_sphere([less(a, q), less(b, q), less(c, q), less(d, q)]);
-    masks8(det, bound)
+    // SAFETY: the caller's promise.
+    unsafe { masks8(det, bound) }
 }
 
 #[inline(never)]
