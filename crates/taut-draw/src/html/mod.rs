@@ -13,7 +13,7 @@ use std::fmt::Write as _;
 use crate::axes::AxisMap;
 use crate::number::{exact, px};
 use crate::style::classes;
-use crate::svg::{Chrome, Drawn, Hover, draw, legend};
+use crate::svg::{Chrome, Drawn, Hover, draw, draw_coarse, legend};
 use crate::text::{escape, json};
 use crate::{Figure, Layer3, Scene3, Shape3, Theme, View, Views};
 
@@ -66,7 +66,7 @@ const LEAD_SIZE: [f64; 2] = [740.0, 560.0];
 /// The same for figures that stand side by side.
 const BESIDE_SIZE: [f64; 2] = [540.0, 330.0];
 
-/// Scenes of space of more marks have no picture for readers without scripts.
+/// Scenes of space of more marks, but for opaque surfaces, have no picture for readers without scripts.
 const STILL_MARKS_MAX: usize = 2000;
 
 /// The page as one HTML file that needs nothing else: figures inline, scenes of space to be turned by hand.
@@ -251,17 +251,24 @@ fn fixed_views(out: &mut String, Views { scene, views }: &Views) {
 const NO_SCRIPT: &str =
     "<p>A script of this page draws this scene, but scripts do not run here.</p>";
 
-/// A picture of space where no script runs, if it costs neither much time nor much room.
+/// A picture of space where no script runs. Of a scene with opaque surfaces it is a small one, without layers of many other marks.
 fn still(figure: &Figure, scene: &Scene3) -> String {
+    let is_surface = |layer: &Layer3| matches!(layer.shape, Shape3::Surface(_));
     let marks = |layer: &Layer3| match &layer.shape {
         Shape3::Points(points) => points.len(),
         Shape3::Crosses(places) => places.len(),
         Shape3::Spheres(spheres) => spheres.len(),
         Shape3::Polylines(chains) => chains.iter().map(Vec::len).sum(),
         Shape3::Mesh(mesh) => mesh.triangles.len(),
-        // Its image is drawn sample by sample.
-        Shape3::Surface(_) => usize::MAX,
+        // Its image has a fixed number of samples.
+        Shape3::Surface(_) => 0,
     };
+    if scene.layers.iter().any(is_surface) {
+        let mut small = scene.clone();
+        small.layers.retain(|layer| marks(layer) <= STILL_MARKS_MAX);
+        (small.width, small.height) = (scene.width / 2.0, scene.height / 2.0);
+        return draw_coarse(&Figure::Space(small)).document;
+    }
     let all = scene.layers.iter().map(marks).fold(0, usize::saturating_add);
     match all <= STILL_MARKS_MAX {
         true => draw(figure, Chrome::Bare).document,

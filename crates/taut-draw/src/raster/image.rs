@@ -1,5 +1,7 @@
 //! From samples to pixels: colors, and lines where the surface ends or steps back.
 
+use rayon::prelude::*;
+
 use super::Raster;
 use crate::{Theme, Tone};
 
@@ -36,32 +38,30 @@ impl Raster {
     pub(crate) fn image(&self, across: usize, inks: &[Ramp]) -> Image {
         let (width, height) = (self.width / across, self.height / across);
         let reach = across.div_ceil(2);
-        let mut pixels = Vec::with_capacity(width * height);
-        for y in 0..height {
-            for x in 0..width {
-                let (mut sum, mut count) = ([0_usize; 3], 0);
-                for v in y * across..(y + 1) * across {
-                    for u in x * across..(x + 1) * across {
-                        let sample = v * self.width + u;
-                        if self.near[sample] == 0.0 {
-                            continue;
-                        }
-                        let color =
-                            inks[usize::from(self.ink[sample])][usize::from(self.light[sample])];
-                        // Half as bright on a line.
-                        let line = usize::from(self.is_cliff(u, v, reach));
-                        for k in 0..3 {
-                            sum[k] += usize::from(color[k]) >> line;
-                        }
-                        count += 1;
+        let pixel = |x: usize, y: usize| {
+            let (mut sum, mut count) = ([0_usize; 3], 0);
+            for v in y * across..(y + 1) * across {
+                for u in x * across..(x + 1) * across {
+                    let sample = v * self.width + u;
+                    if self.near[sample] == 0.0 {
+                        continue;
                     }
+                    let color = inks[usize::from(self.ink[sample])][usize::from(self.light[sample])];
+                    // Half as bright on a line.
+                    let line = usize::from(self.is_cliff(u, v, reach));
+                    for k in 0..3 {
+                        sum[k] += usize::from(color[k]) >> line;
+                    }
+                    count += 1;
                 }
-                let mean = |sum: usize| (sum + count / 2).checked_div(count).unwrap_or(0);
-                let all = across * across;
-                let [r, g, b] = sum.map(|s| mean(s) as u8);
-                pixels.push([r, g, b, ((255 * count + all / 2) / all) as u8]);
             }
-        }
+            let mean = |sum: usize| (sum + count / 2).checked_div(count).unwrap_or(0);
+            let all = across * across;
+            let [r, g, b] = sum.map(|s| mean(s) as u8);
+            [r, g, b, ((255 * count + all / 2) / all) as u8]
+        };
+        let rows = (0..height).into_par_iter();
+        let pixels = rows.flat_map_iter(|y| (0..width).map(move |x| pixel(x, y))).collect();
         Image { width, height, pixels }
     }
 
@@ -93,7 +93,7 @@ mod tests {
     fn pixels_are_means_of_samples() {
         let mut raster = Raster::new(8, 8);
         let corners = [[2.0, 2.0], [7.0, 2.0], [2.0, 7.0]].map(snap);
-        raster.fill(&Facet { corners, near: [1.0; 3], light: [1.0; 3], ink: 1, owner: 0 });
+        raster.fill(&[Facet { corners, near: [1.0; 3], light: [1.0; 3], ink: 1, owner: 0 }]);
         let image = raster.image(2, &[[[0; 3]; 256], [[200; 3]; 256]]);
         assert_eq!((image.width, image.height), (4, 4));
         assert_eq!(image.pixels[0], [0; 4]);

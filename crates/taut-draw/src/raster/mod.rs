@@ -6,6 +6,10 @@
 //! *Guarantee.* The same samples on every machine: whole numbers, and sums, products and quotients of `f64` in a fixed order.
 //! Of two triangles equally near the first one given stays.
 
+use std::ops::Range;
+
+use rayon::prelude::*;
+
 mod image;
 mod normals;
 mod order;
@@ -15,6 +19,9 @@ pub(crate) use image::{Image, Ramp, ramp};
 pub(crate) use normals::normals;
 pub(crate) use order::order;
 pub(crate) use png::png;
+
+/// The rows are filled in so many bands.
+const BANDS: usize = 16;
 
 /// Corners are snapped to this many parts of a sample.
 pub(crate) const SNAP_PARTS: i64 = 256;
@@ -74,73 +81,30 @@ impl Raster {
         }
     }
 
-    /// Draws a triangle where it is nearer than what is there.
-    pub(crate) fn fill(&mut self, facet: &Facet) {
-        self.scan(facet, |raster, sample, near, light| {
-            if near > raster.near[sample] {
-                raster.near[sample] = near;
-                // Rounded; a call of `round` for each sample took 6 % of drawing a sphere.
-                raster.light[sample] = (light().clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
-                raster.ink[sample] = facet.ink;
-                raster.owner[sample] = facet.owner;
-            }
-        });
-    }
-
-    /// Calls `each` for all samples in a triangle, with its nearness there and what calculates its light, which samples behind others
-    /// do not need.
-    fn scan(
-        &mut self,
-        facet: &Facet,
-        mut each: impl FnMut(&mut Self, usize, f32, &dyn Fn() -> f64),
-    ) {
-        let Facet { corners, near, light, .. } = facet;
-        // The order in which all three edges have the inside at their positive side.
-        let order = if area(corners) < 0 { [0, 1, 2] } else { [0, 2, 1] };
-        let [a, b, c] = order.map(|k| corners[k]);
-        let whole = edge(a, b, c);
-        if whole == 0 {
-            return;
-        }
-        let bounds = |k: usize, size: usize| {
-            let low = a[k].min(b[k]).min(c[k]);
-            let high = a[k].max(b[k]).max(c[k]);
-            // Samples are at the middles: x·SNAP_PARTS + SNAP_PARTS/2.
-            let first = (low - SNAP_PARTS / 2).div_euclid(SNAP_PARTS).max(0);
-            let last = (high - SNAP_PARTS / 2).div_euclid(SNAP_PARTS).min(size as i64 - 1);
-            first..last + 1
-        };
-        let (columns, rows) = (bounds(0, self.width), bounds(1, self.height));
-        let sides = [(b, c), (c, a), (a, b)];
-        // Edges at the top and at the left belong to the triangle, the others do not.
-        let owned = sides.map(|(p, q)| i64::from(!(q[1] < p[1] || (q[1] == p[1] && q[0] > p[0]))));
-        let steps = sides.map(|(p, q)| -(q[1] - p[1]) * SNAP_PARTS);
-        let scale = 1.0 / whole as f64;
-        for y in rows {
-            let start =
-                [columns.start * SNAP_PARTS + SNAP_PARTS / 2, y * SNAP_PARTS + SNAP_PARTS / 2];
-            let mut inside = sides.map(|(p, q)| edge(p, q, start));
-            let mut is_entered = false;
-            for x in columns.clone() {
-                if inside[0] >= owned[0] && inside[1] >= owned[1] && inside[2] >= owned[2] {
-                    is_entered = true;
-                    let weights = inside.map(|e| e as f64 * scale);
-                    let mix = |values: &[f64; 3]| {
-                        weights[0] * values[order[0]]
-                            + weights[1] * values[order[1]]
-                            + weights[2] * values[order[2]]
-                    };
-                    let sample = y as usize * self.width + x as usize;
-                    each(self, sample, mix(near) as f32, &|| mix(light));
-                } else if is_entered {
-                    // A row is in a triangle from one sample to another.
-                    break;
+    /// Draws triangles, each where it is nearer than what is there. The rows are filled in bands, on all threads of the pool.
+    pub(crate) fn fill(&mut self, facets: &[Facet]) {
+        let width = self.width;
+        let rows = self.height.div_ceil(BANDS).max(1);
+        let size = (rows * width).max(1);
+        let bands = (self.near.par_chunks_mut(size), self.light.par_chunks_mut(size));
+        let marks = (self.ink.par_chunks_mut(size), self.owner.par_chunks_mut(size));
+        bands.into_par_iter().zip(marks).enumerate().for_each(
+            |(band, ((nears, lights), (inks, owners)))| {
+                let top = band * rows;
+                for facet in facets {
+                    scan(facet, width, top..top + nears.len() / width, |x, y, near, light| {
+                        let sample = (y - top) * width + x;
+                        if near > nears[sample] {
+                            nears[sample] = near;
+                            // Rounded; a call of `round` for each sample took 6 % of drawing a sphere.
+                            lights[sample] = (light().clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
+                            inks[sample] = facet.ink;
+                            owners[sample] = facet.owner;
+                        }
+                    });
                 }
-                for k in 0..3 {
-                    inside[k] += steps[k];
-                }
-            }
-        }
+            },
+        );
     }
 
     /// Which of the owners below `count` are seen in some sample.
@@ -154,14 +118,15 @@ impl Raster {
 
     /// The owners whose triangles are not the nearest at some sample that they cover, each with the owner of the one that is. Those
     /// that are less than `difference` behind do not count.
-    pub(crate) fn behind(&mut self, facets: &[Facet], difference: f32) -> Vec<[u32; 2]> {
+    pub(crate) fn behind(&self, facets: &[Facet], difference: f32) -> Vec<[u32; 2]> {
         let mut pairs = Vec::new();
         for facet in facets {
             let mut last = facet.owner;
-            self.scan(facet, |raster, sample, near, _| {
-                let nearest = raster.owner[sample];
+            scan(facet, self.width, 0..self.height, |x, y, near, _| {
+                let sample = y * self.width + x;
+                let nearest = self.owner[sample];
                 // Neighboring samples mostly say the same.
-                if nearest != last && raster.near[sample] > near + difference {
+                if nearest != last && self.near[sample] > near + difference {
                     last = nearest;
                     pairs.push([facet.owner, nearest]);
                 }
@@ -181,6 +146,65 @@ impl Raster {
                 && f64::from(self.near[y as usize * self.width + x as usize]) > near + difference
         };
         (y - reach..=y + reach).all(|y| (x - reach..=x + reach).all(|x| hidden(x, y)))
+    }
+}
+
+/// Calls `each` for all samples of a triangle in some rows of a grid: with column, row, nearness there, and what calculates its light,
+/// which samples behind others do not need.
+fn scan(
+    facet: &Facet,
+    width: usize,
+    rows: Range<usize>,
+    mut each: impl FnMut(usize, usize, f32, &dyn Fn() -> f64),
+) {
+    let Facet { corners, near, light, .. } = facet;
+    let bounds = |k: usize, size: Range<usize>| {
+        let low = corners[0][k].min(corners[1][k]).min(corners[2][k]);
+        let high = corners[0][k].max(corners[1][k]).max(corners[2][k]);
+        // Samples are at the middles: x·SNAP_PARTS + SNAP_PARTS/2.
+        let first = (low - SNAP_PARTS / 2).div_euclid(SNAP_PARTS).max(size.start as i64);
+        let last = (high - SNAP_PARTS / 2).div_euclid(SNAP_PARTS).min(size.end as i64 - 1);
+        first..last + 1
+    };
+    let rows = bounds(1, rows);
+    if rows.is_empty() {
+        return;
+    }
+    let columns = bounds(0, 0..width);
+    // The order in which all three edges have the inside at their positive side.
+    let order = if area(corners) < 0 { [0, 1, 2] } else { [0, 2, 1] };
+    let [a, b, c] = order.map(|k| corners[k]);
+    let whole = edge(a, b, c);
+    if whole == 0 {
+        return;
+    }
+    let sides = [(b, c), (c, a), (a, b)];
+    // Edges at the top and at the left belong to the triangle, the others do not.
+    let owned = sides.map(|(p, q)| i64::from(!(q[1] < p[1] || (q[1] == p[1] && q[0] > p[0]))));
+    let steps = sides.map(|(p, q)| -(q[1] - p[1]) * SNAP_PARTS);
+    let scale = 1.0 / whole as f64;
+    for y in rows {
+        let start = [columns.start * SNAP_PARTS + SNAP_PARTS / 2, y * SNAP_PARTS + SNAP_PARTS / 2];
+        let mut inside = sides.map(|(p, q)| edge(p, q, start));
+        let mut is_entered = false;
+        for x in columns.clone() {
+            if inside[0] >= owned[0] && inside[1] >= owned[1] && inside[2] >= owned[2] {
+                is_entered = true;
+                let weights = inside.map(|e| e as f64 * scale);
+                let mix = |values: &[f64; 3]| {
+                    weights[0] * values[order[0]]
+                        + weights[1] * values[order[1]]
+                        + weights[2] * values[order[2]]
+                };
+                each(x as usize, y as usize, mix(near) as f32, &|| mix(light));
+            } else if is_entered {
+                // A row is in a triangle from one sample to another.
+                break;
+            }
+            for k in 0..3 {
+                inside[k] += steps[k];
+            }
+        }
     }
 }
 
@@ -209,8 +233,8 @@ mod tests {
                 if turned {
                     corners.swap(1, 2);
                 }
-                raster.scan(&facet(corners, [1.0; 3], 0), |raster, sample, near, _| {
-                    raster.near[sample] = near;
+                scan(&facet(corners, [1.0; 3], 0), 9, 0..9, |x, y, near, _| {
+                    raster.near[9 * y + x] = near;
                     count += 1;
                 });
             }
@@ -224,14 +248,14 @@ mod tests {
         let low = facet([[0.0, 0.0], [8.0, 0.0], [0.0, 8.0]], [1.0; 3], 1);
         let high = facet([[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]], [2.0; 3], 2);
         let [mut one, mut other] = [0, 1].map(|_| Raster::new(8, 8));
-        one.fill(&low);
-        one.fill(&high);
-        other.fill(&high);
-        other.fill(&low);
+        let both = [low, high];
+        one.fill(&both);
+        other.fill(&both[1..]);
+        other.fill(&both[..1]);
         assert_eq!(owners(&one), owners(&other));
         let seen = |who: i64| owners(&one).into_iter().filter(|&o| o == who).count();
         assert_eq!([seen(2), seen(1) + seen(2)], [6, 28]);
-        assert_eq!(one.behind(&[low, high], 1e-6), [[1, 2]]);
+        assert_eq!(one.behind(&both, 1e-6), [[1, 2]]);
         assert_eq!(one.seen(4), [false, true, true, false]);
     }
 
@@ -240,14 +264,45 @@ mod tests {
         let level = facet([[0.0, 0.0], [16.0, 0.0], [0.0, 16.0]], [1.5; 3], 1);
         let slope = facet([[0.0, 0.0], [16.0, 0.0], [0.0, 16.0]], [2.0, 1.0, 2.0], 2);
         let mut raster = Raster::new(16, 16);
-        raster.fill(&level);
-        raster.fill(&slope);
-        assert_eq!(raster.behind(&[level, slope], 1e-6), [[1, 2], [2, 1]]);
+        let both = [level, slope];
+        raster.fill(&both);
+        assert_eq!(raster.behind(&both, 1e-6), [[1, 2], [2, 1]]);
         for (i, owner) in owners(&raster).into_iter().enumerate() {
             let (x, y) = (i % 16, i / 16);
             let nearest = if x >= 8 { 1 } else { 2 };
             let wanted = if x + y >= 15 { -1 } else { nearest };
             assert_eq!(owner, wanted, "{x} {y}");
+        }
+    }
+
+    #[test]
+    fn bands_are_filled_as_one_whole_is() {
+        // Heights below and above the number of bands, and not multiples of it.
+        for (width, height) in [(7, 5), (33, 50), (20, 160)] {
+            let mut place = 1_u32;
+            let mut next = |size: usize| {
+                place = place.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                f64::from(place >> 8) / f64::from(1 << 24) * size as f64 * 1.4 - size as f64 * 0.2
+            };
+            let facets: Vec<Facet> = (0..60)
+                .map(|owner| {
+                    let corners = [(); 3].map(|()| [next(width), next(height)]);
+                    facet(corners, [(); 3].map(|()| 1.5 + next(1)), owner)
+                })
+                .collect();
+            let mut raster = Raster::new(width, height);
+            raster.fill(&facets);
+            let mut whole = Raster::new(width, height);
+            for facet in &facets {
+                scan(facet, width, 0..height, |x, y, near, _| {
+                    let sample = y * width + x;
+                    if near > whole.near[sample] {
+                        (whole.near[sample], whole.owner[sample]) = (near, facet.owner);
+                    }
+                });
+            }
+            assert_eq!((&raster.near, owners(&raster)), (&whole.near, owners(&whole)));
+            assert!(raster.near.iter().filter(|&&near| near > 0.0).count() > width * height / 2);
         }
     }
 
@@ -260,7 +315,7 @@ mod tests {
             [[10.0, 0.0], [20.0, 0.0], [10.0, 9.0]],
             [[-1e300, 0.0], [-9.0, f64::NAN], [-5.0, 1e300]],
         ] {
-            raster.fill(&facet(corners, [1.0; 3], 0));
+            raster.fill(&[facet(corners, [1.0; 3], 0)]);
         }
         assert!(owners(&raster).into_iter().all(|owner| owner == -1));
     }
@@ -268,7 +323,7 @@ mod tests {
     #[test]
     fn a_place_is_hidden_behind_and_seen_before_and_beside() {
         let mut raster = Raster::new(8, 8);
-        raster.fill(&facet([[0.0, 0.0], [16.0, 0.0], [0.0, 16.0]], [1.0; 3], 0));
+        raster.fill(&[facet([[0.0, 0.0], [16.0, 0.0], [0.0, 16.0]], [1.0; 3], 0)]);
         assert!(raster.hides([3.0, 3.0], 0.5, 1, 1e-3));
         assert!(!raster.hides([3.0, 3.0], 1.0, 1, 1e-3));
         assert!(!raster.hides([9.0, 3.0], 0.5, 1, 1e-3));

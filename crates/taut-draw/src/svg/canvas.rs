@@ -7,7 +7,7 @@ use super::{Chrome, Hover};
 use crate::axes::AxisMap;
 use crate::base64::base64;
 use crate::number::px;
-use crate::raster::{Image, png};
+use crate::raster::Image;
 use crate::text::escape;
 use crate::{LineStyle, Tone};
 
@@ -241,22 +241,23 @@ impl Canvas {
         self.body.push_str("Z\"/>");
     }
 
-    /// An image of a size in units of the picture.
-    pub(super) fn image(&mut self, image: Image, at: [f64; 2], size: [f64; 2]) {
-        if self.embeds {
-            let [x, y, w, h] = [at[0], at[1], size[0], size[1]].map(px);
-            let _ = writeln!(
-                self.body,
-                "<image x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\" preserveAspectRatio=\"none\" \
-                 href=\"data:image/png;base64,{}\"/>",
-                base64(&png(&image))
-            );
-        } else {
-            if self.images.is_empty() {
-                self.cut = self.body.len();
-            }
-            self.images.push(PlacedImage { image, at, size });
+    /// Writes a PNG file as an image of a size in units of the picture.
+    pub(super) fn embed(&mut self, png: &[u8], at: [f64; 2], size: [f64; 2]) {
+        let [x, y, w, h] = [at[0], at[1], size[0], size[1]].map(px);
+        let _ = writeln!(
+            self.body,
+            "<image x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\" preserveAspectRatio=\"none\" \
+             href=\"data:image/png;base64,{}\"/>",
+            base64(png)
+        );
+    }
+
+    /// Keeps an image beside the body.
+    pub(super) fn lay(&mut self, image: Image, at: [f64; 2], size: [f64; 2]) {
+        if self.images.is_empty() {
+            self.cut = self.body.len();
         }
+        self.images.push(PlacedImage { image, at, size });
     }
 
     pub(super) fn text(&mut self, at: [f64; 2], class: &str, anchor: Anchor, text: &str) {

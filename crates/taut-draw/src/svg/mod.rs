@@ -57,7 +57,16 @@ pub(crate) struct Drawn {
 }
 
 pub(crate) fn draw(figure: &Figure, chrome: Chrome) -> Drawn {
-    let mut canvas = Canvas::new(PIXELS_PER_UNIT, true);
+    draw_at(figure, chrome, PIXELS_PER_UNIT)
+}
+
+/// A figure in the colors of a page, with images of one pixel to each unit.
+pub(crate) fn draw_coarse(figure: &Figure) -> Drawn {
+    draw_at(figure, Chrome::Bare, 1.0)
+}
+
+fn draw_at(figure: &Figure, chrome: Chrome, density: f64) -> Drawn {
+    let mut canvas = Canvas::new(density, true);
     fill(figure, chrome, &mut canvas);
     let document = canvas.document(figure.title(), figure.caption(), chrome);
     Drawn { document, hovers: canvas.hovers, ends: canvas.ends, map: canvas.map }

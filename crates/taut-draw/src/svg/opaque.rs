@@ -10,11 +10,15 @@ use super::Chrome;
 use super::camera::{Camera, V3, add, dot};
 use super::canvas::Canvas;
 use super::stage::{Stage, finite};
-use crate::raster::{Facet, Ramp, Raster, area, normals, order, ramp, snap};
+use crate::raster::{Facet, Image, Ramp, Raster, area, normals, order, png, ramp, snap};
 use crate::{Scene3, Shading, Shape3, Theme, Tone};
 
 /// Up to this many triangles are polygons; an image of more is smaller than they are.
 const POLYGONS_MAX: usize = 4000;
+
+/// So many triangles are held at once; at least as many as can be polygons.
+const FACETS_MAX: usize = 1 << 16;
+const _: () = assert!(FACETS_MAX > POLYGONS_MAX);
 
 /// A view has at most this many samples: 160 MB while it is drawn.
 const SAMPLES_MAX: usize = 1 << 24;
@@ -65,14 +69,27 @@ pub(super) struct Coverage {
     origin: [f64; 2],
     /// Samples to each unit of the picture.
     fine: f64,
+    marks: Marks,
+}
+
+/// How surfaces are written.
+enum Marks {
+    /// Corners and color, from back to front.
+    Polygons(Vec<([[f64; 2]; 3], [u8; 3])>),
+    /// A PNG file and its size in units of the picture.
+    Embedded(Vec<u8>, [f64; 2]),
+    /// Pixels, likewise.
+    Beside(Image, [f64; 2]),
 }
 
 impl Coverage {
-    /// Draws the surfaces; `None` if nothing of them is in the view.
-    pub(super) fn draw(
-        canvas: &mut Canvas,
+    /// Finds out what is seen of the surfaces and how to write it; `None` if there is no triangle. `density` and `embeds` are those of
+    /// the canvas.
+    pub(super) fn find(
         solids: &[Solid],
         camera: &Camera,
+        mut density: f64,
+        embeds: bool,
         chrome: Chrome,
     ) -> Option<Coverage> {
         let count: usize = solids.iter().map(|solid| solid.triangles.len()).sum();
@@ -93,7 +110,6 @@ impl Coverage {
             return None;
         }
         // Pixels of the image are pixels of the picture where it is drawn at its density.
-        let mut density = canvas.density;
         let size = |density: f64| {
             let pixels =
                 |k: usize| ((high[k] * density).ceil() - (low[k] * density).floor()) as usize + 2;
@@ -137,42 +153,68 @@ impl Coverage {
                     ink: (2 * which.min(126) + usize::from(back)) as u8,
                     owner,
                 };
-                raster.fill(&facet);
-                if few {
-                    facets.push(facet);
+                if facets.len() == FACETS_MAX {
+                    raster.fill(&facets);
+                    facets.clear();
                 }
+                facets.push(facet);
                 owner = u32::wrapping_add(owner, 1);
             }
         }
-        let mut cover = Coverage { raster, origin, fine };
-        if !(few && cover.polygons(canvas, &facets, &inks)) {
-            let place = [width as f64 / density, height as f64 / density];
-            canvas.image(cover.raster.image(across, &inks), origin, place);
-        }
+        raster.fill(&facets);
+        let mut cover = Coverage { raster, origin, fine, marks: Marks::Polygons(Vec::new()) };
+        let polygons = if few { cover.polygons(&facets, &inks) } else { None };
+        cover.marks = match polygons {
+            Some(polygons) => Marks::Polygons(polygons),
+            None => {
+                let size = [width as f64 / density, height as f64 / density];
+                let image = cover.raster.image(across, &inks);
+                if embeds {
+                    Marks::Embedded(png(&image), size)
+                } else {
+                    Marks::Beside(image, size)
+                }
+            }
+        };
         Some(cover)
     }
 
-    /// Paints from back to front, if there is an order in which that shows what the buffer shows.
-    fn polygons(&mut self, canvas: &mut Canvas, facets: &[Facet], inks: &[Ramp]) -> bool {
+    /// Writes the surfaces.
+    pub(super) fn write(&mut self, canvas: &mut Canvas) {
+        match std::mem::replace(&mut self.marks, Marks::Polygons(Vec::new())) {
+            Marks::Polygons(polygons) => {
+                canvas.open(
+                    "surface",
+                    "stroke=\"#000\" stroke-opacity=\".25\" stroke-width=\".5\" stroke-linejoin=\"round\"",
+                );
+                for (places, color) in &polygons {
+                    canvas.polygon(places, *color);
+                }
+                canvas.close();
+            }
+            Marks::Embedded(png, size) => canvas.embed(&png, self.origin, size),
+            Marks::Beside(image, size) => canvas.lay(image, self.origin, size),
+        }
+    }
+
+    /// The polygons that are seen, from back to front, if there is an order in which they show what the buffer shows.
+    fn polygons(
+        &self,
+        facets: &[Facet],
+        inks: &[Ramp],
+    ) -> Option<Vec<([[f64; 2]; 3], [u8; 3])>> {
         let seen = self.raster.seen(facets.len());
         let behind = self.raster.behind(facets, NEARNESS_TOLERANCE as f32);
         let depths: Vec<f64> = facets.iter().map(|facet| facet.near.iter().sum()).collect();
         // Owners are places in the list.
-        let Some(order) = order(&depths, &behind) else {
-            return false;
-        };
-        canvas.open(
-            "surface",
-            "stroke=\"#000\" stroke-opacity=\".25\" stroke-width=\".5\" stroke-linejoin=\"round\"",
-        );
-        for facet in order.into_iter().map(|i| &facets[i]).filter(|f| seen[f.owner as usize]) {
+        let order = order(&depths, &behind)?.into_iter().map(|i| &facets[i]);
+        let polygon = |facet: &Facet| {
             let light = facet.light.iter().sum::<f64>() / 3.0;
             let shade = (light.clamp(0.0, 1.0) * 255.0).round() as usize;
             let places = facet.corners.map(|corner| self.unsnap(corner));
-            canvas.polygon(&places, inks[usize::from(facet.ink)][shade]);
-        }
-        canvas.close();
-        true
+            (places, inks[usize::from(facet.ink)][shade])
+        };
+        Some(order.filter(|f| seen[f.owner as usize]).map(polygon).collect())
     }
 
     /// The place of a corner in the picture.

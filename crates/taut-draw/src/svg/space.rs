@@ -4,6 +4,8 @@
 //! third axis, and painted from back to front; what is far is smaller and paler. The viewer of the HTML page does the
 //! same from the same numbers.
 
+use rayon::prelude::*;
+
 use super::Hover;
 use super::camera::{Camera, V3, add, cross, dot};
 use super::canvas::{Anchor, Canvas, stroke};
@@ -143,8 +145,14 @@ fn panels(scene: &Scene3, panels: &[Panel], chrome: Chrome, canvas: &mut Canvas)
         }
     }
     let solids = solids(scene, &stage);
-    let covers: Vec<_> =
-        panels.iter().map(|panel| Coverage::draw(canvas, &solids, &panel.camera, chrome)).collect();
+    let (density, embeds) = (canvas.density, canvas.embeds);
+    let mut covers: Vec<_> = panels
+        .par_iter()
+        .map(|panel| Coverage::find(&solids, &panel.camera, density, embeds, chrome))
+        .collect();
+    for cover in covers.iter_mut().flatten() {
+        cover.write(canvas);
+    }
     for (panel, cover) in panels.iter().zip(&covers) {
         let mut pieces = Vec::new();
         for layer in &scene.layers {
