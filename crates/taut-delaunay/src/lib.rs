@@ -50,6 +50,7 @@ mod numbers;
 mod options;
 mod order;
 pub mod outofcore;
+mod pages;
 mod plane;
 mod query;
 mod records;

@@ -46,7 +46,8 @@ impl Raster {
                     if self.near[sample] == 0.0 {
                         continue;
                     }
-                    let color = inks[usize::from(self.ink[sample])][usize::from(self.light[sample])];
+                    let color =
+                        inks[usize::from(self.ink[sample])][usize::from(self.light[sample])];
                     // Half as bright on a line.
                     let line = usize::from(self.is_cliff(u, v, reach));
                     for k in 0..3 {

@@ -169,11 +169,7 @@ impl Coverage {
             None => {
                 let size = [width as f64 / density, height as f64 / density];
                 let image = cover.raster.image(across, &inks);
-                if embeds {
-                    Marks::Embedded(png(&image), size)
-                } else {
-                    Marks::Beside(image, size)
-                }
+                if embeds { Marks::Embedded(png(&image), size) } else { Marks::Beside(image, size) }
             }
         };
         Some(cover)
@@ -198,11 +194,7 @@ impl Coverage {
     }
 
     /// The polygons that are seen, from back to front, if there is an order in which they show what the buffer shows.
-    fn polygons(
-        &self,
-        facets: &[Facet],
-        inks: &[Ramp],
-    ) -> Option<Vec<([[f64; 2]; 3], [u8; 3])>> {
+    fn polygons(&self, facets: &[Facet], inks: &[Ramp]) -> Option<Vec<([[f64; 2]; 3], [u8; 3])>> {
         let seen = self.raster.seen(facets.len());
         let behind = self.raster.behind(facets, NEARNESS_TOLERANCE as f32);
         let depths: Vec<f64> = facets.iter().map(|facet| facet.near.iter().sum()).collect();
