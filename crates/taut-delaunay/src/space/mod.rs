@@ -138,6 +138,7 @@ impl Kernel<3, 4> for Mesh {
         // a limit on memory.
         Self::with_room(count, site, settings, count * 69 / 10)
     }
+
     fn site_count(&self) -> u32 {
         self.sites.len() as u32 - 1
     }
