@@ -50,7 +50,6 @@ mod numbers;
 mod options;
 mod order;
 pub mod outofcore;
-mod pages;
 mod plane;
 mod query;
 mod records;

@@ -3,7 +3,6 @@
 
 use std::mem::ManuallyDrop;
 
-use crate::pages::advise_huge;
 use crate::simplex::Simplex;
 use crate::threads::Record;
 use crate::threads::atomics::AtomicU8;
@@ -25,7 +24,6 @@ impl<const V: usize> Records<V> {
     pub(crate) fn new(capacity: usize) -> Self {
         // SAFETY: zeros are valid atomic numbers.
         let all = unsafe { Box::<[Record<V>]>::new_zeroed_slice(capacity).assume_init() };
-        advise_huge(&all);
         Self { all: all.into_vec(), used: 0 }
     }
 
@@ -50,7 +48,6 @@ impl<const V: usize> Records<V> {
     /// Makes room for `capacity` slots.
     pub(crate) fn grow(&mut self, capacity: usize) {
         self.all.reserve_exact(capacity.saturating_sub(self.all.len()));
-        advise_huge(self.all.spare_capacity_mut());
         self.all.resize_with(capacity, Record::default);
     }
 
