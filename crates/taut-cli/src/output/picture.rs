@@ -94,12 +94,10 @@ impl Drawing {
         };
         let figures = A::figures(report.found, report.points, &options)
             .map_err(|error| refused(error, points))?;
-        let mut fields = report.fields();
-        points.name_rows(&mut fields);
         Ok(Drawing {
             title: report.title(),
             heading: points.name().to_owned(),
-            fields: fields.into_iter().map(Into::into).chain(notes(points)).collect(),
+            fields: report.fields().into_iter().map(Into::into).chain(notes(points)).collect(),
             figures,
         })
     }

@@ -81,7 +81,7 @@ impl<const V: usize> Record<V> {
     /// Calls [`set`](Self::set), as loom knows atomic stores only.
     ///
     /// # Safety
-    /// It is always safe.
+    /// As outside of loom; this version does not need it.
     #[cfg(loom)]
     #[allow(unsafe_code)]
     pub(crate) unsafe fn set_alone(&self, simplex: Simplex<V>) {

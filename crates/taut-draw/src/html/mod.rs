@@ -251,29 +251,48 @@ fn fixed_views(out: &mut String, Views { scene, views }: &Views) {
 const NO_SCRIPT: &str =
     "<p>A script of this page draws this scene, but scripts do not run here.</p>";
 
-/// A picture of space where no script runs. Of a scene with opaque surfaces it is a small one, without layers of many other marks.
+/// Returns a picture of space for readers without scripts. A scene with opaque surfaces gets a small one, without layers of many other
+/// marks; a scene of many marks and no surface gets none.
 fn still(figure: &Figure, scene: &Scene3) -> String {
-    let is_surface = |layer: &Layer3| matches!(layer.shape, Shape3::Surface(_));
     let marks = |layer: &Layer3| match &layer.shape {
         Shape3::Points(points) => points.len(),
         Shape3::Crosses(places) => places.len(),
         Shape3::Spheres(spheres) => spheres.len(),
         Shape3::Polylines(chains) => chains.iter().map(Vec::len).sum(),
         Shape3::Mesh(mesh) => mesh.triangles.len(),
-        // Its image has a fixed number of samples.
+        // Triangles of surfaces are not counted: up to some thousands they are polygons, and more are one image.
         Shape3::Surface(_) => 0,
     };
-    if scene.layers.iter().any(is_surface) {
-        let mut small = scene.clone();
-        small.layers.retain(|layer| marks(layer) <= STILL_MARKS_MAX);
-        (small.width, small.height) = (scene.width / 2.0, scene.height / 2.0);
-        return draw_coarse(&Figure::Space(small)).document;
-    }
+    let is_surface = |layer: &Layer3| match &layer.shape {
+        Shape3::Surface(surface) => !surface.triangles.is_empty(),
+        _ => false,
+    };
     let all = scene.layers.iter().map(marks).fold(0, usize::saturating_add);
-    match all <= STILL_MARKS_MAX {
-        true => draw(figure, Chrome::Bare).document,
-        false => NO_SCRIPT.into(),
+    if !scene.layers.iter().any(is_surface) {
+        return match all <= STILL_MARKS_MAX {
+            true => draw(figure, Chrome::Bare).document,
+            false => NO_SCRIPT.into(),
+        };
     }
+    let mut room = STILL_MARKS_MAX;
+    let mut has_room = |layer: &&Layer3| {
+        let fits = marks(layer) <= room;
+        room -= if fits { marks(layer) } else { 0 };
+        fits
+    };
+    let layers: Vec<Layer3> =
+        scene.layers.iter().filter(|layer| has_room(layer)).cloned().collect();
+    let left_out = match layers.len() < scene.layers.len() {
+        true => "<p>Layers of many marks are left out, as scripts do not run here.</p>",
+        false => "",
+    };
+    let (width, height) = (scene.width / 2.0, scene.height / 2.0);
+    let Scene3 { projection, azimuth, elevation, .. } = *scene;
+    let [title, caption] = [&scene.title, &scene.caption].map(String::clone);
+    let axes = scene.axes.clone();
+    let small =
+        Scene3 { title, caption, axes, layers, projection, azimuth, elevation, width, height };
+    draw_coarse(&Figure::Space(small)).document + left_out
 }
 
 /// Words as the end of a list, numbers as such where a script writes them alike; an empty last one is left out.

@@ -61,8 +61,10 @@ impl Raster {
             let [r, g, b] = sum.map(|s| mean(s) as u8);
             [r, g, b, ((255 * count + all / 2) / all) as u8]
         };
-        let rows = (0..height).into_par_iter();
-        let pixels = rows.flat_map_iter(|y| (0..width).map(move |x| pixel(x, y))).collect();
+        let mut pixels = vec![[0; 4]; width * height];
+        pixels.par_chunks_mut(width.max(1)).enumerate().for_each(|(y, row)| {
+            row.iter_mut().enumerate().for_each(|(x, place)| *place = pixel(x, y));
+        });
         Image { width, height, pixels }
     }
 

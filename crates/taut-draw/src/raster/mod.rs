@@ -20,7 +20,7 @@ pub(crate) use normals::normals;
 pub(crate) use order::order;
 pub(crate) use png::png;
 
-/// The rows are filled in so many bands.
+/// Rows are filled in this many bands, more than most machines have processors. The samples do not depend on it.
 const BANDS: usize = 16;
 
 /// Corners are snapped to this many parts of a sample.
@@ -84,7 +84,9 @@ impl Raster {
     /// Draws triangles, each where it is nearer than what is there. The rows are filled in bands, on all threads of the pool.
     pub(crate) fn fill(&mut self, facets: &[Facet]) {
         let width = self.width;
-        let rows = self.height.div_ceil(BANDS).max(1);
+        // One thread reads the triangles once.
+        let bands = if rayon::current_num_threads() == 1 { 1 } else { BANDS };
+        let rows = self.height.div_ceil(bands).max(1);
         let size = (rows * width).max(1);
         let bands = (self.near.par_chunks_mut(size), self.light.par_chunks_mut(size));
         let marks = (self.ink.par_chunks_mut(size), self.owner.par_chunks_mut(size));

@@ -16,7 +16,7 @@ use crate::{Scene3, Shading, Shape3, Theme, Tone};
 /// Up to this many triangles are polygons; an image of more is smaller than they are.
 const POLYGONS_MAX: usize = 4000;
 
-/// So many triangles are held at once; at least as many as can be polygons.
+/// Triangles that are held at once: 7 MB of them. More than can be polygons, which are held all.
 const FACETS_MAX: usize = 1 << 16;
 const _: () = assert!(FACETS_MAX > POLYGONS_MAX);
 
@@ -76,20 +76,18 @@ pub(super) struct Coverage {
 enum Marks {
     /// Corners and color, from back to front.
     Polygons(Vec<([[f64; 2]; 3], [u8; 3])>),
-    /// A PNG file and its size in units of the picture.
-    Embedded(Vec<u8>, [f64; 2]),
-    /// Pixels, likewise.
+    /// Pixels and their size in units of the picture.
     Beside(Image, [f64; 2]),
+    /// A PNG file, likewise.
+    Embedded(Vec<u8>, [f64; 2]),
 }
 
 impl Coverage {
-    /// Finds out what is seen of the surfaces and how to write it; `None` if there is no triangle. `density` and `embeds` are those of
-    /// the canvas.
+    /// Finds out what is seen of the surfaces and how to write it; `None` if there is no triangle. `density` is that of the canvas.
     pub(super) fn find(
         solids: &[Solid],
         camera: &Camera,
         mut density: f64,
-        embeds: bool,
         chrome: Chrome,
     ) -> Option<Coverage> {
         let count: usize = solids.iter().map(|solid| solid.triangles.len()).sum();
@@ -168,11 +166,17 @@ impl Coverage {
             Some(polygons) => Marks::Polygons(polygons),
             None => {
                 let size = [width as f64 / density, height as f64 / density];
-                let image = cover.raster.image(across, &inks);
-                if embeds { Marks::Embedded(png(&image), size) } else { Marks::Beside(image, size) }
+                Marks::Beside(cover.raster.image(across, &inks), size)
             }
         };
         Some(cover)
+    }
+
+    /// Makes a PNG file of an image.
+    pub(super) fn compress(&mut self) {
+        if let Marks::Beside(image, size) = &self.marks {
+            self.marks = Marks::Embedded(png(image), *size);
+        }
     }
 
     /// Writes the surfaces.

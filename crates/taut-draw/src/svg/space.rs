@@ -145,11 +145,14 @@ fn panels(scene: &Scene3, panels: &[Panel], chrome: Chrome, canvas: &mut Canvas)
         }
     }
     let solids = solids(scene, &stage);
-    let (density, embeds) = (canvas.density, canvas.embeds);
     let mut covers: Vec<_> = panels
-        .par_iter()
-        .map(|panel| Coverage::find(&solids, &panel.camera, density, embeds, chrome))
+        .iter()
+        .map(|panel| Coverage::find(&solids, &panel.camera, canvas.density, chrome))
         .collect();
+    // Samples are the work of all threads already; compressing is not.
+    if canvas.embeds && covers.iter().any(Option::is_some) {
+        covers.par_iter_mut().flatten().for_each(Coverage::compress);
+    }
     for cover in covers.iter_mut().flatten() {
         cover.write(canvas);
     }
