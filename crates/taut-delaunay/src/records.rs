@@ -13,6 +13,18 @@ pub(crate) fn zeros(count: usize) -> Vec<AtomicU8> {
     unsafe { Box::<[AtomicU8]>::new_zeroed_slice(count).assume_init() }.into_vec()
 }
 
+/// Makes them `count`, at least as many as there are. One write fills them: `resize_with` writes number by number, and of a mesh that
+/// grows all the time, of points on two skew lines, that took 8 % of the build.
+pub(crate) fn extend_zeros(zeros: &mut Vec<AtomicU8>, count: usize) {
+    let more = count - zeros.len();
+    zeros.reserve_exact(more);
+    // SAFETY: there is room for so many, and zeros are valid atomic numbers.
+    unsafe {
+        zeros.as_mut_ptr().add(zeros.len()).write_bytes(0, more);
+        zeros.set_len(count);
+    }
+}
+
 /// The slots of a mesh: those in use, and zeros behind them.
 pub(crate) struct Records<const V: usize> {
     all: Vec<Record<V>>,
@@ -45,10 +57,15 @@ impl<const V: usize> Records<V> {
         self.used = len;
     }
 
-    /// Makes room for `capacity` slots.
+    /// Makes room for `capacity` slots, at least as many as there are, like [`extend_zeros`].
     pub(crate) fn grow(&mut self, capacity: usize) {
-        self.all.reserve_exact(capacity.saturating_sub(self.all.len()));
-        self.all.resize_with(capacity, Record::default);
+        let more = capacity - self.all.len();
+        self.all.reserve_exact(more);
+        // SAFETY: there is room for so many, and zeros are valid atomic numbers.
+        unsafe {
+            self.all.as_mut_ptr().add(self.all.len()).write_bytes(0, more);
+            self.all.set_len(capacity);
+        }
     }
 
     /// The slots in use.

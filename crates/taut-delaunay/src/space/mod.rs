@@ -34,7 +34,7 @@ use std::sync::atomic::{AtomicU8, AtomicU32};
 use taut_predicates::Separate;
 
 use crate::kernel::{Counters, Kernel, Settings, TooMany};
-use crate::records::{Records, zeros};
+use crate::records::{Records, extend_zeros, zeros};
 use crate::simplex::{DEAD_MARK, GHOST, Simplex, code};
 use crate::threads::Record;
 use crate::threads::{
@@ -270,8 +270,7 @@ impl Mesh {
     fn enlarge(&mut self, len: usize) {
         let len = len.min(self.limit).max(self.records.all().len());
         self.records.grow(len);
-        self.marks.reserve_exact(len - self.marks.len());
-        self.marks.resize_with(len, AtomicU8::default);
+        extend_zeros(&mut self.marks, len);
     }
 }
 
