@@ -72,10 +72,13 @@ pub(super) struct Coverage {
     marks: Marks,
 }
 
+/// Corners and color.
+type Polygon = ([[f64; 2]; 3], [u8; 3]);
+
 /// How surfaces are written.
 enum Marks {
-    /// Corners and color, from back to front.
-    Polygons(Vec<([[f64; 2]; 3], [u8; 3])>),
+    /// From back to front.
+    Polygons(Vec<Polygon>),
     /// Pixels and their size in units of the picture.
     Beside(Image, [f64; 2]),
     /// A PNG file, likewise.
@@ -198,7 +201,7 @@ impl Coverage {
     }
 
     /// The polygons that are seen, from back to front, if there is an order in which they show what the buffer shows.
-    fn polygons(&self, facets: &[Facet], inks: &[Ramp]) -> Option<Vec<([[f64; 2]; 3], [u8; 3])>> {
+    fn polygons(&self, facets: &[Facet], inks: &[Ramp]) -> Option<Vec<Polygon>> {
         let seen = self.raster.seen(facets.len());
         let behind = self.raster.behind(facets, NEARNESS_TOLERANCE as f32);
         let depths: Vec<f64> = facets.iter().map(|facet| facet.near.iter().sum()).collect();
