@@ -13,15 +13,25 @@ pub(crate) fn zeros(count: usize) -> Vec<AtomicU8> {
     unsafe { Box::<[AtomicU8]>::new_zeroed_slice(count).assume_init() }.into_vec()
 }
 
-/// Makes them `count`, at least as many as there are. One write fills them: `resize_with` writes number by number, and of a mesh that
-/// grows all the time, of points on two skew lines, that took 8 % of the build.
+/// Makes zeros `count` in all, at least as many as there are.
 pub(crate) fn extend_zeros(zeros: &mut Vec<AtomicU8>, count: usize) {
-    let more = count - zeros.len();
-    zeros.reserve_exact(more);
-    // SAFETY: there is room for so many, and zeros are valid atomic numbers.
+    // SAFETY: zeros are valid atomic numbers.
+    unsafe { fill_with_zeros(zeros, count) }
+}
+
+/// Makes an array longer, its new part zero. One write fills it: `resize_with` writes number by number, and of a mesh that grows again
+/// and again, of points on two skew lines, that took 8 % of the build.
+///
+/// # Safety
+/// Zero bytes are a valid `T`.
+unsafe fn fill_with_zeros<T>(array: &mut Vec<T>, count: usize) {
+    let len = array.len();
+    let more = count.checked_sub(len).expect("arrays only grow");
+    array.reserve_exact(more);
+    // SAFETY: there is room for so many, and the caller says that zeros are valid.
     unsafe {
-        zeros.as_mut_ptr().add(zeros.len()).write_bytes(0, more);
-        zeros.set_len(count);
+        array.as_mut_ptr().add(len).write_bytes(0, more);
+        array.set_len(count);
     }
 }
 
@@ -57,15 +67,10 @@ impl<const V: usize> Records<V> {
         self.used = len;
     }
 
-    /// Makes room for `capacity` slots, at least as many as there are, like [`extend_zeros`].
+    /// Makes room for `capacity` slots, at least as many as there are.
     pub(crate) fn grow(&mut self, capacity: usize) {
-        let more = capacity - self.all.len();
-        self.all.reserve_exact(more);
-        // SAFETY: there is room for so many, and zeros are valid atomic numbers.
-        unsafe {
-            self.all.as_mut_ptr().add(self.all.len()).write_bytes(0, more);
-            self.all.set_len(capacity);
-        }
+        // SAFETY: zeros are valid atomic numbers.
+        unsafe { fill_with_zeros(&mut self.all, capacity) }
     }
 
     /// The slots in use.
