@@ -13,7 +13,7 @@ use taut_points::Monitor;
 
 use super::answer::Outcome;
 use super::cloud::Cloud;
-use super::kind::{Kind, Regions, are_lattice, regions};
+use super::kind::{Judged, Kind, Regions, are_lattice, regions};
 use super::{CurveMethod, CurveOptions, clean, fit};
 use crate::Error;
 
@@ -30,9 +30,9 @@ pub(super) fn auto(
     let found = regions(&clean::normalized(&cloud.sites));
     monitor.check()?;
     let fitted = match found.only() {
-        Some(Kind::Vertices) => None,
-        Some(Kind::Doubtful) => {
-            let fitted = fit::judged(cloud, options.ends, monitor)?;
+        Some(Judged { kind: Kind::Vertices, .. }) => None,
+        Some(Judged { kind: Kind::Doubtful, mutual_share }) => {
+            let fitted = fit::judged(cloud, options.ends, mutual_share, monitor)?;
             fitted.is_noisy.then_some(fitted.outcome)
         }
         None => mixed(cloud, &found, options, monitor)?,
@@ -88,10 +88,11 @@ fn mixed(
         members[region as usize].push(site);
     }
     let (mut all, mut clear) = (Outcome { method: "fit", ..Outcome::default() }, vec![]);
-    for (kind, sites) in regions.kinds.iter().zip(&members) {
-        let fitted = match kind {
+    for (judged, sites) in regions.kinds.iter().zip(&members) {
+        let fitted = match judged.kind {
             Kind::Doubtful if sites.len() >= REGION_POINTS_MIN => {
-                let fitted = fit::judged(&cloud.subset(sites), options.ends, monitor)?;
+                let subset = cloud.subset(sites);
+                let fitted = fit::judged(&subset, options.ends, judged.mutual_share, monitor)?;
                 fitted.is_noisy.then_some(fitted.outcome)
             }
             _ => None,

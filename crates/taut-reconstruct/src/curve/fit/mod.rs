@@ -45,14 +45,20 @@ type Point = [f64; 2];
 pub(super) fn fit(cloud: &Cloud, ends: Ends, monitor: &Monitor<'_>) -> Result<Outcome, Error> {
     let frame = Frame::of(&cloud.sites);
     let points = frame.all_inward(&cloud.sites);
-    Ok(fit_within(&frame, &points, &Index::new(&points), ends, monitor)?.outcome)
+    Ok(fit_within(&frame, &points, &Index::new(&points), ends, 0.0, monitor)?.outcome)
 }
 
-/// The curves of points, and whether they are to be preferred to those through vertices.
-pub(super) fn judged(cloud: &Cloud, ends: Ends, monitor: &Monitor<'_>) -> Result<Fitted, Error> {
+/// The curves of points, and whether they are to be preferred to those through vertices; the share of mutual half neighbors tells how well
+/// points can be read as vertices ([`Judged`](super::kind::Judged)).
+pub(super) fn judged(
+    cloud: &Cloud,
+    ends: Ends,
+    mutual_share: f64,
+    monitor: &Monitor<'_>,
+) -> Result<Fitted, Error> {
     let frame = Frame::of(&cloud.sites);
     let points = frame.all_inward(&cloud.sites);
-    fit_within(&frame, &points, &Index::new(&points), ends, monitor)
+    fit_within(&frame, &points, &Index::new(&points), ends, mutual_share, monitor)
 }
 
 /// The curves, and whether they are a good answer.
@@ -70,6 +76,7 @@ fn fit_within(
     points: &[Point],
     index: &Index<'_>,
     ends: Ends,
+    mutual_share: f64,
     monitor: &Monitor<'_>,
 ) -> Result<Fitted, Error> {
     let found = seeds::seeds(points, index, monitor)?;
@@ -104,8 +111,9 @@ fn fit_within(
     );
     monitor.check()?;
     let deviation = typical(&splines, |_| 1.0);
-    let is_noise = residuals::are_noise(&splines);
-    let is_apart = noisiness(&splines) > NOISE_RATIO_MIN;
+    let noisiness = noisiness(&splines);
+    let is_noise = residuals::are_noise(&splines, points.len(), noisiness, mutual_share);
+    let is_apart = noisiness > NOISE_RATIO_MIN;
     let (curves, crossed) = output::curves(&splines, frame, ends, monitor)?;
     let counters = [
         ("seeds", found.len()),

@@ -1,16 +1,34 @@
 //! Whether what a fit leaves of points is noise: residuals that do not follow each other.
 //!
 //! *Idea.* Along the curve in runs of [`RUN_POINTS`] points, the mean square of successive differences over twice the variance is 1 on average
-//! where offsets are independent (von Neumann 1941), whatever the noise. Rugged borders leave 0.60 to 0.68, noise 0.94 to 1.3.
+//! where offsets are independent (von Neumann 1941), whatever the noise. Rugged borders leave 0.4 to 1, noise 0.85 to 1.3. Where half
+//! neighbors are mutual, as they are of vertices, more is asked: noise so narrow that they are leaves long runs of points, and noise as wide as
+//! the residuals say would not leave them mutual.
 //! *Guarantee.* A function of the points along the curves; O(n log n).
 
-use super::parameters::{NOISE_NEUMANN_MIN, NOISE_NEUMANN_SPREAD, RUN_POINTS};
+use super::parameters::{
+    MUTUAL_NEUMANN_MIN, MUTUAL_NEUMANN_SPREAD, MUTUAL_RUNS_SHARE_MIN, MUTUAL_SHARE_LOSS,
+    MUTUAL_SHARE_MAX, MUTUAL_SHARE_MIN, NOISE_NEUMANN_MIN, NOISE_NEUMANN_SPREAD, RUN_POINTS,
+};
 use super::spline::Spline;
 
-/// Whether the residuals are those of noise. The median of few runs is off by more, and is forgiven more.
-pub(super) fn are_noise(splines: &[Spline]) -> bool {
+/// Whether the residuals of so many points are those of noise. The median of few runs is off by more, and is forgiven more.
+pub(super) fn are_noise(
+    splines: &[Spline],
+    points: usize,
+    noisiness: f64,
+    mutual_share: f64,
+) -> bool {
     let (runs, ratio) = neumann_ratio(splines);
-    runs > 0 && ratio > NOISE_NEUMANN_MIN - NOISE_NEUMANN_SPREAD / (runs as f64).sqrt()
+    let is_above = |least: f64, spread: f64| ratio > least - spread / (runs as f64).sqrt();
+    let is_noise = runs > 0 && is_above(NOISE_NEUMANN_MIN, NOISE_NEUMANN_SPREAD);
+    if mutual_share < MUTUAL_SHARE_MIN {
+        return is_noise;
+    }
+    is_noise
+        && is_above(MUTUAL_NEUMANN_MIN, MUTUAL_NEUMANN_SPREAD)
+        && (runs * RUN_POINTS) as f64 >= MUTUAL_RUNS_SHARE_MIN * points as f64
+        && mutual_share <= MUTUAL_SHARE_MAX - MUTUAL_SHARE_LOSS * noisiness
 }
 
 /// How many runs there are of points along the curves, and the median of their ratios.
