@@ -32,9 +32,9 @@ pub(super) struct Facet {
     /// For each vertex the facet across the edge opposite it.
     pub(super) neighbors: [u32; 3],
     at: [f64; 3],
-    normal: [f64; 3],
+    pub(super) normal: [f64; 3],
     /// No computed height of a site is off by more.
-    margin: f64,
+    pub(super) margin: f64,
     /// Sites beyond.
     outside: Vec<u32>,
     /// The greatest height of these, and where it is in `outside`.
@@ -42,6 +42,14 @@ pub(super) struct Facet {
     is_alive: bool,
     /// The last step that looked at it, and what it saw.
     seen: (u32, bool),
+}
+
+impl Facet {
+    /// How far a point is above the plane, times twice the area of the facet; rounded.
+    #[inline(always)]
+    pub(super) fn height(&self, p: [f64; 3]) -> f64 {
+        dot(self.normal, difference(p, self.at))
+    }
 }
 
 /// A hull under construction.
@@ -139,7 +147,7 @@ impl QuickHull {
 
     #[inline(always)]
     fn is_beyond(&self, facet: &Facet, p: [f64; 3]) -> bool {
-        let height = dot(facet.normal, difference(p, facet.at));
+        let height = facet.height(p);
         if height.abs() > facet.margin {
             return height > 0.0;
         }
@@ -167,7 +175,7 @@ impl QuickHull {
     #[inline]
     fn hand(&mut self, site: u32, number: u32) {
         let facet = &mut self.facets[number as usize];
-        let height = dot(facet.normal, difference(self.sites[site as usize], facet.at));
+        let height = facet.height(self.sites[site as usize]);
         if facet.outside.is_empty() {
             self.open.push(number);
         }
