@@ -1,7 +1,7 @@
 //! Tests what pictures of robust ellipsoids must hold: outliers apart, both ellipsoids, a close-up, a distance for each point.
 
 use taut_certify::{
-    Ellipsoid, EllipsoidCertificate, Enclosure, Items, RobustCertificate, RobustEllipsoid,
+    Ellipsoid, EllipsoidCertificate, Enclosure, Items, RobustCertificate, RobustEllipsoid, RobustScale,
     RobustMethod, Solution, Trace,
 };
 use taut_draw::{
@@ -65,6 +65,7 @@ fn case(dim: usize, method: RobustMethod, far: f64) -> (Vec<f64>, Solution<Robus
             cutoff: 4.0,
             raw_scale: 1.0,
             scale: 1.0,
+            scaled_by: RobustScale::Share,
             weighed_out: outliers,
             unweighted: None,
             enclosure: (method != RobustMethod::Mcd).then_some(enclosure),
