@@ -327,13 +327,8 @@ impl KeptTriangulation {
                     region_vertices,
                     ..
                 } = found;
-                // One object for each number, as they are immutable; that of infinity is the last.
-                let objects = (0..vertices.len() as i64)
-                    .chain([-1])
-                    .map(|number| Ok(number.into_pyobject(py)?.into_any()))
-                    .collect::<PyResult<Vec<_>>>()?;
-                let ridges = lists(py, &objects, 0, &ridge_starts, &ridge_vertices)?;
-                let cells = lists(py, &objects, offset, &region_starts, &region_vertices)?;
+                let ridges = lists(py, 0, &ridge_starts, &ridge_vertices)?;
+                let cells = lists(py, offset, &region_starts, &region_vertices)?;
                 Ok((
                     table(PyArray1::from_vec(py, vertices.into_flattened()), $dim)?,
                     table(numbers(py, ridge_rows.into_flattened()), 2)?,
@@ -498,19 +493,20 @@ impl KeptTriangulation {
     }
 }
 
-/// A list of lists: `offset` empty ones, then one of the objects of each run of numbers; what is no number takes the last object.
+/// A list of lists: `offset` empty ones, then each run of numbers, `u32::MAX` as −1.
+///
+/// *Trap.* One object for each number, shared by all lists, would be less memory and several times slower: rows are in any order, and
+/// to count a reference the object is fetched from wherever it is.
 fn lists<'py>(
     py: Python<'py>,
-    objects: &[Bound<'py, PyAny>],
     offset: usize,
     starts: &[u64],
     values: &[u32],
 ) -> PyResult<Bound<'py, PyList>> {
-    let last = objects.len() - 1;
     let runs = starts.windows(2).map(|ends| &values[ends[0] as usize..ends[1] as usize]);
     let made = std::iter::repeat_n(&[] as &[u32], offset)
         .chain(runs)
-        .map(|run| PyList::new(py, run.iter().map(|&v| &objects[last.min(v as usize)])))
+        .map(|run| PyList::new(py, run.iter().map(|&v| v as i32)))
         .collect::<PyResult<Vec<_>>>()?;
     PyList::new(py, made)
 }

@@ -45,8 +45,9 @@ impl Core {
         let half: [f64; 3] = std::array::from_fn(|i| 0.5 * (high[i] - low[i]));
         let (mut radius, mut half_side) = (1.0f64, 1.0f64);
         for (_, facet) in polytope.facets() {
-            let depth = -(facet.height(center) + 2.0 * facet.margin);
-            let reach: [f64; 3] = std::array::from_fn(|i| (facet.normal[i] * half[i]).abs());
+            let plane = facet.plane;
+            let depth = -(plane.height(center) + 2.0 * plane.margin);
+            let reach: [f64; 3] = std::array::from_fn(|i| (plane.normal[i] * half[i]).abs());
             let norm = reach.iter().map(|x| x * x).sum::<f64>().sqrt();
             radius = radius.min(depth / norm);
             half_side = half_side.min(depth / reach.iter().sum::<f64>());
@@ -119,11 +120,9 @@ mod tests {
         let far = |x: &[f64; 3]| [x[0] + 1e7, x[1] - 1e7, x[2] + 1e7];
         let skew = |x: &[f64; 3]| [x[0], x[0] + 0.1 * x[1], x[1] + 0.1 * x[2]];
         for (values, share) in [(&uniform, 0.6), (&normal, 0.9)] {
-            for (map, share) in [
-                (&thin as &dyn Fn(&[f64; 3]) -> [f64; 3], share),
-                (&far, share),
-                (&skew, 0.05),
-            ] {
+            let maps: [(&dyn Fn(&[f64; 3]) -> [f64; 3], f64); 3] =
+                [(&thin, share), (&far, share), (&skew, 0.05)];
+            for (map, share) in maps {
                 let values: Vec<f64> = values.as_chunks::<3>().0.iter().flat_map(map).collect();
                 let points = Points::new(&values, 3).expect("whole rows");
                 let largest = largest_magnitude(&points).expect("finite");

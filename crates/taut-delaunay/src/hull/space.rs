@@ -162,9 +162,12 @@ fn beyond<T: Scalar>(
     polytope: &QuickHull,
     monitor: &Monitor<'_>,
 ) -> Result<Vec<(u32, u32)>, Error> {
+    let planes = polytope.planes();
     let of_task = |task: &[u32]| -> Result<Vec<(u32, u32)>, Error> {
         monitor.check()?;
-        let found = task.iter().filter_map(|&i| Some((i, polytope.beyond(points.at(i as usize))?)));
+        let found = task
+            .iter()
+            .filter_map(|&i| Some((i, polytope.beyond_some(&planes, points.at(i as usize))?)));
         Ok(found.collect())
     };
     Ok(rows.par_chunks(TASK).map(of_task).collect::<Result<Vec<_>, Error>>()?.concat())

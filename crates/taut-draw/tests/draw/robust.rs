@@ -1,8 +1,8 @@
 //! Tests what pictures of robust ellipsoids must hold: outliers apart, both ellipsoids, a close-up, a distance for each point.
 
 use taut_certify::{
-    Ellipsoid, EllipsoidCertificate, Enclosure, Items, RobustCertificate, RobustEllipsoid, RobustScale,
-    RobustMethod, Solution, Trace,
+    Ellipsoid, EllipsoidCertificate, Enclosure, Items, RobustCertificate, RobustEllipsoid,
+    RobustMethod, RobustScale, Solution, Trace,
 };
 use taut_draw::{
     DrawOptions, Error, Figure, Scene2, Shape2, Shape3, Style, Tone, robust_figures, to_svg,

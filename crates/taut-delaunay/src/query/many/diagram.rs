@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use taut_predicates::{Sign, space};
 
 use super::TriangulationIndex;
-use super::star::Star;
+use super::star::{NumberSet, Star};
 use crate::geometry::{InPlane, InSpace};
 use crate::simplex::{GHOST, decode};
 
@@ -208,7 +208,7 @@ impl TriangulationIndex<3, 4> {
     /// Goes through the stars of sites, and around each edge to a site of a higher row.
     fn part(&self, sites: &[u32], of_simplices: &[u32]) -> Part {
         let slots = self.triangulation.slots();
-        let (mut part, mut around) = (Part::default(), Star::new());
+        let (mut part, mut around, mut joined) = (Part::default(), Star::new(), NumberSet::new());
         let mut edges: Vec<(u32, u32, u32)> = Vec::new();
         let (mut region, mut cycle) = (Vec::new(), Vec::new());
         for &site in sites {
@@ -216,10 +216,11 @@ impl TriangulationIndex<3, 4> {
             let star = around.of(slots, self.directory.at_site[site as usize], site);
             edges.clear();
             region.clear();
+            joined.clear();
             for &t in star {
                 region.push(self.vertex_of(t, of_simplices));
                 for v in slots[t as usize].vertices {
-                    if v != GHOST && v != site {
+                    if v != GHOST && v != site && joined.insert(v) {
                         let other = self.triangulation.row(v);
                         if other > row {
                             edges.push((other, v, t));
@@ -231,7 +232,6 @@ impl TriangulationIndex<3, 4> {
             region.dedup();
             part.add_region(&region);
             edges.sort_unstable();
-            edges.dedup_by_key(|edge| edge.0);
             for &(other, v, t) in &edges {
                 if self.is_ridge(site, v, t, of_simplices, &mut cycle) {
                     part.add_ridge([row, other], &cycle);

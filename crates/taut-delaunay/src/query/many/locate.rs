@@ -95,12 +95,7 @@ enum End {
 impl<const D: usize, const V: usize> TriangulationIndex<D, V> {
     /// Walks towards `point` from `start`, through facets that it lies beyond; says how many simplices it visited.
     #[inline]
-    fn walk<G: Sides<D, V>>(
-        &self,
-        point: [f64; D],
-        start: u32,
-        steps_max: usize,
-    ) -> (End, usize) {
+    fn walk<G: Sides<D, V>>(&self, point: [f64; D], start: u32, steps_max: usize) -> (End, usize) {
         let simplices = self.triangulation.slots();
         let sites = &self.triangulation.sites;
         let scaled = point.map(|x| sites.scale.apply(x));
@@ -269,8 +264,14 @@ mod tests {
                 if G::orientation(corners) == Sign::Negative {
                     corners.swap(0, 1);
                 }
-                let mean = std::array::from_fn(|k| 0.5 * (corners[0][k] + corners[1][k]));
-                for q in [simplex[V], mean, corners[V - 1], mean.map(|x| x * 1e9), mean.map(|x| x * 1e300)] {
+                let mean: [f64; D] = std::array::from_fn(|k| 0.5 * (corners[0][k] + corners[1][k]));
+                for q in [
+                    simplex[V],
+                    mean,
+                    corners[V - 1],
+                    mean.map(|x| x * 1e9),
+                    mean.map(|x| x * 1e300),
+                ] {
                     let (sides, bound) = G::sides(corners, q);
                     for i in 0..V {
                         let mut with_q = corners;
