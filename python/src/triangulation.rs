@@ -3,11 +3,10 @@
 use numpy::{Element, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::PyList;
 use taut::certify::{AnySolution, Solution, Triangulation as Answer};
 use taut::delaunay::{
     Complex, ConvexHull, Error, Plane, Segment, Space, Triangulation, TriangulationIndex,
-    VoronoiDiagram, convex_hull,
+    convex_hull,
 };
 use taut::points::{PointsHash, Scalar, hash_points};
 use taut::{DelaunayOptions, Items, Monitor, Points};
@@ -311,39 +310,6 @@ impl KeptTriangulation {
         }
     }
 
-    /// The Voronoi diagram as SciPy keeps it: vertices, the two rows of each ridge, lists of its vertices, lists of those of each
-    /// region, after `offset` empty ones, and the region of each row.
-    fn voronoi_lists<'py>(&self, py: Python<'py>, offset: usize) -> PyResult<Lists<'py>> {
-        macro_rules! lists {
-            ($index:expr, $dim:literal) => {{
-                let found = interruptible(py, |_| $index.voronoi())?;
-                let regions = self.regions_of_rows(&found, offset);
-                let VoronoiDiagram {
-                    vertices,
-                    ridge_rows,
-                    ridge_starts,
-                    ridge_vertices,
-                    region_starts,
-                    region_vertices,
-                    ..
-                } = found;
-                let ridges = lists(py, 0, &ridge_starts, &ridge_vertices)?;
-                let cells = lists(py, offset, &region_starts, &region_vertices)?;
-                Ok((
-                    table(PyArray1::from_vec(py, vertices.into_flattened()), $dim)?,
-                    table(numbers(py, ridge_rows.into_flattened()), 2)?,
-                    ridges,
-                    cells,
-                    PyArray1::from_vec(py, regions),
-                ))
-            }};
-        }
-        match &self.index {
-            Index::Plane(index) => lists!(index, 2),
-            Index::Space(index) => lists!(index, 3),
-        }
-    }
-
     /// The alpha complex: simplices, and the facets of the boundary and the singular ones as rows.
     fn alpha_complex<'py>(
         &self,
@@ -435,14 +401,6 @@ type Diagram<'py> = (
     Numbers<'py>,
 );
 
-type Lists<'py> = (
-    Table<'py, f64>,
-    Table<'py, i32>,
-    Bound<'py, PyList>,
-    Bound<'py, PyList>,
-    Bound<'py, PyArray1<i64>>,
-);
-
 type Constrained<'py> =
     (Table<'py, i32>, Table<'py, bool>, Bound<'py, PyArray1<bool>>, Table<'py, i32>);
 
@@ -464,23 +422,6 @@ impl KeptTriangulation {
         with_index!(&self.index, index => index.triangulation().duplicates())
     }
 
-    /// The number of the region of each row, after `offset` others.
-    fn regions_of_rows<const D: usize>(
-        &self,
-        diagram: &VoronoiDiagram<D>,
-        offset: usize,
-    ) -> Vec<i64> {
-        let duplicates = self.duplicate_rows();
-        let mut regions = vec![0; diagram.region_rows.len() + duplicates.len()];
-        for (&row, region) in diagram.region_rows.iter().zip(offset as i64..) {
-            regions[row as usize] = region;
-        }
-        for &[row, first] in duplicates {
-            regions[row as usize] = regions[first as usize];
-        }
-        regions
-    }
-
     fn places<'a>(&self, places: &'a PyReadonlyArray2<'_, f64>) -> PyResult<Points<'a, f64>> {
         let (given, dim) = (points(places)?, self.dimension());
         if given.dim() == dim {
@@ -491,24 +432,6 @@ impl KeptTriangulation {
             "places have dimension {given}, but the triangulation has dimension {dim}"
         )))
     }
-}
-
-/// A list of lists: `offset` empty ones, then each run of numbers, `u32::MAX` as −1.
-///
-/// *Trap.* One object for each number, shared by all lists, would be less memory and several times slower: rows are in any order, and
-/// to count a reference the object is fetched from wherever it is.
-fn lists<'py>(
-    py: Python<'py>,
-    offset: usize,
-    starts: &[u64],
-    values: &[u32],
-) -> PyResult<Bound<'py, PyList>> {
-    let runs = starts.windows(2).map(|ends| &values[ends[0] as usize..ends[1] as usize]);
-    let made = std::iter::repeat_n(&[] as &[u32], offset)
-        .chain(runs)
-        .map(|run| PyList::new(py, run.iter().map(|&v| v as i32)))
-        .collect::<PyResult<Vec<_>>>()?;
-    PyList::new(py, made)
 }
 
 /// The dimension of the hull, its vertices, facets, neighbors of facets, and the face of each.
