@@ -351,7 +351,8 @@ class Triangulation:
                 ridges = diagram.ridge_vertices.reshape(-1, 2).tolist()
             else:
                 ridges = _lists(diagram.ridge_starts, diagram.ridge_vertices)
-            regions = [[] for _ in range(offset)] + _lists(diagram.region_starts, diagram.region_vertices)
+            empty: list[list[int]] = [[] for _ in range(offset)]
+            regions = empty + _lists(diagram.region_starts, diagram.region_vertices)
         point_region = np.zeros(len(self.points), dtype=np.int64)
         point_region[diagram.region_rows] = np.arange(offset, len(regions))
         rows, firsts = self.duplicates.T

@@ -3,8 +3,8 @@
 //! *Idea.* A walk starts where the one before ended. Points that come in an order in which walks are short, as a sample of them
 //! tells, are answered as they come, others along a Hilbert curve. A step looks at all facets of a simplex at once: relative to the
 //! point their sides have most products in common, and one bound on the errors of all.
-//! *Guarantee.* Exact: a side within its bound is decided by the exact predicate. A point on the boundary of several simplices is in
-//! the one with the lowest number.
+//! *Guarantee.* Exact: a side within its bound is decided by the exact predicate. A point on the boundary of several simplices is
+//! in the one with the lowest number.
 //! *Why walks end.* A step goes through any facet that the point is beyond; in a Delaunay triangulation no such walk comes back.
 
 use rayon::prelude::*;

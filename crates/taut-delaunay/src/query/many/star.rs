@@ -10,8 +10,8 @@ const VACANT: u32 = u32::MAX;
 
 /// A set of numbers below `u32::MAX`, which keep the order in which they came.
 ///
-/// *Idea.* A table of open addresses that is used again and again: making a hash set of the standard library for each site costs several
-/// times what is done with it.
+/// *Idea.* A table of open addresses that is used again and again: making a hash set of the standard library for each site costs
+/// several times what is done with it.
 pub(super) struct NumberSet {
     numbers: Vec<u32>,
     /// A power of two of places, at most half of them taken.
