@@ -1,6 +1,7 @@
 //! `taut.robust_ellipsoid`, behind its Python signature.
 
 use pyo3::prelude::*;
+use taut::certify::RobustScale;
 use taut::{Items, RobustMethod, RobustOptions};
 
 use crate::found::{Found, solve_points};
@@ -15,6 +16,7 @@ pub(crate) fn robust_ellipsoid(
     method: &str,
     coverage: Option<f64>,
     level: f64,
+    scale: &str,
     epsilon: f64,
     threads: &Bound<'_, PyAny>,
 ) -> PyResult<Found> {
@@ -22,6 +24,7 @@ pub(crate) fn robust_ellipsoid(
         method: method.parse::<RobustMethod>().map_err(|error| raise(error, Items::Points, 0))?,
         coverage,
         level,
+        scale: scale.parse::<RobustScale>().map_err(|error| raise(error, Items::Points, 0))?,
         epsilon,
         threads: whole("threads", threads, "1 to 1024, or None")?,
         ..RobustOptions::default()

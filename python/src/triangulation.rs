@@ -5,9 +5,10 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use taut::certify::{AnySolution, Solution, Triangulation as Answer};
 use taut::delaunay::{
-    ConvexHull, Error, Plane, Segment, Space, Triangulation, TriangulationIndex, convex_hull,
+    Complex, ConvexHull, Error, Plane, Segment, Space, Triangulation, TriangulationIndex,
+    convex_hull,
 };
-use taut::points::Scalar;
+use taut::points::{PointsHash, Scalar, hash_points};
 use taut::{DelaunayOptions, Items, Monitor, Points};
 
 use crate::found::Found;
@@ -55,11 +56,14 @@ macro_rules! with_index {
     };
 }
 
-/// A triangulation that is kept, with its answer.
+/// A triangulation that is kept.
 #[pyclass(frozen, module = "taut._native")]
 pub(crate) struct KeptTriangulation {
     index: Index,
-    solution: Solution<Answer>,
+    /// The hash of the points that it was built from.
+    points_hash: PointsHash,
+    /// The answer where the points do not span all dimensions; else it is made when asked for.
+    degenerate: Option<Solution<Answer>>,
 }
 
 /// Builds the triangulation of the dimension of the points.
@@ -73,17 +77,58 @@ fn build<T: Scalar>(
         triangulation: Triangulation<D, V>,
         points: &Points<'_, T>,
         monitor: &Monitor<'_>,
-    ) -> Result<(TriangulationIndex<D, V>, Solution<Answer>), Error> {
-        let solution = triangulation.solution(points, monitor)?;
-        Ok((TriangulationIndex::new(triangulation), solution))
+        index: impl FnOnce(Box<TriangulationIndex<D, V>>) -> Index,
+    ) -> Result<KeptTriangulation, Error> {
+        let degenerate = match triangulation.complex() {
+            Complex::Full => None,
+            _ => Some(triangulation.solution(points, monitor)?),
+        };
+        let points_hash = hash_points(points, monitor)?;
+        let index = index(Box::new(TriangulationIndex::new(triangulation)));
+        Ok(KeptTriangulation { index, points_hash, degenerate })
     }
     // The plane refuses other dimensions than its own.
     if points.dim() == 3 {
-        let (index, solution) = kept(Space::build(points, &options)?, points, monitor)?;
-        return Ok(KeptTriangulation { index: Index::Space(Box::new(index)), solution });
+        return kept(Space::build(points, &options)?, points, monitor, Index::Space);
     }
-    let (index, solution) = kept(Plane::build(points, &options)?, points, monitor)?;
-    Ok(KeptTriangulation { index: Index::Plane(Box::new(index)), solution })
+    kept(Plane::build(points, &options)?, points, monitor, Index::Plane)
+}
+
+/// The rows of all simplices.
+fn simplices<const D: usize, const V: usize>(index: &TriangulationIndex<D, V>) -> Vec<u32> {
+    let of = index.triangulation();
+    let mut rows = Vec::with_capacity(V * index.slots().len());
+    index.slots().for_each(|t| rows.extend(of.vertices(t).map(|v| of.row(v))));
+    rows
+}
+
+/// For each vertex of a simplex the one across the facet opposite it, `u32::MAX` for none.
+fn neighbors<const D: usize, const V: usize>(index: &TriangulationIndex<D, V>) -> Vec<u32> {
+    let (of, count) = (index.triangulation(), index.slots().end);
+    let mut numbers = Vec::with_capacity(V * index.slots().len());
+    let across = |t, i| Some(of.neighbor(t, i).0).filter(|&other| other < count);
+    index.slots().for_each(|t| {
+        numbers.extend(std::array::from_fn::<_, V, _>(|i| across(t, i).unwrap_or(u32::MAX)));
+    });
+    numbers
+}
+
+/// The rows of the facets of the hull in the order of the answer: by the simplices behind them, the lowest site of each first.
+fn hull_facets<const D: usize, const V: usize>(index: &TriangulationIndex<D, V>) -> Vec<u32> {
+    let (of, count) = (index.triangulation(), index.slots().end);
+    let mut rows = Vec::new();
+    for t in index.slots() {
+        for ghost in (0..V).map(|i| of.neighbor(t, i).0).filter(|&other| other >= count) {
+            let mut facet = of.hull_facet(ghost);
+            // Turning keeps the orientation of three, and an edge stays as it is.
+            if D == 3 {
+                let first = (0..D).min_by_key(|&i| facet[i]).unwrap_or(0);
+                facet.rotate_left(first);
+            }
+            rows.extend(facet.map(|site| of.row(site)));
+        }
+    }
+    rows
 }
 
 #[pymethods]
@@ -106,29 +151,66 @@ impl KeptTriangulation {
 
     /// The dimension of the affine hull of the points; none for no points.
     fn hull_dimension(&self) -> Option<u8> {
-        self.solution.answer.hull_dimension
+        match &self.degenerate {
+            Some(solution) => solution.answer.hull_dimension,
+            None => Some(self.dimension() as u8),
+        }
     }
 
-    /// The solution with its certificate.
-    fn found(&self) -> Found {
-        Found::of(AnySolution::from(self.solution.clone()))
+    /// The solution with its certificate, over the rows that it was built from.
+    fn found(&self, py: Python<'_>, rows: &Bound<'_, PyAny>) -> PyResult<Found> {
+        if let Some(solution) = &self.degenerate {
+            return Ok(Found::of(AnySolution::from(solution.clone())));
+        }
+        macro_rules! solution {
+            ($array:expr) => {{
+                let points = points($array)?;
+                interruptible(py, |monitor| {
+                    with_index!(&self.index, index => {
+                        index.triangulation().solution(&points, monitor)
+                    })
+                })?
+            }};
+        }
+        let found = match &Rows::borrow(rows)? {
+            Rows::F32(array) => solution!(array),
+            Rows::F64(array) => solution!(array),
+        };
+        let found = found.map_err(refused)?;
+        if found.certificate.points_hash != self.points_hash {
+            return Err(PyValueError::new_err(
+                "the points were changed after the triangulation was built from them",
+            ));
+        }
+        Ok(Found::of(AnySolution::from(found)))
     }
 
     fn simplices<'py>(&self, py: Python<'py>) -> PyResult<Table<'py, i32>> {
-        table(numbers(py, self.solution.answer.simplices.clone()), self.corners())
+        let rows = py.detach(|| match &self.degenerate {
+            Some(solution) => solution.answer.simplices.clone(),
+            None => with_index!(&self.index, index => simplices(index)),
+        });
+        table(numbers(py, rows), self.corners())
     }
 
     fn neighbors<'py>(&self, py: Python<'py>) -> PyResult<Table<'py, i32>> {
-        table(numbers(py, self.solution.certificate.neighbors.clone()), self.corners())
+        let across = py.detach(|| match &self.degenerate {
+            Some(solution) => solution.certificate.neighbors.clone(),
+            None => with_index!(&self.index, index => neighbors(index)),
+        });
+        table(numbers(py, across), self.corners())
     }
 
     fn hull<'py>(&self, py: Python<'py>) -> PyResult<Table<'py, i32>> {
-        table(numbers(py, self.solution.answer.hull.clone()), self.corners().saturating_sub(1))
+        let rows = py.detach(|| match &self.degenerate {
+            Some(solution) => solution.answer.hull.clone(),
+            None => with_index!(&self.index, index => hull_facets(index)),
+        });
+        table(numbers(py, rows), self.corners().saturating_sub(1))
     }
 
     fn duplicates<'py>(&self, py: Python<'py>) -> PyResult<Table<'py, i32>> {
-        let pairs = &self.solution.answer.duplicates;
-        table(numbers(py, pairs.as_flattened().to_vec()), 2)
+        table(numbers(py, self.duplicate_rows().as_flattened().to_vec()), 2)
     }
 
     /// The simplex that each place is in, −1 for none.
@@ -241,8 +323,8 @@ impl KeptTriangulation {
                 let rows = |facets: Vec<[u32; $dim]>| -> Vec<u32> {
                     facets.into_flattened().into_iter().map(|site| of.row(site)).collect()
                 };
-                let mut simplices: Vec<u32> =
-                    found.simplices.iter().map(|&slot| $index.number(slot)).collect();
+                // Slots are numbers here.
+                let mut simplices = found.simplices.clone();
                 simplices.sort_unstable();
                 Ok((
                     numbers(py, simplices),
@@ -323,13 +405,25 @@ type Constrained<'py> =
     (Table<'py, i32>, Table<'py, bool>, Bound<'py, PyArray1<bool>>, Table<'py, i32>);
 
 impl KeptTriangulation {
+    /// The dimension of the points.
+    fn dimension(&self) -> usize {
+        match &self.index {
+            Index::Plane(_) => 2,
+            Index::Space(_) => 3,
+        }
+    }
+
     /// Vertices of a simplex; 1 if there is none.
     fn corners(&self) -> usize {
-        usize::from(self.solution.answer.hull_dimension.unwrap_or(0)) + 1
+        usize::from(self.hull_dimension().unwrap_or(0)) + 1
+    }
+
+    fn duplicate_rows(&self) -> &[[u32; 2]] {
+        with_index!(&self.index, index => index.triangulation().duplicates())
     }
 
     fn places<'a>(&self, places: &'a PyReadonlyArray2<'_, f64>) -> PyResult<Points<'a, f64>> {
-        let (given, dim) = (points(places)?, usize::from(self.solution.answer.dimension));
+        let (given, dim) = (points(places)?, self.dimension());
         if given.dim() == dim {
             return Ok(given);
         }

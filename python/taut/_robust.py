@@ -12,6 +12,7 @@ from ._arrays import as_rows
 from ._solution import Solution
 
 RobustMethod = Literal["mcd", "mve", "trim"]
+RobustScale = Literal["share", "level"]
 
 
 def robust_ellipsoid(
@@ -20,6 +21,7 @@ def robust_ellipsoid(
     method: RobustMethod = "mcd",
     coverage: float | None = None,
     level: float = 0.975,
+    scale: RobustScale = "share",
     epsilon: float = 1e-9,
     threads: int | None = None,
 ) -> Solution[RobustEllipsoid]:
@@ -37,6 +39,9 @@ def robust_ellipsoid(
         (0, 1], by default 0.9.
     level : float in [0.5, 1), default 0.975
         The part of normal points that the ellipsoid of "mcd" and "mve" is to hold.
+    scale : {"share", "level"}, default "share"
+        From which part of normal points the scatter of all is concluded where outliers were weighed out: the share of the points
+        that is left, as in R's robustbase, or `level`, as in scikit-learn. Not looked at by "trim".
     epsilon : float in (0, 1), default 1e-9
         Gap in log-volume of the ellipsoids of "mve" and "trim".
     threads : int in [1, 1024], optional
@@ -82,4 +87,4 @@ def robust_ellipsoid(
     2
     """
     rows = as_rows(points)
-    return Solution(_native.robust_ellipsoid(rows, method, coverage, level, epsilon, threads), rows)
+    return Solution(_native.robust_ellipsoid(rows, method, coverage, level, scale, epsilon, threads), rows)

@@ -51,6 +51,23 @@ def test_the_scatter_is_that_of_the_points_not_weighed_out(points):
     assert found.answer.scatter == pytest.approx(found.certificate.scale * np.cov(rest.T), abs=1e-12)
 
 
+@pytest.mark.parametrize("method", ["mcd", "mve"])
+def test_the_scale_goes_by_the_share_or_the_level(points, method):
+    share, level = (taut.robust_ellipsoid(points, method=method, scale=scale) for scale in ("share", "level"))
+    assert (share.certificate.scaled_by, level.certificate.scaled_by) == ("share", "level")
+    assert level.check(points).reweighted
+    # 0.975 over the distribution function of chi-squared, five degrees of freedom, at the quantile of three.
+    assert level.certificate.scale == pytest.approx(1.0784787184, abs=1e-9)
+    ratio = level.certificate.scale / share.certificate.scale
+    np.testing.assert_allclose(level.answer.scatter, ratio * share.answer.scatter, rtol=1e-12)
+    assert taut.Solution.from_json(level.to_json()) == level
+    document = json.loads(level.to_json())
+    del document["certificate"]["scaled_by"]
+    with pytest.raises(taut.Violation, match="factor of the scatter"):
+        taut.verify(json.dumps(document), points)
+    assert taut.robust_ellipsoid(points, method="trim", scale="level").certificate.scaled_by == "share"
+
+
 def test_trimming_nothing_is_the_ellipsoid_around_all(points):
     trimmed = taut.robust_ellipsoid(points, method="trim", coverage=1).answer
     assert trimmed.log_volume == pytest.approx(taut.ellipsoid(points).answer.log_volume, abs=3e-9)
@@ -102,6 +119,7 @@ def test_threads_and_order_do_not_matter(points):
         ({"coverage": 0.4}, "coverage"),
         ({"level": 1}, "level"),
         ({"method": "mve", "epsilon": 0}, "epsilon"),
+        ({"scale": "median"}, "expected share or level"),
         ({"threads": 0}, "threads"),
     ],
 )

@@ -53,6 +53,88 @@ def test_answers_do_not_depend_on_what_else_is_asked():
         triangulation.locate([[0, 0]])
 
 
+def test_order_of_places_does_not_matter():
+    triangulation = Triangulation(SPACE)
+    # Along a curve walks are short, and places are answered as they come; shuffled they are sorted.
+    t = np.linspace(0, 20, 20011)
+    places = np.column_stack([0.5 + 0.6 * np.sin(t), 0.5 + 0.4 * np.cos(1.7 * t), 0.05 * t])
+    found = triangulation.locate(places)
+    assert 0.2 < (found >= 0).mean() < 0.9
+    order = RNG.permutation(len(places))
+    np.testing.assert_array_equal(triangulation.locate(places[order]), found[order])
+    inside = found >= 0
+    assert barycentric(triangulation, places[inside], found[inside]).min() > -1e-9
+
+
+def sets_of_all_kinds(dim):
+    """Random, with duplicates, on a grid, on a circle or sphere, on both sides of a gap, far from the origin."""
+    rng = np.random.default_rng(dim)
+    points = rng.random((150, dim))
+    ball = rng.normal(size=(60, dim))
+    ball /= np.sqrt(np.square(ball).sum(axis=1))[:, None]
+    return {
+        "random": points,
+        "duplicates": np.vstack([points, points[::3], points[:9]]),
+        "grid": CUBES if dim == 3 else GRID,
+        "sphere": ball,
+        "gap": np.vstack([points, points + 1e3]),
+        "far": points + 1e6,
+    }
+
+
+ALL_KINDS = [(name, dim) for dim in (2, 3) for name in sets_of_all_kinds(dim)]
+
+
+@pytest.mark.parametrize(("name", "dim"), ALL_KINDS)
+def test_places_at_boundaries_are_in_the_lowest_simplex(name, dim):
+    points = sets_of_all_kinds(dim)[name]
+    triangulation = Triangulation(points)
+    corners = points[triangulation.simplices]
+    at_corners = triangulation.locate(points)
+    # A corner is in all simplices that have a row of its coordinates.
+    _, place = np.unique(points, axis=0, return_inverse=True)
+    first = np.full(place.max() + 1, len(corners))
+    np.minimum.at(first, place.ravel()[triangulation.simplices], np.arange(len(corners))[:, None])
+    np.testing.assert_array_equal(at_corners, first[place.ravel()])
+    # Far outside, not finite, and the middle of each simplex.
+    far = points.mean(axis=0) + 1e9 * np.vstack([np.eye(dim), -np.eye(dim)])
+    assert (triangulation.locate(far) == -1).all()
+    assert (triangulation.locate(np.full((3, dim), np.nan)) == -1).all()
+    middles = corners.mean(axis=1)
+    volumes = np.abs(np.linalg.det(corners[:, 1:] - corners[:, :1]))
+    fat = volumes > 1e-6 * np.ptp(points, axis=0).prod()
+    np.testing.assert_array_equal(triangulation.locate(middles)[fat], np.flatnonzero(fat))
+
+
+@pytest.mark.parametrize(("name", "dim"), ALL_KINDS)
+def test_lists_are_those_of_the_arrays(name, dim):
+    triangulation = Triangulation(sets_of_all_kinds(dim)[name])
+    diagram = triangulation.voronoi()
+    vertices, ridge_points, ridges, regions, point_region = triangulation.voronoi_lists(2)
+    np.testing.assert_array_equal(vertices, diagram.vertices)
+    np.testing.assert_array_equal(ridge_points, diagram.ridge_points)
+    assert sum(ridges, []) == diagram.ridge_vertices.tolist()
+    assert [len(ridge) for ridge in ridges] == np.diff(diagram.ridge_starts).tolist()
+    assert regions[:2] == [[], []] and sum(regions, []) == diagram.region_vertices.tolist()
+    assert [len(region) for region in regions[2:]] == np.diff(diagram.region_starts).tolist()
+    assert point_region[diagram.region_rows].tolist() == list(range(2, len(regions)))
+    rows, firsts = triangulation.duplicates.T
+    np.testing.assert_array_equal(point_region[rows], point_region[firsts])
+    # The vertices of a region are the centers of the simplices around its row, and of no others.
+    for row in diagram.region_rows.tolist():
+        around = diagram.of_simplices[(triangulation.simplices == row).any(axis=1)]
+        assert set(regions[point_region[row]]) - {-1} == set(around.tolist())
+
+
+def test_points_that_were_changed_have_no_certificate():
+    points = SPACE.copy()
+    triangulation = Triangulation(points)
+    triangulation.solution.check(points)
+    points[0] += 1e-9
+    with pytest.raises(ValueError, match="the points were changed"):
+        triangulation.solution
+
+
 def test_simplices_are_those_of_the_function():
     found = taut.delaunay(SPACE)
     triangulation = Triangulation(SPACE)
@@ -254,6 +336,60 @@ class TestDropIns:
         np.testing.assert_allclose(np.sort(ours.equations, axis=0), np.sort(theirs.equations, axis=0), atol=1e-12)
         for name in vars(theirs):
             assert hasattr(ours, name), name
+
+    @pytest.mark.parametrize(("name", "dim"), ALL_KINDS)
+    def test_all_kinds_of_sets_are_solved_as_by_scipy(self, name, dim):
+        import scipy.spatial
+
+        from taut.spatial import ConvexHull, Delaunay, Voronoi
+
+        points = sets_of_all_kinds(dim)[name]
+        ours, theirs = Delaunay(points), scipy.spatial.Delaunay(points)
+        np.testing.assert_array_equal(ours.min_bound, theirs.min_bound)
+        np.testing.assert_array_equal(ours.max_bound, theirs.max_bound)
+        rng = np.random.default_rng(5)
+        places = points.min(axis=0) + rng.random((3000, dim)) * np.ptp(points, axis=0) * 1.1
+        if name == "gap":
+            places = points[:150] + rng.random((20, 150, 1)) * (points[150:] - points[:150][::-1])
+        found, expected = ours.find_simplex(places), theirs.find_simplex(places)
+        assert ((found >= 0) == (expected >= 0)).mean() > 0.999
+        if name in ("random", "gap"):
+            both = (found >= 0) & (expected >= 0)
+            mine, other = np.sort(ours.simplices[found[both]], axis=1), np.sort(theirs.simplices[expected[both]], axis=1)
+            assert (mine == other).all(axis=1).mean() > 0.99
+        hulls = ConvexHull(points), scipy.spatial.ConvexHull(points)
+        assert hulls[0].volume == pytest.approx(hulls[1].volume) and hulls[0].area == pytest.approx(hulls[1].area)
+        assert {tuple(p) for p in points[hulls[0].vertices]} <= {tuple(p) for p in points[hulls[1].vertices]}
+        diagram = Voronoi(points)
+        np.testing.assert_array_equal(diagram.min_bound, theirs.min_bound)
+        assert all(type(number) is int for region in diagram.regions for number in region)
+        if name in ("random", "grid"):
+            assert len(diagram.vertices) == len(scipy.spatial.Voronoi(points).vertices)
+        broken = points.copy()
+        broken[7, 1] = np.nan
+        for kind in (Delaunay, Voronoi, ConvexHull):
+            with pytest.raises(ValueError, match="coordinate 1 of point 7"):
+                kind(broken)
+
+    @pytest.mark.parametrize("name", ["cube", "normal", "sphere", "skew", "twice"])
+    def test_hulls_of_many_points_are_those_of_scipy(self, name):
+        import scipy.spatial
+
+        from taut.spatial import ConvexHull
+
+        rng = np.random.default_rng(11)
+        normal = rng.normal(size=(30000, 3))
+        points = {
+            "cube": rng.random((30000, 3)),
+            "normal": normal,
+            "sphere": normal[:3000] / np.sqrt(np.square(normal[:3000]).sum(axis=1))[:, None],
+            "skew": normal @ [[1, 2, 0], [0, 1, 3], [0, 0, 0.01]] + 50,
+            "twice": np.vstack([normal[:9000], normal[:9000]]),
+        }[name]
+        ours, theirs = ConvexHull(points), scipy.spatial.ConvexHull(points)
+        np.testing.assert_array_equal(*(np.unique(points[found.vertices], axis=0) for found in (ours, theirs)))
+        assert ours.volume == pytest.approx(theirs.volume, rel=1e-12)
+        np.testing.assert_array_equal(ours.max_bound, points.max(axis=0))
 
     def test_more_points_are_added_by_building_again(self):
         from taut.spatial import ConvexHull, Delaunay, Voronoi

@@ -132,7 +132,8 @@ pub use rectangle::{
 };
 pub use registry::{AnyDocument, AnyFileSolution, AnySolution, AnyVerdict};
 pub use robust::{
-    Enclosure, RobustCertificate, RobustEllipsoid, RobustMethod, RobustVerdict, Unweighted,
+    Enclosure, RobustCertificate, RobustEllipsoid, RobustMethod, RobustScale, RobustVerdict,
+    Unweighted,
 };
 pub use solution::{Answer, PassBounds, Solution, Stop, Trace};
 pub use surface::{

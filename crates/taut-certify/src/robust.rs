@@ -27,6 +27,29 @@ choice! { "method", RobustMethod {
     Trim = "trim", "the same, and its ellipsoid as it stands";
 }}
 
+/// The part of normal points from whose covariance that of all is concluded, where outliers were weighed out.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum RobustScale {
+    /// The share of the points that is left; by `mcd` with a factor for small samples. So does R's robustbase.
+    #[default]
+    Share,
+    /// The level, whatever share is left. So does scikit-learn.
+    Level,
+}
+
+choice! { "scale", RobustScale {
+    Share = "share", "by the share of the points that is left";
+    Level = "level", "by the level alone";
+}}
+
+impl RobustScale {
+    /// Returns true for the default, which certificates do not name.
+    fn is_share(&self) -> bool {
+        *self == RobustScale::Share
+    }
+}
+
 /// Center and scatter of most of the points, the ellipsoid they mean, and the points that lie outside it.
 ///
 /// By `mcd` and `mve` the ellipsoid is the tolerance ellipsoid (x − c)ᵀS⁻¹(x − c) ≤ χ²: of normal points it holds the
@@ -101,6 +124,9 @@ pub struct RobustCertificate {
     pub raw_scale: f64,
     /// By what the covariance of the points not weighed out is multiplied; 0 by `trim`, where nothing is weighed.
     pub scale: f64,
+    /// The part that `scale` is of; by `trim`, and where no points are weighed again, the default.
+    #[serde(default, skip_serializing_if = "RobustScale::is_share")]
+    pub scaled_by: RobustScale,
     /// Rows weighed out, ascending: those beyond `cutoff` in the metric of the points kept.
     pub weighed_out: Vec<u64>,
     /// Why center and scatter are those of the points kept, if they are: then no others are weighed, and `weighed_out`

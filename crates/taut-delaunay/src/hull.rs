@@ -3,7 +3,7 @@
 //! | dimension | method |
 //! |---|---|
 //! | 2 | the monotone chain over what an octagon of extreme points leaves (`plane`) |
-//! | 3 | quickhull over what a polytope of 26 extreme points leaves (`space`) |
+//! | 3 | quickhull over what an ellipsoid, a box and a polytope of 26 extreme points leave (`sieve`, `space`) |
 //!
 //! Guarantee: exact. Vertices are the extreme points, no others: what lies within an edge or a face is none, however thin the
 //! hull. The answer is a function of the points and their numbers, whatever the number of threads.
@@ -11,6 +11,7 @@
 mod faces;
 mod plane;
 mod quickhull;
+mod sieve;
 mod space;
 #[cfg(test)]
 mod tests;

@@ -19,8 +19,8 @@ mod starts;
 use std::collections::BTreeMap;
 
 use taut_certify::{
-    Ellipsoid, Enclosure, Hull, RobustCertificate, RobustEllipsoid, RobustMethod, Solution, Stop,
-    Trace, Unweighted,
+    Ellipsoid, Enclosure, Hull, RobustCertificate, RobustEllipsoid, RobustMethod, RobustScale,
+    Solution, Stop, Trace, Unweighted,
 };
 use taut_points::{Monitor, PointSource, on_threads};
 
@@ -241,6 +241,7 @@ fn certificate(
         if is_trimmed { vec![] } else { placed.others(&placed.fit.weighed, data.len()) };
     let left_out = placed.others(&placed.fit.kept, data.len());
     let fit = placed.fit;
+    let is_weighed = fit.unweighted.is_none() && !is_trimmed && !fit.estimate.center.is_empty();
     RobustCertificate {
         method: options.method,
         kept: h as u64,
@@ -250,6 +251,7 @@ fn certificate(
         cutoff: if is_trimmed { 0.0 } else { fit.cutoff },
         raw_scale: fit.raw_scale,
         scale: if is_trimmed { 0.0 } else { fit.scale },
+        scaled_by: if is_weighed { options.scale } else { RobustScale::default() },
         weighed_out,
         unweighted: if is_trimmed { Some(Unweighted::Trimmed) } else { fit.unweighted },
         enclosure: fit.enclosure,

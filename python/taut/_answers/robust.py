@@ -111,6 +111,8 @@ class RobustCertificate(Record):
         The quantile of chi-squared at `level`; 0 by "trim".
     raw_scale, scale : float
         By what the scatter of the points kept, and the covariance of those not weighed out, is multiplied.
+    scaled_by : str
+        ``"share"`` or ``"level"``: the part that `scale` is of.
     weighed_out : ndarray of int64, shape (w,)
         Row numbers beyond `cutoff` in the metric of the points kept, ascending. Read-only.
     gap : float or None
@@ -127,6 +129,7 @@ class RobustCertificate(Record):
     cutoff: float
     raw_scale: float
     scale: float
+    scaled_by: str = value(by=lambda found: found or "share")
     weighed_out: RowNumbers = column(ROW)
     gap: float | None = value("enclosure.certificate.gap")
     points_hash: str

@@ -6,7 +6,8 @@
 | `hull` | the convex hull alone, exactly |
 | `Delaunay`, `Voronoi`, `ConvexHull` | the classes of `scipy.spatial` of these names, calculated by taut; they need SciPy |
 
-Queries come many at a time, are sorted inside and answered on all cores with the interpreter released.
+Queries come many at a time, are sorted inside unless they come in order, and are answered on all cores with the interpreter
+released.
 
 >>> import taut
 >>> from taut.spatial import Triangulation

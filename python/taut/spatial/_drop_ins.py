@@ -8,9 +8,6 @@ points are vertices each, which SciPy sees to.
 
 from __future__ import annotations
 
-import gc
-from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
@@ -56,7 +53,8 @@ class _Native:
     _points: Any
     _qhull: Any
 
-    def _solve(self, points: Floats) -> None:
+    def _solve(self, points: Floats) -> Ids:
+        """Solves for these points, and returns rows that hold all corners of their hull."""
         raise NotImplementedError
 
     def _begin(self, points: Any, options: str | None, *, is_plain: bool, incremental: bool) -> bool:
@@ -73,8 +71,8 @@ class _Native:
     def _bound(self, rows: Floats) -> None:
         self._points = rows
         self.npoints, self.ndim = rows.shape
-        self._solve(rows)
-        self.min_bound, self.max_bound = rows.min(axis=0), rows.max(axis=0)
+        corners = rows[self._solve(rows)]
+        self.min_bound, self.max_bound = corners.min(axis=0), corners.max(axis=0)
 
     def add_points(self, points: ArrayLike, restart: bool = False) -> None:
         """Adds points to an object that was made with ``incremental=True``; all is calculated again."""
@@ -158,7 +156,7 @@ class Delaunay(_Native, scipy.spatial.Delaunay):  # type: ignore[misc]
         else:
             super().__init__(points, furthest_site, incremental, qhull_options)
 
-    def _solve(self, points: Floats) -> None:
+    def _solve(self, points: Floats) -> Ids:
         self.triangulation = _triangulated(points)
         self.simplices = self.vertices = self.triangulation.simplices
         self.neighbors = self.triangulation.neighbors
@@ -167,6 +165,7 @@ class Delaunay(_Native, scipy.spatial.Delaunay):  # type: ignore[misc]
         self.paraboloid_scale, self.paraboloid_shift = 1.0, 0.0
         self._equations = self._coplanar = None
         self._transform = self._vertex_to_simplex = self._vertex_neighbor_vertices = None
+        return self.triangulation.hull.ravel()
 
     @property
     def equations(self) -> Floats:
@@ -257,45 +256,19 @@ class Voronoi(_Native, scipy.spatial.Voronoi):  # type: ignore[misc]
         self.triangulation: Triangulation | None = None
         is_plain = not furthest_site and _is_plain(qhull_options, incremental, {"Qc"})
         # The region of the point at infinity that "Qz", a default of SciPy, adds.
-        self._empty: list[list[int]] = [[]] if qhull_options is None or "Qz" in qhull_options else []
+        self._offset = int(qhull_options is None or "Qz" in qhull_options)
         if self._begin(points, qhull_options, is_plain=is_plain, incremental=incremental):
             self.furthest_site = False
         else:
             super().__init__(points, furthest_site, incremental, qhull_options)
 
-    def _solve(self, points: Floats) -> None:
+    def _solve(self, points: Floats) -> Ids:
         self.triangulation = _triangulated(points)
-        diagram = self.triangulation.voronoi()
-        self.vertices = diagram.vertices
-        self.ridge_points = diagram.ridge_points
-        with _collector_at_rest():
-            if points.shape[1] == 2:
-                self.ridge_vertices = diagram.ridge_vertices.reshape(-1, 2).tolist()
-            else:
-                self.ridge_vertices = _lists(diagram.ridge_starts, diagram.ridge_vertices)
-            self.regions = self._empty + _lists(diagram.region_starts, diagram.region_vertices)
-        self.point_region = np.zeros(len(points), dtype=np.intp)
-        self.point_region[diagram.region_rows] = np.arange(len(self._empty), len(self.regions))
-        rows, firsts = self.triangulation.duplicates.T
-        self.point_region[rows] = self.point_region[firsts]
+        lists = self.triangulation.voronoi_lists(self._offset)
+        self.vertices, self.ridge_points, self.ridge_vertices, self.regions, point_region = lists
+        self.point_region = point_region.astype(np.intp, copy=False)
         self._ridge_dict = None
-
-
-@contextmanager
-def _collector_at_rest() -> Iterator[None]:
-    """Lists of numbers have no cycles, but a million of them would set the collector of cycles off again and again."""
-    was_enabled = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if was_enabled:
-            gc.enable()
-
-
-def _lists(starts: NDArray[np.int64], values: Ids) -> list[list[int]]:
-    flat, ends = values.tolist(), starts.tolist()
-    return [flat[begin:end] for begin, end in zip(ends, ends[1:])]
+        return self.triangulation.hull.ravel()
 
 
 class ConvexHull(_Native, scipy.spatial.ConvexHull):  # type: ignore[misc]
@@ -330,7 +303,7 @@ class ConvexHull(_Native, scipy.spatial.ConvexHull):  # type: ignore[misc]
         if not self._begin(points, qhull_options, is_plain=_is_plain(qhull_options, incremental, set()), incremental=incremental):
             super().__init__(points, incremental, qhull_options)
 
-    def _solve(self, points: Floats) -> None:
+    def _solve(self, points: Floats) -> Ids:
         self.polytope = found = hull(points)
         if found.hull_dimension != points.shape[1]:
             _refuse_flat(points, found.hull_dimension)
@@ -340,3 +313,4 @@ class ConvexHull(_Native, scipy.spatial.ConvexHull):  # type: ignore[misc]
         self.coplanar = np.empty((0, 3), dtype=np.intc)
         self.good = None
         self._vertices = found.vertices
+        return found.vertices

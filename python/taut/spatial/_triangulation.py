@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import gc
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, Literal
 
 import numpy as np
@@ -96,6 +100,31 @@ class ConstrainedTriangulation:
     splits: Ids
 
 
+@contextmanager
+def _collector_at_rest() -> Iterator[None]:
+    """Lists of numbers have no cycles, but a million of them would set the collector of cycles off again and again.
+
+    At the end they would all be young, and be visited at the next allocation. Frozen and thawed, they are of the oldest generation
+    without a visit; what somebody else has frozen is left as it is.
+    """
+    was_enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_enabled:
+            if gc.get_freeze_count() == 0:
+                gc.freeze()
+                gc.unfreeze()
+            gc.enable()
+
+
+def _lists(starts: Starts, values: Ids) -> list[list[int]]:
+    """Runs of numbers as lists; made so they take half the time that calls from compiled code take by the stable interface."""
+    flat, ends = values.tolist(), starts.tolist()
+    return [flat[begin:end] for begin, end in zip(ends, ends[1:])]
+
+
 class Triangulation:
     """The Delaunay triangulation of points of the plane or of space, kept to be asked.
 
@@ -132,16 +161,30 @@ class Triangulation:
     (array([1], dtype=int32), array([[4, 0]], dtype=int32))
     """
 
-    __slots__ = ("_kept", "duplicates", "hull", "hull_dimension", "neighbors", "points", "simplices")
-
     def __init__(self, points: ArrayLike, *, threads: int | None = None) -> None:
         self.points: Rows = as_rows(points)
         self._kept = _native.KeptTriangulation(self.points, threads)
         self.hull_dimension: int | None = self._kept.hull_dimension()
-        self.simplices: Ids = self._kept.simplices()
-        self.neighbors: Ids = self._kept.neighbors()
-        self.hull: Ids = self._kept.hull()
-        self.duplicates: Ids = self._kept.duplicates()
+
+    @cached_property
+    def simplices(self) -> Ids:
+        """Rows of the simplices, positively oriented, of shape (m, k + 1)."""
+        return self._kept.simplices()
+
+    @cached_property
+    def neighbors(self) -> Ids:
+        """For each vertex of a simplex the one across the facet opposite it, of shape (m, k + 1); -1 on the hull."""
+        return self._kept.neighbors()
+
+    @cached_property
+    def hull(self) -> Ids:
+        """The facets of the convex hull, turned outward, of shape (h, k)."""
+        return self._kept.hull()
+
+    @cached_property
+    def duplicates(self) -> Ids:
+        """Rows that equal an earlier row, each with the first row it equals, of shape (c, 2)."""
+        return self._kept.duplicates()
 
     def __repr__(self) -> str:
         n, d = self.points.shape
@@ -152,8 +195,8 @@ class Triangulation:
 
     @property
     def solution(self) -> Solution[Answer]:
-        """The triangulation with its certificate, as `taut.delaunay` returns it."""
-        return Solution(self._kept.found(), self.points)
+        """The triangulation with its certificate, as `taut.delaunay` returns it; a ValueError if the points were changed since."""
+        return Solution(self._kept.found(self.points), self.points)
 
     def _places(self, places: ArrayLike) -> Floats:
         return np.require(as_rows(places), dtype=np.float64, requirements=["C", "ALIGNED"])
@@ -276,6 +319,45 @@ class Triangulation:
         (array([[1., 1.]]), [[0, 1], [0, 3], [1, 2], [2, 3]])
         """
         return VoronoiDiagram(*self._kept.voronoi())
+
+    def voronoi_lists(self, offset: int = 0) -> tuple[Floats, Ids, list[list[int]], list[list[int]], NDArray[np.int64]]:
+        """The Voronoi diagram as `scipy.spatial.Voronoi` keeps it, which takes longer than `voronoi`.
+
+        Parameters
+        ----------
+        offset : int, default 0
+            Empty regions before the first.
+
+        Returns
+        -------
+        vertices : ndarray of shape (v, d)
+            The vertices.
+        ridge_points : ndarray of int32, shape (r, 2)
+            The two rows of each ridge.
+        ridge_vertices, regions : list of list of int
+            Vertices of the ridges and of the regions, -1 for infinity.
+        point_region : ndarray of int64, shape (n,)
+            The region of each row.
+
+        Examples
+        --------
+        >>> from taut.spatial import Triangulation
+        >>> Triangulation([[0, 0], [2, 0], [2, 2], [0, 2]]).voronoi_lists()[3]
+        [[-1, 0], [-1, 0], [-1, 0], [-1, 0]]
+        """
+        diagram = self.voronoi()
+        with _collector_at_rest():
+            if self.points.shape[1] == 2:
+                ridges = diagram.ridge_vertices.reshape(-1, 2).tolist()
+            else:
+                ridges = _lists(diagram.ridge_starts, diagram.ridge_vertices)
+            empty: list[list[int]] = [[] for _ in range(offset)]
+            regions = empty + _lists(diagram.region_starts, diagram.region_vertices)
+        point_region = np.zeros(len(self.points), dtype=np.int64)
+        point_region[diagram.region_rows] = np.arange(offset, len(regions))
+        rows, firsts = self.duplicates.T
+        point_region[rows] = point_region[firsts]
+        return diagram.vertices, diagram.ridge_points, ridges, regions, point_region
 
     def alpha_complex(self, alpha: float) -> AlphaComplex:
         """What an eraser of radius `alpha` leaves that spares the points; empty if these do not span all dimensions."""

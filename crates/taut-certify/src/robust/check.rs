@@ -30,7 +30,9 @@ use self::factors::{beyond, consistency, quantile, small_sample};
 use self::passes::{KeptMetric, Passes};
 use self::slack::Slack;
 use self::sums::Metric;
-use super::{RobustCertificate, RobustEllipsoid, RobustMethod, RobustVerdict, Unweighted};
+use super::{
+    RobustCertificate, RobustEllipsoid, RobustMethod, RobustScale, RobustVerdict, Unweighted,
+};
 use crate::ellipsoid::check as enclosing;
 use crate::ellipsoid::check::agreement;
 use crate::ellipsoid::check::frame::Frame;
@@ -184,7 +186,11 @@ fn factors(
     on_hull: u64,
     rank: usize,
 ) -> Result<(), Violation> {
-    let RobustCertificate { method, level, cutoff, raw_scale, scale, .. } = *certificate;
+    let RobustCertificate { method, level, cutoff, raw_scale, scale, scaled_by, .. } = *certificate;
+    if scaled_by != RobustScale::Share && (certificate.unweighted.is_some() || rank == 0) {
+        let reason = certificate.unweighted.map_or("they are equal", Unweighted::reason);
+        return Err(Violation::Reweighting { reason });
+    }
     if rank == 0 {
         agree("the quantile", cutoff, 0.0, 0.0)?;
         agree("the factor of the scatter of the points kept", raw_scale, 1.0, 0.0)?;
@@ -208,7 +214,11 @@ fn factors(
             )
         }
     };
-    let last = if left == n { 1.0 } else { last };
+    let last = match scaled_by {
+        RobustScale::Level => consistency(level, rank),
+        RobustScale::Share if left == n => 1.0,
+        RobustScale::Share => last,
+    };
     let kept = "the factor of the scatter of the points kept";
     agree(kept, raw_scale, first, Slack::of_factor(first))?;
     if method == RobustMethod::Trim {

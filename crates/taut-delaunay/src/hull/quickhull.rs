@@ -31,10 +31,7 @@ pub(super) struct Facet {
     pub(super) vertices: [u32; 3],
     /// For each vertex the facet across the edge opposite it.
     pub(super) neighbors: [u32; 3],
-    at: [f64; 3],
-    normal: [f64; 3],
-    /// No computed height of a site is off by more.
-    margin: f64,
+    pub(super) plane: FacetPlane,
     /// Sites beyond.
     outside: Vec<u32>,
     /// The greatest height of these, and where it is in `outside`.
@@ -42,6 +39,31 @@ pub(super) struct Facet {
     is_alive: bool,
     /// The last step that looked at it, and what it saw.
     seen: (u32, bool),
+}
+
+/// The plane of a facet, rounded.
+#[derive(Clone, Copy)]
+pub(super) struct FacetPlane {
+    at: [f64; 3],
+    /// Outward, of twice the area of the facet.
+    pub(super) normal: [f64; 3],
+    /// No computed height of a site is off by more.
+    pub(super) margin: f64,
+}
+
+impl FacetPlane {
+    /// How far a point is above the plane, times twice the area of the facet; rounded.
+    #[inline(always)]
+    pub(super) fn height(&self, p: [f64; 3]) -> f64 {
+        dot(self.normal, difference(p, self.at))
+    }
+
+    /// Tests whether a point is above the plane, if rounding does not hide it.
+    #[inline(always)]
+    pub(super) fn has_below(&self, p: [f64; 3]) -> Option<bool> {
+        let height = self.height(p);
+        (height.abs() > self.margin).then_some(height > 0.0)
+    }
 }
 
 /// A hull under construction.
@@ -122,9 +144,7 @@ impl QuickHull {
         Facet {
             vertices,
             neighbors,
-            at: a,
-            normal: cross(u, v),
-            margin,
+            plane: FacetPlane { at: a, normal: cross(u, v), margin },
             outside: Vec::new(),
             farthest: (f64::NEG_INFINITY, 0),
             is_alive: true,
@@ -139,18 +159,33 @@ impl QuickHull {
 
     #[inline(always)]
     fn is_beyond(&self, facet: &Facet, p: [f64; 3]) -> bool {
-        let height = dot(facet.normal, difference(p, facet.at));
-        if height.abs() > facet.margin {
-            return height > 0.0;
-        }
+        facet.plane.has_below(p).unwrap_or_else(|| self.is_beyond_exactly(facet, p))
+    }
+
+    #[cold]
+    fn is_beyond_exactly(&self, facet: &Facet, p: [f64; 3]) -> bool {
         let [a, b, c] = facet.vertices.map(|v| self.sites[v as usize]);
         orient(a, b, c, p) == Sign::Positive
     }
 
     /// The first facet that a point is beyond.
-    #[inline]
     pub(super) fn beyond(&self, p: [f64; 3]) -> Option<u32> {
         self.facets().find(|(_, facet)| self.is_beyond(facet, p)).map(|(number, _)| number)
+    }
+
+    /// The planes of all facets side by side, for [`beyond_some`](Self::beyond_some).
+    pub(super) fn planes(&self) -> Vec<(u32, FacetPlane)> {
+        self.facets().map(|(number, facet)| (number, facet.plane)).collect()
+    }
+
+    /// The same as [`beyond`](Self::beyond), from the planes of all facets.
+    #[inline(always)]
+    pub(super) fn beyond_some(&self, planes: &[(u32, FacetPlane)], p: [f64; 3]) -> Option<u32> {
+        let is_beyond = |&&(number, plane): &&(u32, FacetPlane)| {
+            let exactly = || self.is_beyond_exactly(&self.facets[number as usize], p);
+            plane.has_below(p).unwrap_or_else(exactly)
+        };
+        planes.iter().find(is_beyond).map(|&(number, _)| number)
     }
 
     /// Adds points, each with a facet that it is beyond.
@@ -167,7 +202,7 @@ impl QuickHull {
     #[inline]
     fn hand(&mut self, site: u32, number: u32) {
         let facet = &mut self.facets[number as usize];
-        let height = dot(facet.normal, difference(self.sites[site as usize], facet.at));
+        let height = facet.plane.height(self.sites[site as usize]);
         if facet.outside.is_empty() {
             self.open.push(number);
         }

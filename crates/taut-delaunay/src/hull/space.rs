@@ -1,7 +1,7 @@
 //! The convex hull in space.
 //!
-//! *Idea.* The extreme points in 26 directions span a polytope; nothing strictly inside it is extreme, and in most sets that is
-//! almost everything. The rest goes to [`quickhull`](super::quickhull).
+//! *Idea.* First a [`sieve`](super::sieve) of two comparisons for each point. Then the extreme points in 26 directions span a polytope;
+//! nothing strictly inside it is extreme, and in most sets that is almost everything. The rest goes to [`quickhull`](super::quickhull).
 //! *Degenerate sets* are found by exact signs. Points of a plane are projected along an axis to where the plane is not flat, which
 //! changes no turn, and the hull of the plane is taken.
 
@@ -15,6 +15,7 @@ use taut_predicates::{Sign, plane::orient};
 use super::faces::finish;
 use super::plane::chain;
 use super::quickhull::QuickHull;
+use super::sieve::candidates;
 use super::{ConvexHull, Scaled};
 use crate::Error;
 use crate::affine::{Span, span_of_space};
@@ -53,17 +54,18 @@ pub(super) fn hull<T: Scalar>(
     points: &Scaled<'_, T, 3>,
     monitor: &Monitor<'_>,
 ) -> Result<ConvexHull, Error> {
-    let tasks: Vec<Range<usize>> = (0..points.len())
-        .step_by(TASK)
-        .map(|begin| begin..points.len().min(begin + TASK))
-        .collect();
     if points.len() >= FILTER_MIN && points.filtered {
-        let rows = extremes(points, &tasks, monitor)?;
+        let tasks: Vec<Range<usize>> = (0..points.len())
+            .step_by(TASK)
+            .map(|begin| begin..points.len().min(begin + TASK))
+            .collect();
+        let candidates = candidates(points, &tasks, monitor)?;
+        let rows = extremes(points, &candidates, monitor)?;
         let corners: Vec<[f64; 3]> = rows.iter().map(|&i| points.at(i as usize)).collect();
         if let Span::Full(start) = span_of_space(&corners) {
             let mut quick = QuickHull::new(corners, rows, start, true);
             quick.run(monitor)?;
-            let rest = beyond(points, &tasks, &quick, monitor)?;
+            let rest = beyond(points, &candidates, &quick, monitor)?;
             quick.add(rest.into_iter().map(|(i, facet)| (points.at(i as usize), i, facet)));
             quick.run(monitor)?;
             return Ok(finish(&quick));
@@ -101,22 +103,21 @@ fn in_plane(corners: &[[f64; 3]], rows: &[u32], on: [u32; 3]) -> ConvexHull {
     ConvexHull::of_polygon(3, chain(shadow.collect()))
 }
 
-/// The rows that are extreme in some direction, ascending; of equally extreme ones the first.
-fn extremes<T: Scalar>(
+/// Which of these rows are extreme in some direction, ascending; of equally extreme ones the first.
+pub(super) fn extremes<T: Scalar>(
     points: &Scaled<'_, T, 3>,
-    tasks: &[Range<usize>],
+    rows: &[u32],
     monitor: &Monitor<'_>,
 ) -> Result<Vec<u32>, Error> {
     type Best = [[(f64, u32); AXES]; 2];
-    let of_task = |task: &Range<usize>| -> Result<Best, Error> {
+    let of_task = |task: &[u32]| -> Result<Best, Error> {
         monitor.check()?;
         let mut best: Best = [[(f64::NEG_INFINITY, 0); AXES]; 2];
-        let mut block = [[0.0; 3]; BLOCK];
-        for begin in task.clone().step_by(BLOCK) {
-            let len = BLOCK.min(task.end - begin);
+        let mut places = [[0.0; 3]; BLOCK];
+        for block in task.chunks(BLOCK) {
             let (mut high, mut low) = ([f64::NEG_INFINITY; AXES], [f64::INFINITY; AXES]);
-            for (k, p) in block[..len].iter_mut().enumerate() {
-                *p = points.at(begin + k);
+            for (&i, p) in block.iter().zip(&mut places) {
+                *p = points.at(i as usize);
                 let values = along(*p);
                 for axis in 0..AXES {
                     high[axis] = if values[axis] > high[axis] { values[axis] } else { high[axis] };
@@ -127,16 +128,16 @@ fn extremes<T: Scalar>(
                 for (side, extreme) in [(0, high[axis]), (1, -low[axis])] {
                     if extreme > best[side][axis].0 {
                         let sign = if side == 0 { 1.0 } else { -1.0 };
-                        let place =
-                            block[..len].iter().position(|&p| sign * along(p)[axis] == extreme);
-                        best[side][axis] = (extreme, (begin + place.unwrap_or(0)) as u32);
+                        let is_extreme = |p: &[f64; 3]| sign * along(*p)[axis] == extreme;
+                        let place = places[..block.len()].iter().position(is_extreme);
+                        best[side][axis] = (extreme, block[place.unwrap_or(0)]);
                     }
                 }
             }
         }
         Ok(best)
     };
-    let found = tasks.par_iter().map(of_task).collect::<Result<Vec<Best>, Error>>()?;
+    let found = rows.par_chunks(TASK).map(of_task).collect::<Result<Vec<Best>, Error>>()?;
     let mut rows: Vec<u32> = (0..2)
         .flat_map(|side| (0..AXES).map(move |axis| (side, axis)))
         .map(|(side, axis)| {
@@ -154,17 +155,20 @@ fn extremes<T: Scalar>(
     Ok(rows)
 }
 
-/// The rows beyond some facet of a polytope, each with the first such facet; ascending.
+/// Which of these rows are beyond some facet of a polytope, each with the first such facet; ascending.
 fn beyond<T: Scalar>(
     points: &Scaled<'_, T, 3>,
-    tasks: &[Range<usize>],
+    rows: &[u32],
     polytope: &QuickHull,
     monitor: &Monitor<'_>,
 ) -> Result<Vec<(u32, u32)>, Error> {
-    let of_task = |task: &Range<usize>| -> Result<Vec<(u32, u32)>, Error> {
+    let planes = polytope.planes();
+    let of_task = |task: &[u32]| -> Result<Vec<(u32, u32)>, Error> {
         monitor.check()?;
-        let found = task.clone().filter_map(|i| Some((i as u32, polytope.beyond(points.at(i))?)));
+        let found = task
+            .iter()
+            .filter_map(|&i| Some((i, polytope.beyond_some(&planes, points.at(i as usize))?)));
         Ok(found.collect())
     };
-    Ok(tasks.par_iter().map(of_task).collect::<Result<Vec<_>, Error>>()?.concat())
+    Ok(rows.par_chunks(TASK).map(of_task).collect::<Result<Vec<_>, Error>>()?.concat())
 }

@@ -2,7 +2,7 @@
 
 use taut_certify::{
     Ellipsoid, EllipsoidCertificate, Enclosure, Items, RobustCertificate, RobustEllipsoid,
-    RobustMethod, Solution, Trace,
+    RobustMethod, RobustScale, Solution, Trace,
 };
 use taut_draw::{
     DrawOptions, Error, Figure, Scene2, Shape2, Shape3, Style, Tone, robust_figures, to_svg,
@@ -65,6 +65,7 @@ fn case(dim: usize, method: RobustMethod, far: f64) -> (Vec<f64>, Solution<Robus
             cutoff: 4.0,
             raw_scale: 1.0,
             scale: 1.0,
+            scaled_by: RobustScale::Share,
             weighed_out: outliers,
             unweighted: None,
             enclosure: (method != RobustMethod::Mcd).then_some(enclosure),

@@ -1,10 +1,10 @@
 //! From the rows kept to the final estimate, in the subspace where most rows lie.
 
-use taut_certify::{Enclosure, RobustMethod, Unweighted};
+use taut_certify::{Enclosure, RobustMethod, RobustScale, Unweighted};
 use taut_points::{Monitor, Points};
 
 use super::chi_square::{
-    mcd_reweighted_scale, mcd_scale, mve_reweighted_scale, mve_scale, quantile,
+    consistency, mcd_reweighted_scale, mcd_scale, mve_reweighted_scale, mve_scale, quantile,
 };
 use super::concentrate::{ConcentrationResult, Criterion, Raw};
 use super::enclosing::EnclosingMetric;
@@ -198,9 +198,10 @@ fn reweighted(
     };
     let (estimate, weighed, scale, unweighted) = match ranked {
         RankedEstimate::Full(estimate) | RankedEstimate::Noise(estimate) => {
-            let scale = match options.method {
-                RobustMethod::Mcd => mcd_reweighted_scale(left, h, n, dim),
-                _ => mve_reweighted_scale(left, n, dim),
+            let scale = match (options.scale, options.method) {
+                (RobustScale::Level, _) => consistency(options.level, dim),
+                (RobustScale::Share, RobustMethod::Mcd) => mcd_reweighted_scale(left, h, n, dim),
+                (RobustScale::Share, _) => mve_reweighted_scale(left, n, dim),
             };
             (estimate, weighed, scale, None)
         }

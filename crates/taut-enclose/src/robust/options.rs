@@ -1,6 +1,6 @@
 //! The options of robust ellipsoids.
 
-use taut_certify::RobustMethod;
+use taut_certify::{RobustMethod, RobustScale};
 use taut_points::{InputError, Monitor, check_threads, shown_number};
 
 use crate::Error;
@@ -20,6 +20,9 @@ pub struct RobustOptions<'a> {
     /// The part of normal points that the tolerance ellipsoid is to hold. Range [0.5, 1), default 0.975. Not looked at
     /// by `trim`.
     pub level: f64,
+    /// The part of normal points from whose covariance that of all is concluded after outliers were weighed out. Default
+    /// [`RobustScale::Share`]. Not looked at by `trim`.
+    pub scale: RobustScale,
     /// Wanted gap of the smallest ellipsoids of `mve` and `trim`, as in
     /// [`EllipsoidOptions::epsilon`](crate::EllipsoidOptions::epsilon). Range (0, 0.01], default 1e-9: around a
     /// looser ellipsoid a local optimum cannot be told.
@@ -39,6 +42,7 @@ impl Default for RobustOptions<'_> {
             method: RobustMethod::default(),
             coverage: None,
             level: 0.975,
+            scale: RobustScale::default(),
             epsilon: 1e-9,
             threads: None,
             monitor: Monitor::silent(),

@@ -1,7 +1,7 @@
 //! The minimum covariance determinant: classical sets, breakdown, exact fits, and what it must not depend on.
 
 use robust::{by, classical, contaminated, judge, mapped, normal, real, solve};
-use taut_certify::RobustMethod;
+use taut_certify::{RobustMethod, RobustScale};
 use taut_enclose::{Error, RobustOptions, robust_ellipsoid};
 use taut_points::{InputError, Points};
 
@@ -93,6 +93,27 @@ fn forty_percent_of_outliers_do_not_move_it() {
                 assert!((c - m).abs() < 0.5, "{n} × {dim} at {away}: {c} of {m}");
             }
             assert!(found.answer.log_det.abs() < 4.0, "{}", found.answer.log_det);
+        }
+    }
+}
+
+/// By the level the covariance of the points not weighed out is multiplied by level/F(q), with q the quantile of χ² with d degrees
+/// of freedom and F the distribution with two more, as scikit-learn does: SciPy's chi2.cdf(chi2.ppf(0.975, d), d + 2).
+#[test]
+fn scales_by_the_level_are_those_of_scikit_learn() {
+    for (dim, wanted) in [(2, 1.1044679239), (3, 1.0784787184), (10, 1.0355599028)] {
+        let values = contaminated(900, dim, 200, 30.0, 6);
+        for method in [RobustMethod::Mcd, RobustMethod::Mve] {
+            let share = solve("share", &values, dim, &by(method));
+            let options = RobustOptions { scale: RobustScale::Level, ..by(method) };
+            let level = solve("level", &values, dim, &options);
+            assert_eq!(share.certificate.weighed_out, level.certificate.weighed_out);
+            let (found, other) = (level.certificate.scale, share.certificate.scale);
+            assert!((found - wanted).abs() < 1e-9, "{dim}: {found}");
+            let ratio = level.answer.scatter[0][0] / share.answer.scatter[0][0];
+            assert!((ratio * other / found - 1.0).abs() < 1e-12, "{dim}: {ratio}");
+            // Fewer are left than the level says, and their share is taken for the part of normal points.
+            assert!(found < other, "{dim}: {found} {other}");
         }
     }
 }

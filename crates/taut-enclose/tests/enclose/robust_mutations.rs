@@ -1,7 +1,9 @@
 //! A checker is worth what it rejects: every number and every list of a robust ellipsoid, doctored one at a time.
 
 use robust::{by, classical, contaminated, normal, solve};
-use taut_certify::{CheckError, RobustEllipsoid, RobustMethod, Solution, Unweighted, Violation};
+use taut_certify::{
+    CheckError, RobustEllipsoid, RobustMethod, RobustScale, Solution, Unweighted, Violation,
+};
 use taut_enclose::RobustOptions;
 use taut_points::Points;
 
@@ -151,6 +153,9 @@ fn others(found: &Solved) -> Vec<Mutation> {
             }
         }),
     ];
+    for scale in RobustScale::ALL {
+        all.push(mutation(format!("scaled by {scale}"), move |f| f.certificate.scaled_by = scale));
+    }
     for method in RobustMethod::ALL {
         if method != found.certificate.method {
             all.push(mutation(format!("by {method}"), move |f| f.certificate.method = method));
@@ -182,15 +187,17 @@ fn every_doctored_answer_is_rejected() {
     }
     let plain = contaminated(n, 3, 18, 8.0, 4);
     let mut tried = 0;
-    for (name, values, method, coverage) in [
-        ("mcd", &plain, RobustMethod::Mcd, None),
-        ("mve", &plain, RobustMethod::Mve, None),
-        ("trim", &plain, RobustMethod::Trim, Some(0.8)),
-        ("mcd of all", &plain, RobustMethod::Mcd, Some(1.0)),
-        ("flat mcd", &flat, RobustMethod::Mcd, None),
-        ("flat mve", &flat, RobustMethod::Mve, None),
+    for (name, values, method, coverage, scale) in [
+        ("mcd", &plain, RobustMethod::Mcd, None, RobustScale::Share),
+        ("mve", &plain, RobustMethod::Mve, None, RobustScale::Share),
+        ("trim", &plain, RobustMethod::Trim, Some(0.8), RobustScale::Share),
+        ("mcd of all", &plain, RobustMethod::Mcd, Some(1.0), RobustScale::Share),
+        ("flat mcd", &flat, RobustMethod::Mcd, None, RobustScale::Share),
+        ("flat mve", &flat, RobustMethod::Mve, None, RobustScale::Share),
+        ("mcd by level", &plain, RobustMethod::Mcd, None, RobustScale::Level),
+        ("mve by level", &plain, RobustMethod::Mve, None, RobustScale::Level),
     ] {
-        let options = RobustOptions { coverage, ..by(method) };
+        let options = RobustOptions { coverage, scale, ..by(method) };
         let found = solve(name, values, 3, &options);
         let points = Points::new(values, 3).unwrap();
         let mutations =

@@ -8,7 +8,7 @@ use taut_predicates::Sign;
 use super::TriangulationIndex;
 use crate::geometry::{Geometry, InPlane, InSpace};
 use crate::groups::join;
-use crate::simplex::{GHOST, decode};
+use crate::simplex::decode;
 use crate::vector::{cross, difference, dot, largest, square};
 
 /// Simplices of one task.
@@ -47,14 +47,16 @@ impl Center<3, 4> for InSpace {
 }
 
 impl<const D: usize, const V: usize> TriangulationIndex<D, V> {
-    fn scaled_corners(&self, number: usize) -> [[f64; D]; V] {
-        self.vertices(number).map(|v| self.triangulation.sites.coordinates[v as usize])
+    fn scaled_corners(&self, number: u32) -> [[f64; D]; V] {
+        self.triangulation
+            .vertices(number)
+            .map(|v| self.triangulation.sites.coordinates[v as usize])
     }
 
     /// The center of each simplex, and how well it is determined.
     pub(super) fn centers_by<G: Center<D, V>>(&self) -> Vec<([f64; D], f64)> {
         let back = self.triangulation.scale().inverse();
-        (0..self.order.finite.len())
+        self.slots()
             .into_par_iter()
             .with_min_len(TASK)
             .map(|number| {
@@ -68,30 +70,25 @@ impl<const D: usize, const V: usize> TriangulationIndex<D, V> {
     pub(super) fn groups_by<G: Geometry<D, V>>(&self) -> Vec<u32> {
         let slots = self.triangulation.slots();
         let coordinates = &self.triangulation.sites.coordinates;
-        // The neighbors of higher number that have the sphere of a simplex.
+        // The neighbors of higher number that have the sphere of a simplex; ghosts, which have none, have still higher numbers.
         let alike: Vec<(u32, u32)> = self
-            .order
-            .finite
-            .par_iter()
+            .slots()
+            .into_par_iter()
             .with_min_len(TASK)
-            .enumerate()
-            .flat_map_iter(|(number, &slot)| {
-                let simplex = &slots[slot as usize];
+            .flat_map_iter(|number| {
+                let simplex = &slots[number as usize];
                 let corners = simplex.vertices.map(|v| coordinates[v as usize]);
                 (0..V).filter_map(move |i| {
                     let (other, facet) = decode(simplex.neighbors[i]);
-                    let place = self.order.places[other as usize];
+                    let is_next = number < other && other < self.count;
                     let opposite = slots[other as usize].vertices[facet];
-                    // A ghost has no place, which is the highest number.
-                    let is_next = place > number as u32 && !slots[other as usize].is_ghost();
                     let is_alike = is_next
-                        && opposite != GHOST
                         && G::in_sphere(corners, coordinates[opposite as usize]) == Sign::Zero;
-                    is_alike.then_some((number as u32, place))
+                    is_alike.then_some((number, other))
                 })
             })
             .collect();
-        let mut groups: Vec<u32> = (0..self.order.finite.len() as u32).collect();
+        let mut groups: Vec<u32> = self.slots().collect();
         for (a, b) in alike {
             join(&mut groups, a, b);
         }

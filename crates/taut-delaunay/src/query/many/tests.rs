@@ -20,7 +20,7 @@ fn space(values: &[f64]) -> TriangulationIndex<3, 4> {
 macro_rules! single {
     ($index:expr, $point:expr) => {
         match $index.triangulation().locator().locate($point) {
-            Location::Inside(slot) => $index.number(slot),
+            Location::Inside(slot) => slot,
             _ => NOWHERE,
         }
     };
@@ -48,6 +48,28 @@ fn many_answers_are_those_of_single_questions() {
     }
 }
 
+/// Points along a curve, which are answered as they come, and the same points shuffled, which are sorted.
+#[test]
+fn the_order_of_points_does_not_matter() {
+    let index = space(&numbers(3000, 5));
+    let curve = |i: u32| {
+        let t = f64::from(i) * 1e-3;
+        [0.5 + 0.6 * t.sin(), 0.5 + 0.4 * (1.7 * t).cos(), 0.1 + 0.08 * t]
+    };
+    const COUNT: u32 = 10_007;
+    let in_order: Vec<f64> = (0..COUNT).flat_map(curve).collect();
+    let shuffled: Vec<f64> = (0..COUNT).flat_map(|i| curve(i * 4099 % COUNT)).collect();
+    let [in_order, shuffled] = [&in_order, &shuffled].map(|values| {
+        let points = Points::new(values, 3).expect("whole rows");
+        index.locate(&points, &Monitor::silent()).expect("not stopped")
+    });
+    let inside = in_order.iter().filter(|&&number| number != NOWHERE).count();
+    assert!(inside > 3000 && inside < 9000, "{inside}");
+    for (i, &number) in (0..COUNT).zip(&shuffled) {
+        assert_eq!(number, in_order[(i * 4099 % COUNT) as usize]);
+    }
+}
+
 /// A point on the boundary of several simplices is in the lowest, whatever else is asked.
 #[test]
 fn ties_go_to_the_lowest_simplex() {
@@ -61,8 +83,11 @@ fn ties_go_to_the_lowest_simplex() {
     for (q, &simplex) in halves.chunks_exact(3).zip(&found) {
         let alone = Points::new(q, 3).expect("one row");
         assert_eq!(index.locate(&alone, &Monitor::silent()).expect("not stopped"), [simplex]);
-        let corners = |number: usize| index.vertices(number).map(|v| index.triangulation().site(v));
-        let holds = |number: usize| {
+        let corners = |number: u32| {
+            let vertices = index.triangulation().vertices(number);
+            vertices.map(|v| index.triangulation().site(v))
+        };
+        let holds = |number: u32| {
             (0..4).all(|i| {
                 let mut with_q = corners(number);
                 with_q[i] = [q[0], q[1], q[2]];
@@ -70,7 +95,7 @@ fn ties_go_to_the_lowest_simplex() {
                     .is_negative()
             })
         };
-        assert_eq!((0..index.slots().len()).find(|&number| holds(number)), Some(simplex as usize));
+        assert_eq!(index.slots().find(|&number| holds(number)), Some(simplex));
     }
     let outside = [9.0, 0.0, 0.0, f64::NAN, 0.0, 0.0];
     let outside = Points::new(&outside, 3).expect("whole rows");

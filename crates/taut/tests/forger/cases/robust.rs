@@ -1,5 +1,6 @@
 //! Robust ellipsoids of few points.
 
+use taut::certify::RobustScale;
 use taut::{Monitor, RobustMethod, RobustOptions, robust_ellipsoid};
 
 use super::{Case, Input, Solved, cases, clouds, document};
@@ -41,13 +42,18 @@ fn on_a_flat(dim: usize) -> Input {
 fn solve(input: &Input) -> Vec<Solved> {
     let mut found = vec![];
     for method in [RobustMethod::Mcd, RobustMethod::Mve, RobustMethod::Trim] {
-        for (coverage, epsilon) in [(None, 1e-9), (Some(0.75), 1e-9), (None, 0.5)] {
-            let options = RobustOptions { method, coverage, epsilon, ..Default::default() };
+        for (coverage, epsilon, scale) in [
+            (None, 1e-9, RobustScale::Share),
+            (Some(0.75), 1e-9, RobustScale::Share),
+            (Some(0.75), 1e-9, RobustScale::Level),
+            (None, 0.5, RobustScale::Share),
+        ] {
+            let options = RobustOptions { method, coverage, epsilon, scale, ..Default::default() };
             let monitor = Monitor::silent();
             let solution = input.with(|source| {
                 robust_ellipsoid(source, &RobustOptions { monitor, ..options.clone() })
             });
-            let way = format!("{method:?} of {coverage:?}, {epsilon}");
+            let way = format!("{method:?} of {coverage:?}, {epsilon}, {scale}");
             found.push((way, solution.ok().map(|solution| document(&solution))));
         }
     }

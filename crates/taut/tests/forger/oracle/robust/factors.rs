@@ -3,10 +3,11 @@
 //! *Quantile.* P(χ² ≤ cutoff) = level with r degrees of freedom. *Factors.* With q(p) the quantile at p, n rows on the hull,
 //! h of them kept and m not weighed out: by `mcd` (h/n)/P′(q(h/n)) with P′ that of r + 2 degrees, times the factor of Pison,
 //! Van Aelst and Willems (Metrika 55, 2002) for small samples; by `mve` and `trim` (1 + 15/(n − r))²/q(h/(n + 1)) (Rousseeuw
-//! and van Zomeren 1990). For the points not weighed out (m/n)/P′(q(m/n)), by `mcd` times its factor for small samples.
+//! and van Zomeren 1990). For the points not weighed out (m/n)/P′(q(m/n)), by `mcd` times its factor for small samples; or
+//! level/P′(q(level)), where the certificate says so.
 
 use taut::RobustMethod;
-use taut::certify::{RobustCertificate, RobustVerdict};
+use taut::certify::{RobustCertificate, RobustScale, RobustVerdict};
 
 use super::super::claims::Claims;
 
@@ -21,7 +22,7 @@ pub(super) fn claims(
     verdict: &RobustVerdict,
     rows: usize,
 ) {
-    let RobustCertificate { method, level, cutoff, raw_scale, scale, .. } = *certificate;
+    let RobustCertificate { method, level, cutoff, raw_scale, scale, scaled_by, .. } = *certificate;
     let mut near = |what: &str, found: f64, wanted: f64, granted: f64| {
         let is_near = (found - wanted).abs() <= granted;
         claims.holds(Some(is_near), || format!("{what}: {found:?} in place of {wanted:?}"));
@@ -54,6 +55,7 @@ pub(super) fn claims(
     near("part beyond the quantile", beyond, rest, FACTOR_TOLERANCE * rest + PROBABILITY_TOLERANCE);
     let last = match (verdict.reweighted, left == n) {
         (false, _) => raw_scale,
+        _ if scaled_by == RobustScale::Level => consistency(level, rank),
         (true, true) => 1.0,
         (true, false) if is_mcd => {
             consistency(left / n, rank) * small_sample(REWEIGHTED, h, n, rank)
