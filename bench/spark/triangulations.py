@@ -1,0 +1,135 @@
+"""A triangulation of the plane in 16 partitions: the hash of one machine, the memory of executors, and what is shuffled."""
+
+import os
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import taut
+import taut.spark
+
+from .context import Context, Line, columns_of, timed
+from .kills import executors
+
+PARTITIONS = 16
+MEMORY_MAX = 1 << 30
+SHARE_MAX = 0.05
+SAMPLE_INTERVAL = 0.1
+
+
+class Memory:
+    """The largest memory of an executor, its workers with it, while something runs."""
+
+    def __init__(self) -> None:
+        # The largest sums: what is resident, and of it what is not a file.
+        self.resident, self.private = 0, 0
+        # Of the largest: the JVM, and the workers.
+        self.jvm, self.workers = 0, 0
+        self._stop = threading.Event()
+        self._thread = threading.Thread(target=self._watch, daemon=True)
+
+    def _watch(self) -> None:
+        roots: list[int] = []
+        while not self._stop.wait(SAMPLE_INTERVAL):
+            if not roots or not all(os.path.exists(f"/proc/{pid}") for pid in roots):
+                roots = executors()
+            children = parents()
+            for root in roots:
+                jvm = memory_of(root)
+                workers = [memory_of(pid) for pid in below(root, children)]
+                resident = jvm[0] + sum(one for one, _ in workers)
+                if resident > self.resident:
+                    self.resident, self.jvm, self.workers = resident, jvm[0], resident - jvm[0]
+                self.private = max(self.private, jvm[1] + sum(one for _, one in workers))
+
+    def __enter__(self) -> "Memory":
+        self._thread.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._stop.set()
+        self._thread.join(10)
+
+
+def parents() -> dict[int, list[int]]:
+    """The children of each process."""
+    found: dict[int, list[int]] = {}
+    for path in Path("/proc").iterdir():
+        if path.name.isdigit():
+            try:
+                parent = int((path / "stat").read_text().rpartition(")")[2].split()[1])
+            except (OSError, IndexError):
+                continue
+            found.setdefault(parent, []).append(int(path.name))
+    return found
+
+
+def below(root: int, children: dict[int, list[int]]) -> list[int]:
+    """All processes that one started, and those that these did."""
+    here = children.get(root, [])
+    return here + [pid for child in here for pid in below(child, children)]
+
+
+def memory_of(pid: int) -> tuple[int, int]:
+    """Bytes of a process that are resident, pages that it shares counted by their share; and of these what is not a file."""
+    try:
+        text = Path(f"/proc/{pid}/smaps_rollup").read_text()
+    except OSError:
+        return 0, 0
+    sizes = {name: 1024 * int(rest.split()[0]) for name, _, rest in (line.partition(":") for line in text.splitlines()[1:])}
+    return sizes.get("Pss", 0), sizes.get("Pss_Anon", 0)
+
+
+def shuffled(context: Context, first: int) -> dict[str, int]:
+    """Bytes that stages from some number on wrote for others: points to their leaves, and all that came after."""
+    written = {}
+    for event in context.events("SparkListenerStageCompleted"):
+        info = event["Stage Info"]
+        for value in info["Accumulables"]:
+            if value["Name"] == "internal.metrics.shuffle.write.bytesWritten" and info["Stage ID"] >= first:
+                written[info["Stage ID"]] = int(value["Value"])
+    moves = [written[stage] for stage in sorted(written) if written[stage]]
+    return {"first": moves[0] if moves else 0, "after": sum(moves[1:])}
+
+
+def last_stage(context: Context) -> int:
+    """The number of the last stage so far."""
+    return max((event["Stage Info"]["Stage ID"] for event in context.events("SparkListenerStageCompleted")), default=-1)
+
+
+def run(context: Context) -> Iterator[Line]:
+    n = context.count(10_000_000, 50_000)
+    rows = taut.generate("uniform", n, 2, seed=1)
+    order = np.random.default_rng(0).permutation(n)
+    df = context.session.read.parquet(context.stored(rows[order], "rows", order))
+    size = rows.nbytes
+    with Memory() as memory:
+        before = last_stage(context)
+        points, writing = timed(lambda: taut.spark.Points(df, columns_of(rows), id="key", partitions=PARTITIONS))
+        with points:
+            sorting = shuffled(context, before + 1)
+            before = last_stage(context)
+            found, took = timed(points.delaunay)
+            moved = shuffled(context, before + 1)
+            simplices = found.simplices.count()
+    expected = taut.delaunay(rows)
+    is_same = found.fingerprint == expected.fingerprint and simplices == found.total == len(expected.simplices)
+    yield Line(f"{n} points in {PARTITIONS} partitions", found.fingerprint, "must be the same", is_same)
+    yield Line("time to sort and write, to triangulate", f"{writing:.1f} s, {took:.1f} s")
+    yield from memory_lines(memory)
+    goal = f"must <= {100 * SHARE_MAX:.0f} %"
+    share = moved["after"] / size
+    yield Line("shuffled after each point is at its leaf, of the points", f"{100 * share:.2f} %", goal, share <= SHARE_MAX)
+    yield Line("shuffled to bring each point to its leaf, with row and id", f"{100 * moved['first'] / size:.0f} %")
+    yield Line("shuffled to sort by id", f"{100 * (sorting['first'] + sorting['after']) / size:.0f} %")
+    yield Line("sites that leaves pass up, of the points", f"{100 * found.passed_up / n:.2f} %")
+
+
+def memory_lines(memory: Any) -> Iterator[Line]:
+    mib = 1 << 20
+    goal = f"must <= {MEMORY_MAX // mib} MiB"
+    figure = f"{memory.resident // mib} MiB: JVM {memory.jvm // mib}, Python {memory.workers // mib}"
+    yield Line("peak memory of an executor, its workers with it", figure, goal, memory.resident <= MEMORY_MAX)
+    yield Line("of it not pages of files", f"{memory.private // mib} MiB")
