@@ -323,6 +323,27 @@ def ids_of(elements: Iterator[Any], layout: Layout, wanted: list[int]) -> Iterat
         yield from [(row, names[row - start].as_py()) for row in mine]
 
 
+def outliers(
+    elements: Iterator[Record], layout: Layout, shape: tuple[Any, Any, Any], border: float
+) -> Iterator[tuple[Any, float]]:
+    """The ids of rows outside of an ellipsoid, or their numbers, and their distances, of which that of its border is given."""
+    import numpy as np
+
+    taut = import_taut()
+    for record in elements:
+        if not is_here(record, layout):
+            raise RuntimeError("files of the workers were lost since the ellipsoid was found: find it again")
+        if not record[1]:
+            continue
+        names, start = ids(record), layout.starts[record[0]]
+        rows = mapped(record, layout)
+        for low in range(0, len(rows), layout.step):
+            norms = taut._native.norms(rows[low : low + layout.step], *shape)
+            for at in np.flatnonzero(~(norms <= 1)).tolist():
+                name = start + low + at if names is None else names[low + at].as_py()
+                yield name, border * float(norms[at])
+
+
 def remove(elements: Iterator[Record], place: tuple[str | None, str]) -> Iterator[int]:
     """Removes the folder with the files of partitions, with those of lost and repeated tasks."""
     for partition, *_ in elements:

@@ -9,7 +9,7 @@
 
 use taut_certify::{RobustEllipsoid, RobustMethod, Stop, Trace, Unweighted};
 use taut_points::{
-    Elsewhere, Monitor, PartsError, PointSource, Points, PointsHash, ReadError, gather, on_threads,
+    Elsewhere, InputError, Monitor, PartsError, PointSource, Points, PointsHash, ReadError, gather, on_threads,
 };
 
 use super::chi_square::{mcd_reweighted_scale, mcd_scale, quantile};
@@ -75,7 +75,15 @@ fn sample(source: &dyn PointSource) -> Result<Vec<f64>, Error> {
     };
     ids.sort_unstable();
     ids.dedup();
-    Ok(gather(source, &ids)?)
+    let values = gather(source, &ids)?;
+    // The first pass over all rows, which refuses such a number as well, comes after the search over these.
+    match values.iter().position(|value| !value.is_finite()) {
+        None => Ok(values),
+        Some(at) => {
+            let (row, column) = (ids[at / source.dim()], at % source.dim());
+            Err(InputError::NonFinite { row, column, value: values[at] }.into())
+        }
+    }
 }
 
 struct Run<'a> {

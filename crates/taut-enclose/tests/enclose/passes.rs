@@ -319,7 +319,8 @@ fn robust_ellipsoids_of_parts_bear_outliers_whatever_the_parts() {
 #[test]
 fn robust_ellipsoids_of_ties_and_flats_in_parts() {
     // Each place has a thousand rows and more: no shell has few of them.
-    let values: Vec<f64> = (0..200_000u32).map(|i| f64::from(i.wrapping_mul(2_654_435_761) >> 29)).collect();
+    let normal = generate::<f64>(Distribution::Normal, 100_000, 2, 9).unwrap();
+    let values: Vec<f64> = normal.into_iter().map(f64::round).collect();
     let points = Points::new(&values, 2).unwrap();
     let found = solve_robust(RobustOptions::default(), &parts(&points, 1)).unwrap();
     assert!(found.kept > 50_001, "{} kept: ties are kept as a whole", found.kept);
