@@ -82,7 +82,7 @@ class Context:
 
     def events(self, *names: str) -> list[dict[str, Any]]:
         """The events of these names that Spark has logged, in their order."""
-        [path] = (self.folder / "events").iterdir()
+        [path] = [path for path in (self.folder / "events").iterdir() if not path.name.startswith(".")]
         found = []
         with path.open(encoding="utf-8") as file:
             for text in file:

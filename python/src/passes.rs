@@ -104,7 +104,6 @@ impl PassSolver {
         threads: &Bound<'_, PyAny>,
     ) -> PyResult<Self> {
         let items = Items::Points;
-        let raised = |error: Error| raise(error, items, columns);
         let options = CentersOptions {
             method: method.parse::<CentersMethod>().map_err(|error| raise(error, items, 0))?,
             epsilon,
@@ -114,7 +113,8 @@ impl PassSolver {
             ..CentersOptions::default()
         };
         let k = whole("k", k, "at least 1")?;
-        let solver = Solver::k_centers(rows, columns, k, options).map_err(raised)?;
+        let solver = Solver::k_centers(rows, columns, k, options)
+            .map_err(|error| raise(error, items, columns))?;
         Ok(PassSolver { solver: Mutex::new(Some(solver)), items, columns })
     }
 

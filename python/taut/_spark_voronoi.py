@@ -63,7 +63,7 @@ def facets(tile: Any) -> Facets:
     if vertices.shape[1] != 3:
         # Points on a line.
         vertices = neighbors = np.empty((0, 3), np.uint32)
-    turn = (tile.rows[vertices].argmin(axis=1)[:, None] + np.arange(3)) % 3 if len(vertices) else np.empty((0, 3), int)
+    turn = (tile.rows[vertices].argmin(axis=1)[:, None] + np.arange(3)) % 3
     vertices, neighbors = (np.take_along_axis(array, turn, axis=1) for array in (vertices, neighbors))
     center = centers(tile.points[vertices])
     parts = []
