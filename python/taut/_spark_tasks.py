@@ -139,7 +139,7 @@ def _write(
 
     # Other users of the machine do not read them.
     os.makedirs(os.path.dirname(path), mode=0o700, exist_ok=True)
-    digest, names = hashlib.blake2b(digest_size=16), hashlib.blake2b()
+    digest, names = hashlib.blake2b(digest_size=16), (hashlib.blake2b(), hashlib.blake2b())
     rows, last_id, writer = 0, None, None
     with open(path, "wb") as file:
         for batch in batches:
@@ -151,7 +151,8 @@ def _write(
                 table = pyarrow.RecordBatch.from_arrays([ids], names=["id"])
                 writer = writer or pyarrow.ipc.new_file(path + ".ids", table.schema)
                 writer.write_batch(table)
-                names.update("".join(f"{name!r}\n" for name in ids.to_pylist()).encode())
+                for hash_of_part, part in zip(names, _id_bytes(ids)):
+                    hash_of_part.update(part)
             block = np.empty((batch.num_rows, len(columns)), dtype)
             first = batch.num_columns - len(columns)
             for at, name in enumerate(columns):
@@ -161,8 +162,25 @@ def _write(
             rows += batch.num_rows
     if writer is not None:
         writer.close()
-        digest.update(names.digest())
+        for hash_of_part in names:
+            digest.update(hash_of_part.digest())
     return rows, digest.hexdigest()
+
+
+def _id_bytes(ids: Any) -> tuple[Any, Any]:
+    """The lengths of ids, if they are of several, and their bytes: those of several batches after each other are those of one."""
+    import numpy as np
+    import pyarrow
+
+    _, *buffers = ids.buffers()
+    if len(buffers) == 1:
+        width = ids.type.bit_width // 8
+        return b"", memoryview(buffers[0])[ids.offset * width : (ids.offset + len(ids)) * width]
+    is_large = pyarrow.types.is_large_string(ids.type) or pyarrow.types.is_large_binary(ids.type)
+    places = np.frombuffer(buffers[0], np.int64 if is_large else np.int32)[ids.offset : ids.offset + len(ids) + 1]
+    # Without characters there may be no buffer of them.
+    data = memoryview(buffers[1] or b"")[places[0] : places[-1]] if len(places) else b""
+    return np.diff(places).astype(np.int64).data, data
 
 
 def _check_ids(ids: Any, name: str, last: Any, partition: int, rows: int) -> None:

@@ -1,5 +1,7 @@
 """Answers about DataFrames of Spark have the bytes of those in memory. Skipped where PySpark or Java are missing."""
 
+import datetime
+import decimal
 import functools
 import json
 import os
@@ -162,8 +164,15 @@ def test_the_hash_of_a_partition_is_of_its_ids_as_well(tmp_path):
         assert path.parent.stat().st_mode & 0o777 == 0o700
         return digest
 
-    assert write(["a", "b", "c"], 1) == write(["a", "b", "c"], 2)
-    assert write(["a", "b", "c"], 1) != write(["a", "b", "d"], 1)
+    day, cent = datetime.date(2026, 11, 26), decimal.Decimal("0.01")
+    for first, second, third, other in (
+        ("a", "b", "c", "d"), ("a", "bc", "d", "dd"), ("", "b", "c", "bc"), (b"a", b"b", b"c", b"d"), (1, 2, 3, 4),
+        (cent, 2 * cent, 3 * cent, 4 * cent), (day, day.replace(day=27), day.replace(day=28), day.replace(day=29)),
+    ):
+        assert write([first, second, third], 1) == write([first, second, third], 2)
+        assert write([first, second, third], 1) != write([first, second, other], 1)
+    # The bytes of all ids together are the same.
+    assert write(["ab", "c", "d"], 1) != write(["a", "bc", "d"], 1)
 
 
 def test_rows_as_they_come_and_from_files(spark, tmp_path):

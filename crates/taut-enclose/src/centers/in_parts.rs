@@ -55,10 +55,10 @@ pub(super) fn solve(
         let mut list = Shortlist::of(far, is_all, |ids| frame.gather(source, ids))?;
         let before = rows.len();
         while rows.len() < before + k.saturating_mul(ROWS_ADDED)
-            && let Some((key, place)) = list.farthest_listed(dim)
-            && frame.bring_out(key.value.sqrt())?
+            && let Some((far, place)) = list.farthest_listed(dim)
+            && frame.bring_out(far.reach2.sqrt())?
                 > (1.0 + GAP_OF_ALL * epsilon) * found.answer.lower_bound
-            && rows.insert(key.row)
+            && rows.insert(far.id)
         {
             let place = place.to_vec();
             list.compare(&place);

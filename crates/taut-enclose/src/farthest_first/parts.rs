@@ -108,15 +108,16 @@ impl Shortlist {
     }
 
     /// The farthest of all rows, where the list tells it.
-    pub(crate) fn farthest(&self) -> Option<Key> {
+    pub(super) fn farthest(&self) -> Option<Key> {
         let top = self.keys.iter().copied().max()?;
         self.floor.is_none_or(|floor| top >= floor).then_some(top)
     }
 
     /// The farthest row that is listed, and its place.
-    pub(crate) fn farthest_listed(&self, dim: usize) -> Option<(Key, &[f64])> {
+    pub(crate) fn farthest_listed(&self, dim: usize) -> Option<(Far, &[f64])> {
         let (at, key) = self.keys.iter().enumerate().max_by_key(|(_, key)| **key)?;
-        Some((*key, &self.places[at * dim..(at + 1) * dim]))
+        let far = Far { id: key.row, reach2: key.value };
+        Some((far, &self.places[at * dim..(at + 1) * dim]))
     }
 }
 
