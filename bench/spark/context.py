@@ -42,6 +42,8 @@ class Context:
 
     scale: float
     folder: Path
+    # Of the session, beside those that all parts have.
+    options: dict[str, str] = field(default_factory=dict)
     # Times since the epoch, and what was said.
     log: list[tuple[float, str]] = field(default_factory=list)
 
@@ -73,8 +75,8 @@ class Context:
             "spark.eventLog.rolling.enabled": "false",
             "spark.eventLog.dir": events.as_uri(),
         }
-        builder = SparkSession.builder.master(MASTER)
-        for name, value in options.items():
+        builder = SparkSession.builder
+        for name, value in {"spark.master": MASTER, **options, **self.options}.items():
             builder = builder.config(name, value)
         session = builder.getOrCreate()
         session.sparkContext.setLogLevel("FATAL")
@@ -123,10 +125,10 @@ class _Kept(logging.Handler):
 
 
 @contextmanager
-def open_context(scale: float) -> Iterator[Context]:
+def open_context(scale: float, options: dict[str, str]) -> Iterator[Context]:
     """A folder that goes at the end, and the log of taut.spark; the session begins when it is asked for."""
     folder = Path(tempfile.mkdtemp(prefix="taut-spark-"))
-    context = Context(scale, folder)
+    context = Context(scale, folder, options)
     handler, logger = _Kept(context.log), logging.getLogger("taut.spark")
     level, propagates = logger.level, logger.propagate
     logger.addHandler(handler)

@@ -32,11 +32,11 @@ def forgeries(kind: str, solution: Any, n: int) -> Iterator[tuple[str, str]]:
         forged["answer"]["log_volume"] += -len(forged["answer"]["center"]) * float(np.log(1.001))
     else:
         forged["answer"][size] *= 0.999
-    yield f"{kind} that is too small", json.dumps(forged)
+    yield f"{kind}, too small", json.dumps(forged)
     forged = json.loads(solution.to_json())
     names = "support" if "support" in forged["certificate"] else "core_set"
     forged["certificate"][names][-1] = n + 7
-    yield f"certificate of a {kind} with a row that is not there", json.dumps(forged)
+    yield f"{kind}, with a row that is not there", json.dumps(forged)
 
 
 def run(context: Context) -> Iterator[Line]:

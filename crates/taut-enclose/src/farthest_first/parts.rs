@@ -90,8 +90,7 @@ impl Shortlist {
         is_all: bool,
         places: impl FnOnce(&[u64]) -> Result<Vec<f64>, Error>,
     ) -> Result<Self, Error> {
-        let keys: Vec<Key> =
-            far.iter().map(|far| Key { value: far.reach2, row: far.id }).collect();
+        let keys: Vec<Key> = far.iter().map(|far| Key { value: far.reach2, row: far.id }).collect();
         let ids: Vec<u64> = far.iter().map(|far| far.id).collect();
         let floor = if is_all { None } else { keys.last().copied() };
         Ok(Shortlist { places: places(&ids)?, keys, floor })

@@ -320,7 +320,8 @@ mod tests {
             let (late, early) = (&all[cut..], &all[..cut]);
             assert_eq!(sum(&[late, early].concat()).total(1), wanted);
             let border = vec![];
-            let part = |numbers: &[u64]| ShellBody::Border { sums: sum(numbers), border: border.clone() };
+            let part =
+                |numbers: &[u64]| ShellBody::Border { sums: sum(numbers), border: border.clone() };
             let ShellBody::Border { sums, .. } = part(late).merge(part(early)).unwrap() else {
                 panic!("a border merged with a border is one");
             };

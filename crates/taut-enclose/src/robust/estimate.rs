@@ -94,7 +94,8 @@ impl Moments {
     pub(crate) fn read(bytes: &mut ByteReader<'_>, dim: usize) -> Result<Self, PartsError> {
         let (sums, lows, highs) = (bytes.floats()?, bytes.floats()?, bytes.floats()?);
         let width = dim.saturating_add(1);
-        let fits = sums.len() == width.saturating_mul(width) && [&lows, &highs].iter().all(|list| list.len() == dim);
+        let fits = sums.len() == width.saturating_mul(width)
+            && [&lows, &highs].iter().all(|list| list.len() == dim);
         if fits { Ok(Moments { sums, lows, highs }) } else { Err(bytes.wrong()) }
     }
 

@@ -9,7 +9,8 @@
 
 use taut_certify::{RobustEllipsoid, RobustMethod, Stop, Trace, Unweighted};
 use taut_points::{
-    Elsewhere, InputError, Monitor, PartsError, PointSource, Points, PointsHash, ReadError, gather, on_threads,
+    Elsewhere, InputError, Monitor, PartsError, PointSource, Points, PointsHash, ReadError, gather,
+    on_threads,
 };
 
 use super::chi_square::{mcd_reweighted_scale, mcd_scale, quantile};
