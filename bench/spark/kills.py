@@ -2,7 +2,6 @@
 
 import os
 import signal
-import subprocess
 import threading
 import time
 from collections.abc import Iterator
@@ -13,21 +12,11 @@ import taut
 import taut.spark
 
 from .context import Context, Line, columns_of, passes_between, timed
+from .processes import executors, seconds
 
 KILLS = 5
 DRAWS = 25
 SEED = 5
-
-
-def executors() -> list[int]:
-    """The processes of the executors that this process started."""
-    listed = subprocess.run(["ps", "-ewwo", "pid,ppid,args"], capture_output=True, text=True, check=True).stdout
-    # A process that just begins may have no arguments yet.
-    lines = [fields for text in listed.splitlines()[1:] if len(fields := text.split(None, 2)) == 3]
-    mine = {os.getpid()}
-    for _ in range(5):
-        mine |= {int(pid) for pid, parent, _ in lines if int(parent) in mine}
-    return [int(pid) for pid, _, args in lines if int(pid) in mine and "CoarseGrainedExecutorBackend" in args]
 
 
 class Killer:
@@ -83,8 +72,9 @@ def run(context: Context) -> Iterator[Line]:
     same, within, slow = 0, 0, 0.0
     with taut.spark.Points(df, columns_of(rows), id="key", partitions=8) as points:
         points.ball()
-        first = len(context.log)
+        first, before = len(context.log), seconds()
         _, undisturbed = timed(points.ball)
+        processor = seconds() - before
         known = passes_between(context.log, first)
         limit = 3 * undisturbed + 15
         for _ in range(DRAWS):
@@ -113,7 +103,7 @@ def run(context: Context) -> Iterator[Line]:
             # A new executor takes its place before the next kill.
             wait_for_executors(points)
         verdict = points.verify(wanted) == taut.verify(wanted, rows)
-    yield Line("the ball undisturbed", f"{undisturbed:.2f} s, {len(known)} passes")
+    yield Line("the ball undisturbed", f"{undisturbed:.2f} s, {processor:.2f} s of processors, {len(known)} passes")
     yield Line("kills within a pass", str(within), f"must {KILLS}", within == KILLS)
     yield Line("verified after the kills", "the same verdict" if verdict else "ANOTHER verdict", "must", verdict)
 

@@ -3,7 +3,6 @@
 import os
 import threading
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,7 +10,7 @@ import taut
 import taut.spark
 
 from .context import Context, Line, columns_of, timed
-from .kills import executors
+from .processes import below, children, executors, memory_of
 
 PARTITIONS = 16
 MEMORY_MAX = 1 << 30
@@ -47,10 +46,10 @@ class Memory:
         while not self._stop.wait(SAMPLE_INTERVAL):
             if not roots or not all(os.path.exists(f"/proc/{pid}") for pid in roots):
                 roots = executors()
-            children = parents()
+            listed = children()
             for root in roots:
                 jvm = memory_of(root)
-                workers = [memory_of(pid) for pid in below(root, children)]
+                workers = [memory_of(pid) for pid in below(root, listed)]
                 resident = jvm[0] + sum(one for one, _ in workers)
                 if resident > self.resident:
                     self.resident, self.jvm, self.workers = resident, jvm[0], resident - jvm[0]
@@ -63,35 +62,6 @@ class Memory:
     def __exit__(self, *_: object) -> None:
         self._stop.set()
         self._thread.join(10)
-
-
-def parents() -> dict[int, list[int]]:
-    """The children of each process."""
-    found: dict[int, list[int]] = {}
-    for path in Path("/proc").iterdir():
-        if path.name.isdigit():
-            try:
-                parent = int((path / "stat").read_text().rpartition(")")[2].split()[1])
-            except (OSError, IndexError):
-                continue
-            found.setdefault(parent, []).append(int(path.name))
-    return found
-
-
-def below(root: int, children: dict[int, list[int]]) -> list[int]:
-    """All processes that one started, and those that these did."""
-    here = children.get(root, [])
-    return here + [pid for child in here for pid in below(child, children)]
-
-
-def memory_of(pid: int) -> tuple[int, int]:
-    """Bytes of a process that are resident, pages that it shares counted by their share; and of these what is not a file."""
-    try:
-        text = Path(f"/proc/{pid}/smaps_rollup").read_text()
-    except OSError:
-        return 0, 0
-    sizes = {name: 1024 * int(rest.split()[0]) for name, _, rest in (line.partition(":") for line in text.splitlines()[1:])}
-    return sizes.get("Pss", 0), sizes.get("Pss_Anon", 0)
 
 
 class Shuffled(NamedTuple):
