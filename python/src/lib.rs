@@ -83,8 +83,8 @@ mod _native {
     use crate::names::names;
     #[pymodule_export]
     use crate::passes::{
-        PassSolver, add_to_stream, check_part, check_parts, merge_partials, merge_verdicts,
-        new_stream, query_shape, rows_of_block, run_query,
+        PassSolver, RobustPasses, add_to_stream, check_part, check_parts, merge_partials,
+        merge_verdicts, new_stream, query_shape, rows_of_block, run_query,
     };
     #[pymodule_export]
     use crate::planar::{

@@ -7,10 +7,10 @@ use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use taut::certify::{AnySolution, CheckError, PartialVerdict, Placement};
-use taut::enclose::passes::{Partial, Query, Solver};
-use taut::enclose::{Error, StreamingCenters, StreamingOptions};
+use taut::enclose::passes::{Partial, Query, RobustSolver, Solver};
+use taut::enclose::{CentersMethod, CentersOptions, Error, StreamingCenters, StreamingOptions};
 use taut::points::{Blocks, PartsError, THREADS_MAX, on_threads};
-use taut::{BallMethod, BallOptions, Items};
+use taut::{BallMethod, BallOptions, Items, RobustOptions};
 
 use crate::ellipsoid::options;
 use crate::found::{Found, Violation};
@@ -91,6 +91,33 @@ impl PassSolver {
         Ok(PassSolver { solver: Mutex::new(Some(solver)), items, columns })
     }
 
+    /// The solver of k centers by a traversal or over a core-set; options are those of `centers`.
+    #[staticmethod]
+    fn k_centers(
+        rows: u64,
+        columns: usize,
+        k: &Bound<'_, PyAny>,
+        method: &str,
+        epsilon: f64,
+        discrete: bool,
+        max_nodes: &Bound<'_, PyAny>,
+        threads: &Bound<'_, PyAny>,
+    ) -> PyResult<Self> {
+        let items = Items::Points;
+        let options = CentersOptions {
+            method: method.parse::<CentersMethod>().map_err(|error| raise(error, items, 0))?,
+            epsilon,
+            placement: if discrete { Placement::Rows } else { Placement::Free },
+            max_nodes: whole("max_nodes", max_nodes, "0 to 2**64 - 1")?,
+            threads: Some(living(whole("threads", threads, "1 to 1024, or None")?)),
+            ..CentersOptions::default()
+        };
+        let k = whole("k", k, "at least 1")?;
+        let solver = Solver::k_centers(rows, columns, k, options)
+            .map_err(|error| raise(error, items, columns))?;
+        Ok(PassSolver { solver: Mutex::new(Some(solver)), items, columns })
+    }
+
     /// The open query; None at the end.
     fn query<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyBytes>>> {
         let asked = interruptible(py, |monitor| {
@@ -126,6 +153,65 @@ impl PassSolver {
         raise(error, self.items, self.columns)
     }
 }
+
+/// A solver of robust ellipsoids that waits for answers.
+#[pyclass(frozen, module = "taut._native")]
+pub(crate) struct RobustPasses {
+    /// Taken when the estimate is.
+    solver: Mutex<Option<RobustSolver>>,
+    columns: usize,
+}
+
+#[pymethods]
+impl RobustPasses {
+    #[new]
+    fn new(
+        rows: u64,
+        columns: usize,
+        coverage: Option<f64>,
+        level: f64,
+        threads: &Bound<'_, PyAny>,
+    ) -> PyResult<Self> {
+        let threads = Some(living(whole("threads", threads, "1 to 1024, or None")?));
+        let options = RobustOptions { coverage, level, threads, ..RobustOptions::default() };
+        let solver = RobustSolver::new(rows, columns, options)
+            .map_err(|error| raise(error, Items::Points, columns))?;
+        Ok(RobustPasses { solver: Mutex::new(Some(solver)), columns })
+    }
+
+    /// The open query; None at the end.
+    fn query<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyBytes>>> {
+        let asked = interruptible(py, |monitor| {
+            let mut solver = self.solver.lock().unwrap_or_else(PoisonError::into_inner);
+            let query = solver.as_mut()?.query(monitor);
+            query.ok()?.map(Query::to_bytes)
+        })?;
+        Ok(asked.map(|bytes| PyBytes::new(py, &bytes)))
+    }
+
+    /// Hands over the merged answer of all parts.
+    fn feed(&self, partial: &[u8]) -> PyResult<()> {
+        let partial = Partial::from_bytes(partial).map_err(refused)?;
+        let mut solver = self.solver.lock().unwrap_or_else(PoisonError::into_inner);
+        solver.as_mut().map_or(Err(refused(PartsError::Question)), |solver| {
+            solver.feed(partial).map_err(refused)
+        })
+    }
+
+    /// The answer without outliers as a dict; the objective, the rows kept and those not weighed out; the trace as a dict.
+    fn solution<'py>(&self, py: Python<'py>) -> PyResult<RobustFound<'py>> {
+        let solver = self.solver.lock().unwrap_or_else(PoisonError::into_inner).take();
+        let Some(solver) = solver else {
+            return Err(PyValueError::new_err("the solution was taken already"));
+        };
+        let found = interruptible(py, |monitor| solver.solution(monitor))?;
+        let found = found.map_err(|error| raise(error, Items::Points, self.columns))?;
+        let (answer, trace) = (plain(py, &found.answer)?, plain(py, &found.trace)?);
+        Ok((answer, found.objective, found.kept, found.weighed, trace))
+    }
+}
+
+type RobustFound<'py> = (Bound<'py, PyAny>, f64, u64, u64, Bound<'py, PyAny>);
 
 /// The threads of a solver, which works on a thread of its own.
 ///

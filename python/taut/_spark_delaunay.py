@@ -46,6 +46,12 @@ class Triangulation(NamedTuple):
     passed_up: int
     """Sites that leaves did not finish."""
 
+    voronoi: Any = None
+    """The edges of the Voronoi diagram as a DataFrame, if they were asked for. Its columns a and b are the two sites whose cells an edge
+    parts, the lower row first; x0, y0 and x1, y1 its ends, the first to the left on the way from a to b. Of an edge without end there
+    are x0, y0 and dx, dy, which points where it goes, and the others are null. Edges between simplices with one circle have no length,
+    to rounding. Points on one line have no edges."""
+
 
 class Cut(NamedTuple):
     """The sample that a kd-tree cuts into 2**levels leaves."""
@@ -188,8 +194,8 @@ def as_row(found: Node | None) -> tuple[bytearray, bytearray | None]:
     return bytearray(tile), bytearray(sink.getvalue())
 
 
-def simplices(batches: Iterator[Any]) -> Iterator[Any]:
-    """The vertices of the simplices of tiles, by id or row number."""
+def tiles_of(batches: Iterator[Any]) -> Iterator[tuple[Any, Any]]:
+    """The tiles of rows that `as_row` made, and the ids of their sites, or row numbers."""
     import pyarrow
 
     taut = tasks.import_taut()
@@ -200,15 +206,23 @@ def simplices(batches: Iterator[Any]) -> Iterator[Any]:
                 names = pyarrow.array(found.rows.astype("int64"))
             else:
                 names = pyarrow.ipc.open_stream(ids).read_all().column("id").combine_chunks()
-            corners = [names.take(pyarrow.array(column)) for column in found.vertices.T]
-            corners += [pyarrow.nulls(len(found), names.type)] * (3 - len(corners))
-            yield pyarrow.RecordBatch.from_arrays(corners, names=["a", "b", "c"])
+            yield found, names
+
+
+def simplices(batches: Iterator[Any]) -> Iterator[Any]:
+    """The vertices of the simplices of tiles, by id or row number."""
+    import pyarrow
+
+    for found, names in tiles_of(batches):
+        corners = [names.take(pyarrow.array(column)) for column in found.vertices.T]
+        corners += [pyarrow.nulls(len(found), names.type)] * (3 - len(corners))
+        yield pyarrow.RecordBatch.from_arrays(corners, names=["a", "b", "c"])
 
 
 def triangulate(
     session: Any, records: Any, layout: tasks.Layout, id_type: str, leaf_points: int
-) -> tuple[Triangulation, list[Any]] | None:
-    """The triangulation and what is kept for it; None where files are missing.
+) -> tuple[Triangulation, Any, list[Any]] | None:
+    """The triangulation, a DataFrame of its tiles and what is kept for it; None where files are missing.
 
     Parameters
     ----------
@@ -259,4 +273,4 @@ def triangulate(
     frame = tiles.mapInArrow(simplices, f"a {id_type}, b {id_type}, c {id_type}")
     total, hull, duplicates = (sum(numbers) for numbers in list(zip(*found))[:3])
     fingerprint = sum(int(digits, 16) for *_, digits, _ in found) % 2**128
-    return Triangulation(frame, total, hull, duplicates, f"{fingerprint:032x}", passed_up), kept
+    return Triangulation(frame, total, hull, duplicates, f"{fingerprint:032x}", passed_up), tiles, kept

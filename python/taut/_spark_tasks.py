@@ -139,7 +139,7 @@ def _write(
 
     # Other users of the machine do not read them.
     os.makedirs(os.path.dirname(path), mode=0o700, exist_ok=True)
-    digest, names = hashlib.blake2b(digest_size=16), hashlib.blake2b()
+    digest, names = hashlib.blake2b(digest_size=16), (hashlib.blake2b(), hashlib.blake2b())
     rows, last_id, writer = 0, None, None
     with open(path, "wb") as file:
         for batch in batches:
@@ -151,7 +151,8 @@ def _write(
                 table = pyarrow.RecordBatch.from_arrays([ids], names=["id"])
                 writer = writer or pyarrow.ipc.new_file(path + ".ids", table.schema)
                 writer.write_batch(table)
-                names.update("".join(f"{name!r}\n" for name in ids.to_pylist()).encode())
+                for hash_of_part, part in zip(names, _id_bytes(ids)):
+                    hash_of_part.update(part)
             block = np.empty((batch.num_rows, len(columns)), dtype)
             first = batch.num_columns - len(columns)
             for at, name in enumerate(columns):
@@ -161,8 +162,25 @@ def _write(
             rows += batch.num_rows
     if writer is not None:
         writer.close()
-        digest.update(names.digest())
+        for hash_of_part in names:
+            digest.update(hash_of_part.digest())
     return rows, digest.hexdigest()
+
+
+def _id_bytes(ids: Any) -> tuple[Any, Any]:
+    """The lengths of ids, if they are of several, and their bytes: those of several batches after each other are those of one."""
+    import numpy as np
+    import pyarrow
+
+    _, *buffers = ids.buffers()
+    if len(buffers) == 1:
+        width = ids.type.bit_width // 8
+        return b"", memoryview(buffers[0])[ids.offset * width : (ids.offset + len(ids)) * width]
+    is_large = pyarrow.types.is_large_string(ids.type) or pyarrow.types.is_large_binary(ids.type)
+    places = np.frombuffer(buffers[0], np.int64 if is_large else np.int32)[ids.offset : ids.offset + len(ids) + 1]
+    # Without characters there may be no buffer of them.
+    data = memoryview(buffers[1] or b"")[places[0] : places[-1]] if len(places) else b""
+    return np.diff(places).astype(np.int64).data, data
 
 
 def _check_ids(ids: Any, name: str, last: Any, partition: int, rows: int) -> None:
@@ -321,6 +339,27 @@ def ids_of(elements: Iterator[Any], layout: Layout, wanted: list[int]) -> Iterat
             continue
         names = ids(record)
         yield from [(row, names[row - start].as_py()) for row in mine]
+
+
+def outliers(
+    elements: Iterator[Record], layout: Layout, shape: tuple[Any, Any, Any], border: float
+) -> Iterator[tuple[Any, float]]:
+    """The ids of rows outside of an ellipsoid, or their numbers, and their distances, of which that of its border is given."""
+    import numpy as np
+
+    taut = import_taut()
+    for record in elements:
+        if not is_here(record, layout):
+            raise RuntimeError("files of the workers were lost since the ellipsoid was found: find it again")
+        if not record[1]:
+            continue
+        names, start = ids(record), layout.starts[record[0]]
+        rows = mapped(record, layout)
+        for low in range(0, len(rows), layout.step):
+            norms = taut._native.norms(rows[low : low + layout.step], *shape)
+            for at in np.flatnonzero(~(norms <= 1)).tolist():
+                name = start + low + at if names is None else names[low + at].as_py()
+                yield name, border * float(norms[at])
 
 
 def remove(elements: Iterator[Record], place: tuple[str | None, str]) -> Iterator[int]:

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import itertools
 from operator import getitem
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -88,18 +88,41 @@ class Points:
         """
         return passes.solve(passes.Solver.ellipsoid(*self.shape, **options), self._ask)
 
-    def centers(self, k: int, *, discrete: bool = False) -> Solution[Any]:
-        """k centers: the bytes of ``taut.centers(method="stream")``. The first pass visits one part after the other.
+    def robust_ellipsoid(self, **options: Any) -> passes.RobustFit:
+        """Center and scatter of most of the points; options are those of `taut.passes.RobustSolver`.
+
+        Parameters
+        ----------
+        **options
+            As in `taut.passes.RobustSolver`.
+
+        Returns
+        -------
+        RobustFit
+        """
+        return passes.solve(passes.RobustSolver(*self.shape, **options), self._ask)
+
+    def centers(
+        self, k: int, *, method: Literal["stream", "farthest-first", "tree"] = "stream", discrete: bool = False, **options: Any
+    ) -> Solution[Any]:
+        """k centers. By "stream" the first pass visits one part after the other.
 
         Parameters
         ----------
         k, discrete
             As in `taut.centers`.
+        method : {"stream", "farthest-first", "tree"}, default "stream"
+            The way to find them, as in `taut.spark.Points.centers`.
+        **options
+            As in `taut.passes.Solver.k_centers`, for the other methods.
 
         Returns
         -------
         Solution
         """
+        if method != "stream":
+            solver = passes.Solver.k_centers(*self.shape, k, method=method, discrete=discrete, **options)
+            return passes.solve(solver, self._ask)
         cover: Any = passes.StreamingCenters.new(self.shape[1], k)
         for _, rows in self._parts:
             cover = self._client.submit(passes.StreamingCenters.add, cover, rows, pure=False)

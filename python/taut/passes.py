@@ -22,20 +22,26 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import Any, Literal, Self, final
+from typing import Any, Literal, NamedTuple, Protocol, Self, TypeVar, final
 
-from numpy.typing import ArrayLike
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from . import _native
+from ._answers.ellipsoid import Ellipsoid
 from ._answers.kinds import KINDS
+from ._answers.robust import RobustEllipsoid
+from ._answers.trace import Trace
 from ._arrays import as_rows
 from ._ball import BallMethod
 from ._solution import Solution
 
 __all__ = [
-    "Partial", "PartialVerdict", "Query", "Solver", "StreamingCenters", "check_part", "check_parts", "merge",
-    "merge_verdicts", "rows_of_block", "solve",
+    "Partial", "PartialVerdict", "Query", "RobustFit", "RobustSolver", "Solver", "StreamingCenters", "check_part",
+    "check_parts", "merge", "merge_verdicts", "rows_of_block", "solve",
 ]
+
+Found = TypeVar("Found", covariant=True)
 
 
 def rows_of_block(columns: int) -> int:
@@ -174,7 +180,7 @@ class StreamingCenters:
 
 @final
 class Solver:
-    """A solver that waits for answers; made by `Solver.ball`, `Solver.ellipsoid` or `Solver.centers`."""
+    """A solver that waits for answers; made by `Solver.ball`, `Solver.ellipsoid`, `Solver.centers` or `Solver.k_centers`."""
 
     def __init__(self, native: _native.PassSolver) -> None:
         self._native = native
@@ -251,6 +257,33 @@ class Solver:
         """
         return cls(_native.PassSolver.centers(cover.data, discrete))
 
+    @classmethod
+    def k_centers(
+        cls, rows: int, columns: int, k: int, *, method: Literal["tree", "farthest-first"] = "tree", epsilon: float = 0.01,
+        discrete: bool = False, max_nodes: int = 10_000_000, threads: int | None = None,
+    ) -> Self:
+        """The solver of `taut.centers` by two of its methods.
+
+        By "farthest-first" answer and certificate are those in memory, and the trace counts passes. By "tree" the search goes over a
+        core-set, to which passes add the rows that its centers leave out; it proves the gap as well, with other centers.
+
+        Parameters
+        ----------
+        rows, columns : int
+            The shape of all rows together.
+        k : int >= 1
+            Most centers.
+        method : {"tree", "farthest-first"}, default "tree"
+            The way to find them.
+        epsilon, discrete, max_nodes, threads
+            As in `taut.centers`. By "tree", centers are free.
+
+        Returns
+        -------
+        Solver
+        """
+        return cls(_native.PassSolver.k_centers(rows, columns, k, method, epsilon, discrete, max_nodes, threads))
+
     def query(self) -> Query | None:
         """The open query; None once there is a solution.
 
@@ -293,19 +326,109 @@ class Solver:
         return Solution(self._native.solution())
 
 
-def solve(solver: Solver, ask: Callable[[Query], Partial]) -> Solution[Any]:
+class RobustFit(NamedTuple):
+    """Center and scatter of most of the rows, and the tolerance ellipsoid. Rows outside of that are outliers; they may be too many to list."""
+
+    ellipsoid: Ellipsoid
+    """The ellipsoid that holds the part of normal rows that was asked for."""
+    scatter: NDArray[np.float64]
+    """For normal rows an estimate of their covariance."""
+    log_det: float
+    """The logarithm of the determinant of `scatter`."""
+    objective: float
+    """That of the determinant of the covariance of the rows kept. No C-step lowers it."""
+    kept: int
+    """How many rows were kept; more than asked for where very many are equally far."""
+    weighed: int
+    """How many rows were not weighed out, from which center and scatter are taken."""
+    trace: Trace
+
+
+@final
+class RobustSolver:
+    """A solver that waits for answers, of `taut.robust_ellipsoid` by its method "mcd".
+
+    It searches a sample of the rows; from what that finds, concentration steps (C-steps) over all rows lead to a local optimum. No
+    certificate comes with it, as that would name half of all rows.
+
+    Parameters
+    ----------
+    rows, columns : int
+        The shape of all rows together.
+    coverage, level, threads
+        As in `taut.robust_ellipsoid`.
+    """
+
+    def __init__(
+        self, rows: int, columns: int, *, coverage: float | None = None, level: float = 0.975, threads: int | None = None
+    ) -> None:
+        self._native = _native.RobustPasses(rows, columns, coverage, level, threads)
+
+    def query(self) -> Query | None:
+        """As `Solver.query`.
+
+        Returns
+        -------
+        Query or None
+        """
+        data = self._native.query()
+        return None if data is None else Query(data)
+
+    def feed(self, partial: Partial) -> None:
+        """As `Solver.feed`.
+
+        Parameters
+        ----------
+        partial : Partial
+            The answer.
+        """
+        self._native.feed(partial.data)
+
+    def solution(self) -> RobustFit:
+        """The estimate, once there is no query left; the solver ends with it.
+
+        Returns
+        -------
+        RobustFit
+
+        Raises
+        ------
+        ValueError
+            When most rows lie in a flat, and while a query is open.
+        """
+        if self.query() is not None:
+            raise ValueError("the solver still has a question: run it on all parts and feed the answer")
+        said, objective, kept, weighed, trace = self._native.solution()
+        answer = RobustEllipsoid._of(said)
+        return RobustFit(answer.ellipsoid, answer.scatter, answer.log_det, objective, kept, weighed, Trace._of(trace))
+
+
+class Asking(Protocol[Found]):
+    """A solver of any kind."""
+
+    def query(self) -> Query | None:
+        """The open query."""
+
+    def feed(self, partial: Partial) -> None:
+        """Hands over its answer."""
+
+    def solution(self) -> Found:
+        """What was found."""
+
+
+def solve(solver: Asking[Found], ask: Callable[[Query], Partial]) -> Found:
     """Feeds a solver until it has a solution.
 
     Parameters
     ----------
-    solver : Solver
+    solver : Solver or RobustSolver
         The solver.
     ask : callable
         Returns the merged answer of all rows to a query.
 
     Returns
     -------
-    Solution
+    Solution or RobustFit
     """
     while (query := solver.query()) is not None:
         solver.feed(ask(query))

@@ -18,16 +18,19 @@ import itertools
 import logging
 import uuid
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import Any, Self, TypeVar
+from typing import Any, Literal, NamedTuple, Self, TypeVar
 
 import numpy as np
 
-from . import _native, _spark_delaunay as delaunay, _spark_tasks as tasks, passes
+from . import _native, _spark_delaunay as delaunay, _spark_tasks as tasks, _spark_voronoi as diagram, passes
 from ._ball import BallMethod
 from ._solution import Solution
 from ._spark_delaunay import Triangulation
+from .passes import RobustFit
 
-__all__ = ["Points", "Triangulation", "ball", "centers", "ellipsoid", "ship", "verify"]
+__all__ = [
+    "Points", "RobustRows", "Triangulation", "ball", "centers", "ellipsoid", "robust_ellipsoid", "ship", "verify",
+]
 
 T = TypeVar("T")
 
@@ -53,6 +56,16 @@ BINARY = "UTF8_BINARY"
 
 # One task takes the shared blocks of this many partitions.
 PARTITIONS_PER_EDGES = 8
+
+
+class RobustRows(NamedTuple):
+    """A robust ellipsoid of the rows of a DataFrame."""
+
+    fit: RobustFit
+    """The ellipsoid, center and scatter, and how they were found."""
+    outliers: Any
+    """A DataFrame with the columns id, the ids of the rows outside of the ellipsoid or their numbers where they have none, and
+    distance, the Mahalanobis distance; there as long as the points are open."""
 
 
 def ship(spark: Any, wheel: str) -> None:
@@ -197,7 +210,7 @@ class Points:
 
         return self._tried(attempt)
 
-    def _solve(self, solver: passes.Solver, count: int = 0) -> Solution[Any]:
+    def _solve(self, solver: passes.Asking[T], count: int = 0) -> T:
         """The solution, after so many passes that were made already."""
 
         def ask(query: passes.Query) -> passes.Partial:
@@ -261,26 +274,78 @@ class Points:
         )
         return self._solve(solver)
 
-    def centers(self, k: int, *, discrete: bool = False) -> Solution[Any]:
-        """k centers: the bytes of ``taut.centers(method="stream")`` over the points on one machine.
+    def robust_ellipsoid(
+        self, *, coverage: float | None = None, level: float = 0.975, threads: int | None = None
+    ) -> RobustRows:
+        """Center and scatter of most of the points by minimum covariance determinant, and the outliers.
 
-        The first of two passes visits one partition after the other, as each takes over the points kept of those before.
+        The search of `taut.robust_ellipsoid` runs over some thousand rows on the driver. From what that finds, concentration steps over
+        all rows, of two passes each, lead to a local optimum, which need not be that of the search in memory. Its bytes do not depend on
+        the partitions.
 
         Parameters
         ----------
-        k, discrete
-            As in `taut.centers`.
+        coverage, level, threads
+            As in `taut.robust_ellipsoid`; threads are those of the driver.
+
+        Returns
+        -------
+        RobustRows
+            The estimate, and a DataFrame of the outliers.
+
+        Raises
+        ------
+        ValueError
+            When most of the points lie in a flat: such an ellipsoid is found in memory or from a file.
+        """
+        rows, columns = self.shape
+        fit = self._solve(passes.RobustSolver(rows, columns, coverage=coverage, level=level, threads=threads))
+        ellipsoid = fit.ellipsoid
+        # |F(x - c)| is the Mahalanobis distance over the square root of the cutoff, which is that of the scatter and the matrix.
+        border = float(np.sqrt(columns / np.trace(fit.scatter @ ellipsoid.matrix)))
+        shape = tuple(part.tolist() for part in (ellipsoid.center, ellipsoid.center_tail, ellipsoid.factor))
+        work = functools.partial(tasks.outliers, layout=self._layout, shape=shape, border=border)
+        found = self._records.mapPartitions(work)
+        return RobustRows(fit, self._session.createDataFrame(found, f"id {self._id_type}, distance double"))
+
+    def centers(
+        self, k: int, *, method: Literal["stream", "farthest-first", "tree"] = "stream", discrete: bool = False,
+        epsilon: float = 0.01, max_nodes: int = 10_000_000, threads: int | None = None,
+    ) -> Solution[Any]:
+        """k centers of the points.
+
+        By "stream" the bytes are those of ``taut.centers(method="stream")`` over the points on one machine. The first of two passes
+        visits one partition after the other, as each takes over the points kept of those before. By "farthest-first" answer and
+        certificate are those on one machine, and passes are at most k and two. By "tree" a search over a core-set on the driver
+        proves the gap that is wanted; passes add rows to the core-set that its centers leave out.
+
+        Parameters
+        ----------
+        k : int >= 1
+            Most centers.
+        method : {"stream", "farthest-first", "tree"}, default "stream"
+            The way to find them.
+        discrete : bool, default False
+            As in `taut.centers`; not by "tree".
+        epsilon, max_nodes, threads
+            As in `taut.centers`, for "tree"; threads are those of the driver.
 
         Returns
         -------
         Solution
             Its row numbers have ids: `ids`.
         """
-        data = passes.StreamingCenters.new(self.shape[1], k).data
-        log.info("pass 1 over %d rows, by partition: begins", self.shape[0])
+        rows, columns = self.shape
+        if method != "stream":
+            solver = passes.Solver.k_centers(
+                rows, columns, k, method=method, epsilon=epsilon, discrete=discrete, max_nodes=max_nodes, threads=threads
+            )
+            return self._solve(solver)
+        data = passes.StreamingCenters.new(columns, k).data
+        log.info("pass 1 over %d rows, by partition: begins", rows)
         for partition in sorted(self._layout.digests):
             data = self._add_to_stream(partition, data)
-        log.info("pass 1 over %d rows, by partition: ends", self.shape[0])
+        log.info("pass 1 over %d rows, by partition: ends", rows)
         return self._solve(passes.Solver.centers(passes.StreamingCenters(data), discrete=discrete), 1)
 
     def _add_to_stream(self, partition: int, data: bytes) -> bytes:
@@ -288,7 +353,7 @@ class Points:
         run = self._records.context.runJob
         return bytes(self._tried(lambda: run(self._records, work, [partition])[0]))
 
-    def delaunay(self, *, leaf_points: int = 2**18) -> Triangulation:
+    def delaunay(self, *, leaf_points: int = 2**18, voronoi: bool = False) -> Triangulation:
         """Delaunay triangulation of points in the plane: the simplices of `taut.delaunay` over them on one machine.
 
         One shuffle brings each point to its leaf; a task holds one leaf, which takes about 130 bytes for each point.
@@ -297,6 +362,8 @@ class Points:
         ----------
         leaf_points : int, default 2**18
             Most points of a leaf, about. The simplices do not depend on it.
+        voronoi : bool, default False
+            Whether there is to be a DataFrame of the edges of the Voronoi diagram as well.
 
         Returns
         -------
@@ -308,11 +375,13 @@ class Points:
             raise ValueError(f"the points have {columns} coordinates: on a cluster, triangulations are those of the plane")
         if leaf_points < 1 or rows > leaf_points * 2**delaunay.LEVELS_MAX:
             raise ValueError(f"leaf_points is {leaf_points}: expected at least {max(1, rows >> delaunay.LEVELS_MAX)}")
-        found, kept = self._tried(
+        found, tiles, kept = self._tried(
             lambda: delaunay.triangulate(self._session, self._records, self._layout, self._id_type, leaf_points)
         )
         self._kept += kept
-        return found
+        if not voronoi:
+            return found
+        return found._replace(voronoi=diagram.edges(self._session, tiles, kept, self._id_type))
 
     def verify(self, solution: Solution[Any] | str) -> Any:
         """Check an answer over the points, in one pass: the verdict of `taut.verify` over them on one machine.
@@ -404,7 +473,7 @@ def ball(
 
 
 def centers(
-    df: Any, columns: Sequence[str], k: int, *, id: str | None = None, partitions: int | None = None, discrete: bool = False
+    df: Any, columns: Sequence[str], k: int, *, id: str | None = None, partitions: int | None = None, **options: Any
 ) -> Solution[Any]:
     """k centers of the rows of a DataFrame.
 
@@ -412,16 +481,15 @@ def centers(
     ----------
     df, columns, id, partitions
         As in `Points`.
-    k, discrete
+    k, **options
         As in `Points.centers`.
 
     Returns
     -------
     Solution
-        The bytes of ``taut.centers(method="stream")`` over the rows on one machine.
     """
     with Points(df, columns, id=id, partitions=partitions) as points:
-        return points.centers(k, discrete=discrete)
+        return points.centers(k, **options)
 
 
 def ellipsoid(
@@ -443,6 +511,26 @@ def ellipsoid(
     """
     with Points(df, columns, id=id, partitions=partitions) as points:
         return points.ellipsoid(**options)
+
+
+def robust_ellipsoid(
+    df: Any, columns: Sequence[str], *, id: str | None = None, partitions: int | None = None, **options: Any
+) -> RobustFit:
+    """Center and scatter of most of the rows of a DataFrame; `Points.robust_ellipsoid` has the outliers as well.
+
+    Parameters
+    ----------
+    df, columns, id, partitions
+        As in `Points`.
+    **options
+        As in `Points.robust_ellipsoid`.
+
+    Returns
+    -------
+    RobustFit
+    """
+    with Points(df, columns, id=id, partitions=partitions) as points:
+        return points.robust_ellipsoid(**options).fit
 
 
 def verify(
@@ -503,3 +591,4 @@ def _register_tasks() -> None:
 
     cloudpickle.register_pickle_by_value(tasks)
     cloudpickle.register_pickle_by_value(delaunay)
+    cloudpickle.register_pickle_by_value(diagram)

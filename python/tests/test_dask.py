@@ -33,5 +33,11 @@ def test_parts_of_any_length():
             ):
                 assert found.to_json() == wanted.to_json()
                 assert points.verify(found) == wanted.check(rows)
+            traversal = taut.centers(rows, 5, method="farthest-first")
+            assert points.centers(5, method="farthest-first").certificate == traversal.certificate
+            assert points.centers(2, method="tree").check(rows).gap <= 0.01
+            fit = points.robust_ellipsoid()
+            # Of these rows very many are equally far, of which other ones are kept.
+            assert fit.objective <= taut.robust_ellipsoid(rows).certificate.objective + 0.01
             with pytest.raises(ValueError, match="is nan|NaN"):
                 taut.dask.Points(client, [dask.delayed(np.full)((10, 2), np.nan)]).ball()

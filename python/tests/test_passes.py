@@ -92,6 +92,50 @@ def test_centers_of_a_stream(discrete):
         passes.StreamingCenters(b"").add(rows)
 
 
+@pytest.mark.parametrize("discrete", [False, True])
+def test_a_traversal_has_the_answer_and_the_certificate_of_memory(discrete):
+    rows = taut.generate("clusters", 100_000, 3, seed=4)
+    wanted = taut.centers(rows, 6, method="farthest-first", discrete=discrete)
+    for count in (1, 4):
+        solver = passes.Solver.k_centers(*rows.shape, 6, method="farthest-first", discrete=discrete)
+        found = solve(solver, in_parts(rows, count))
+        assert (found.answer, found.certificate) == (wanted.answer, wanted.certificate)
+        assert found.trace.passes <= 8
+
+
+def test_centers_to_a_gap_are_found_over_a_core_set():
+    rows = taut.generate("clusters", 100_000, 3, seed=4)
+    parts = in_parts(rows, 4)
+    found = solve(passes.Solver.k_centers(*rows.shape, 3, epsilon=1e-3), parts)
+    assert found.to_json() == solve(passes.Solver.k_centers(*rows.shape, 3, epsilon=1e-3), in_parts(rows, 1)).to_json()
+    verdict = passes.check_parts(found, [passes.check_part(found, block, first, len(rows)) for first, block in parts])
+    assert verdict == found.check(rows)
+    assert verdict.gap <= 1e-3
+    assert found.answer.radius <= taut.centers(rows, 3, epsilon=1e-3).answer.radius * (1 + 1e-3)
+    with pytest.raises(ValueError, match="free for a search over a core-set"):
+        passes.Solver.k_centers(10, 2, 2, discrete=True)
+    with pytest.raises(ValueError, match="tree or farthest-first"):
+        passes.Solver.k_centers(10, 2, 2, method="stream")
+
+
+def test_robust_ellipsoids():
+    rows = taut.generate("normal", 60_000, 3, seed=4)
+    rows[::4] += 30
+    found = solve(passes.RobustSolver(*rows.shape), in_parts(rows, 4))
+    again = solve(passes.RobustSolver(*rows.shape), in_parts(rows, 1))
+    assert found.ellipsoid == again.ellipsoid
+    assert (found.objective, found.trace) == (again.objective, again.trace)
+    wanted = taut.robust_ellipsoid(rows)
+    assert found.kept == wanted.certificate.kept
+    assert abs(found.objective - wanted.certificate.objective) < 1e-3
+    assert np.abs(found.scatter - wanted.answer.scatter).max() < 0.05
+    assert not found.ellipsoid.contains(rows[::4]).any()
+    with pytest.raises(ValueError, match="most of the points lie in a flat"):
+        solve(passes.RobustSolver(9000, 2), in_parts(np.hstack([rows[:9000, :1], np.ones((9000, 1))]), 1))
+    with pytest.raises(ValueError, match="coverage"):
+        passes.RobustSolver(9000, 2, coverage=0.1)
+
+
 def test_a_wrong_answer_is_refused_with_the_first_row():
     rows = taut.generate("uniform", 100_000, 2, seed=4)
     found = taut.ball(rows)

@@ -1,8 +1,12 @@
 """Answers about DataFrames of Spark have the bytes of those in memory. Skipped where PySpark or Java are missing."""
 
+import datetime
+import decimal
 import functools
 import json
 import os
+import pathlib
+import runpy
 import shutil
 import signal
 import subprocess
@@ -160,8 +164,15 @@ def test_the_hash_of_a_partition_is_of_its_ids_as_well(tmp_path):
         assert path.parent.stat().st_mode & 0o777 == 0o700
         return digest
 
-    assert write(["a", "b", "c"], 1) == write(["a", "b", "c"], 2)
-    assert write(["a", "b", "c"], 1) != write(["a", "b", "d"], 1)
+    day, cent = datetime.date(2026, 11, 26), decimal.Decimal("0.01")
+    for first, second, third, other in (
+        ("a", "b", "c", "d"), ("a", "bc", "d", "dd"), ("", "b", "c", "bc"), (b"a", b"b", b"c", b"d"), (1, 2, 3, 4),
+        (cent, 2 * cent, 3 * cent, 4 * cent), (day, day.replace(day=27), day.replace(day=28), day.replace(day=29)),
+    ):
+        assert write([first, second, third], 1) == write([first, second, third], 2)
+        assert write([first, second, third], 1) != write([first, second, other], 1)
+    # The bytes of all ids together are the same.
+    assert write(["ab", "c", "d"], 1) != write(["a", "bc", "d"], 1)
 
 
 def test_rows_as_they_come_and_from_files(spark, tmp_path):
@@ -208,6 +219,99 @@ def test_ellipsoids_and_centers(spark):
         taut.spark.ellipsoid(df, columns, id="key")
 
 
+def test_robust_ellipsoids_and_other_centers(spark):
+    import taut.spark
+
+    rows = taut.generate("normal", 40_000, 3, seed=2)
+    rows[::4] += 30
+    order = np.random.default_rng(0).permutation(len(rows))
+    df, columns = frame(spark, rows[order], [f"{at:09}" for at in order])
+    with taut.spark.Points(df, columns, id="key", partitions=3) as points:
+        fit, outliers = points.robust_ellipsoid()
+        wanted = taut.robust_ellipsoid(rows)
+        assert fit.kept == wanted.certificate.kept
+        assert abs(fit.objective - wanted.certificate.objective) < 1e-3
+        table = {name: distance for name, distance in outliers.toPandas().itertuples(index=False)}
+        norms = fit.ellipsoid.norm(rows)
+        assert sorted(table) == [f"{at:09}" for at in np.flatnonzero(norms > 1)]
+        assert set(table) >= {f"{at:09}" for at in range(0, len(rows), 4)}
+        offsets = rows - fit.ellipsoid.center
+        distances = np.sqrt(np.einsum("ij,jk,ik->i", offsets, np.linalg.inv(fit.scatter), offsets))
+        for name, distance in list(table.items())[::50]:
+            assert distance == pytest.approx(distances[int(name)], rel=1e-9)
+        traversal = points.centers(4, method="farthest-first")
+        memory = taut.centers(rows, 4, method="farthest-first")
+        assert (traversal.answer, traversal.certificate) == (memory.answer, memory.certificate)
+        assert points.verify(traversal) == memory.check(rows)
+        exact = points.centers(3, method="tree", epsilon=1e-4)
+        assert points.verify(exact) == exact.check(rows)
+        assert exact.certificate.gap <= 1e-4
+    assert taut.spark.robust_ellipsoid(df, columns, id="key").ellipsoid == fit.ellipsoid
+
+
+def diagram_of(rows):
+    """The edges of the Voronoi diagram by their sites, each with its one or two ends, in ascending order."""
+    import taut.spatial
+
+    found = taut.spatial.Triangulation(rows).voronoi()
+    edges = {}
+    for sites, start, end in zip(found.ridge_points.tolist(), found.ridge_starts, found.ridge_starts[1:]):
+        ends = [found.vertices[at] for at in found.ridge_vertices[start:end] if at >= 0]
+        edges[tuple(sites)] = np.sort(np.array(ends), axis=0)
+    return edges
+
+
+def assert_same_diagram(table, rows):
+    """Rows of a table of edges are the diagram: (a, b, x0, y0, x1, y1, dx, dy), None or NaN where there is nothing."""
+    wanted = diagram_of(rows)
+    assert len(table) == len(wanted)
+    middle = rows.mean(axis=0)
+    for a, b, x0, y0, *more in table:
+        x1, y1, dx, dy = (np.nan if value is None else value for value in more)
+        assert a < b
+        ends = [[x0, y0]] if np.isnan(x1) else [[x0, y0], [x1, y1]]
+        assert np.allclose(np.sort(ends, axis=0), wanted[a, b], rtol=1e-9, atol=1e-12)
+        along = rows[b] - rows[a]
+        if np.isnan(x1):
+            # It goes off at a right angle, away from the points.
+            assert abs(along @ [dx, dy]) <= 1e-12
+            assert (rows[a] - middle) @ [dx, dy] > 0
+        else:
+            # The first end is to the left.
+            assert np.isnan(dx)
+            assert along[0] * (y0 - y1) - along[1] * (x0 - x1) >= -1e-12
+
+
+def test_halves_of_edges_that_tiles_share_are_joined(tmp_path):
+    from taut import _spark_delaunay as delaunay, _spark_voronoi as diagram
+
+    rows = taut.generate("uniform", 3000, 2, seed=2)
+    records, layout = stored(tmp_path, rows, [0, 1000, 2000, 3000])
+    cut, levels = delaunay.Cut(np.array(rows[::7]), 2), 2
+    whole = functools.reduce(delaunay.merge_extents, (next(delaunay.extent(iter([at]), layout, cut)) for at in records))
+    groups = dealt(functools.partial(delaunay.deal, layout=layout, cut=cut), records)
+    leaves = [delaunay.triangulate_leaf(group, whole, levels) for group in groups.items()]
+    climbed = {}
+    for leaf in leaves:
+        number, front = delaunay.climb(leaf, levels)
+        climbed.setdefault(number, []).append(front)
+    [top] = [delaunay.triangulate_fronts(group, whole) for group in climbed.items()]
+    nodes = [*leaves, top]
+    shared = {}
+    for key, half in (pair for node in nodes for pair in diagram.halves(node)):
+        shared.setdefault(key, []).append(half)
+    table = [diagram.joined_edge(group) for group in shared.items()]
+    assert {len(group) for group in shared.values()} == {1, 2}
+    for node in nodes:
+        tile = taut.Tile.from_bytes(node[1], 2)
+        found = diagram.facets(tile)
+        for at in np.flatnonzero(~found.is_alone):
+            ends = (found.center[at], found.beyond[at])[:: 1 if found.is_left[at] else -1]
+            low, high = (int(tile.rows[sites[at]]) for sites in (found.low, found.high))
+            table.append((low, high, *ends[0], *ends[1], None, None))
+    assert_same_diagram(table, rows)
+
+
 @pytest.mark.parametrize("distribution", ["grid", *[pytest.param(more, marks=LONG) for more in ("uniform", "clusters")]])
 def test_triangulations(spark, distribution):
     import taut.spark
@@ -233,6 +337,35 @@ def test_triangulations(spark, distribution):
     with taut.spark.Points(df, [*columns, columns[0]]) as points:
         with pytest.raises(ValueError, match="have 3 coordinates"):
             points.delaunay()
+
+
+def test_edges_of_voronoi_diagrams(spark):
+    import taut.spark
+
+    rows = taut.generate("uniform", 2000, 2, seed=2)
+    order = np.random.default_rng(0).permutation(len(rows))
+    df, columns = frame(spark, rows[order], order)
+    with taut.spark.Points(df, columns, id="key") as points:
+        assert points.delaunay(leaf_points=200).voronoi is None
+        found = points.delaunay(leaf_points=200, voronoi=True)
+        assert_same_diagram([tuple(row) for row in found.voronoi.collect()], rows)
+    # Points on a line have none.
+    df, columns = frame(spark, np.arange(20.0).reshape(10, 2))
+    with taut.spark.Points(df, columns) as points:
+        assert points.delaunay(leaf_points=4, voronoi=True).voronoi.count() == 0
+
+
+def test_the_recipe_runs(spark, monkeypatch, capsys):
+    recipe = pathlib.Path(__file__).parents[2] / "docs" / "recipes" / "spark.py"
+    if not recipe.exists():
+        pytest.skip("the recipe comes with the repository")
+    monkeypatch.setattr(sys, "argv", [str(recipe), "5000"])
+    runpy.run_path(str(recipe))
+    said = capsys.readouterr().out
+    assert "verified, gap at most" in said
+    # The rows that were moved far off, of which one decides the ball.
+    assert "farthest outliers: ['sensor " in said
+    assert "cell of sensor 0000000 has" in said
 
 
 def test_bad_input(spark, tmp_path):
@@ -388,88 +521,3 @@ def test_a_killed_executor_changes_nothing(spark, caplog):
                 break
         assert fell_within, "five kills came after the pass"
         assert points.verify(wanted) == taut.verify(wanted, rows)
-
-
-@LONG
-def test_executors_killed_at_random_moments(spark, caplog):
-    import taut.spark
-
-    caplog.set_level("INFO", "taut.spark")
-    rows = taut.generate("normal", 1_000_000, 10, seed=2)
-    df, columns = frame(spark, rows, np.arange(len(rows)))
-    wanted = taut.ball(rows).to_json()
-    rng = np.random.default_rng(5)
-    with taut.spark.Points(df, columns, id="key") as points:
-        points.ball()
-        caplog.clear()
-        begin = time.monotonic()
-        points.ball()
-        undisturbed = time.monotonic() - begin
-        times = {record.getMessage(): record.created for record in caplog.records}
-        passes = sum(message.startswith("pass") and message.endswith("begins") for message in times)
-        kills = 0
-        for _ in range(20):
-            if kills == 5:
-                break
-            number = int(rng.integers(1, passes + 1))
-            [start], [end] = ([at for name, at in times.items() if name.startswith(f"pass {number} ") and name.endswith(how)]
-                              for how in ("begins", "ends"))
-            begin = time.monotonic()
-            found, fell_within = killed_in_pass(points, caplog, number, rng.uniform(0, end - start) * 0.8)
-            took = time.monotonic() - begin
-            assert found.to_json() == wanted
-            if fell_within:
-                kills += 1
-                print(f"killed within pass {number} of {passes}: {took:.1f} s, undisturbed {undisturbed:.1f} s")
-                assert took <= 3 * undisturbed + 15
-        assert kills == 5
-
-
-def sets_with_ties():
-    """Thirty point sets of three blocks, most with ties or copies."""
-    for d in (1, 2, 3, 10, 30):
-        n = 3 * (65_536 // d) - 5
-        for distribution in ("normal", "cube", "sphere", "poisson", "uniform"):
-            yield f"{distribution}, {d}", taut.generate(distribution, n, d, seed=d)
-        grid = np.random.default_rng(d).integers(0, 4, (n, d))
-        yield f"grid, {d}", grid / 4
-
-
-@LONG
-def test_thirty_sets_with_ties_in_any_partitions(spark, tmp_path):
-    import taut.spark
-
-    rng, compared = np.random.default_rng(1), 0
-    for number, (name, rows) in enumerate(sets_with_ties()):
-        order = rng.permutation(len(rows))
-        df, columns = frame(spark, rows[order], order)
-        path = str(tmp_path / str(number))
-        df.write.parquet(path, compression="gzip")
-        wanted = taut.ball(rows)
-        for at, partitions in enumerate((1, 4, 7, 16)):
-            source = df.cache() if (number + at) % 2 else spark.read.parquet(path)
-            with taut.spark.Points(source, columns, id="key", partitions=partitions) as points:
-                assert points.ball().to_json() == wanted.to_json(), (name, partitions)
-                compared += 1
-                if partitions == 7:
-                    cover = points.centers(4)
-                    assert cover.to_json() == taut.centers(rows, 4, method="stream").to_json(), name
-                    assert points.verify(cover) == cover.check(rows), name
-                    ellipsoid = points.ellipsoid()
-                    assert ellipsoid.to_json() == taut.ellipsoid(rows).to_json(), name
-                    assert points.verify(ellipsoid) == ellipsoid.check(rows), name
-                    compared += 2
-        df.unpersist()
-    print(f"{compared} answers have the bytes of those in memory")
-    assert compared == 30 * 6
-
-
-@LONG
-def test_balls_take_few_passes():
-    """Passes are those in memory, as answers have the same bytes."""
-    for n, d in ((10**7, 10), (10**6, 100)):
-        for distribution in ("normal", "sphere", "cube", "uniform", "clusters"):
-            rows = taut.generate(distribution, n, d, seed=1)
-            passes = taut.ball(rows).trace.passes
-            print(f"{distribution}, {n} x {d}: {passes} passes")
-            assert passes <= 8

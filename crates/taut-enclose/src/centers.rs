@@ -10,6 +10,7 @@ mod clusters;
 mod conflict;
 mod depth_first;
 mod grouping;
+mod in_parts;
 mod item_rows;
 mod items;
 mod links;
@@ -110,9 +111,12 @@ pub fn centers(
         if options.method == CentersMethod::FarthestFirst && is_plain {
             match traversed(source, k as u64, options, monitor) {
                 // Sizes that no one scale holds are for those who have all points in memory.
-                Err(Error::Overflow) => {}
+                Err(Error::Overflow) if source.elsewhere().is_none() => {}
                 found => return found,
             }
+        }
+        if let Some(elsewhere) = source.elsewhere() {
+            return in_parts::solve(source, elsewhere, k, options, monitor);
         }
         if items == Items::Ellipsoids {
             return of_ellipsoids::solve(source, k, options, monitor);

@@ -133,6 +133,11 @@ pub enum Error {
         /// That of the space.
         dim: usize,
     },
+    /// About half of the points or more, in parts, lie in a flat, which robust ellipsoids are looked for where all of them are.
+    #[error(
+        "most of the points lie in a flat: such a robust ellipsoid is found in memory or from a file, not in parts"
+    )]
+    MostFlatInParts,
     /// Parts of a point set do not belong together, or their answers.
     #[error(transparent)]
     Parts(#[from] PartsError),

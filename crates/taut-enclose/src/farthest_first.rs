@@ -6,7 +6,7 @@
 //! *Guarantee.* The first k points have at most twice the radius of the best k centers, wherever those may be, for every k.
 //! Distances are those of the kernel, and of equal ones the lower row is taken: what is skipped on the way changes nothing.
 //! *How it is fast.* In three ways that skip what cannot matter, [`lazy`] for all points, [`boxes`] in up to three
-//! dimensions, [`rows`] in more; [`blocks`] is for points that are not in memory.
+//! dimensions, [`rows`] in more; [`blocks`] is for points that are not in memory, [`parts`] for those that lie elsewhere.
 //! *Reference.* Gonzalez, Theoretical Computer Science 38, 1985.
 
 mod blocks;
@@ -14,15 +14,19 @@ mod boxes;
 mod chosen;
 mod columns;
 mod lazy;
+mod parts;
 mod prefix;
 mod rows;
 
 use taut_certify::Trace;
-use taut_points::{InputError, Monitor, PointSource, Points, PointsHash, Rows, Scalar, on_threads};
+use taut_points::{
+    Elsewhere, InputError, Monitor, PointSource, Points, PointsHash, Rows, Scalar, on_threads,
+};
 
 use crate::Error;
-use crate::frame::frame_pass;
+use crate::frame::{Frame, frame_pass};
 use lazy::Job;
+pub(crate) use parts::Shortlist;
 
 /// Up to this many dimensions a box around neighbors says enough about them. Beyond, boxes are nearly as large as the whole.
 const DIM_OF_BOXES_MAX: usize = 3;
@@ -125,8 +129,21 @@ pub(crate) fn farthest_first_in_blocks(
 ) -> Result<FarthestFirst, Error> {
     on_threads(options.threads, || {
         let job = prepare(source, count, options)?;
-        job.run(blocks::leaves(source, &job.frame))
+        match source.elsewhere() {
+            Some(elsewhere) => parts::run(&job, elsewhere),
+            None => job.run(blocks::leaves(source, &job.frame)),
+        }
     })
+}
+
+/// The same order of points that lie elsewhere, and the units of its distances.
+pub(crate) fn farthest_first_in_parts(
+    source: &dyn PointSource,
+    elsewhere: &dyn Elsewhere,
+    count: u64,
+    options: &FarthestFirstOptions<'_>,
+) -> Result<(FarthestFirst, Frame), Error> {
+    parts::with_frame(prepare(source, count, options)?, elsewhere)
 }
 
 /// Looks at the options and at every coordinate.

@@ -9,11 +9,12 @@
 //! twice.
 
 use taut_points::{
-    BlockHash, InputError, Monitor, PointSource, Points, PointsHash, Rows, Scalar, gather,
-    hash_block, map_blocks,
+    BlockHash, ByteReader, ByteWriter, InputError, Monitor, PartsError, PointSource, Points,
+    PointsHash, Rows, Scalar, gather, hash_block, map_blocks,
 };
 
 use crate::Error;
+use crate::passes::ask_extent;
 
 /// Extents between 2⁻²⁰⁰ and 2²⁰⁰ are left as they are.
 const SAFE_EXPONENT: i32 = 200;
@@ -36,7 +37,7 @@ pub(crate) struct FramePass {
 }
 
 impl Frame {
-    fn of(low: &[f64], high: &[f64]) -> Self {
+    fn of(Extent { low, high }: &Extent) -> Self {
         // Halved, as the difference itself may overflow.
         let half = low.iter().zip(high).fold(0.0, |h: f64, (l, u)| h.max(u / 2.0 - l / 2.0));
         let extent = if half < 1.0 {
@@ -50,6 +51,17 @@ impl Frame {
         let scale = 2f64.powi((-exponent(extent)).clamp(-1020, 1000));
         let shift = low.iter().zip(high).map(|(&l, &u)| if l == u { l } else { 0.0 }).collect();
         Frame { scale, shift }
+    }
+
+    pub(crate) fn write(&self, bytes: &mut ByteWriter) {
+        bytes.float(self.scale);
+        bytes.floats(&self.shift);
+    }
+
+    pub(crate) fn read(bytes: &mut ByteReader<'_>, columns: usize) -> Result<Self, PartsError> {
+        let frame = Frame { scale: bytes.float()?, shift: bytes.floats()? };
+        let fits = frame.is_plain() || frame.shift.len() == columns;
+        if fits { Ok(frame) } else { Err(bytes.wrong()) }
     }
 
     /// Returns true if coordinates stay what they are.
@@ -105,22 +117,50 @@ pub(crate) fn frame_pass(
         return Err(Error::Empty);
     }
     monitor.pass(1, source.len());
-    let dim = source.dim();
-    let blocks = survey_blocks(source, monitor, |_| ())?;
-    let mut low = vec![f64::INFINITY; dim];
-    let mut high = vec![f64::NEG_INFINITY; dim];
-    for SurveyedBlock { extent: (block_low, block_high), .. } in &blocks {
-        low.iter_mut().zip(block_low).for_each(|(l, &b)| *l = l.min(b));
-        high.iter_mut().zip(block_high).for_each(|(h, &b)| *h = h.max(b));
+    let (extent, hash) = match source.elsewhere() {
+        Some(elsewhere) => ask_extent(elsewhere, source)?,
+        None => {
+            let (extent, hashes) = survey(source, monitor)?;
+            (extent, PointsHash::of_blocks(source.len(), source.dim(), hashes))
+        }
+    };
+    Ok(FramePass { frame: Frame::of(&extent), hash })
+}
+
+/// The least and the greatest value of each column.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Extent {
+    pub(crate) low: Vec<f64>,
+    pub(crate) high: Vec<f64>,
+}
+
+impl Extent {
+    /// That of no rows.
+    fn nothing(dim: usize) -> Self {
+        Extent { low: vec![f64::INFINITY; dim], high: vec![f64::NEG_INFINITY; dim] }
     }
-    let hash = PointsHash::of_blocks(source.len(), dim, blocks.iter().map(|block| block.hash));
-    Ok(FramePass { frame: Frame::of(&low, &high), hash })
+
+    pub(crate) fn merge(&mut self, other: &Extent) {
+        self.low.iter_mut().zip(&other.low).for_each(|(l, &b)| *l = l.min(b));
+        self.high.iter_mut().zip(&other.high).for_each(|(h, &b)| *h = h.max(b));
+    }
+}
+
+/// The extent of rows, which have to be finite, and the hashes of their blocks.
+pub(crate) fn survey(
+    source: &dyn PointSource,
+    monitor: &Monitor<'_>,
+) -> Result<(Extent, Vec<BlockHash>), Error> {
+    let blocks = survey_blocks(source, monitor, |_| ())?;
+    let mut all = Extent::nothing(source.dim());
+    blocks.iter().for_each(|block| all.merge(&block.extent));
+    Ok((all, blocks.into_iter().map(|block| block.hash).collect()))
 }
 
 /// The hash of a block, the least and the greatest value of each column, and what else was asked for.
 pub(crate) struct SurveyedBlock<R> {
     pub(crate) hash: BlockHash,
-    extent: (Vec<f64>, Vec<f64>),
+    extent: Extent,
     pub(crate) more: R,
 }
 
@@ -131,7 +171,7 @@ pub(crate) fn survey_blocks<R: Send>(
     more: impl Fn(&Rows<'_>) -> R + Sync,
 ) -> Result<Vec<SurveyedBlock<R>>, Error> {
     map_blocks(source, monitor, |first, rows| {
-        let (extent, finite) = match &rows {
+        let ((low, high), finite) = match &rows {
             Rows::F32(points) => extent(points),
             Rows::F64(points) => extent(points),
         };
@@ -142,6 +182,7 @@ pub(crate) fn survey_blocks<R: Send>(
                 value,
             }));
         }
+        let extent = Extent { low, high };
         Ok(SurveyedBlock { hash: hash_block(&rows), extent, more: more(&rows) })
     })
 }

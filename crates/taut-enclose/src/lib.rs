@@ -64,7 +64,7 @@ pub use farthest_first::{FarthestFirst, FarthestFirstOptions, farthest_first};
 #[cfg(feature = "conic")]
 pub use inscribed::{InscribedOptions, inscribed_ellipsoid};
 pub use kernel_ball::{KernelBallMethod, KernelBallOptions, kernel_ball};
-pub use robust::{RobustOptions, robust_ellipsoid};
+pub use robust::{RobustInParts, RobustOptions, robust_ellipsoid};
 pub use sphere_search::{
     Diameter, Neighbor, QueryOptions, RowPair, SphereSearch, SphereSearchOptions,
 };

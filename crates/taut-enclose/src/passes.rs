@@ -39,11 +39,15 @@ mod items;
 mod partial;
 mod points;
 mod query;
+mod shells;
 mod solver;
+mod traversal;
 
 pub(crate) use centers::ask_reach;
 pub(crate) use items::{FirstAnswer, ask_first, ask_items, ask_spread};
 pub use partial::Partial;
 pub(crate) use points::{PointsAnswer, ask_points};
 pub use query::Query;
-pub use solver::Solver;
+pub(crate) use shells::{SHELLS, ask_border, ask_counts};
+pub use solver::{RobustSolver, Solver};
+pub(crate) use traversal::{ask_extent, ask_farthest};

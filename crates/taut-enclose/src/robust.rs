@@ -11,6 +11,7 @@ mod enclosing;
 mod estimate;
 mod fit;
 mod flat;
+mod in_parts;
 mod options;
 mod scale;
 mod search;
@@ -29,6 +30,9 @@ use crate::Error;
 use crate::ellipsoid::dense::divide_rows;
 use crate::ellipsoid::outcome::log_unit_ball;
 use crate::ellipsoid::point_reader::PointReader;
+pub(crate) use estimate::{Estimate, Moments};
+pub use in_parts::RobustInParts;
+pub(crate) use in_parts::in_parts;
 pub use options::RobustOptions;
 
 /// Center and scatter of most of n points of dimension d, the tolerance ellipsoid, and the points outside of it.
@@ -119,7 +123,17 @@ fn answer(
     placed: &Placed,
     method: RobustMethod,
 ) -> Result<RobustEllipsoid, Error> {
-    let dim = data.dim();
+    let mut answer = shape(data.dim(), placed, method)?;
+    // Those of trimming are the points left out, and named with the shape.
+    let is_trimmed = method == RobustMethod::Trim && placed.fit.enclosure.is_some();
+    if !is_trimmed {
+        answer.outliers = outliers(data, placed, &answer)?;
+    }
+    Ok(answer)
+}
+
+/// The answer without its outliers, unless they are those of trimming.
+fn shape(dim: usize, placed: &Placed, method: RobustMethod) -> Result<RobustEllipsoid, Error> {
     let Fit { estimate, scale, cutoff, .. } = &placed.fit;
     // The border of a trimmed set is the ellipsoid itself.
     let cutoff = if method == RobustMethod::Trim { 1.0 / scale } else { *cutoff };
@@ -183,7 +197,6 @@ fn answer(
             outliers,
         });
     }
-    let outliers = outliers(data, placed, (&center, &center_tail), &factor)?;
     let hull = placed.flat.as_ref().map(|flat| Hull {
         basis: flat.basis.chunks_exact(dim).map(<[f64]>::to_vec).collect(),
         distance: flat.distance,
@@ -197,7 +210,7 @@ fn answer(
         log_volume,
         scatter,
         log_det,
-        outliers,
+        outliers: vec![],
     })
 }
 
@@ -205,8 +218,7 @@ fn answer(
 fn outliers(
     data: &mut PointReader<'_>,
     placed: &Placed,
-    (center, tail): (&[f64], &[f64]),
-    factor: &[Vec<f64>],
+    RobustEllipsoid { center, center_tail: tail, factor, .. }: &RobustEllipsoid,
 ) -> Result<Vec<u64>, Error> {
     let dim = data.dim();
     let blocks = data.visit(|first, rows| {

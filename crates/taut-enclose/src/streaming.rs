@@ -28,8 +28,8 @@ use crate::separated_set::{SeparatedSet, rounded_up};
 use crate::{CentersMethod, Error};
 pub use core_set_summary::CoreSetSummary;
 use instance::{Instance, distance, least_distance};
-pub(crate) use measure::Reach;
 use measure::measure;
+pub(crate) use measure::{Reach, nearest_squares};
 
 /// Options to cover a stream. Write `StreamingOptions { instances: 1 }`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

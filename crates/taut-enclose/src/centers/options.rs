@@ -87,7 +87,7 @@ impl Default for CentersOptions<'_> {
 }
 
 impl CentersOptions<'_> {
-    pub(super) fn check(&self, k: usize) -> Result<(), Error> {
+    pub(crate) fn check(&self, k: usize) -> Result<(), Error> {
         let wrong = |name, value: String, expected| {
             Err(Error::Input(InputError::Option { name, value, expected }))
         };

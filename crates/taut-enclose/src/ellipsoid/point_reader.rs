@@ -196,7 +196,7 @@ impl<'a> PointReader<'a> {
 }
 
 /// Calls `work` with the number of the first row and the rows of each block; in a first pass blocks are hashed, too.
-pub(super) fn visit<R: Send>(
+pub(crate) fn visit<R: Send>(
     source: &dyn PointSource,
     monitor: &Monitor<'_>,
     first: bool,

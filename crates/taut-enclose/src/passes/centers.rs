@@ -1,12 +1,11 @@
 //! The question of centers that are known: how far the farthest point is from the nearest of them.
 
 use taut_points::{
-    BlockHash, ByteReader, ByteWriter, Elsewhere, InputError, Monitor, PartsError, PointSource,
-    PointsHash,
+    BlockHash, ByteReader, ByteWriter, Elsewhere, Monitor, PartsError, PointSource, PointsHash,
 };
 
 use super::partial::{Body, Partial};
-use super::query::{Query, Question};
+use super::query::{Query, Question, among_all};
 use crate::Error;
 use crate::streaming::Reach;
 
@@ -43,12 +42,7 @@ impl CentersQuestion {
         monitor: &Monitor<'_>,
     ) -> Result<(Option<Vec<BlockHash>>, Body), Error> {
         let measured = self.reach.of(part, &self.centers, monitor);
-        let (reach, hashes) = measured.map_err(|error| match error {
-            Error::Input(InputError::NonFinite { row, column, value }) => {
-                InputError::NonFinite { row: first_row + row, column, value }.into()
-            }
-            other => other,
-        })?;
+        let (reach, hashes) = measured.map_err(|error| among_all(error, first_row))?;
         Ok(((self.reach == Reach::Square).then_some(hashes), Body::Centers(reach)))
     }
 

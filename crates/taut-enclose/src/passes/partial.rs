@@ -9,6 +9,8 @@ use taut_points::{
 
 use super::items::ItemBody;
 use super::query::{Query, Question, Stamp};
+use super::shells::ShellBody;
+use super::traversal::TraversalBody;
 use crate::ellipsoid::question::Answer;
 
 /// The answer of some blocks of rows to a [`Query`].
@@ -33,6 +35,8 @@ pub(super) enum Body {
     Points(Answer),
     /// How far the farthest point is from the nearest center.
     Centers(f64),
+    Traversal(TraversalBody),
+    Shells(ShellBody),
 }
 
 impl Body {
@@ -43,6 +47,8 @@ impl Body {
             (Body::Items(a), Body::Items(b)) => Ok(Body::Items(a.merge(b)?)),
             (Body::Points(a), Body::Points(b)) => Ok(Body::Points(a.merge(b)?)),
             (Body::Centers(a), Body::Centers(b)) => Ok(Body::Centers(a.max(b))),
+            (Body::Traversal(a), Body::Traversal(b)) => Ok(Body::Traversal(a.merge(b)?)),
+            (Body::Shells(a), Body::Shells(b)) => Ok(Body::Shells(a.merge(b)?)),
             _ => Err(PartsError::Question),
         }
     }
@@ -53,6 +59,8 @@ impl Body {
             Body::None | Body::Rows | Body::Centers(_) => BTreeSet::new(),
             Body::Items(items) => items.rows(),
             Body::Points(answer) => answer.rows(),
+            Body::Traversal(found) => found.rows(),
+            Body::Shells(found) => found.rows(),
         }
     }
 }
@@ -133,6 +141,14 @@ impl Partial {
                 bytes.whole(4);
                 bytes.float(*reach);
             }
+            Body::Traversal(found) => {
+                bytes.whole(5);
+                found.write(&mut bytes);
+            }
+            Body::Shells(found) => {
+                bytes.whole(6);
+                found.write(&mut bytes);
+            }
         }
         bytes.into_bytes()
     }
@@ -160,6 +176,8 @@ impl Partial {
             2 => Body::Items(ItemBody::read(&mut bytes)?),
             3 => Body::Points(Answer::read(&mut bytes)?),
             4 => Body::Centers(bytes.float()?),
+            5 => Body::Traversal(TraversalBody::read(&mut bytes)?),
+            6 => Body::Shells(ShellBody::read(&mut bytes, columns)?),
             _ => return Err(bytes.wrong()),
         };
         bytes.end(Partial { stamp, blocks, rows, body })

@@ -3,14 +3,16 @@
 use std::collections::BTreeMap;
 
 use taut_points::{
-    BlockHash, BlockRuns, Blocks, ByteReader, ByteWriter, Monitor, PartsError, PointSource,
-    check_part, gather, instruction_set,
+    BlockHash, BlockRuns, Blocks, ByteReader, ByteWriter, InputError, Monitor, PartsError,
+    PointSource, check_part, gather, instruction_set,
 };
 
 use super::centers::CentersQuestion;
 use super::items::ItemQuestion;
 use super::partial::{Body, Partial};
 use super::points::PointQuestion;
+use super::shells::ShellQuestion;
+use super::traversal::TraversalQuestion;
 use crate::Error;
 
 /// A question of a solver about all rows.
@@ -28,6 +30,8 @@ pub(super) enum Question {
     Items(ItemQuestion),
     Points(PointQuestion),
     Centers(CentersQuestion),
+    Traversal(TraversalQuestion),
+    Shells(ShellQuestion),
 }
 
 /// The word that bytes of a query begin with.
@@ -82,6 +86,14 @@ impl Query {
             }
             Question::Centers(question) => {
                 self.hashed(part, first_row, question.run(part, first_row, monitor)?)
+            }
+            Question::Traversal(question) => {
+                self.hashed(part, first_row, question.run(part, first_row, monitor)?)
+            }
+            Question::Shells(question) => {
+                let first_block = self.block(first_row);
+                let found = question.run(part, first_row, first_block, monitor)?;
+                self.hashed(part, first_row, found)
             }
         };
         let end = first_row + part.len();
@@ -152,6 +164,14 @@ impl Query {
                 bytes.whole(3);
                 question.write(&mut bytes);
             }
+            Question::Traversal(question) => {
+                bytes.whole(4);
+                question.write(&mut bytes);
+            }
+            Question::Shells(question) => {
+                bytes.whole(5);
+                question.write(&mut bytes);
+            }
         }
         bytes.into_bytes()
     }
@@ -169,6 +189,8 @@ impl Query {
             1 => Question::Items(ItemQuestion::read(&mut bytes, columns)?),
             2 => Question::Points(PointQuestion::read(&mut bytes, columns)?),
             3 => Question::Centers(CentersQuestion::read(&mut bytes, columns)?),
+            4 => Question::Traversal(TraversalQuestion::read(&mut bytes, columns)?),
+            5 => Question::Shells(ShellQuestion::read(&mut bytes, columns)?),
             _ => return Err(bytes.wrong()),
         };
         bytes.end(Query { n, columns, question })
@@ -176,6 +198,16 @@ impl Query {
 
     pub(super) fn question(&self) -> &Question {
         &self.question
+    }
+}
+
+/// The error with the number that its row has among all.
+pub(super) fn among_all(error: Error, first_row: u64) -> Error {
+    match error {
+        Error::Input(InputError::NonFinite { row, column, value }) => {
+            InputError::NonFinite { row: first_row + row, column, value }.into()
+        }
+        other => other,
     }
 }
 

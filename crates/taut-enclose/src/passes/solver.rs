@@ -9,7 +9,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{JoinHandle, spawn};
 use std::time::Duration;
 
-use taut_certify::{AnySolution, Items, Placement};
+use taut_certify::{AnySolution, Items, Placement, RobustMethod};
 use taut_points::{
     Cancelled, Elsewhere, InputError, Monitor, PartsError, PointSource, Points, ReadError, Rows,
     Scalar, ScalarKind, Scratch,
@@ -18,7 +18,8 @@ use taut_points::{
 use super::partial::Partial;
 use super::query::{Query, Question};
 use crate::{
-    BallOptions, EllipsoidMethod, EllipsoidOptions, Error, StreamingCenters, ball, ellipsoid,
+    BallOptions, CentersMethod, CentersOptions, EllipsoidMethod, EllipsoidOptions, Error,
+    RobustInParts, RobustOptions, StreamingCenters, ball, centers, ellipsoid, robust,
 };
 
 /// The interval at which a caller who waits for the next query is asked whether to go on. It delays a stop, never a query.
@@ -26,14 +27,21 @@ const ASK_INTERVAL: Duration = Duration::from_millis(50);
 
 /// A solver with one open [`Query`] at a time; see the [module](super).
 #[derive(Debug)]
-pub struct Solver {
+pub struct Solver(Asking<AnySolution>);
+
+/// A solver of robust ellipsoids. What it finds is no [`Solution`](taut_certify::Solution), as a certificate names half of all rows.
+#[derive(Debug)]
+pub struct RobustSolver(Asking<RobustInParts>);
+
+/// A thread that solves and asks, and its end, once that was reached.
+#[derive(Debug)]
+struct Asking<T> {
     queries: Receiver<Query>,
     partials: Sender<Partial>,
     cancel: Arc<AtomicBool>,
-    worker: Option<JoinHandle<Result<AnySolution, Error>>>,
+    worker: Option<JoinHandle<Result<T, Error>>>,
     open: Option<Query>,
-    /// The end, once it was reached.
-    solution: Option<Result<AnySolution, Error>>,
+    solution: Option<Result<T, Error>>,
 }
 
 impl Solver {
@@ -93,12 +101,130 @@ impl Solver {
         })
     }
 
+    /// k centers of `n` points of so many coordinates, by farthest-first traversal or by a search over a core-set, to the gap that is
+    /// wanted ([`CentersMethod::Tree`]).
+    ///
+    /// Answer and certificate of a traversal are those of [`centers()`]; the trace counts the passes that were made here. A search
+    /// over a core-set proves the gap as well, with other centers.
+    ///
+    /// # Errors
+    /// Those of [`centers()`] for options; balls and ellipsoids, weights, groups, outliers, an assignment, other methods, and centers
+    /// among the rows by a search are refused, as they need all rows in one place.
+    pub fn k_centers(
+        n: u64,
+        columns: usize,
+        k: usize,
+        options: CentersOptions<'static>,
+    ) -> Result<Self, Error> {
+        options.check(k)?;
+        let refused = |name, value: &str, expected| {
+            Err(Error::Input(InputError::Option { name, value: value.to_owned(), expected }))
+        };
+        if !matches!(options.method, CentersMethod::Tree | CentersMethod::FarthestFirst) {
+            let expected = "tree or farthest-first; streams have a solver of their own";
+            return refused("method", options.method.name(), expected);
+        }
+        if options.inputs != Items::Points || options.weights {
+            return refused("inputs", options.inputs.name(), "points without weights, in parts");
+        }
+        if options.group.is_some() || options.outliers > 0 || options.assignment {
+            let expected = "neither groups, outliers nor an assignment, in parts";
+            return refused("options", "more than centers", expected);
+        }
+        if options.method == CentersMethod::Tree && options.placement == Placement::Rows {
+            return refused("placement", "rows", "free for a search over a core-set");
+        }
+        Ok(Self::start(n, columns, move |source, monitor| {
+            let options = CentersOptions { monitor: *monitor, ..options };
+            centers(source, k, &options).map(AnySolution::from)
+        }))
+    }
+
     fn start(
         n: u64,
         columns: usize,
         solve: impl FnOnce(&dyn PointSource, &Monitor<'_>) -> Result<AnySolution, Error>
         + Send
         + 'static,
+    ) -> Self {
+        Solver(Asking::start(n, columns, solve))
+    }
+
+    /// The query that waits for its answer; `None` once there is a solution.
+    ///
+    /// # Errors
+    /// [`Cancelled`] when the monitor stops the wait. The query can be asked for again.
+    pub fn query(&mut self, monitor: &Monitor<'_>) -> Result<Option<&Query>, Cancelled> {
+        self.0.query(monitor)
+    }
+
+    /// Hands over the answer of all rows to the open query.
+    ///
+    /// # Errors
+    /// [`PartsError`] where it is none; then the query stays open.
+    pub fn feed(&mut self, partial: Partial) -> Result<(), PartsError> {
+        self.0.feed(partial)
+    }
+
+    /// The solution.
+    ///
+    /// # Errors
+    /// Those of the function in memory; [`PartsError::Open`] while a query waits for its answer.
+    pub fn solution(self, monitor: &Monitor<'_>) -> Result<AnySolution, Error> {
+        self.0.solution(monitor)
+    }
+}
+
+impl RobustSolver {
+    /// Center and scatter of most of `n` points of so many coordinates, by minimum covariance determinant.
+    ///
+    /// The search of [`robust_ellipsoid`](crate::robust_ellipsoid) runs over a sample. From what that finds, C-steps over all points
+    /// lead to rows that are the h nearest in their own metric.
+    ///
+    /// # Errors
+    /// Those of [`robust_ellipsoid`](crate::robust_ellipsoid) for options; other methods than [`RobustMethod::Mcd`] are refused.
+    pub fn new(n: u64, columns: usize, options: RobustOptions<'static>) -> Result<Self, Error> {
+        options.check()?;
+        if options.method != RobustMethod::Mcd {
+            let (name, value) = ("method", options.method.name().to_owned());
+            let expected = "mcd, as the other methods are for points in memory";
+            return Err(Error::Input(InputError::Option { name, value, expected }));
+        }
+        Ok(RobustSolver(Asking::start(n, columns, move |source, monitor| {
+            robust::in_parts(source, &RobustOptions { monitor: *monitor, ..options })
+        })))
+    }
+
+    /// As [`Solver::query`].
+    ///
+    /// # Errors
+    /// As [`Solver::query`].
+    pub fn query(&mut self, monitor: &Monitor<'_>) -> Result<Option<&Query>, Cancelled> {
+        self.0.query(monitor)
+    }
+
+    /// As [`Solver::feed`].
+    ///
+    /// # Errors
+    /// As [`Solver::feed`].
+    pub fn feed(&mut self, partial: Partial) -> Result<(), PartsError> {
+        self.0.feed(partial)
+    }
+
+    /// The estimate.
+    ///
+    /// # Errors
+    /// [`Error::Empty`], [`Error::Overflow`], [`Error::MostFlatInParts`]; [`PartsError::Open`] while a query waits for its answer.
+    pub fn solution(self, monitor: &Monitor<'_>) -> Result<RobustInParts, Error> {
+        self.0.solution(monitor)
+    }
+}
+
+impl<T: Send + 'static> Asking<T> {
+    fn start(
+        n: u64,
+        columns: usize,
+        solve: impl FnOnce(&dyn PointSource, &Monitor<'_>) -> Result<T, Error> + Send + 'static,
     ) -> Self {
         let (ask, queries) = channel();
         let (partials, answers) = channel();
@@ -110,14 +236,12 @@ impl Solver {
             solve(&Remote { n, columns, line }, &monitor)
         });
         let (open, solution) = (None, None);
-        Solver { queries, partials, cancel, worker: Some(worker), open, solution }
+        Asking { queries, partials, cancel, worker: Some(worker), open, solution }
     }
+}
 
-    /// The query that waits for its answer; `None` once there is a solution.
-    ///
-    /// # Errors
-    /// [`Cancelled`] when the monitor stops the wait. The query can be asked for again.
-    pub fn query(&mut self, monitor: &Monitor<'_>) -> Result<Option<&Query>, Cancelled> {
+impl<T> Asking<T> {
+    fn query(&mut self, monitor: &Monitor<'_>) -> Result<Option<&Query>, Cancelled> {
         while self.open.is_none() && self.solution.is_none() {
             match self.queries.recv_timeout(ASK_INTERVAL) {
                 Ok(query) => self.open = Some(query),
@@ -132,11 +256,7 @@ impl Solver {
         Ok(self.open.as_ref())
     }
 
-    /// Hands over the answer of all rows to the open query.
-    ///
-    /// # Errors
-    /// [`PartsError`] where it is none; then the query stays open.
-    pub fn feed(&mut self, partial: Partial) -> Result<(), PartsError> {
+    fn feed(&mut self, partial: Partial) -> Result<(), PartsError> {
         let query = self.open.as_ref().ok_or(PartsError::Question)?;
         partial.check(query)?;
         self.open = None;
@@ -145,11 +265,7 @@ impl Solver {
         Ok(())
     }
 
-    /// The solution.
-    ///
-    /// # Errors
-    /// Those of the function in memory; [`PartsError::Open`] while a query waits for its answer.
-    pub fn solution(mut self, monitor: &Monitor<'_>) -> Result<AnySolution, Error> {
+    fn solution(mut self, monitor: &Monitor<'_>) -> Result<T, Error> {
         if self.query(monitor).map_err(InputError::from)?.is_some() {
             return Err(PartsError::Open.into());
         }
@@ -157,7 +273,7 @@ impl Solver {
     }
 }
 
-impl Drop for Solver {
+impl<T> Drop for Asking<T> {
     fn drop(&mut self) {
         self.cancel.store(true, Ordering::Relaxed);
     }

@@ -10,6 +10,8 @@
 //! *Trap.* A covariance may be indefinite after a far outlier was dropped and yet not be flat: it is shifted, and the
 //! moments taken again in the better metric.
 
+use taut_points::{ByteReader, ByteWriter, PartsError};
+
 use crate::Error;
 use crate::ellipsoid::dense::{cholesky, divide_rows, forward};
 use crate::ellipsoid::point_reader::PointReader;
@@ -30,13 +32,13 @@ const ROUNDING_RATIO_MAX: f64 = 1.0 / 16.0;
 const CENTER_ROUNDING_MAX: f64 = 1.0 / 128.0;
 
 /// c and M.
-#[derive(Clone, Debug)]
-pub(super) struct Estimate {
-    pub(super) center: Vec<f64>,
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Estimate {
+    pub(crate) center: Vec<f64>,
     /// The vector to add to `center` for c; empty stands for zeros.
-    pub(super) tail: Vec<f64>,
+    pub(crate) tail: Vec<f64>,
     /// Lower triangular by rows, zeros above: M′M = S⁻¹.
-    pub(super) matrix: Vec<f64>,
+    pub(crate) matrix: Vec<f64>,
 }
 
 /// The estimate from the rows kept.
@@ -49,8 +51,18 @@ pub(super) enum RankedEstimate {
     Singular,
 }
 
+/// The estimate from moments.
+pub(super) enum Turned {
+    /// In a metric so near to it that it has all its digits.
+    Near(Estimate),
+    /// In another: it is the metric in which to take the moments again.
+    Rough(Estimate),
+    Singular,
+}
+
 /// The moments of the rows kept, from one pass.
-struct Moments {
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Moments {
     /// Σ yy′, Σ y and Σ 1 for y = M(x − c): (d + 1) × (d + 1), lower triangle.
     sums: Vec<f64>,
     /// The least and the largest of each coordinate.
@@ -59,15 +71,32 @@ struct Moments {
 }
 
 impl Moments {
-    fn nothing(dim: usize) -> Self {
+    pub(crate) fn nothing(dim: usize) -> Self {
         let sums = vec![0.0; (dim + 1) * (dim + 1)];
         Moments { sums, lows: vec![f64::INFINITY; dim], highs: vec![f64::NEG_INFINITY; dim] }
     }
 
-    fn merge(&mut self, other: &Moments) {
+    pub(crate) fn merge(&mut self, other: &Moments) {
         self.sums.iter_mut().zip(&other.sums).for_each(|(sum, term)| *sum += term);
         self.lows.iter_mut().zip(&other.lows).for_each(|(low, x)| *low = low.min(*x));
         self.highs.iter_mut().zip(&other.highs).for_each(|(high, x)| *high = high.max(*x));
+    }
+
+    /// Σ 1.
+    pub(crate) fn count(&self) -> f64 {
+        self.sums.last().copied().unwrap_or(0.0)
+    }
+
+    pub(crate) fn write(&self, bytes: &mut ByteWriter) {
+        [&self.sums, &self.lows, &self.highs].into_iter().for_each(|list| bytes.floats(list));
+    }
+
+    pub(crate) fn read(bytes: &mut ByteReader<'_>, dim: usize) -> Result<Self, PartsError> {
+        let (sums, lows, highs) = (bytes.floats()?, bytes.floats()?, bytes.floats()?);
+        let width = dim.saturating_add(1);
+        let fits = sums.len() == width.saturating_mul(width)
+            && [&lows, &highs].iter().all(|list| list.len() == dim);
+        if fits { Ok(Moments { sums, lows, highs }) } else { Err(bytes.wrong()) }
     }
 
     /// Returns true if some coordinate is the same in all rows.
@@ -76,7 +105,7 @@ impl Moments {
     }
 
     /// The largest |x| of each coordinate.
-    fn sizes(&self) -> Vec<f64> {
+    pub(super) fn sizes(&self) -> Vec<f64> {
         self.lows.iter().zip(&self.highs).map(|(low, high)| low.abs().max(high.abs())).collect()
     }
 }
@@ -127,7 +156,7 @@ impl Estimate {
         self.tail.get(j).map_or(offset, |tail| offset - tail)
     }
 
-    pub(super) fn dim(&self) -> usize {
+    pub(crate) fn dim(&self) -> usize {
         self.center.len()
     }
 
@@ -145,51 +174,55 @@ impl Estimate {
 
     /// |M(x − c)|² of all rows.
     pub(super) fn distances(&self, data: &mut PointReader<'_>) -> Result<Vec<f64>, Error> {
+        let blocks = data.visit(|_, rows| self.distances_of(rows))?;
+        Ok(blocks.concat())
+    }
+
+    /// |M(x − c)|² of some rows.
+    pub(crate) fn distances_of(&self, rows: &[f64]) -> Vec<f64> {
         let center = Center { high: self.center.clone(), low: self.tail.clone() };
-        let dim = self.dim();
-        let blocks = data.visit(|_, rows| {
-            let mut squares = vec![0.0; rows.len() / dim];
-            let mut scratch = vec![];
-            leverages(rows, &self.matrix, &center, &mut scratch, &mut squares);
-            squares
-        })?;
-        let mut all = blocks.concat();
+        let mut squares = vec![0.0; rows.len() / self.dim()];
+        leverages(rows, &self.matrix, &center, &mut vec![], &mut squares);
         // Not a number but a square too large for one.
-        all.iter_mut().filter(|d| d.is_nan()).for_each(|d| *d = f64::INFINITY);
-        Ok(all)
+        squares.iter_mut().filter(|d| d.is_nan()).for_each(|d| *d = f64::INFINITY);
+        squares
     }
 
     fn moments(&self, data: &mut PointReader<'_>, kept: &[bool]) -> Result<Moments, Error> {
-        let dim = self.dim();
-        let shift = vec![0.0; dim];
-        let blocks = data.visit(|first, rows| {
-            let kept = &kept[first as usize..];
-            let chosen: Vec<&[f64]> =
-                rows.chunks_exact(dim).zip(kept).filter(|(_, k)| **k).map(|(row, _)| row).collect();
-            let mut found = Moments::nothing(dim);
-            let blocks = chosen.len().div_ceil(POINTS);
-            let mut y = vec![0.0; blocks * dim * POINTS];
-            let mut weights = vec![0.0; blocks * POINTS];
-            weights[..chosen.len()].fill(1.0);
-            let mut x = vec![0.0; dim * POINTS];
-            let mut squares = [0.0; POINTS];
-            for (chosen, y) in chosen.chunks(POINTS).zip(y.chunks_exact_mut(dim * POINTS)) {
-                for (i, row) in chosen.iter().enumerate() {
-                    for (j, &value) in row.iter().enumerate() {
-                        x[j * POINTS + i] = self.offset(j, value);
-                        found.lows[j] = found.lows[j].min(value);
-                        found.highs[j] = found.highs[j].max(value);
-                    }
-                }
-                let triangle = Triangle { matrix: &self.matrix, shift: &shift };
-                images(triangle, &x, y, &mut squares);
-            }
-            found.sums = moments(dim, &y, &weights);
-            found
-        })?;
-        let mut all = Moments::nothing(dim);
+        let blocks =
+            data.visit(|first, rows| self.moments_of(rows, |row| kept[first as usize + row]))?;
+        let mut all = Moments::nothing(self.dim());
         blocks.iter().for_each(|block| all.merge(block));
         Ok(all)
+    }
+
+    /// The moments of some rows, of those that are kept.
+    pub(crate) fn moments_of(&self, rows: &[f64], is_kept: impl Fn(usize) -> bool) -> Moments {
+        let dim = self.dim();
+        let shift = vec![0.0; dim];
+        let rows = rows.chunks_exact(dim).enumerate();
+        let chosen: Vec<&[f64]> =
+            rows.filter(|(row, _)| is_kept(*row)).map(|(_, row)| row).collect();
+        let mut found = Moments::nothing(dim);
+        let blocks = chosen.len().div_ceil(POINTS);
+        let mut y = vec![0.0; blocks * dim * POINTS];
+        let mut weights = vec![0.0; blocks * POINTS];
+        weights[..chosen.len()].fill(1.0);
+        let mut x = vec![0.0; dim * POINTS];
+        let mut squares = [0.0; POINTS];
+        for (chosen, y) in chosen.chunks(POINTS).zip(y.chunks_exact_mut(dim * POINTS)) {
+            for (i, row) in chosen.iter().enumerate() {
+                for (j, &value) in row.iter().enumerate() {
+                    x[j * POINTS + i] = self.offset(j, value);
+                    found.lows[j] = found.lows[j].min(value);
+                    found.highs[j] = found.highs[j].max(value);
+                }
+            }
+            let triangle = Triangle { matrix: &self.matrix, shift: &shift };
+            images(triangle, &x, y, &mut squares);
+        }
+        found.sums = moments(dim, &y, &weights);
+        found
     }
 
     /// Mean and covariance (divisor k − 1) of the k rows kept.
@@ -198,60 +231,66 @@ impl Estimate {
         data: &mut PointReader<'_>,
         kept: &[bool],
     ) -> Result<RankedEstimate, Error> {
-        let dim = self.dim();
         let mut next = self.clone();
         for _ in 0..TURNS_MAX {
             let found = next.moments(data, kept)?;
-            let moments = &found.sums;
-            if moments.iter().any(|v| !v.is_finite()) {
-                return Err(Error::Overflow);
-            }
-            let last = &moments[dim * (dim + 1)..];
-            let count = last[dim];
-            if count < dim as f64 + 1.0 || found.is_constant() {
-                return Ok(RankedEstimate::Singular);
-            }
-            let mut mean: Vec<f64> = last[..dim].iter().map(|s| s / count).collect();
-            let mut covariance = vec![0.0; dim * dim];
-            for a in 0..dim {
-                for b in 0..=a {
-                    let product = moments[a * (dim + 1) + b] - mean[a] * mean[b] * count;
-                    covariance[a * dim + b] = product / (count - 1.0);
+            match next.turned(&found)? {
+                Turned::Singular => return Ok(RankedEstimate::Singular),
+                Turned::Near(estimate) if estimate.is_noise(&found.sizes()) => {
+                    return Ok(RankedEstimate::Noise(estimate));
                 }
-            }
-            // No deviation at all, exactly.
-            let deviates = |a: usize| covariance[a * dim + a] > 0.0;
-            if !(0..dim).all(deviates) {
-                return Ok(RankedEstimate::Singular);
-            }
-            let Some((lower, is_near)) = factor(covariance, dim) else {
-                return Err(Error::Overflow);
-            };
-            forward(&next.matrix, dim, &mut mean);
-            next.tail.resize(dim, 0.0);
-            for ((c, tail), m) in next.center.iter_mut().zip(&mut next.tail).zip(&mean) {
-                let sum = DoubleDouble::sum(*c, *tail + m);
-                (*c, *tail) = (sum.high, sum.low);
-            }
-            divide_rows(&lower, dim, &mut next.matrix);
-            if next.matrix.iter().any(|m| !m.is_finite()) {
-                return Ok(RankedEstimate::Singular);
-            }
-            next = next.with_needed_tail();
-            if is_near {
-                let is_noise = next.is_noise(&found.sizes());
-                return Ok(if is_noise {
-                    RankedEstimate::Noise(next)
-                } else {
-                    RankedEstimate::Full(next)
-                });
+                Turned::Near(estimate) => return Ok(RankedEstimate::Full(estimate)),
+                Turned::Rough(estimate) => next = estimate,
             }
         }
         Ok(RankedEstimate::Singular)
     }
 
+    /// Mean and covariance (divisor k − 1) of k rows, from their moments in this metric.
+    pub(super) fn turned(&self, found: &Moments) -> Result<Turned, Error> {
+        let dim = self.dim();
+        let moments = &found.sums;
+        if moments.iter().any(|v| !v.is_finite()) {
+            return Err(Error::Overflow);
+        }
+        let last = &moments[dim * (dim + 1)..];
+        let count = last[dim];
+        if count < dim as f64 + 1.0 || found.is_constant() {
+            return Ok(Turned::Singular);
+        }
+        let mut mean: Vec<f64> = last[..dim].iter().map(|s| s / count).collect();
+        let mut covariance = vec![0.0; dim * dim];
+        for a in 0..dim {
+            for b in 0..=a {
+                let product = moments[a * (dim + 1) + b] - mean[a] * mean[b] * count;
+                covariance[a * dim + b] = product / (count - 1.0);
+            }
+        }
+        // No deviation at all, exactly.
+        let deviates = |a: usize| covariance[a * dim + a] > 0.0;
+        if !(0..dim).all(deviates) {
+            return Ok(Turned::Singular);
+        }
+        let Some((lower, is_near)) = factor(covariance, dim) else {
+            return Err(Error::Overflow);
+        };
+        let mut next = self.clone();
+        forward(&next.matrix, dim, &mut mean);
+        next.tail.resize(dim, 0.0);
+        for ((c, tail), m) in next.center.iter_mut().zip(&mut next.tail).zip(&mean) {
+            let sum = DoubleDouble::sum(*c, *tail + m);
+            (*c, *tail) = (sum.high, sum.low);
+        }
+        divide_rows(&lower, dim, &mut next.matrix);
+        if next.matrix.iter().any(|m| !m.is_finite()) {
+            return Ok(Turned::Singular);
+        }
+        let next = next.with_needed_tail();
+        Ok(if is_near { Turned::Near(next) } else { Turned::Rough(next) })
+    }
+
     /// Returns true if rounding of coordinates of these sizes could make up what is left of some direction.
-    fn is_noise(&self, sizes: &[f64]) -> bool {
+    pub(super) fn is_noise(&self, sizes: &[f64]) -> bool {
         let dim = self.dim();
         let is_clear = |row: &[f64]| {
             let noise: f64 = row.iter().zip(sizes).map(|(m, s)| (m * s).powi(2)).sum();

@@ -51,7 +51,7 @@ impl Default for RobustOptions<'_> {
 }
 
 impl RobustOptions<'_> {
-    pub(super) fn check(&self) -> Result<(), Error> {
+    pub(crate) fn check(&self) -> Result<(), Error> {
         let wrong = |name, value: String, expected| {
             Err(Error::Input(InputError::Option { name, value, expected }))
         };

@@ -75,6 +75,11 @@ impl CoreSetSummary {
         })
     }
 
+    /// These rows, in ascending order, as they are chosen by someone who measures the others himself; `len` points in all.
+    pub(crate) fn of_rows(dim: usize, rows: Vec<u64>, coordinates: Vec<f64>, len: u64) -> Self {
+        CoreSetSummary { dim, rows, coordinates, radius: f64::INFINITY, len }
+    }
+
     /// The rows chosen, in ascending order.
     pub fn rows(&self) -> &[u64] {
         &self.rows

@@ -117,18 +117,31 @@ fn distances(
 
 /// The largest squared distance of a point to the nearest center; not finite or tiny where squares leave the range.
 fn farthest<T: Scalar>(points: &Points<'_, T>, centers: &[Center]) -> f64 {
-    let (mut farthest, mut values, mut least) = (0.0, [0.0; CHUNK], [0.0; CHUNK]);
-    for chunk in points.values().chunks(CHUNK * points.dim()) {
-        let rows = chunk.len() / points.dim();
-        let (values, least) = (&mut values[..rows], &mut least[..rows]);
+    let mut farthest = 0.0;
+    nearest_squares(points.values(), points.dim(), centers, |_, least| {
+        farthest = largest(least).max(farthest);
+    });
+    farthest
+}
+
+/// Calls `take` with the number of a row, from 0, and the squared distances of it and rows after it to the nearest center.
+pub(crate) fn nearest_squares<T: Scalar>(
+    values: &[T],
+    dim: usize,
+    centers: &[Center],
+    mut take: impl FnMut(usize, &[f64]),
+) {
+    let (mut squares, mut least) = ([0.0; CHUNK], [0.0; CHUNK]);
+    for (number, chunk) in values.chunks(CHUNK * dim).enumerate() {
+        let rows = chunk.len() / dim;
+        let (squares, least) = (&mut squares[..rows], &mut least[..rows]);
         least.fill(f64::INFINITY);
         for center in centers {
-            squared_distances(chunk, points.dim(), center, values);
-            for (least, &value) in least.iter_mut().zip(values.iter()) {
+            squared_distances(chunk, dim, center, squares);
+            for (least, &value) in least.iter_mut().zip(squares.iter()) {
                 *least = if value < *least { value } else { *least };
             }
         }
-        farthest = largest(least).max(farthest);
+        take(number * CHUNK, least);
     }
-    farthest
 }

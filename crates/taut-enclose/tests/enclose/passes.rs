@@ -1,10 +1,11 @@
 //! Solutions from parts: the bytes of those in memory however rows are divided, and what is refused.
 
-use taut_certify::{AnySolution, CheckError, Items, PartialVerdict, Placement};
-use taut_enclose::passes::{Partial, Query, Solver};
+use taut_certify::{AnySolution, CheckError, Items, PartialVerdict, Placement, RobustMethod};
+use taut_enclose::passes::{Partial, Query, RobustSolver, Solver};
 use taut_enclose::{
     BallMethod, BallOptions, CentersMethod, CentersOptions, EllipsoidMethod, EllipsoidOptions,
-    Error, StreamingCenters, StreamingOptions, ball, centers, ellipsoid,
+    Error, RobustInParts, RobustOptions, StreamingCenters, StreamingOptions, ball, centers,
+    ellipsoid, robust_ellipsoid,
 };
 use taut_points::{
     Blocks, Distribution, Monitor, PartsError, PointSource, Points, Scalar, generate,
@@ -28,21 +29,40 @@ fn parts<'a, T: Scalar>(points: &Points<'a, T>, count: u64) -> Vec<(u64, Points<
     (0..count).map(part).collect()
 }
 
-/// Every query and partial goes through its bytes; partials are merged from both ends by turns.
+/// The answer of all parts. The query and partials go through their bytes; partials are merged from both ends by turns.
+fn answered<T: Scalar>(query: &Query, parts: &[(u64, Points<'_, T>)]) -> Result<Partial, Error> {
+    let query = Query::from_bytes(&query.to_bytes()).unwrap();
+    let mut merged = Partial::none(&query);
+    for (turn, (first_row, part)) in parts.iter().rev().enumerate() {
+        let partial = query.run(part, *first_row, &Monitor::silent())?;
+        let partial = Partial::from_bytes(&partial.to_bytes()).unwrap();
+        merged = if turn % 2 == 0 { merged.merge(partial)? } else { partial.merge(merged)? };
+    }
+    Ok(merged)
+}
+
 fn solve<T: Scalar>(
     mut solver: Solver,
     parts: &[(u64, Points<'_, T>)],
 ) -> Result<AnySolution, Error> {
     let monitor = Monitor::silent();
     while let Some(query) = solver.query(&monitor).unwrap() {
-        let query = Query::from_bytes(&query.to_bytes()).unwrap();
-        let mut merged = Partial::none(&query);
-        for (turn, (first_row, part)) in parts.iter().rev().enumerate() {
-            let partial = query.run(part, *first_row, &monitor)?;
-            let partial = Partial::from_bytes(&partial.to_bytes()).unwrap();
-            merged = if turn % 2 == 0 { merged.merge(partial)? } else { partial.merge(merged)? };
-        }
-        solver.feed(merged)?;
+        let answer = answered(query, parts)?;
+        solver.feed(answer)?;
+    }
+    solver.solution(&monitor)
+}
+
+fn solve_robust<T: Scalar>(
+    options: RobustOptions<'static>,
+    parts: &[(u64, Points<'_, T>)],
+) -> Result<RobustInParts, Error> {
+    let n = parts.iter().map(|(_, part)| PointSource::len(part)).sum();
+    let (mut solver, monitor) =
+        (RobustSolver::new(n, parts[0].1.dim(), options)?, Monitor::silent());
+    while let Some(query) = solver.query(&monitor).unwrap() {
+        let answer = answered(query, parts)?;
+        solver.feed(answer)?;
     }
     solver.solution(&monitor)
 }
@@ -175,6 +195,158 @@ fn centers_of_streams_have_the_bytes_and_verdicts_of_those_in_memory() {
             }
         }
     }
+}
+
+#[test]
+fn traversals_have_the_answers_and_certificates_of_those_in_memory() {
+    let (monitor, mut compared) = (Monitor::silent(), 0);
+    for (name, dim, values) in &sets() {
+        let points = Points::new(values, *dim).unwrap();
+        let n = PointSource::len(&points);
+        for (k, placement) in [(1, Placement::Free), (9, Placement::Rows)] {
+            let method = CentersMethod::FarthestFirst;
+            let options = CentersOptions { method, placement, ..Default::default() };
+            let wanted = centers(&points, k, &options);
+            for count in [1, 7] {
+                let parts = parts(&points, count);
+                let solver = Solver::k_centers(n, *dim, k, options).unwrap();
+                match (solve(solver, &parts), &wanted) {
+                    (Ok(AnySolution::Centers(found)), Ok(wanted)) => {
+                        compared += 1;
+                        assert_eq!(found.answer, wanted.answer, "{name}, {count} parts");
+                        assert_eq!(found.certificate, wanted.certificate, "{name}, {count} parts");
+                        // The extent, then at most one for each center.
+                        assert!(found.trace.passes <= 2 + k as u64, "{name}: {:?}", found.trace);
+                        let said = format!("{:?}", wanted.check(&points).unwrap());
+                        let solution = AnySolution::from(found);
+                        assert!(verdict(&solution, &parts).unwrap().contains(&said), "{name}");
+                        solution.check(&points, &monitor).unwrap();
+                    }
+                    (Err(found), Err(wanted)) => {
+                        assert_eq!(found.to_string(), wanted.to_string(), "{name}");
+                    }
+                    (found, wanted) => panic!("{name}: {found:?}, in memory {wanted:?}"),
+                }
+            }
+        }
+    }
+    assert!(compared >= 100, "{compared} compared");
+}
+
+#[test]
+fn centers_to_a_gap_are_found_over_a_core_set_and_proved_in_parts() {
+    let monitor = Monitor::silent();
+    let mut solved = 0;
+    for (name, dim, values) in sets().iter().filter(|set| set.1 <= 3) {
+        let points = Points::new(values, *dim).unwrap();
+        let n = PointSource::len(&points);
+        for (k, epsilon) in [(1, 1e-6), (3, 0.01)] {
+            let options = CentersOptions { epsilon, ..Default::default() };
+            let mut bytes: Option<String> = None;
+            for count in [1, 7] {
+                let parts = parts(&points, count);
+                let solver = Solver::k_centers(n, *dim, k, options).unwrap();
+                let found = match solve(solver, &parts) {
+                    Ok(found) => found,
+                    Err(Error::Overflow) if name.contains("huge") => continue,
+                    Err(error) => panic!("{name}, {k} centers: {error}"),
+                };
+                let json = found.to_json();
+                assert_eq!(bytes.get_or_insert(json.clone()), &json, "{name}, {count} parts");
+                let AnySolution::Centers(centers) = &found else { panic!("{name}: {found:?}") };
+                // The sphere of dimension 1 is two places to rounding, and three centers leave nothing else.
+                let is_near = centers.certificate.gap <= epsilon || centers.answer.radius < 1e-12;
+                assert!(is_near, "{name}: {:?}", centers.certificate);
+                let said = format!("{:?}", found.check(&points, &monitor).unwrap());
+                assert_eq!(verdict(&found, &parts).unwrap(), said, "{name}");
+                // Most rows were looked at by passes alone.
+                assert!(centers.certificate.core_set.len() < 1000, "{name}");
+                solved += 1;
+            }
+        }
+    }
+    assert!(solved >= 60, "{solved} solved");
+    let refused = |options| Solver::k_centers(10, 2, 2, options).unwrap_err().to_string();
+    let plain = CentersOptions::default;
+    let stream = CentersMethod::Stream(StreamingOptions::DEFAULT);
+    for (options, words) in [
+        (CentersOptions { method: stream, ..plain() }, "tree or farthest-first"),
+        (CentersOptions { outliers: 1, ..plain() }, "neither groups, outliers"),
+        (CentersOptions { assignment: true, ..plain() }, "neither groups, outliers"),
+        (CentersOptions { weights: true, ..plain() }, "without weights"),
+        (CentersOptions { inputs: Items::Balls, ..plain() }, "without weights"),
+        (CentersOptions { placement: Placement::Rows, ..plain() }, "free for a search"),
+        (CentersOptions { epsilon: 2.0, ..plain() }, "epsilon"),
+    ] {
+        assert!(refused(options).contains(words), "{}", refused(options));
+    }
+}
+
+/// Normal points, of which three in ten are moved far off, not all to one place.
+fn contaminated(n: usize, dim: usize) -> Vec<f64> {
+    let mut values = generate::<f64>(Distribution::Normal, n, dim, 8).unwrap();
+    for (row, values) in values.chunks_exact_mut(dim).enumerate() {
+        if row % 10 < 3 {
+            values.iter_mut().for_each(|x| *x = 0.3 * *x + 20.0 + (row % 3) as f64);
+        }
+    }
+    values
+}
+
+#[test]
+fn robust_ellipsoids_of_parts_bear_outliers_whatever_the_parts() {
+    for (n, dim, coverage) in [(60_000, 3, None), (40_000, 10, None), (9000, 2, Some(0.6))] {
+        let values = contaminated(n, dim);
+        let points = Points::new(&values, dim).unwrap();
+        let options = RobustOptions { coverage, ..Default::default() };
+        let found = solve_robust(options.clone(), &parts(&points, 1)).unwrap();
+        for &count in counts() {
+            assert_eq!(solve_robust(options.clone(), &parts(&points, count)).unwrap(), found);
+        }
+        let wanted = robust_ellipsoid(&points, &options).unwrap();
+        // Both are local optima of the same; the search in memory also exchanges points at the border.
+        let (here, there) = (found.objective, wanted.certificate.objective);
+        assert!((here - there).abs() < 1e-3, "{here}, in memory {there}");
+        assert_eq!(found.kept, wanted.certificate.kept);
+        assert_eq!(found.points_hash, wanted.certificate.points_hash);
+        for (a, b) in found.answer.center.iter().zip(&wanted.answer.center) {
+            assert!((a - b).abs() < 1e-2, "{a}, in memory {b}");
+        }
+        assert!((found.answer.log_volume - wanted.answer.log_volume).abs() < 1e-2);
+        // The rows kept are the nearest in the metric that they say: the determinant is that of what is weighed, not of all.
+        assert!(
+            found.weighed < (0.71 * n as f64) as u64 && found.weighed > (0.6 * n as f64) as u64
+        );
+    }
+}
+
+#[test]
+fn robust_ellipsoids_of_ties_and_flats_in_parts() {
+    // Each place has a thousand rows and more: no shell has few of them.
+    let normal = generate::<f64>(Distribution::Normal, 100_000, 2, 9).unwrap();
+    let values: Vec<f64> = normal.into_iter().map(f64::round).collect();
+    let points = Points::new(&values, 2).unwrap();
+    let found = solve_robust(RobustOptions::default(), &parts(&points, 1)).unwrap();
+    assert!(found.kept > 50_001, "{} kept: ties are kept as a whole", found.kept);
+    assert_eq!(solve_robust(RobustOptions::default(), &parts(&points, 4)).unwrap(), found);
+    // All rows: the mean and covariance.
+    let all = RobustOptions { coverage: Some(1.0), ..Default::default() };
+    let found = solve_robust(all.clone(), &parts(&points, 2)).unwrap();
+    let wanted = robust_ellipsoid(&points, &all).unwrap();
+    assert_eq!((found.kept, found.weighed), (100_000, 100_000));
+    assert!((found.objective - wanted.certificate.objective).abs() < 1e-9);
+    let flat: Vec<f64> = (0..100_000).flat_map(|i| [f64::from(i % 997), 5.0]).collect();
+    let points = Points::new(&flat, 2).unwrap();
+    let refused = solve_robust(RobustOptions::default(), &parts(&points, 2)).unwrap_err();
+    assert!(matches!(refused, Error::MostFlatInParts), "{refused}");
+    let mut odd = contaminated(40_000, 2);
+    odd[2 * 39_990 + 1] = f64::NAN;
+    let points = Points::new(&odd, 2).unwrap();
+    let refused =
+        solve_robust(RobustOptions::default(), &parts(&points, 2)).unwrap_err().to_string();
+    assert!(refused.contains("39990"), "{refused}");
+    let mve = RobustOptions { method: RobustMethod::Mve, ..Default::default() };
+    assert!(RobustSolver::new(10, 2, mve).unwrap_err().to_string().contains("expected mcd"));
 }
 
 #[test]
