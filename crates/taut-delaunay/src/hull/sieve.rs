@@ -110,6 +110,8 @@ mod tests {
     use crate::numbers::numbers;
     use crate::sites::{largest_magnitude, normalization};
 
+    type Map<'a> = &'a dyn Fn(&[f64; 3]) -> [f64; 3];
+
     /// Most points are left out, also far from the origin; of thin and skew sets, where extremes in 26 directions span little,
     /// perhaps few. Of the hull none is.
     #[test]
@@ -121,8 +123,7 @@ mod tests {
         let far = |x: &[f64; 3]| [x[0] + 1e7, x[1] - 1e7, x[2] + 1e7];
         let skew = |x: &[f64; 3]| [x[0], x[0] + 0.1 * x[1], x[1] + 0.1 * x[2]];
         for (values, share) in [(&uniform, 0.6), (&normal, 0.9)] {
-            let maps: [(&dyn Fn(&[f64; 3]) -> [f64; 3], f64); 3] =
-                [(&thin, 0.0), (&far, share), (&skew, 0.0)];
+            let maps: [(Map<'_>, f64); 3] = [(&thin, 0.0), (&far, share), (&skew, 0.0)];
             for (map, share) in maps {
                 let values: Vec<f64> = values.as_chunks::<3>().0.iter().flat_map(map).collect();
                 let points = Points::new(&values, 3).expect("whole rows");
