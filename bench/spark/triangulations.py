@@ -21,12 +21,14 @@ SAMPLE_INTERVAL = 0.1
 OPTIONS = {
     "spark.master": "local-cluster[2,1,480]",
     "spark.executor.memory": "480m",
-    "spark.executor.extraJavaOptions": "-XX:+UseSerialGC -XX:MaxDirectMemorySize=96m -XX:ReservedCodeCacheSize=64m",
+    "spark.executor.extraJavaOptions": "-XX:+UseSerialGC -XX:MaxDirectMemorySize=96m -XX:TieredStopAtLevel=1",
     "spark.executorEnv.MALLOC_ARENA_MAX": "2",
     "spark.network.io.preferDirectBufs": "false",
     "spark.shuffle.io.preferDirectBufs": "false",
     "spark.reducer.maxSizeInFlight": "16m",
     "spark.python.worker.memory": "128m",
+    # Else workers that wait for tasks of another kind stay.
+    "spark.python.worker.reuse": "false",
 }
 
 

@@ -245,7 +245,10 @@ def triangulate(
     if any(part is None for part in drawn):
         return None
     cut = Cut(np.concatenate(drawn), levels)
-    whole = records.mapPartitions(functools.partial(extent, layout=layout, cut=cut)).treeReduce(merge_extents)
+    extents = records.mapPartitions(functools.partial(extent, layout=layout, cut=cut))
+    # Where there are many, workers merge some first, which shuffles them.
+    few = extents.getNumPartitions() <= tasks.MERGED_BY_DRIVER_MAX
+    whole = functools.reduce(merge_extents, extents.collect()) if few else extents.treeReduce(merge_extents)
     if whole is None:
         return None
     pieces = records.mapPartitions(functools.partial(deal, layout=layout, cut=cut)).groupByKey(1 << levels)

@@ -25,6 +25,9 @@ from typing import Any, NamedTuple
 # The name under which a wheel travels to the workers.
 ARCHIVE = "taut_wheel"
 
+# The driver merges the answers of up to this many partitions. Where there are more, workers merge some of them first.
+MERGED_BY_DRIVER_MAX = 64
+
 # Integers beyond this are not all numbers of float64.
 EXACT_INTEGER_MAX = 2**53
 

@@ -40,9 +40,6 @@ log = logging.getLogger("taut.spark")
 # Types of columns that are numbers, and whether float32 holds all of them.
 NUMBERS = {"byte": False, "short": False, "integer": False, "long": False, "float": True, "double": False}
 
-# The driver merges the answers of up to this many partitions. Where there are more, workers merge some of them first.
-MERGED_BY_DRIVER_MAX = 64
-
 # A pass is tried this many times where files are missing. The second time it finds them if tasks only ran away from their files
 # (spark.locality.wait); from the third time on they are made again.
 ATTEMPTS_MAX = 6
@@ -199,7 +196,7 @@ class Points:
 
         def attempt() -> bytes | None:
             found = self._parts.mapPartitions(work)
-            if found.getNumPartitions() <= MERGED_BY_DRIVER_MAX:
+            if found.getNumPartitions() <= tasks.MERGED_BY_DRIVER_MAX:
                 answers = found.collect()
             else:
                 answers = [found.treeReduce(functools.partial(tasks.merge_answers, kind=kind), depth=2)]

@@ -411,7 +411,7 @@ def test_empty_partitions_and_names_with_dots(spark, monkeypatch):
     import taut.spark
 
     # Workers merge the answers of few partitions as they do those of many.
-    monkeypatch.setattr(taut.spark, "MERGED_BY_DRIVER_MAX", 4)
+    monkeypatch.setattr(taut.spark.tasks, "MERGED_BY_DRIVER_MAX", 4)
     rows = taut.generate("normal", 5, 2, seed=2)
     df, _ = frame(spark, rows, np.arange(5))
     df = df.selectExpr("x0 as `a.b`", "x1 as `c``d`", "key as `the.key`")
