@@ -6,7 +6,7 @@ use taut::certify::{
     Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, RobustCertificate, RobustEllipsoid,
     RobustVerdict, Trace,
 };
-use taut::certify::{Enclosure, Unweighted};
+use taut::certify::{Enclosure, RobustScale, Unweighted};
 use taut::points::{Distribution, generate};
 use taut::points::{Monitor, hash_points};
 use taut::{Items, Points, RobustMethod, RobustOptions, Solution, robust_ellipsoid};
@@ -186,6 +186,7 @@ fn trimmed(axes: [f64; 2], gap: f64) -> (Vec<f64>, Solution<RobustEllipsoid>, Ro
         cutoff: 0.0,
         raw_scale,
         scale: 0.0,
+        scaled_by: RobustScale::Share,
         weighed_out: vec![],
         unweighted: Some(Unweighted::Trimmed),
         enclosure: Some(Enclosure { ellipsoid, certificate }),
