@@ -17,18 +17,16 @@ MEMORY_MAX = 1 << 30
 SHARE_MAX = 0.05
 SAMPLE_INTERVAL = 0.1
 
-# Executors that take less than 1 GiB with their workers: the heap is the least that Spark takes, and nothing beside it grows.
+# Small executors: the heap is about the least that Spark takes, and little beside it grows.
 OPTIONS = {
     "spark.master": "local-cluster[2,1,480]",
     "spark.executor.memory": "480m",
-    "spark.executor.extraJavaOptions": "-XX:+UseSerialGC -XX:MaxDirectMemorySize=96m -XX:TieredStopAtLevel=1",
+    "spark.executor.extraJavaOptions": "-XX:+UseSerialGC -XX:MaxDirectMemorySize=96m -XX:ReservedCodeCacheSize=64m",
     "spark.executorEnv.MALLOC_ARENA_MAX": "2",
     "spark.network.io.preferDirectBufs": "false",
     "spark.shuffle.io.preferDirectBufs": "false",
     "spark.reducer.maxSizeInFlight": "16m",
     "spark.python.worker.memory": "128m",
-    # Else workers that wait for tasks of another kind stay.
-    "spark.python.worker.reuse": "false",
 }
 
 

@@ -120,7 +120,7 @@ pub(crate) fn frame_pass(
     let (extent, hash) = match source.elsewhere() {
         Some(elsewhere) => ask_extent(elsewhere, source)?,
         None => {
-            let (extent, hashes) = survey(source, monitor)?;
+            let (extent, hashes) = extent_and_hashes(source, monitor)?;
             (extent, PointsHash::of_blocks(source.len(), source.dim(), hashes))
         }
     };
@@ -147,7 +147,7 @@ impl Extent {
 }
 
 /// The extent of rows, which have to be finite, and the hashes of their blocks.
-pub(crate) fn survey(
+pub(crate) fn extent_and_hashes(
     source: &dyn PointSource,
     monitor: &Monitor<'_>,
 ) -> Result<(Extent, Vec<BlockHash>), Error> {

@@ -10,7 +10,7 @@ use taut_points::{
 use super::partial::{Body, Partial};
 use super::query::{Query, Question, among_all};
 use crate::Error;
-use crate::frame::{Extent, Frame, survey};
+use crate::frame::{Extent, Frame, extent_and_hashes};
 use crate::kernel::Center;
 use crate::kernel::extremes::largest;
 use crate::streaming::nearest_squares;
@@ -74,7 +74,7 @@ impl TraversalQuestion {
     ) -> Result<(Option<Vec<BlockHash>>, Body), Error> {
         match self {
             TraversalQuestion::Extent => {
-                let surveyed = survey(part, monitor);
+                let surveyed = extent_and_hashes(part, monitor);
                 let (extent, hashes) = surveyed.map_err(|error| among_all(error, first_row))?;
                 Ok((Some(hashes), Body::Traversal(TraversalBody::Extent(extent))))
             }

@@ -32,7 +32,7 @@ const BORDER_ROWS_MAX: u64 = 1024;
 /// Most C-steps over all points; what is reached then is returned, and says so.
 const STEPS_MAX: u64 = 500;
 /// One more than the bits of infinity: all distances are below.
-const END: u64 = f64::INFINITY.to_bits() + 1;
+const DISTANCE_BITS_END: u64 = f64::INFINITY.to_bits() + 1;
 
 /// Center and scatter of most points of a set that lies in several places.
 #[derive(Clone, Debug, PartialEq)]
@@ -183,7 +183,7 @@ impl Run<'_> {
                 is_here
             });
             let Some(shell) = shell else {
-                (low, high) = (low + width * SHELLS as u64, END);
+                (low, high) = (low + width * SHELLS as u64, DISTANCE_BITS_END);
                 continue;
             };
             low += width * shell as u64;
@@ -203,7 +203,8 @@ impl Run<'_> {
         let slack = DEVIATIONS * (1.0 + (count * part * (1.0 - part)).sqrt());
         let (low, high) = (count * part - slack, count * part + slack);
         let low = if low < 0.0 { 0 } else { distances[low as usize].to_bits() };
-        let high = if high >= count { END } else { distances[high as usize].to_bits() + 1 };
+        let high =
+            if high >= count { DISTANCE_BITS_END } else { distances[high as usize].to_bits() + 1 };
         (low, high)
     }
 
