@@ -6,7 +6,7 @@ use taut::certify::{
     Ellipsoid, EllipsoidCertificate, EllipsoidVerdict, RobustCertificate, RobustEllipsoid,
     RobustScale, RobustVerdict, Trace,
 };
-use taut::certify::{Enclosure, RobustScale, Unweighted};
+use taut::certify::{Enclosure, Unweighted};
 use taut::points::{Distribution, generate};
 use taut::points::{Monitor, hash_points};
 use taut::{Items, Points, RobustMethod, RobustOptions, Solution, robust_ellipsoid};
