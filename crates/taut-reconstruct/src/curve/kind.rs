@@ -76,10 +76,10 @@ impl Regions {
         Self { kinds: vec![judged], region: Vec::new() }
     }
 
-    /// The one kind there is, if there is one, as the first region has it.
+    /// What all points are, if there is one region.
     pub(super) fn only(&self) -> Option<Judged> {
-        let first = self.kinds[0];
-        self.kinds.iter().all(|judged| judged.kind == first.kind).then_some(first)
+        let [only] = self.kinds[..] else { return None };
+        Some(only)
     }
 }
 
@@ -116,8 +116,15 @@ pub(super) fn regions(points: &[Point]) -> Regions {
     let (region, count) = linked(points);
     let mut members: Vec<Vec<usize>> = vec![vec![]; count];
     region.iter().enumerate().for_each(|(site, &region)| members[region as usize].push(site));
-    let kinds = members.into_iter().map(|sites| judge(&turns, sites.into_iter()).unwrap_or(whole));
-    Regions { kinds: kinds.collect(), region }
+    let kinds: Vec<Judged> = members
+        .into_iter()
+        .map(|sites| judge(&turns, sites.into_iter()).unwrap_or(whole))
+        .collect();
+    let kind = kinds[0].kind;
+    if kinds.iter().all(|judged| judged.kind == kind) {
+        return Regions::one(Judged { kind, ..whole });
+    }
+    Regions { kinds, region }
 }
 
 /// Whether most points have as many neighbors at one distance as those of a lattice do: no curve passes through all of them.
