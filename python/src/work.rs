@@ -18,12 +18,19 @@ pub(crate) fn interruptible<R: Send>(
     py: Python<'_>,
     work: impl FnOnce(&Monitor<'_>) -> R + Send,
 ) -> PyResult<R> {
+    let (mut work, mut found) = (Some(work), None);
+    run(py, &mut |monitor| found = work.take().map(|work| work(monitor)))?;
+    Ok(found.expect("work that ended without an exception has a result"))
+}
+
+/// As [`interruptible`], compiled once for all kinds of work.
+fn run(py: Python<'_>, work: &mut (dyn FnMut(&Monitor<'_>) + Send)) -> PyResult<()> {
     let (cancel, done) = (AtomicBool::new(false), AtomicBool::new(false));
     let listener = std::thread::current();
     std::thread::scope(|scope| {
         let worker = scope.spawn(|| {
             let monitor = Monitor { cancel: Some(&cancel), ..Monitor::silent() };
-            let result = with_living_threads(|| work(&monitor));
+            let result = with_living_threads(&mut || work(&monitor));
             done.store(true, Ordering::Release);
             listener.unpark();
             result
@@ -47,14 +54,13 @@ pub(crate) fn interruptible<R: Send>(
 /// would wait for them endlessly. So the process that works first keeps that pool, and each of its forks builds one for
 /// each call: that costs the start of its threads. One kept for longer would need a lock, and a lock can be inherited
 /// locked.
-fn with_living_threads<R: Send>(
-    work: impl FnOnce() -> R + Send,
-) -> Result<R, ThreadPoolBuildError> {
+fn with_living_threads(work: &mut (dyn FnMut() + Send)) -> Result<(), ThreadPoolBuildError> {
     /// The process whose global pool it is; no process has the number 0.
     static OWNER: AtomicU32 = AtomicU32::new(0);
     let this = std::process::id();
     match OWNER.compare_exchange(0, this, Ordering::Relaxed, Ordering::Relaxed) {
-        Err(owner) if owner != this => Ok(ThreadPoolBuilder::new().build()?.install(work)),
-        _ => Ok(work()),
+        Err(owner) if owner != this => ThreadPoolBuilder::new().build()?.install(work),
+        _ => work(),
     }
+    Ok(())
 }

@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use rayon::prelude::*;
 use taut_certify::{
     Fingerprint, NO_NEIGHBOR, SiteHash, Solution, Stop, Trace, Triangulation as Answer,
     TriangulationCertificate, TriangulationCounts,
 };
+use taut_points::parallel::{IntoParallel, ParallelSlice};
 use taut_points::{InputError, Monitor, PointSource, Points, Rows, Scalar, Scratch, hash_points};
 
 use crate::canonical::{CanonicalOrder, arrangement};

@@ -15,8 +15,8 @@ pub(crate) mod frame;
 pub(crate) mod reach;
 mod thickening;
 
-use rayon::prelude::*;
 use taut_certify::Items;
+use taut_points::parallel::IntoParallel;
 use taut_points::{
     BlockHash, InputError, Monitor, PointSource, PointsHash, Rows, ScalarKind, hash_block,
     map_blocks,

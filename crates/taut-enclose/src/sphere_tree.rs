@@ -12,8 +12,8 @@
 
 mod split;
 
-use rayon::prelude::*;
 use taut_certify::Ball;
+use taut_points::parallel::ParallelSlice;
 use taut_points::{
     InputError, Monitor, PointSource, Points, ReadError, Rows, Scalar, Scratch, on_threads,
 };

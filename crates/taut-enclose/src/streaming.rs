@@ -18,8 +18,8 @@ mod cover_bytes;
 mod instance;
 mod measure;
 
-use rayon::prelude::*;
 use taut_certify::{Centers, Placement, Solution, Stop, Trace};
+use taut_points::parallel::ParallelSlice;
 use taut_points::{
     Blocks, InputError, Monitor, PointSource, Points, ReadError, Rows, Scalar, Scratch,
 };

@@ -10,8 +10,8 @@
 //! *Reference.* Santaló, Integral Geometry and Geometric Probability, 1976, chapter 12, for the measure; Cochran, Sampling
 //! Techniques, 1977, section 6.4, for the error of a ratio.
 
-use rayon::prelude::*;
 use taut_certify::InscribedBodies;
+use taut_points::parallel::IntoParallel;
 use taut_points::{InputError, Monitor, PointSource, map_blocks};
 
 use crate::Error;

@@ -10,7 +10,7 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use rayon::prelude::*;
+use taut_points::parallel::IntoParallel;
 
 use crate::TriangleMesh;
 use crate::bvh::Bvh;

@@ -10,7 +10,7 @@
 //! are, in the mean, √(area/N) apart.
 //! *Reference.* Cignoni, Rocchini, Scopigno, Metro, Computer Graphics Forum 17(2), 1998, for distances by samples.
 
-use rayon::prelude::*;
+use taut_points::parallel::IntoParallel;
 
 use crate::TriangleMesh;
 use crate::bvh::{Bounds, Bvh, normal};

@@ -57,43 +57,60 @@ where
     R: Send,
     E: From<ReadError> + Send,
 {
+    let results = Mutex::new(Vec::new());
+    for_each_block(source, monitor, &|block, first, rows| {
+        let result = rows.map_err(E::from).and_then(|rows| work(first, rows));
+        let is_done = result.is_ok();
+        let mut results = results.lock().unwrap_or_else(PoisonError::into_inner);
+        if results.len() <= block {
+            results.resize_with(block + 1, || None);
+        }
+        results[block] = Some(result);
+        is_done
+    });
+    // All blocks before a failure were handed out, so the first failure in block order is known.
+    let results = results.into_inner().unwrap_or_else(PoisonError::into_inner);
+    results.into_iter().map_while(|result| result).collect()
+}
+
+/// What is done with a block, its first row, and its rows or why there are none; returns false to end the pass.
+type Work<'a> = dyn Fn(usize, u64, Result<Rows<'_>, ReadError>) -> bool + Sync + 'a;
+
+/// The pass of [`map_blocks`], compiled once for all kinds of work.
+fn for_each_block(source: &dyn PointSource, monitor: &Monitor<'_>, work: &Work<'_>) {
     let blocks = Blocks::of(source);
-    let one = |scratch: &mut Scratch, block: u64| -> Result<R, E> {
-        monitor.check().map_err(ReadError::from)?;
+    let one = |scratch: &mut Scratch, block: u64| -> bool {
         let range = blocks.range(block);
         let (first, points) = (range.start, range.end - range.start);
-        let result = work(first, source.read(range, scratch)?);
+        let rows = match monitor.check() {
+            Ok(()) => source.read(range, scratch),
+            Err(cancelled) => Err(cancelled.into()),
+        };
+        let is_done = work(block as usize, first, rows);
         monitor.points(points);
-        result
+        is_done
     };
     let workers = (rayon::current_num_threads() as u64).min(blocks.count());
     if workers <= 1 {
         let mut scratch = Scratch::new();
-        return (0..blocks.count()).map(|block| one(&mut scratch, block)).collect();
+        (0..blocks.count()).all(|block| one(&mut scratch, block));
+        return;
     }
     // Blocks are handed out in order, so that a file is read nearly in order too, which is what read-ahead expects.
-    // After a failure no more are handed out; all before it were, so the first failure in block order is known.
+    // After a failure no more are handed out.
     let next = AtomicU64::new(0);
     let failed = AtomicBool::new(false);
-    let done = Mutex::new(Vec::new());
     let worker = || {
         let mut scratch = Scratch::new();
-        let mut mine = Vec::new();
         while !failed.load(Ordering::Relaxed) {
             let block = next.fetch_add(1, Ordering::Relaxed);
             if block >= blocks.count() {
                 break;
             }
-            let result = one(&mut scratch, block);
-            failed.fetch_or(result.is_err(), Ordering::Relaxed);
-            mine.push((block, result));
+            failed.fetch_or(!one(&mut scratch, block), Ordering::Relaxed);
         }
-        done.lock().unwrap_or_else(PoisonError::into_inner).append(&mut mine);
     };
     rayon::scope(|scope| (0..workers).for_each(|_| scope.spawn(|_| worker())));
-    let mut done = done.into_inner().unwrap_or_else(PoisonError::into_inner);
-    done.sort_unstable_by_key(|(block, _)| *block);
-    done.into_iter().map(|(_, result)| result).collect()
 }
 
 #[cfg(test)]

@@ -15,7 +15,7 @@ mod shuffle;
 
 use std::ops::Range;
 
-use rayon::prelude::*;
+use crate::parallel::ParallelSlice;
 
 use crate::room::try_reserve_exact;
 use crate::source::check_range;
@@ -174,12 +174,8 @@ pub fn generate_into<T: Scalar>(
     let source = GeneratedSource::new(distribution, n, dim, seed, T::KIND)?;
     let blocks = Blocks::of(&source);
     let rows = blocks.range(0).end.max(1) as usize;
-    let failed = out
-        .par_chunks_mut(rows * dim)
-        .enumerate()
-        .filter_map(|(block, out)| source.fill(blocks.range(block as u64).start, out).err())
-        .find_first(|_| true);
-    failed.map_or(Ok(()), Err)
+    let blocks_of_rows = out.par_chunks_mut(rows * dim).enumerate();
+    blocks_of_rows.try_for_each(|(block, out)| source.fill(blocks.range(block as u64).start, out))
 }
 
 #[cfg(test)]

@@ -29,6 +29,7 @@ mod error;
 pub mod generate;
 mod hash;
 mod monitor;
+pub mod parallel;
 mod parts;
 mod points;
 mod processor;

@@ -60,7 +60,15 @@ pub fn on_threads<R: Send, E: From<InputError> + Send>(
         value: threads.to_string(),
         expected: refused.expected,
     };
-    thread_pool(threads).map_err(refused)?.install(work)
+    let pool = thread_pool(threads).map_err(refused)?;
+    let (mut work, mut found) = (Some(work), None);
+    install(&pool, &mut || found = work.take().map(|work| work()));
+    found.expect("work that ended has a result")
+}
+
+/// Does `work` on the pool; compiled once.
+fn install(pool: &ThreadPool, work: &mut (dyn FnMut() + Send)) {
+    pool.install(work);
 }
 
 #[cfg(test)]

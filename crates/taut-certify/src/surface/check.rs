@@ -57,7 +57,7 @@ pub(super) fn check(
 ) -> Result<SurfaceVerdict, CheckError> {
     structure::check(surface, certificate, source)?;
     // What is refused first is named first, whichever thread is done first.
-    let (once, places) = rayon::join(
+    let (once, places) = taut_points::parallel::join(
         || structure::twice(&surface.triangles),
         || places::read(surface, certificate, source, monitor),
     );
@@ -72,7 +72,7 @@ pub(super) fn check(
         return Err(SurfaceViolation::Displacement { claimed, found: displacement }.into());
     }
     // One thread joins sides and corners, a third of the work, while the others search for points in balls.
-    let (shape, balls) = rayon::join(
+    let (shape, balls) = taut_points::parallel::join(
         || Shape::of(&surface.triangles, places.all.len()),
         || -> Result<_, SurfaceViolation> {
             let sites = usage::check(surface, &places)?;

@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use rayon::prelude::*;
+use taut_points::parallel::ParallelSlice;
 
 /// This many sites lie under one leaf: one bit each in a word.
 pub(crate) const LEAF_SIZE: usize = 64;

@@ -6,7 +6,7 @@
 //! *Reference.* Andrew, *Another efficient algorithm for convex hulls in two dimensions*, 1979; Akl and Toussaint, *A fast convex
 //! hull algorithm*, 1978.
 
-use rayon::prelude::*;
+use taut_points::parallel::{IntoParallel, ParallelSlice};
 use taut_points::{Monitor, Scalar};
 use taut_predicates::Sign;
 use taut_predicates::plane::{lexicographic, orient};

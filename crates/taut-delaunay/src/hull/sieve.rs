@@ -9,7 +9,7 @@
 
 use std::ops::Range;
 
-use rayon::prelude::*;
+use taut_points::parallel::ParallelSlice;
 use taut_points::{Monitor, Scalar};
 
 use super::Scaled;

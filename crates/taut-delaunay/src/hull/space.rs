@@ -7,7 +7,7 @@
 
 use std::ops::Range;
 
-use rayon::prelude::*;
+use taut_points::parallel::ParallelSlice;
 use taut_points::{Monitor, Scalar};
 use taut_predicates::space::lexicographic;
 use taut_predicates::{Sign, plane::orient};

@@ -5,7 +5,7 @@
 //! Guarantee: emptiness of the smallest sphere of a facet is decided exactly; radii are compared in `f64`.
 //! Reference: Edelsbrunner and Mücke, *Three-dimensional alpha shapes*, ACM Trans. Graphics 13, 1994.
 
-use rayon::prelude::*;
+use taut_points::parallel::IntoParallel;
 use taut_predicates::{Sign, plane, space};
 
 use crate::simplex::{GHOST, decode};

@@ -14,8 +14,8 @@ mod tests;
 
 use std::ops::Range;
 
-use rayon::prelude::*;
 use taut_oblivious::hilbert_order;
+use taut_points::parallel::ParallelSlice;
 use taut_points::{Monitor, Points};
 
 use super::locator::{Directory, Locator};

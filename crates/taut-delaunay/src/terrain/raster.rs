@@ -5,7 +5,7 @@
 //! *Guarantee.* A center gets a value exactly if it lies in the hull. One on an edge has the same value from both sides.
 //! *Cost.* O(triangles + centers in boxes of triangles by rows) a tile; a natural-neighbor value takes O(k²) for k neighbors.
 
-use rayon::prelude::*;
+use taut_points::parallel::ParallelSlice;
 use taut_points::{InputError, Monitor};
 
 use super::Terrain;

@@ -1,6 +1,6 @@
 //! From samples to pixels: colors, and lines where the surface ends or steps back.
 
-use rayon::prelude::*;
+use taut_points::parallel::ParallelSlice;
 
 use super::Raster;
 use crate::{Theme, Tone};

@@ -8,7 +8,7 @@
 
 use std::ops::Range;
 
-use rayon::prelude::*;
+use taut_points::parallel::ParallelSlice;
 
 mod image;
 mod normals;
@@ -88,25 +88,23 @@ impl Raster {
         let bands = if rayon::current_num_threads() == 1 { 1 } else { BANDS };
         let rows = self.height.div_ceil(bands).max(1);
         let size = (rows * width).max(1);
-        let bands = (self.near.par_chunks_mut(size), self.light.par_chunks_mut(size));
-        let marks = (self.ink.par_chunks_mut(size), self.owner.par_chunks_mut(size));
-        bands.into_par_iter().zip(marks).enumerate().for_each(
-            |(band, ((nears, lights), (inks, owners)))| {
-                let top = band * rows;
-                for facet in facets {
-                    scan(facet, width, top..top + nears.len() / width, |x, y, near, light| {
-                        let sample = (y - top) * width + x;
-                        if near > nears[sample] {
-                            nears[sample] = near;
-                            // Rounded; a call of `round` for each sample took 6 % of drawing a sphere.
-                            lights[sample] = (light().clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
-                            inks[sample] = facet.ink;
-                            owners[sample] = facet.owner;
-                        }
-                    });
-                }
-            },
-        );
+        let bands = self.near.par_chunks_mut(size).zip(self.light.par_chunks_mut(size));
+        let marks = self.ink.par_chunks_mut(size).zip(self.owner.par_chunks_mut(size));
+        bands.zip(marks).enumerate().for_each(|(band, ((nears, lights), (inks, owners)))| {
+            let top = band * rows;
+            for facet in facets {
+                scan(facet, width, top..top + nears.len() / width, |x, y, near, light| {
+                    let sample = (y - top) * width + x;
+                    if near > nears[sample] {
+                        nears[sample] = near;
+                        // Rounded; a call of `round` for each sample took 6 % of drawing a sphere.
+                        lights[sample] = (light().clamp(0.0, 1.0) * 255.0 + 0.5) as u8;
+                        inks[sample] = facet.ink;
+                        owners[sample] = facet.owner;
+                    }
+                });
+            }
+        });
     }
 
     /// Which of the owners below `count` are seen in some sample.

@@ -4,7 +4,7 @@
 //! third axis, and painted from back to front; what is far is smaller and paler. The viewer of the HTML page does the
 //! same from the same numbers.
 
-use rayon::prelude::*;
+use taut_points::parallel::ParallelSlice;
 
 use super::Hover;
 use super::camera::{Camera, V3, add, cross, dot};
@@ -151,7 +151,7 @@ fn panels(scene: &Scene3, panels: &[Panel], chrome: Chrome, canvas: &mut Canvas)
         .collect();
     // Samples are the work of all threads already; compressing is not.
     if canvas.embeds && covers.iter().any(Option::is_some) {
-        covers.par_iter_mut().flatten().for_each(Coverage::compress);
+        covers.par_iter_mut().for_each(|cover| cover.iter_mut().for_each(Coverage::compress));
     }
     for cover in covers.iter_mut().flatten() {
         cover.write(canvas);

@@ -16,7 +16,7 @@
 //! *Reference.* Active sets on this dual: Gärtner and Schönherr, SoCG 2000; Fischer, Gärtner and Kutz, ESA 2003, walk
 //! the same path in d dimensions.
 
-use rayon::prelude::*;
+use taut_points::parallel::ParallelSlice;
 use taut_points::{Cancelled, Monitor};
 
 use super::factor::Factor;

@@ -9,8 +9,8 @@
 //! *Trap.* Where an item touches in a circle, any point of it is farthest: so an item names several points at once.
 //! *Reference.* The oracle is the trust-region problem; Moré and Sorensen, SIAM J. Sci. Stat. Comput. 4(3), 1983.
 
-use rayon::prelude::*;
 use taut_certify::{Ball, BallCertificate, Items, PassBounds, Solution, Stop, Trace};
+use taut_points::parallel::{IntoParallel, ParallelSlice};
 use taut_points::{InputError, Monitor, PointSource, ReadError};
 
 use super::active_set::{ActiveSet, VIOLATION_TOLERANCE};

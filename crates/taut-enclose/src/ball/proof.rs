@@ -6,8 +6,8 @@
 //! *Lower.* r² = Σ λᵢ|pᵢ − c|² − |c − Σ λᵢpᵢ|² with Σλ = 1, in double-double; for balls the bound of
 //! [`super::core_set`]. Nothing is taken from the solver's state.
 
-use rayon::prelude::*;
 use taut_certify::{Ball, BallCertificate, PassBounds, Solution, Stop, Trace};
+use taut_points::parallel::ParallelSlice;
 use taut_points::{Cancelled, ReadError};
 
 use super::BallOptions;

@@ -7,7 +7,7 @@ use std::collections::HashMap;
 
 use faer::linalg::matmul::matmul;
 use faer::{Accum, MatMut, MatRef, Par};
-use rayon::prelude::*;
+use taut_points::parallel::IntoParallel;
 
 use crate::kernel::vector::{add_combination, add_scaled_exactly};
 use crate::kernel::{Center, DoubleDouble};

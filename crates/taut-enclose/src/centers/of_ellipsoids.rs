@@ -14,8 +14,8 @@ mod bodies;
 mod pool;
 mod rounds;
 
-use rayon::prelude::*;
 use taut_certify::{Centers, CentersCertificate, Items, PassBounds, Placement, Solution, Trace};
+use taut_points::parallel::ParallelSlice;
 use taut_points::{InputError, Monitor, PointSource};
 
 use self::bodies::Bodies;

@@ -9,8 +9,8 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use rayon::prelude::*;
 use taut_certify::Stop;
+use taut_points::parallel::IntoParallel;
 use taut_points::{Monitor, ReadError};
 
 use super::depth_first::{Path, Place, State};

@@ -19,9 +19,9 @@
 
 use std::collections::HashSet;
 
-use rayon::prelude::*;
 use taut_certify::{PassBounds, Stop};
 use taut_points::Monitor;
+use taut_points::parallel::ParallelSlice;
 
 use super::cloud::Cloud;
 use super::items::Position;

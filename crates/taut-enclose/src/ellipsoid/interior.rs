@@ -13,7 +13,7 @@
 
 use faer::linalg::matmul::matmul;
 use faer::{Accum, MatMut, MatRef, Par};
-use rayon::prelude::*;
+use taut_points::parallel::ParallelSlice;
 use taut_points::{Monitor, ReadError};
 
 use super::counters::Counters;

@@ -4,8 +4,8 @@
 //! farthest point of the leaf is from those before it changes nothing; one comparison rules out all 256. Of the chosen
 //! points that were missed the one next to the box is taken first: it lowers the bound most, which rules out most others.
 
-use rayon::prelude::*;
 use taut_oblivious::hilbert_order;
+use taut_points::parallel::ParallelSlice;
 use taut_points::{Points, Scalar};
 
 use super::chosen::{Chosen, Scratch};

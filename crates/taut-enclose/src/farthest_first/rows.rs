@@ -8,7 +8,7 @@
 //! are the same number, so the values are those of a pass over the rows.
 //! *Reference.* Elkan, Using the triangle inequality to accelerate k-means, ICML 2003.
 
-use rayon::prelude::*;
+use taut_points::parallel::IntoParallel;
 use taut_points::{Points, Scalar};
 
 use super::chosen::{Chosen, Scratch};
@@ -39,9 +39,10 @@ pub(super) struct RowLeaf<'p, T> {
 }
 
 pub(super) fn leaves<'p, T: Scalar>(points: &Points<'p, T>) -> Leaves<RowLeaf<'p, T>> {
-    let starts = (0..points.len()).into_par_iter().step_by(LEAF_ROWS);
-    let leaves = starts
-        .map(|start| {
+    let leaves = (0..points.len().div_ceil(LEAF_ROWS))
+        .into_par_iter()
+        .map(|leaf| {
+            let start = leaf * LEAF_ROWS;
             let points = points.slice(start..points.len().min(start + LEAF_ROWS));
             RowLeaf {
                 points,

@@ -12,7 +12,7 @@
 //! *Reference.* Rousseeuw, Van Driessen, Technometrics 41, 1999, for simplices and nesting; Hubert, Rousseeuw,
 //! Verdonck, J. Computational and Graphical Statistics 21, 2012, for the rankings.
 
-use rayon::prelude::*;
+use taut_points::parallel::IntoParallel;
 use taut_points::{Monitor, Points};
 
 use super::border::Border;

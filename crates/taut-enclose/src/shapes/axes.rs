@@ -3,7 +3,7 @@
 //! *Idea.* What is asked of an item again and again, its farthest point from a center, is asked along its own axes
 //! ([`reach`](super::reach)). These are found once, in O(d³) for each item.
 
-use rayon::prelude::*;
+use taut_points::parallel::IntoParallel;
 
 use super::Shapes;
 use super::eigen::eigen;

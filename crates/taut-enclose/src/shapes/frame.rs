@@ -3,7 +3,7 @@
 //! *Why.* Where P brings axes of very different lengths to one, PSP′ is a small difference of large numbers. Formed in
 //! doubled precision and rounded once, it is right to the last digits beside 1.
 
-use rayon::prelude::*;
+use taut_points::parallel::IntoParallel;
 #[cfg(target_arch = "x86_64")]
 use taut_points::{InstructionSet, instruction_set};
 

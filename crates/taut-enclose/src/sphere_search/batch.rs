@@ -5,8 +5,8 @@
 //! *Guarantee.* Each answer depends on its query alone, so neither tasks nor threads change any.
 
 use pulp::{Simd, WithSimd};
-use rayon::prelude::*;
 use taut_certify::Items;
+use taut_points::parallel::ParallelSlice;
 use taut_points::{ReadError, vectors};
 
 use super::dim::{AnyDim, Dim, Fixed};
@@ -51,7 +51,7 @@ pub(super) fn run<W: Work>(
     work: &W,
 ) -> Result<Vec<W::Found>, Error> {
     let homes: Vec<u32> = values
-        .par_chunks_exact(width)
+        .par_chunks(width)
         .with_min_len(TASK_SIZE)
         .map(|query| search.nodes.home(&query[..search.dim()]) as u32)
         .collect();

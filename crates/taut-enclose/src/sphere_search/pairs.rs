@@ -8,8 +8,8 @@
 //! *Trap.* Of one tree no subtree can be left out by its rows, as tree order is not that of rows; by its place in the tree it can.
 
 use pulp::{Simd, WithSimd};
-use rayon::prelude::*;
 use taut_certify::Items;
+use taut_points::parallel::{IntoParallel, ParallelSlice};
 use taut_points::{ReadError, vectors};
 
 use super::dim::{AnyDim, Dim, Fixed};

@@ -10,8 +10,8 @@
 use std::cmp::Ordering;
 use std::sync::Arc;
 
-use rayon::prelude::*;
 use taut_points::Cancelled;
+use taut_points::parallel::ParallelSlice;
 
 use super::ascent::Ellipse;
 use super::cell::{Axis, Cell, Frame, Width};
@@ -347,7 +347,7 @@ impl Search<'_> {
         let this = &*self;
         let children: Vec<Vec<Examined>> = batch
             .par_iter()
-            .with_max_len(CELLS_AT_ONCE)
+            .with_min_len(CELLS_AT_ONCE)
             .map(|Waiting { cell: Open { cell, next, list, is_inside }, .. }| match next {
                 Next::Split(axis) => {
                     let halves = cell.halves(*axis).into_iter().flatten();

@@ -9,8 +9,8 @@
 
 use std::sync::Arc;
 
-use rayon::prelude::*;
 use taut_points::Cancelled;
+use taut_points::parallel::ParallelSlice;
 
 use super::ascent::Candidate;
 use super::bound::{doubled_area, row_error};
@@ -283,7 +283,7 @@ impl Search<'_> {
         let this = &*self;
         let children: Vec<[Examined; 2]> = split
             .par_iter()
-            .with_max_len(CELLS_AT_ONCE)
+            .with_min_len(CELLS_AT_ONCE)
             .map(|(Waiting { cell: (_, list), .. }, _, halves)| {
                 halves.each_ref().map(|half| this.examine(half, list))
             })

@@ -88,7 +88,9 @@ fn split<const D: usize>(items: &mut [Item<D>], nodes: &mut [Node], node: u32, b
         lower();
         split(right, nodes_right, right_child.0, right_child.1);
     } else {
-        rayon::join(lower, || split(right, nodes_right, right_child.0, right_child.1));
+        taut_points::parallel::join(lower, || {
+            split(right, nodes_right, right_child.0, right_child.1)
+        });
     }
 }
 

@@ -15,7 +15,7 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::hint::select_unpredictable;
 
-use rayon::prelude::*;
+use taut_points::parallel::ParallelSlice;
 
 use super::wide::is_plain;
 use super::{BUCKET_SIZE, IS_BUCKET, KdTree, Node};

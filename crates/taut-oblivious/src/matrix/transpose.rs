@@ -15,7 +15,7 @@
 //! *Reference.* Thesis, section 5.3, for the recursion and its bound, of which this keeps the two levels that count.
 
 use bytemuck::Pod;
-use rayon::prelude::*;
+use taut_points::parallel::ParallelSlice;
 
 use crate::level::{Level, last_cache_bytes};
 use crate::{Error, NoProbe, Probe};

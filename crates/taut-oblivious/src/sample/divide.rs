@@ -101,7 +101,7 @@ pub(super) fn divide<const LEAF_NUMBERS: u64>(node: Node, found: &mut [u64]) {
     let lower = Node { number: 2 * number, n: half, ..node };
     let upper = Node { number: 2 * number + 1, start: start + half, n: n - half, ..node };
     if k >= SHARED_NUMBERS_MIN && rayon::current_num_threads() > 1 {
-        rayon::join(
+        taut_points::parallel::join(
             || divide::<LEAF_NUMBERS>(lower, below),
             || divide::<LEAF_NUMBERS>(upper, above),
         );

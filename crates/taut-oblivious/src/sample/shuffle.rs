@@ -10,7 +10,7 @@
 //! Sankhya A 23, 1961; M. Sandelius, *A simple randomization procedure*, J. Royal Stat. Soc. B 24(2), 1962;
 //! R. Durstenfeld, *Algorithm 235*, CACM 7(7), 1964 (exchanging).
 
-use rayon::prelude::*;
+use taut_points::parallel::IntoParallel;
 
 use super::random::Random;
 use crate::deal::Dealt;

@@ -124,7 +124,7 @@ mod vector {
         let (low, high, pivot) = split(kernel, keys, floor);
         let (below, rest) = keys.split_at_mut(low);
         let above = &mut rest[high - low..];
-        rayon::join(
+        taut_points::parallel::join(
             || share(kernel, below, floor, levels - 1),
             || share(kernel, above, Some(pivot), levels - 1),
         );

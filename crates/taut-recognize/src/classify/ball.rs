@@ -6,10 +6,10 @@
 //! *Trap.* Far from all points every kernel value is 0 in double precision. Then distances differ by D only, and are equal where classes
 //! have one point each: the logarithm of Σ λᵢ exp(−γ|x − xᵢ|²) breaks such ties.
 
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use taut_certify::Kernel;
 use taut_enclose::{KernelBallMethod, KernelBallOptions, kernel_ball};
+use taut_points::parallel::IntoParallel;
 use taut_points::{Monitor, Points, shown_number};
 
 use super::data::Rows;

@@ -8,7 +8,7 @@
 
 use std::collections::BTreeMap;
 
-use rayon::prelude::*;
+use taut_points::parallel::{IntoParallel, ParallelSlice};
 use taut_points::{InputError, Monitor, Points, on_threads};
 
 use super::ball::{BallParameters, Balls, check_nu};

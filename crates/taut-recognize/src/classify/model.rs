@@ -1,8 +1,8 @@
 //! A trained classifier as data: predictions, and saving as JSON with a format and a version.
 
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use taut_points::Points;
+use taut_points::parallel::IntoParallel;
 
 use super::calibrate::Calibration;
 use super::data::check_finite;

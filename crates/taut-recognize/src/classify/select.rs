@@ -5,8 +5,8 @@
 //! *Guarantee.* Nothing but training points is looked at, so that the figures on test points stay honest. The figures of the inner folds
 //! are not: the best of many is better by chance.
 
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
+use taut_points::parallel::IntoParallel;
 
 use super::data::Labeled;
 use super::method::Method;

@@ -9,10 +9,10 @@
 //! positive semidefinite. So δ = ε/(n(2C + 1)) gives the relative gap ε.
 //! *Reference.* Tsang, Kwok and Cheung, Core vector machines, JMLR 6, 2005.
 
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use taut_certify::Kernel;
 use taut_enclose::{KernelBallOptions, kernel_ball};
+use taut_points::parallel::{IntoParallel, ParallelSlice};
 use taut_points::{Monitor, Points, ReadError, shown_number, try_reserve_exact};
 
 use super::data::Rows;
@@ -94,7 +94,7 @@ impl Svm {
 fn gram(rows: &Rows, gamma: f64) -> Result<Vec<f64>, Error> {
     let n = rows.len();
     let mut gram = square(n)?;
-    gram.par_chunks_exact_mut(n).enumerate().for_each(|(i, out)| {
+    gram.par_chunks_mut(n).enumerate().for_each(|(i, out)| {
         for (j, out) in out.iter_mut().enumerate() {
             // The same order of both points for both halves.
             let (x, y) = (rows.row(i.max(j)), rows.row(i.min(j)));

@@ -1,6 +1,6 @@
 //! From labeled points to a model.
 
-use rayon::prelude::*;
+use taut_points::parallel::ParallelSlice;
 use taut_points::{Monitor, on_threads, shown_number};
 
 use super::calibrate::{Calibration, threshold};

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use rayon::prelude::*;
+use taut_points::parallel::IntoParallel;
 
 use super::interval::{Interval, check_confidence};
 use crate::Error;

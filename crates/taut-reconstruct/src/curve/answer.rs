@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use rayon::prelude::*;
 use taut_certify::{
     Curve, CurveCertificate, CurveComponent, Place, Solution, Stop, TourBound, Trace,
     curve_evidence,
 };
+use taut_points::parallel::ParallelSlice;
 use taut_points::{Cancelled, Monitor, PointSource, hash_points};
 
 use super::CurveOptions;

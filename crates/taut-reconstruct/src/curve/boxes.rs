@@ -9,7 +9,7 @@
 
 use std::ops::Range;
 
-use rayon::prelude::*;
+use taut_points::parallel::IntoParallel;
 
 /// A leaf has at most this many items, and a node at most this many children.
 pub(super) const FAN_OUT: usize = 8;

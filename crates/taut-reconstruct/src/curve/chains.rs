@@ -11,8 +11,8 @@ mod crossings;
 mod degrees;
 mod gaps;
 
-use rayon::prelude::*;
 use taut_points::Monitor;
+use taut_points::parallel::ParallelSlice;
 
 use super::Ends;
 use crate::Error;

@@ -4,7 +4,7 @@
 
 use std::ops::Range;
 
-use rayon::prelude::*;
+use taut_points::parallel::IntoParallel;
 
 use super::boxes::{Bounds, Boxes, FAN_OUT};
 
@@ -116,7 +116,7 @@ impl<'a> Index<'a> {
             .into_par_iter()
             .with_min_len(1 << 8)
             .map_init(Default::default, of_leaf)
-            .flatten_iter()
+            .flat_map_iter(|of_leaf| of_leaf)
             .collect()
     }
 

@@ -10,7 +10,7 @@
 //! *Trap.* Rugged borders zigzag as noise of half a spacing does. What a fit leaves of them tells: residuals that follow each other
 //! ([`fit::Fitted`](super::fit::Fitted)).
 
-use rayon::prelude::*;
+use taut_points::parallel::IntoParallel;
 
 use super::boxes::Bounds;
 use super::clean::near::{NONE, Near, distance2};

@@ -103,7 +103,7 @@ pub(super) fn finish(
         None => witnesses(cells, sites.exact(), &known, |site| sites.row(site)),
         Some(_) => Vec::new(),
     };
-    let (found, apexes) = rayon::join(|| topology(&mesh), apexes);
+    let (found, apexes) = taut_points::parallel::join(|| topology(&mesh), apexes);
     let is_surface = found.is_manifold() && found.is_oriented();
     if is_surface && !facets.is_outward {
         outward::turn(cells, &mut facets.triangles, &found);

@@ -6,7 +6,7 @@
 //! the border of a set of cells they are closed and turned alike. They are in the order of their sites, so they are a function of the
 //! labels, not of the numbers of cells.
 
-use rayon::prelude::*;
+use taut_points::parallel::IntoParallel;
 
 use super::cells::Cells;
 use super::parity::ParityUnionFind;

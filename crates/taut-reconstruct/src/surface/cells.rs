@@ -10,8 +10,8 @@
 use std::sync::atomic::Ordering::Relaxed;
 use std::sync::atomic::{AtomicU8, AtomicU32};
 
-use rayon::prelude::*;
 use taut_delaunay::{GHOST, Simplex, decode};
+use taut_points::parallel::{IntoParallel, ParallelSlice};
 
 /// Cells or sites of one task.
 const TASK: usize = 1 << 12;
@@ -66,12 +66,12 @@ impl Cells {
                 }
             }
         });
-        beyond.par_iter_mut().with_min_len(TASK).for_each(|beyond| {
-            *beyond = beyond.map(|code| {
-                let (slot, k) = decode(code);
+        beyond.par_chunks_mut(TASK).for_each(|beyond| {
+            for code in beyond.iter_mut().flatten() {
+                let (slot, k) = decode(*code);
                 let place = places[slot as usize].load(Relaxed) >> (2 * k) & 3;
-                numbers[slot as usize].load(Relaxed) << 2 | u32::from(place)
-            });
+                *code = numbers[slot as usize].load(Relaxed) << 2 | u32::from(place);
+            }
         });
         Self { sites: vertices, beyond }
     }

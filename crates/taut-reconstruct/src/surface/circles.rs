@@ -4,8 +4,8 @@
 //! radius of the shape. Name the least `f64`, from this radius on, that none exceeds.
 //! *Guarantee.* Exact signs decide. O(m) for m triangles and each of the few numbers that are tried.
 
-use rayon::prelude::*;
 use taut_certify::SurfaceMode as Promise;
+use taut_points::parallel::ParallelSlice;
 use taut_predicates::space::equatorial_radius;
 
 use super::alpha::least;

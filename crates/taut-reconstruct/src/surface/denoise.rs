@@ -12,7 +12,7 @@
 
 use std::cmp::Ordering;
 
-use rayon::prelude::*;
+use taut_points::parallel::ParallelSlice;
 use taut_points::{InputError, Monitor};
 
 use super::Denoise;

@@ -14,8 +14,8 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use rayon::prelude::*;
 use taut_delaunay::{GHOST, decode};
+use taut_points::parallel::IntoParallel;
 
 use super::cells::Cells;
 use super::quad_quality::{QuadQuality, quad_qualities, quad_quality};

@@ -13,8 +13,8 @@
 //! ray is moved by (ε, ε²) in yz, so that it is on no edge.
 //! *Reference.* Edelsbrunner and Mücke, *Simulation of Simplicity*, ACM Trans. Graph. 9(1), 1990.
 
-use rayon::prelude::*;
 use taut_mesh::Topology;
+use taut_points::parallel::{IntoParallel, ParallelSlice};
 use taut_predicates::{Sign, plane, space};
 
 use super::border::parts_of;

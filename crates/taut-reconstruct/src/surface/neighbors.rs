@@ -7,9 +7,9 @@
 use std::cmp::Ordering;
 use taut_points::InputError;
 
-use rayon::prelude::*;
 use taut_oblivious::hilbert_order;
 use taut_oblivious::kdtree::{KdTree, Nearest};
+use taut_points::parallel::ParallelSlice;
 
 use super::spheres::Point;
 use crate::Error;

@@ -15,7 +15,7 @@
 
 use std::f64::consts::PI;
 
-use rayon::prelude::*;
+use taut_points::parallel::IntoParallel;
 
 use super::border::{Face, Links, is_fan};
 use super::spheres::{Point, circumcircle, cross, dot, minus};

@@ -13,8 +13,8 @@
 
 use std::collections::HashSet;
 
-use rayon::prelude::*;
 use taut_delaunay::decode;
+use taut_points::parallel::IntoParallel;
 
 use super::cells::Cells;
 use super::dual_edges::{CERTAIN_STEPS, DualEdge, DualEdges};
@@ -345,8 +345,10 @@ pub(super) fn flip(
     inside: &mut [bool],
 ) -> Relabeled {
     let labels = &*inside;
-    let (peeling, objections) =
-        rayon::join(|| Peeling::of(tree, cells), || objections(dual_edges, cells, labels));
+    let (peeling, objections) = taut_points::parallel::join(
+        || Peeling::of(tree, cells),
+        || objections(dual_edges, cells, labels),
+    );
     let mut suspects = Suspects::of(&objections, dual_edges, &peeling, inside);
     let mut relabeled = 0;
     for _ in 0..ROUNDS_MAX {

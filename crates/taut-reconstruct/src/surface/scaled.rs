@@ -3,7 +3,7 @@
 //! *Guarantee.* Multiplied by a power of two, which loses nothing that a surface could show: whatever is measured on them does not depend
 //! on the unit, and neither products of six lengths nor reciprocals leave the range of numbers.
 
-use rayon::prelude::*;
+use taut_points::parallel::ParallelSlice;
 
 use super::spheres::Point;
 

@@ -15,8 +15,8 @@
 use std::sync::atomic::AtomicU64;
 use std::sync::atomic::Ordering::Relaxed;
 
-use rayon::prelude::*;
 use taut_delaunay::decode;
+use taut_points::parallel::{IntoParallel, ParallelSlice};
 
 use super::cells::Cells;
 use super::dual_edges::DualEdges;
@@ -98,8 +98,10 @@ pub(super) fn labels(dual_edges: &DualEdges, cells: &Cells, root: u32) -> Labels
     }
     // From the last level back to the cells.
     let whole = levels.into_iter().rev().reduce(|above, mut level| {
-        level.par_iter_mut().with_min_len(TASK).for_each(|part| {
-            *part = above[(*part >> 1) as usize] ^ (*part & 1);
+        level.par_chunks_mut(TASK).for_each(|parts| {
+            for part in parts {
+                *part = above[(*part >> 1) as usize] ^ (*part & 1);
+            }
         });
         level
     });

@@ -6,9 +6,9 @@
 //! *Trap.* The cells inside a sphere all have nearly that sphere for theirs: a checker who was given those would look at all points for
 //! each triangle.
 
-use rayon::prelude::*;
 use taut_certify::Apex;
 use taut_delaunay::{GHOST, decode};
+use taut_points::parallel::ParallelSlice;
 use taut_predicates::space::EquatorialSphere;
 
 use super::cells::Cells;

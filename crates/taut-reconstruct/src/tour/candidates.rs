@@ -6,8 +6,8 @@
 //! *Guarantee.* The edges connect all sites, also without any one of them.
 //! *Trap.* A hub has many neighbors: the second step only goes to the few nearest of each, or stars would cost their square.
 
-use rayon::prelude::*;
 use taut_delaunay::{Complex, DelaunayOptions, Plane};
+use taut_points::parallel::IntoParallel;
 use taut_points::{Monitor, Points};
 
 use super::metric::Metric;

@@ -100,7 +100,7 @@ pub(crate) fn tour(sites: &[[f64; 2]], open: bool, monitor: &Monitor<'_>) -> Res
     closed = closed || ascent.climb(length, steps / 3, monitor)?;
     if !closed {
         let near = ascent.open_sites();
-        let (kicked, climbed) = rayon::join(
+        let (kicked, climbed) = taut_points::parallel::join(
             || perturb(search, &mut cycle, &near, KICKS_PER_SITE * near.len(), 0, monitor),
             || ascent.climb(length, steps - steps / 3, monitor),
         );

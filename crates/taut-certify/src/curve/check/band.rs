@@ -7,7 +7,7 @@
 
 use std::collections::HashMap;
 
-use rayon::prelude::*;
+use taut_points::parallel::ParallelSlice;
 use taut_points::{Cancelled, Monitor, ReadError};
 
 use super::super::{Curve, CurveCertificate, CurveComponent, CurveViolation};

@@ -14,7 +14,7 @@
 
 use std::f64::consts::TAU;
 
-use rayon::prelude::*;
+use taut_points::parallel::IntoParallel;
 use taut_points::{Cancelled, Monitor};
 
 use super::edges::Edges;

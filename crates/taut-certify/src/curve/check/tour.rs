@@ -19,7 +19,7 @@ mod tests;
 
 use std::sync::atomic::{AtomicI64, Ordering};
 
-use rayon::prelude::*;
+use taut_points::parallel::ParallelSlice;
 use taut_points::{Cancelled, Monitor};
 
 use boxes::Boxes;

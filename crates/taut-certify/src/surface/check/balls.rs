@@ -14,7 +14,7 @@
 use std::cell::LazyCell;
 use std::cmp::Ordering;
 
-use rayon::prelude::*;
+use taut_points::parallel::ParallelSlice;
 use taut_points::{Monitor, ReadError};
 
 use super::super::{Apex, Surface, SurfaceCertificate, SurfaceViolation};

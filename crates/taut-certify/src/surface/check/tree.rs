@@ -191,7 +191,7 @@ fn halve(order: &mut [u32], leaves: usize, areas: &[Area]) {
     let (left, right) = order.split_at_mut(half.min(order_len));
     let [mut left, mut right] = [left, right].map(|half| || halve(half, leaves / 2, areas));
     if order_len >= SHARED_MIN {
-        rayon::join(left, right);
+        taut_points::parallel::join(left, right);
     } else {
         left();
         right();

@@ -1,6 +1,6 @@
 //! That every row is a vertex or listed as unused, once, and that duplicates are all that they are said to be.
 
-use rayon::prelude::*;
+use taut_points::parallel::ParallelSlice;
 
 use super::super::{Surface, SurfaceViolation};
 use super::places::Places;

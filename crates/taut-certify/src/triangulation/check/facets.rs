@@ -12,7 +12,7 @@
 
 use std::cmp::Ordering;
 
-use rayon::prelude::*;
+use taut_points::parallel::ParallelSlice;
 
 use super::super::{Fingerprint, MeshViolation, NO_NEIGHBOR, SiteHash};
 use super::geometry::{Geometry, Lifted};

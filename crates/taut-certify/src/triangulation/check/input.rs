@@ -1,6 +1,6 @@
 //! The rows of the input, read once, and what arithmetic on them may rely on.
 
-use rayon::prelude::*;
+use taut_points::parallel::IntoParallel;
 use taut_points::{
     BlockHash, Blocks, Monitor, PointSource, PointsHash, ReadError, Rows, Scalar, Scratch,
     hash_block,

@@ -8,8 +8,8 @@
 
 use std::collections::HashSet;
 
-use rayon::prelude::*;
 use taut_points::Monitor;
+use taut_points::parallel::ParallelSlice;
 
 use super::{Mosaic, Place, Tile, View};
 use crate::query::{Body, clipped};

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use rayon::prelude::*;
+use taut_points::parallel::ParallelSlice;
 
 use super::{Mosaic, Tiles};
 use crate::Triangulation;

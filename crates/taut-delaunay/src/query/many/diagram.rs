@@ -4,7 +4,7 @@
 //! edges of the triangulation, each group once; the region of a site is its star.
 //! Guarantee: combinatorially exact. An edge whose cells share less than a ridge, as a diagonal of a square does, has none.
 
-use rayon::prelude::*;
+use taut_points::parallel::ParallelSlice;
 use taut_predicates::{Sign, space};
 
 use super::TriangulationIndex;

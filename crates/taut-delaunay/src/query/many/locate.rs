@@ -7,7 +7,7 @@
 //! in the one with the lowest number.
 //! *Why walks end.* A step goes through any facet that the point is beyond; in a Delaunay triangulation no such walk comes back.
 
-use rayon::prelude::*;
+use taut_points::parallel::ParallelSlice;
 use taut_points::{Monitor, Points};
 use taut_predicates::{Sign, plane, space};
 

@@ -1,6 +1,6 @@
 //! The ellipsoids in the units of the search, and how far each reaches from centers.
 
-use rayon::prelude::*;
+use taut_points::parallel::{IntoParallel, ParallelSlice};
 
 use crate::Error;
 use crate::centers::items::Position;

@@ -5,8 +5,8 @@
 //! *Guarantee.* Distances are those of [`squared_distances`], symmetric and to [`relative_error`]; where squares would
 //! overflow or vanish they are taken again in other units, so that only a distance that is no `f64` itself is lost.
 
-use rayon::prelude::*;
 use taut_points::PointsHash;
+use taut_points::parallel::{IntoParallel, ParallelSlice};
 
 use crate::centers::item_rows::ItemRows;
 use crate::centers::items::Shape;

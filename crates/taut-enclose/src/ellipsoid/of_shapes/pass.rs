@@ -1,6 +1,6 @@
 //! One pass over the items: how far each reaches under an ellipsoid, and where.
 
-use rayon::prelude::*;
+use taut_points::parallel::IntoParallel;
 
 use super::support_points::SupportPoint;
 use crate::kernel::vector::{add_scaled, dot};

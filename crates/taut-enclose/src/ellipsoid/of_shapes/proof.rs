@@ -1,7 +1,7 @@
 //! From multipliers to an answer with a certificate.
 
-use rayon::prelude::*;
 use taut_certify::{Ellipsoid, EllipsoidCertificate, Solution, Stop, Trace};
+use taut_points::parallel::ParallelSlice;
 
 use super::base::Base;
 use super::rounds::Best;

@@ -1,6 +1,6 @@
 //! Points in which items touch: the working set knows each by its number, its item and a direction.
 
-use rayon::prelude::*;
+use taut_points::parallel::IntoParallel;
 
 use crate::ellipsoid::sample::Sample;
 use crate::ellipsoid::working_set::WorkingSet;

@@ -146,7 +146,7 @@ fn sort_width<const W: usize, E: Send>(
     loop {
         let to = next.words_mut()[waiting..].as_chunks_mut::<W>().0;
         let fill = || buckets.next(to, *enough / W, &rank, &rooms);
-        let (put, more) = rayon::join(|| write(&full.words()[..filled]), fill);
+        let (put, more) = taut_points::parallel::join(|| write(&full.words()[..filled]), fill);
         put?;
         let end = waiting + more * W;
         if more == 0 {

@@ -110,7 +110,7 @@ pub(super) fn beyond<I: Store, R: Store + Send + Sync, O: Store + Send + Sync>(
             written.add(block, plan.layout.width);
             output.write(block, offset)
         };
-        let (put, next) = rayon::join(put, || merge.fill(runs, monitor));
+        let (put, next) = taut_points::parallel::join(put, || merge.fill(runs, monitor));
         put?;
         offset += bytes as u64;
         bytes = next?;
@@ -256,7 +256,8 @@ impl<'a> Maker<'a> {
             monitor.check()?;
             let block = &mut next.words_mut()[..words.len() * width];
             let fill = || chunk::gather(bytes, words, block, width);
-            let (put, ()) = rayon::join(|| to.write(&full.words()[..filled], offset), fill);
+            let (put, ()) =
+                taut_points::parallel::join(|| to.write(&full.words()[..filled], offset), fill);
             put?;
             offset += filled as u64;
             monitor.points(words.len() as u64);

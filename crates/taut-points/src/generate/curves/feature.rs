@@ -10,7 +10,7 @@
 //! *Trap.* Normals must be exact: the radius of a disk that touches in p and next to it is as sensitive to the normal as to the
 //! curvature.
 
-use rayon::prelude::*;
+use crate::parallel::ParallelSlice;
 
 use super::fourier::Piece;
 

@@ -1,7 +1,7 @@
 //! Samples of curves whose truth is known: by the noise model of the thesis, and without noise at a bounded sampling ratio.
 
+use crate::parallel::ParallelSlice;
 use rand::RngExt;
-use rayon::prelude::*;
 
 use super::super::draw::{normal, stream};
 use super::super::shuffle::shuffled;

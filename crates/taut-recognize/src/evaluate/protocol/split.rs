@@ -3,8 +3,8 @@
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
-use rayon::prelude::*;
 use taut_points::Points;
+use taut_points::parallel::IntoParallel;
 
 use super::{Contender, IMPOSTORS_MAX, ProtocolOptions, Samples};
 use crate::Error;

@@ -3,7 +3,7 @@
 //! *Idea.* Edges sorted by their smaller site are in Hilbert order, nearly: the tree of boxes over them answers, for a leaf of
 //! eight edges at a time, which other leaves come into question.
 
-use rayon::prelude::*;
+use taut_points::parallel::IntoParallel;
 use taut_predicates::plane::{in_diametral_circle, orient};
 
 use crate::curve::boxes::{Bounds, Boxes, FAN_OUT};

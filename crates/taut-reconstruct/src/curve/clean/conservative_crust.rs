@@ -9,9 +9,9 @@
 //! *Trap.* A sample with no edge is left aside, not joined to the next best.
 //! *Reference.* Dey, Mehlhorn and Ramos, Computational Geometry 15, 2000.
 
-use rayon::prelude::*;
 use taut_oblivious::hilbert_order;
 use taut_points::Monitor;
+use taut_points::parallel::ParallelSlice;
 use taut_predicates::plane::in_diametral_circle;
 
 use super::graph::{self, triangulate, voronoi_vertices};

@@ -12,10 +12,10 @@
 //! two points shuts out more, and whether anything is left, is decided exactly.
 //! *Reference.* Amenta, Bern and Eppstein, Graphical Models and Image Processing 60(2), 1998.
 
-use rayon::prelude::*;
 use taut_delaunay::Plane;
 use taut_oblivious::hilbert_order;
 use taut_points::Monitor;
+use taut_points::parallel::ParallelSlice;
 use taut_predicates::Sign;
 use taut_predicates::plane::{in_circle, orient};
 
@@ -41,7 +41,7 @@ pub(super) fn edges(sites: &[[f64; 2]], monitor: &Monitor<'_>) -> Result<Vec<[u3
     let vertices: Vec<[f64; 2]> = order.into_iter().map(|i| vertices[i as usize]).collect();
     let axis = Near::new(&vertices);
     let stays = |edge: &Edge| has_empty_circle(sites, edge, &axis).then_some(edge.ends);
-    Ok(edges.into_par_iter().with_min_len(1 << 10).filter_map(|edge| stays(&edge)).collect())
+    Ok(edges.par_iter().with_min_len(1 << 10).filter_map(stays).collect())
 }
 
 /// The Voronoi vertices that matter.

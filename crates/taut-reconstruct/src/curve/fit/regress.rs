@@ -7,7 +7,7 @@
 //! *Guarantee.* Error O(n^(−4/9)) for least squares and O(n^(−4/5)) for the least largest residual, of a smooth curve.
 //! *Reference.* Lepski, Theory of Probability and its Applications 35 (1990), 454–466.
 
-use rayon::prelude::*;
+use taut_points::parallel::ParallelSlice;
 
 use super::local::cholesky;
 use super::minimax::{Minimax, minimax};

@@ -15,9 +15,9 @@
 //! *Reference.* The coarse disk of Cheng, Funke, Golin, Kumar, Poon and Ramos, with a parabola in place of the strip, so that it
 //! needs no feature size to be 1.
 
-use rayon::prelude::*;
 use taut_oblivious::hilbert_order;
 use taut_points::Monitor;
+use taut_points::parallel::ParallelSlice;
 
 use super::local::{Parabola, Window};
 use super::parameters::{

@@ -23,8 +23,8 @@ mod strip;
 #[cfg(test)]
 mod tests;
 
-use rayon::prelude::*;
 use taut_points::Monitor;
+use taut_points::parallel::IntoParallel;
 
 use super::answer::Outcome;
 use super::cloud::Cloud;
@@ -207,7 +207,7 @@ fn each<T: Send>(
     for start in (0..n).step_by(BLOCK) {
         monitor.check()?;
         let block = start..n.min(start + BLOCK);
-        all.par_extend(block.into_par_iter().with_min_len(1 << 6).map(&of));
+        all.append(&mut block.into_par_iter().with_min_len(1 << 6).map(&of).collect());
     }
     Ok(all)
 }

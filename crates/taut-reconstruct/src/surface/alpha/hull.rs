@@ -3,8 +3,8 @@
 //! The thesis' program could stop there (4.5): "sometimes the shrunk equatorial sphere test with a good α value is a good approximation to the mesh
 //! desired", above all for uniform dense samples. It is no surface as a rule: on the sides of flat cells there are two sheets.
 
-use rayon::prelude::*;
 use taut_delaunay::Space;
+use taut_points::parallel::{IntoParallel, ParallelSlice};
 
 use crate::Error;
 use crate::surface::filter::{AlphaFilter, Emptiness, Filter};

@@ -9,9 +9,9 @@
 //! for a while. So a binary search, as CGAL's `find_optimal_alpha` makes, may miss the least α; here all radii are gone through.
 //! *Reference.* CGAL, 3D Alpha Shapes, `find_optimal_alpha`, for the criterion.
 
-use rayon::prelude::*;
 use taut_delaunay::Space;
 use taut_points::InputError;
+use taut_points::parallel::{IntoParallel, ParallelSlice};
 
 use crate::Error;
 use crate::surface::filter::cell_at_most;

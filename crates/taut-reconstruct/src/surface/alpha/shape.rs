@@ -8,8 +8,8 @@
 //! *Trap.* More than two regular facets can share an edge: the boundary of a solid is no surface where it touches itself.
 //! *Reference.* Edelsbrunner and Mücke, ACM Transactions on Graphics 13, 1994.
 
-use rayon::prelude::*;
 use taut_delaunay::Space;
+use taut_points::parallel::IntoParallel;
 
 use super::checked;
 use crate::Error;

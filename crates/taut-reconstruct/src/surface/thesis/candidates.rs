@@ -4,7 +4,7 @@
 //! candidates at an edge and at a site are runs of two arrays; a front that asks for them thousands of times needs no hashing.
 //! *Trap.* The order of candidates around an edge is not theirs to tell, but the triangulation's ([`super::ring`]).
 
-use rayon::prelude::*;
+use taut_points::parallel::ParallelSlice;
 
 use super::options::Priority;
 use crate::surface::alpha::passing;
@@ -52,7 +52,7 @@ impl Candidates {
             Priority::Circumradius => square(sides, t),
             Priority::EmptyBall => empty_ball(sides, side, t),
         };
-        let sizes = own.par_iter().zip(&sites).map(size).map(finite_or_infinite);
+        let sizes = own.par_iter().zip(sites.par_iter()).map(size).map(finite_or_infinite);
         let sizes =
             if priority == Priority::CircumcenterDistance { vec![] } else { sizes.collect() };
         Self { sides: own, sites, edges, ends, of_side, at_edge, at_site, centers, sizes }

@@ -191,5 +191,5 @@ fn halve(numbers: &mut [u32], at: &[[f64; 2]], levels: u32) {
         numbers.select_nth_unstable_by(middle, by);
     }
     let (first, second) = numbers.split_at_mut(middle);
-    rayon::join(|| halve(first, at, levels - 1), || halve(second, at, levels - 1));
+    taut_points::parallel::join(|| halve(first, at, levels - 1), || halve(second, at, levels - 1));
 }

@@ -14,7 +14,7 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::atomic::{AtomicU8, Ordering};
 
-use rayon::prelude::*;
+use taut_points::parallel::{IntoParallel, ParallelSlice};
 use taut_points::{BlockHash, Blocks, Monitor, PointSource, PointsHash, Rows, Scratch, hash_block};
 
 use self::buckets::{Buckets, ReadBuckets};
@@ -269,9 +269,9 @@ fn compare<const D: usize>(
     /// Records that a thread takes at once.
     const SHARE: usize = 1 << 12;
     let width = 4 + 8 * D;
-    let shares = runs.par_iter().flat_map(|run| run.par_chunks(SHARE * width));
-    let wrong = shares.find_map_first(|records| {
-        records.chunks_exact(width).find_map(|record| {
+    let shares: Vec<&[u8]> = runs.iter().flat_map(|run| run.chunks(SHARE * width)).collect();
+    let compared = shares.par_iter().try_for_each(|records| {
+        let wrong = records.chunks_exact(width).find_map(|record| {
             let (head, coordinates) = record.split_first_chunk::<4>()?;
             let head = u32::from_le_bytes(*head);
             let place = (head & (IS_VERTEX - 1)) as usize;
@@ -297,9 +297,10 @@ fn compare<const D: usize>(
                 states[place].fetch_or(OWNED_TWICE, Ordering::Relaxed);
             }
             None
-        })
+        });
+        wrong.map_or(Ok(()), Err)
     });
-    wrong.map_or(Ok(()), |violation| Err(violation.into()))
+    compared.map_err(TilesError::from)
 }
 
 /// Rows that are said to equal an earlier one, with the coordinates of that.
