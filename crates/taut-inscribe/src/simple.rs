@@ -10,7 +10,7 @@
 //! *Cost.* About O(n) for outlines, and O(n log n) for other rings whose edges crowd nowhere.
 //! *Trap.* Neighbors can fold back on each other: three points on a line, the middle one at the end.
 
-use taut_points::{Cancelled, Monitor};
+use taut_points::{Cancelled, Monitor, OrderBy};
 use taut_predicates::plane::{lexicographic, orient};
 
 use crate::polygon::{Loops, Segment};
@@ -186,7 +186,7 @@ fn in_pairs(loops: &Loops, mut edges: Vec<u32>) -> Option<[usize; 2]> {
         let [a, b] = loops.segments[edge as usize];
         a[0].min(b[0])
     };
-    edges.sort_by(|&one, &other| left(one).total_cmp(&left(other)).then(one.cmp(&other)));
+    edges.order_by(&|&one, &other| left(one).total_cmp(&left(other)).then(one.cmp(&other)));
     for (place, &one) in edges.iter().enumerate() {
         let [a, b] = loops.segments[one as usize];
         let right = a[0].max(b[0]);

@@ -6,6 +6,7 @@
 //! *Guarantee.* No pair is missed or counted twice, and rounding plays no part. Repeated vertices in a row count as one.
 //! *Trap.* Neighbors can fold back on each other: three points on a line, the middle one at the end.
 
+use taut_points::OrderBy;
 use taut_predicates::Sign;
 use taut_predicates::plane::{lexicographic, orient};
 
@@ -52,7 +53,7 @@ pub fn crossings(curves: &[Polyline<'_>]) -> usize {
             let (a, b) = segments[i as usize];
             (a[0].min(b[0]), a[0].max(b[0]), i)
         }));
-        here.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        here.order_by(&|a, b| a.0.total_cmp(&b.0));
         for (place, &(_, right, i)) in here.iter().enumerate() {
             for &(_, _, j) in here[place + 1..].iter().take_while(|other| other.0 <= right) {
                 let bad = match neighbors(i, j) {

@@ -29,6 +29,7 @@ mod error;
 pub mod generate;
 mod hash;
 mod monitor;
+mod ordered;
 pub mod parallel;
 mod parts;
 mod points;
@@ -45,6 +46,7 @@ pub use error::{Error, InputError, ReadError};
 pub use generate::{Distribution, GeneratedSource, generate, generate_into};
 pub use hash::{BlockHash, HashFormError, PointsHash, hash_block, hash_points};
 pub use monitor::{Cancelled, Monitor};
+pub use ordered::OrderBy;
 pub use parts::{
     BlockRuns, ByteReader, ByteWriter, Elsewhere, PartsError, check_kernels, check_part,
 };

@@ -9,7 +9,7 @@
 
 use std::cmp::Ordering;
 
-use taut_points::{Monitor, PointSource};
+use taut_points::{Monitor, OrderBy, PointSource};
 
 use super::{ConvexCertificate, ConvexPolygon, ConvexVerdict, ConvexViolation};
 use crate::arithmetic::{DoubleDouble, Field, Ring, U};
@@ -195,7 +195,7 @@ fn area(corners: &[[f64; 2]], units: &Units) -> Area {
 /// The corners of the convex hull of all vertices, counterclockwise (Andrew's chain, by exact signs).
 fn hull(polygon: &Polygon) -> Vec<[f64; 2]> {
     let mut points: Vec<[f64; 2]> = (0..polygon.len()).map(|edge| polygon.edge(edge)[0]).collect();
-    points.sort_by(|p, q| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])));
+    points.order_by(&|p, q| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])));
     let chain = |points: &mut dyn Iterator<Item = [f64; 2]>| {
         let mut kept: Vec<[f64; 2]> = vec![];
         for p in points {

@@ -10,6 +10,7 @@
 
 use super::distance::{feature_distance, squared_difference};
 use crate::arithmetic::U;
+use taut_points::OrderBy;
 
 /// Numbers of groups, coarse to fine, each used where the support has at least so many times [`GROUP_ROWS`] points.
 const GROUP_COUNTS: [usize; 3] = [1, 8, 64];
@@ -81,7 +82,7 @@ impl Bounds {
         let nearness: Vec<f64> =
             groups.iter().map(|group| squared_difference(x, &group.mean)).collect();
         let mut order: Vec<usize> = (0..groups.len()).collect();
-        order.sort_by(|&a, &b| nearness[a].total_cmp(&nearness[b]));
+        order.order_by(&|&a, &b| nearness[a].total_cmp(&nearness[b]));
         // The bounds of each group and of all that are farther.
         let mut rest = vec![0.0; groups.len() + 1];
         for (i, &group) in order.iter().enumerate().rev() {
@@ -108,7 +109,7 @@ fn halved(rows: &[&[f64]], mut places: Vec<usize>, count: usize) -> Vec<Vec<usiz
     };
     let widest = (0..rows[0].len()).max_by(|a, b| extent(a).total_cmp(&extent(b)));
     let column = widest.unwrap_or(0);
-    places.sort_by(|&i, &j| rows[i][column].total_cmp(&rows[j][column]));
+    places.order_by(&|&i, &j| rows[i][column].total_cmp(&rows[j][column]));
     let upper = places.split_off(places.len() / 2);
     let mut groups = halved(rows, places, count / 2);
     groups.extend(halved(rows, upper, count / 2));

@@ -5,6 +5,7 @@
 //! Guarantee: emptiness of the smallest sphere of a facet is decided exactly; radii are compared in `f64`.
 //! Reference: Edelsbrunner and Mücke, *Three-dimensional alpha shapes*, ACM Trans. Graphics 13, 1994.
 
+use taut_points::OrderBy;
 use taut_points::parallel::IntoParallel;
 use taut_predicates::{Sign, plane, space};
 
@@ -97,7 +98,7 @@ impl Radii<3, 4> for Space {
 pub(crate) fn ascending<const D: usize, const N: usize>(
     mut corners: [[f64; D]; N],
 ) -> [[f64; D]; N] {
-    corners.sort_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
+    corners.order_by(&|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
     corners
 }
 

@@ -6,6 +6,7 @@
 //! Reference: Sutherland and Hodgman, *Reentrant polygon clipping*, 1974.
 
 use crate::vector::{cross, difference, dot};
+use taut_points::OrderBy;
 
 /// The half-space of points x with normal·x ≤ offset.
 #[derive(Clone, Copy, Debug)]
@@ -191,7 +192,7 @@ fn around_middle(mut corners: Vec<[f64; 3]>, normal: [f64; 3]) -> Vec<[f64; 3]> 
         let w = difference(*c, middle);
         (dot(w, v) / lv).atan2(dot(w, u) / lu)
     };
-    corners.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
+    corners.order_by(&|a, b| angle(a).total_cmp(&angle(b)));
     corners
 }
 

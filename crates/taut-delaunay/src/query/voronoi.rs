@@ -8,6 +8,7 @@ use super::convex::{Body, HalfSpace, Polygon, Polyhedron};
 use super::locator::Locator;
 use crate::Triangulation;
 use crate::vector::difference;
+use taut_points::OrderBy;
 
 /// Farther than any site in the scale of the sites; boxes that reach beyond are cut off here, so that products stay
 /// finite.
@@ -21,7 +22,7 @@ pub(crate) fn clipped<const D: usize, B: Body<D>>(
     others: &mut [[f64; D]],
     [low, high]: [[f64; D]; 2],
 ) -> B {
-    others.sort_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
+    others.order_by(&|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
     let relative =
         |p: [f64; D]| difference(p.map(|x| x.clamp(-COORDINATE_MAX, COORDINATE_MAX)), here);
     let mut body = B::from_box(relative(low), relative(high));

@@ -5,6 +5,7 @@
 //! *Guarantee.* At a corner the height of the corner, on an edge a function of that edge alone. So a surface has one value at
 //! each place, whichever triangle is asked. No value is outside the heights of the corners.
 
+use taut_points::OrderBy;
 use taut_predicates::{Sign, plane};
 
 use super::wide::Wide;
@@ -68,7 +69,7 @@ pub(super) struct Plane {
 
 impl Plane {
     pub(super) fn through(mut corners: [Corner; 3]) -> Self {
-        corners.sort_by(|a, b| plane::lexicographic(a.at, b.at));
+        corners.order_by(&|a, b| plane::lexicographic(a.at, b.at));
         let largest = corners.iter().fold(0.0f64, |most, c| most.max(c.height.abs()));
         let scale = if largest > HEIGHT_MAX { HEIGHT_SCALE } else { 1.0 };
         let [a, b, c] = corners.map(|corner| corner.at);

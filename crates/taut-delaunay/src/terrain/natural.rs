@@ -10,6 +10,7 @@
 //! *Reference.* Sibson, *A brief description of natural neighbour interpolation*, 1981.
 
 use std::collections::HashSet;
+use taut_points::OrderBy;
 
 use taut_predicates::{Sign, plane};
 
@@ -98,7 +99,7 @@ fn neighbors(
     }
     let mut neighbors: Vec<([f64; 2], u64)> =
         cavity.iter().flat_map(|(_, corners)| corners.at.into_iter().zip(corners.rows)).collect();
-    neighbors.sort_by(|a, b| plane::lexicographic(a.0, b.0));
+    neighbors.order_by(&|a, b| plane::lexicographic(a.0, b.0));
     neighbors.dedup_by_key(|neighbor| neighbor.1);
     Ok(neighbors)
 }

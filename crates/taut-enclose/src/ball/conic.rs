@@ -15,6 +15,7 @@ use clarabel::algebra::CscMatrix;
 use clarabel::solver::{
     DefaultSettingsBuilder, DefaultSolver, IPSolver, SecondOrderConeT, SolverStatus,
 };
+use taut_points::OrderBy;
 
 use super::factor::Factor;
 use super::working_set::WorkingSet;
@@ -172,7 +173,7 @@ fn multipliers(duals: &[f64], distances: &[f64]) -> Vec<f64> {
 fn aim(set: &WorkingSet, hull: &Hull, lambda: &mut [f64], center: &[f64]) {
     let sigma = (0..set.len()).map(|i| set.norm2(i)).fold(0.0, f64::max);
     let mut order: Vec<usize> = (0..set.len()).filter(|&i| lambda[i] > 0.0).collect();
-    order.sort_by(|&i, &j| lambda[j].total_cmp(&lambda[i]));
+    order.order_by(&|&i, &j| lambda[j].total_cmp(&lambda[i]));
     let mut factor = Factor::default();
     let mut support: Vec<usize> = vec![];
     for i in order {

@@ -11,7 +11,7 @@
 
 use taut_certify::{Ball, BallCertificate, Items, PassBounds, Solution, Stop, Trace};
 use taut_points::parallel::{IntoParallel, ParallelSlice};
-use taut_points::{InputError, Monitor, PointSource, ReadError};
+use taut_points::{InputError, Monitor, OrderBy, PointSource, ReadError};
 
 use super::active_set::{ActiveSet, VIOLATION_TOLERANCE};
 use super::core_set::{ROUNDING, solve_working_set};
@@ -204,7 +204,7 @@ fn pass(
         found.squares.push(square);
         found.outside.extend(support_points);
     }
-    found.outside.sort_by(|a, b| b.0.total_cmp(&a.0));
+    found.outside.order_by(&|a, b| b.0.total_cmp(&a.0));
     found
 }
 

@@ -10,6 +10,7 @@ use crate::Error;
 use crate::ball::reach_up;
 use crate::frame::exponent;
 use crate::kernel::{Center, Difference, relative_error};
+use taut_points::OrderBy;
 
 /// At most this many items that may reach as far as the farthest are measured exactly: mostly two or three for each of
 /// some centers.
@@ -104,7 +105,7 @@ fn of_groups<P: Position>(
         .map(|group| serve(&cloud.items, &grouping.members[group], inside))
         .collect();
     let mut order: Vec<usize> = (0..served.len()).collect();
-    order.sort_by(|&a, &b| served[b].reach.total_cmp(&served[a].reach).then(a.cmp(&b)));
+    order.order_by(&|&a, &b| served[b].reach.total_cmp(&served[a].reach).then(a.cmp(&b)));
     let (left_out, kept) = order.split_at(z.min(order.len()));
     let farthest = kept.first().map_or(0.0, |&group| served[group].reach);
     let doubt = 4.0 * relative_error(table.rows.dim);

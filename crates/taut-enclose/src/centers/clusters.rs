@@ -11,6 +11,7 @@
 //! need an empty cluster each, if no two of them fit in one: a clique.
 
 use std::sync::Arc;
+use taut_points::OrderBy;
 
 use super::cloud::Cloud;
 use super::conflict::Levels;
@@ -567,7 +568,7 @@ impl<P: Position> Clusters<P> {
                 places.push((cluster.feasible[found].radius, Place::Into(at)));
             }
         }
-        places.sort_by(|a, b| a.0.total_cmp(&b.0));
+        places.order_by(&|a, b| a.0.total_cmp(&b.0));
         if home.is_some() {
             return places;
         }

@@ -16,7 +16,7 @@ mod rounds;
 
 use taut_certify::{Centers, CentersCertificate, Items, PassBounds, Placement, Solution, Trace};
 use taut_points::parallel::ParallelSlice;
-use taut_points::{InputError, Monitor, PointSource};
+use taut_points::{InputError, Monitor, OrderBy, PointSource};
 
 use self::bodies::Bodies;
 use self::rounds::{Found, Rounds};
@@ -181,7 +181,7 @@ fn answer<P: Position>(
     }
     let served = bodies.served_from(&outside);
     let mut order: Vec<usize> = (0..served.len()).collect();
-    order.sort_by(|&a, &b| served[b].reach.total_cmp(&served[a].reach).then(a.cmp(&b)));
+    order.order_by(&|&a, &b| served[b].reach.total_cmp(&served[a].reach).then(a.cmp(&b)));
     let farthest = order.get(z).map_or(0.0, |&i| served[i].reach);
     let border = farthest * (1.0 - BORDER) - 8.0 * bodies.place_error;
     // Eigenvalues, roots and sums; and what the checker rounds up.

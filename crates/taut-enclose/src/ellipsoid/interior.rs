@@ -14,7 +14,7 @@
 use faer::linalg::matmul::matmul;
 use faer::{Accum, MatMut, MatRef, Par};
 use taut_points::parallel::ParallelSlice;
-use taut_points::{Monitor, ReadError};
+use taut_points::{Monitor, OrderBy, ReadError};
 
 use super::counters::Counters;
 use super::dense::{cholesky, divide_rows};
@@ -77,7 +77,7 @@ pub(super) fn solve(
         }
     }
     let mut order: Vec<usize> = (0..k).collect();
-    order.sort_by(|&a, &b| best.1[b].total_cmp(&best.1[a]).then(a.cmp(&b)));
+    order.order_by(&|&a, &b| best.1[b].total_cmp(&best.1[a]).then(a.cmp(&b)));
     let weights = set.weights_mut();
     weights.fill(0.0);
     for &i in order.iter().take(state.p - 1) {

@@ -14,6 +14,7 @@
 //! *Reference.* Lawson and Hanson, Solving Least Squares Problems, 1974, chapter 23.
 
 use std::collections::HashSet;
+use taut_points::OrderBy;
 
 use faer::linalg::matmul::matmul;
 use faer::{Accum, MatMut, MatRef, Par};
@@ -208,7 +209,7 @@ impl<'a> ActiveSet<'a> {
         const RIDGE: f64 = 1e-12;
         let mut points: Vec<usize> = (0..self.whitened.leverages.len()).collect();
         let leverage = |i: &usize| self.whitened.leverages[*i];
-        points.sort_by(|a, b| leverage(b).total_cmp(&leverage(a)).then(a.cmp(b)));
+        points.order_by(&|a, b| leverage(b).total_cmp(&leverage(a)).then(a.cmp(b)));
         points.truncate(count);
         for _ in 0..GUESS_ROUNDS_MAX {
             let rows: Vec<f64> = points.iter().flat_map(|&i| self.row(i)).collect();

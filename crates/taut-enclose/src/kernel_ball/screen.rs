@@ -13,7 +13,7 @@
 use std::sync::{Mutex, PoisonError};
 
 use taut_certify::Kernel;
-use taut_points::{Monitor, PointSource, Rows, map_blocks};
+use taut_points::{Monitor, OrderBy, PointSource, Rows, map_blocks};
 
 use super::cluster::Cluster;
 use super::decay::decay_all;
@@ -200,7 +200,7 @@ impl Center {
         let extents: Vec<f64> = (0..self.dim).map(extent).collect();
         let widest =
             (0..self.dim).fold(0, |best, j| if extents[j] > extents[best] { j } else { best });
-        places.sort_by(|&i, &j| value(i, widest).total_cmp(&value(j, widest)).then(i.cmp(&j)));
+        places.order_by(&|&i, &j| value(i, widest).total_cmp(&value(j, widest)).then(i.cmp(&j)));
         let rest = places.split_off(places.len() / 2);
         self.split(places, count / 2, groups);
         self.split(rest, count / 2, groups);

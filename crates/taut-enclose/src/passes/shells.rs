@@ -7,7 +7,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use taut_points::{
-    BlockHash, ByteReader, ByteWriter, Elsewhere, Monitor, PartsError, PointSource, PointsHash,
+    BlockHash, ByteReader, ByteWriter, Elsewhere, Monitor, OrderBy, PartsError, PointSource,
+    PointsHash,
 };
 
 use super::partial::{Body, Partial};
@@ -67,7 +68,7 @@ pub(crate) fn ask_border(
     let question = ShellQuestion { is_first: false, metric: metric.clone(), kind };
     match ask(elsewhere, source, question)?.body {
         Body::Shells(ShellBody::Border { sums, mut border }) => {
-            border.sort_unstable_by(|a, b| a.reach2.total_cmp(&b.reach2).then(a.id.cmp(&b.id)));
+            border.order_by(&|a, b| a.reach2.total_cmp(&b.reach2).then(a.id.cmp(&b.id)));
             Ok((sums.total(source.dim()), border))
         }
         _ => Err(PartsError::Question.into()),

@@ -27,6 +27,7 @@ use crate::Error;
 use crate::ellipsoid::dense::{cholesky, forward};
 use crate::ellipsoid::point_reader::PointReader;
 use crate::kernel::vector::{add_scaled, dot};
+use taut_points::OrderBy;
 
 /// This many rows on either side are looked at. On 10⁵ points ends were no lower with 3000.
 const BORDER_ROWS: usize = 2000;
@@ -213,7 +214,7 @@ impl Border {
         let edge = |kept: bool| -> Vec<Edge> {
             let is_near = |d: f64| if kept { d >= nearest - reach } else { d <= farthest + reach };
             let mut rows: Vec<usize> = side(kept).filter(|&at| is_near(squares[at])).collect();
-            rows.sort_by(|&a, &b| {
+            rows.order_by(&|&a, &b| {
                 let outward = squares[a].total_cmp(&squares[b]);
                 if kept { outward.reverse() } else { outward }
             });

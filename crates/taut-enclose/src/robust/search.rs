@@ -13,7 +13,7 @@
 //! Verdonck, J. Computational and Graphical Statistics 21, 2012, for the rankings.
 
 use taut_points::parallel::IntoParallel;
-use taut_points::{Monitor, Points};
+use taut_points::{Monitor, OrderBy, Points};
 
 use super::border::Border;
 use super::concentrate::{
@@ -136,7 +136,7 @@ fn polish(
 
 /// Keeps the candidates with the least determinants, in that order; of equal ones, the first.
 fn best(candidates: &mut Vec<Raw>, count: usize) {
-    candidates.sort_by(|a, b| a.estimate.log_det().total_cmp(&b.estimate.log_det()));
+    candidates.order_by(&|a, b| a.estimate.log_det().total_cmp(&b.estimate.log_det()));
     candidates.truncate(count);
 }
 
@@ -204,7 +204,7 @@ fn best_simplices(sample: &[f64], dim: usize, part: usize) -> Result<Vec<Estimat
         })
         .collect::<Result<_, Error>>()?;
     let mut ends: Vec<Estimate> = ends.into_iter().flatten().collect();
-    ends.sort_by(|a, b| a.log_det().total_cmp(&b.log_det()));
+    ends.order_by(&|a, b| a.log_det().total_cmp(&b.log_det()));
     ends.dedup_by(|a, b| a.log_det() == b.log_det());
     ends.truncate(BEST_ELEMENTS);
     Ok(ends)

@@ -16,6 +16,7 @@ use super::chi_square::quantile;
 use super::eigen::eigenvectors;
 use super::scale::{median, qn};
 use crate::kernel::vector::dot;
+use taut_points::OrderBy;
 
 /// The number of them.
 pub(super) const START_COUNT: usize = 6;
@@ -239,7 +240,7 @@ fn standardize(column: &mut [f64]) {
 /// Ranks from 1, equal values sharing the mean of theirs.
 fn ranks(values: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..values.len()).collect();
-    order.sort_unstable_by(|&i, &j| values[i].total_cmp(&values[j]));
+    order.order_by(&|&i, &j| values[i].total_cmp(&values[j]));
     let mut ranks = vec![0.0; values.len()];
     let mut start = 0;
     for group in order.chunk_by(|&i, &j| values[i] == values[j]) {

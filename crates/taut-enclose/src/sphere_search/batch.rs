@@ -9,7 +9,7 @@ use taut_certify::Items;
 use taut_points::parallel::ParallelSlice;
 use taut_points::{ReadError, vectors};
 
-use super::dim::{AnyDim, Dim, Fixed};
+use super::dim::{AnyDim, Dim, Fixed, unrolled};
 use super::measure::{Measure, Squares, Surfaces, WideSquares, is_plain};
 use super::{QueryOptions, SphereSearch};
 use crate::Error;
@@ -159,10 +159,11 @@ impl<W: Work> WithSimd for Task<'_, W> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        match self.search.dim() {
-            2 => self.in_dim(Fixed::<2>),
-            3 => self.in_dim(Fixed::<3>),
-            dim => self.in_dim(AnyDim(dim)),
+        let dim = AnyDim(self.search.dim());
+        match unrolled::<S>(dim.0) {
+            Some(2) => self.in_dim(Fixed::<2>),
+            Some(3) => self.in_dim(Fixed::<3>),
+            _ => self.in_dim(dim),
         }
     }
 }

@@ -16,7 +16,7 @@ use taut_certify::Items;
 use taut_points::{Monitor, ReadError, vectors};
 
 use super::batch::run_one;
-use super::dim::{AnyDim, Dim, Fixed};
+use super::dim::{AnyDim, Dim, Fixed, unrolled};
 use super::measure::{Measure, Squares, Surfaces, WideSquares};
 use super::nodes::{BLOCK_SIZE, FANOUT, NO_ROW};
 use super::places::FindFarthest;
@@ -240,11 +240,12 @@ impl WithSimd for Task<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> Self::Output {
-        match (self.tree.dim(), self.tree.items) {
-            (2, Items::Points) => self.diameter::<_, Squares>(Fixed::<2>),
-            (3, Items::Points) => self.diameter::<_, Squares>(Fixed::<3>),
-            (dim, Items::Points) => self.diameter::<_, Squares>(AnyDim(dim)),
-            (dim, _) => self.diameter::<_, Surfaces<Squares>>(AnyDim(dim)),
+        let dim = AnyDim(self.tree.dim());
+        match (unrolled::<S>(self.tree.dim()), self.tree.items) {
+            (Some(2), Items::Points) => self.diameter::<_, Squares>(Fixed::<2>),
+            (Some(3), Items::Points) => self.diameter::<_, Squares>(Fixed::<3>),
+            (_, Items::Points) => self.diameter::<_, Squares>(dim),
+            _ => self.diameter::<_, Surfaces<Squares>>(dim),
         }
     }
 }

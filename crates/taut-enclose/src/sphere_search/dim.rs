@@ -1,5 +1,7 @@
 //! The dimension as a type where it is small, so that loops over axes are unrolled.
 
+use pulp::Simd;
+
 /// How many coordinates a point has.
 pub(super) trait Dim: Copy + Send + Sync + 'static {
     fn get(self) -> usize;
@@ -14,6 +16,14 @@ impl<const D: usize> Dim for Fixed<D> {
     fn get(self) -> usize {
         D
     }
+}
+
+/// The dimension for which loops are compiled for itself. The copy of code for processors of x86-64 without AVX2, which are older than 2013
+/// or emulated, has loops for all dimensions alone: that saves a hundred kilobytes.
+#[inline(always)]
+pub(super) fn unrolled<S: Simd>(dim: usize) -> Option<usize> {
+    let is_old = cfg!(target_arch = "x86_64") && S::IS_SCALAR;
+    (!is_old).then_some(dim)
 }
 
 /// Any other dimension.

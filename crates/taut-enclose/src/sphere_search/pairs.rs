@@ -12,7 +12,7 @@ use taut_certify::Items;
 use taut_points::parallel::{IntoParallel, ParallelSlice};
 use taut_points::{ReadError, vectors};
 
-use super::dim::{AnyDim, Dim, Fixed};
+use super::dim::{AnyDim, Dim, Fixed, unrolled};
 use super::measure::{Measure, Squares, Surfaces, WideSquares};
 use super::nodes::{BLOCK_SIZE, FANOUT, NO_ROW};
 use super::{QueryOptions, RowPair, SphereSearch};
@@ -290,10 +290,10 @@ impl WithSimd for Task<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> Vec<Found> {
-        match self.first.dim() {
-            2 => self.in_dim(Fixed::<2>),
-            3 => self.in_dim(Fixed::<3>),
-            dim => self.in_dim(AnyDim(dim)),
+        match unrolled::<S>(self.first.dim()) {
+            Some(2) => self.in_dim(Fixed::<2>),
+            Some(3) => self.in_dim(Fixed::<3>),
+            _ => self.in_dim(AnyDim(self.first.dim())),
         }
     }
 }

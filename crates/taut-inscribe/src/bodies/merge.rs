@@ -9,6 +9,7 @@
 //! how few bodies can do that.
 
 use std::collections::BTreeSet;
+use taut_points::OrderBy;
 
 use super::pack::{Family, Packing, Reached, distance};
 use crate::Error;
@@ -118,7 +119,7 @@ impl<F: Family> Packing<'_, F> {
             let mut others: Vec<usize> = (self.input.given.len()..self.bodies.len()).collect();
             others.retain(|&other| other != body);
             let far = |other: usize| distance(anchors[body], anchors[other]);
-            others.sort_by(|&a, &b| far(a).total_cmp(&far(b)));
+            others.order_by(&|&a, &b| far(a).total_cmp(&far(b)));
             pairs.extend(
                 others.iter().take(NEIGHBORS).map(|&other| [body.min(other), body.max(other)]),
             );

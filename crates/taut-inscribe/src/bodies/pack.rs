@@ -7,6 +7,7 @@
 
 use std::cell::OnceCell;
 use std::cmp::Reverse;
+use taut_points::OrderBy;
 
 use super::BodiesOptions;
 use super::lines::{Line, Sample};
@@ -350,7 +351,7 @@ impl<'a, F: Family> Packing<'a, F> {
         let input = self.input;
         let mut by_clearance = open.to_vec();
         let clearances = input.clearances();
-        by_clearance.sort_by(|&a, &b| clearances[b].total_cmp(&clearances[a]));
+        by_clearance.order_by(&|&a, &b| clearances[b].total_cmp(&clearances[a]));
         let (farthest, any) =
             if input.lines.is_some() { (STARTS / 2, STARTS) } else { (STARTS, 0) };
         let mut starts: Vec<Start> = vec![];

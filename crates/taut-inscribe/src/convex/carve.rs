@@ -6,6 +6,7 @@
 //! Algorithmic Foundations of Robotics XI, 2015, section 3.2: the half-planes of one step.
 
 use crate::polygon::Segment;
+use taut_points::OrderBy;
 
 use super::region::{Region, Side, dot, minus};
 
@@ -61,7 +62,7 @@ pub(super) fn carve(
             (square, way, edge)
         })
         .collect();
-    near.sort_by(|one, other| one.0.total_cmp(&other.0));
+    near.order_by(&|one, other| one.0.total_cmp(&other.0));
     let mut region = region.clone();
     for (_, way, edge) in near {
         if !enters(&sides, edge) {

@@ -8,6 +8,7 @@
 //! the chord.
 
 use std::f64::consts::{PI, TAU};
+use taut_points::OrderBy;
 
 use super::region::{Region, Side, cross, dot, minus};
 
@@ -110,7 +111,7 @@ fn chord(region: &Region, q: [f64; 2], direction: [f64; 2]) -> [f64; 2] {
 
 /// The corners of the convex hull, counterclockwise (Andrew's chain).
 pub(super) fn hull(points: &mut [[f64; 2]]) -> Vec<[f64; 2]> {
-    points.sort_by(|p, q| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])));
+    points.order_by(&|p, q| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])));
     let is_near = |p: [f64; 2], q: [f64; 2]| (p[0] - q[0]).hypot(p[1] - q[1]) <= SAME;
     let chain = |points: &mut dyn Iterator<Item = [f64; 2]>| {
         let mut kept: Vec<[f64; 2]> = vec![];

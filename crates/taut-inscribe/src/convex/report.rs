@@ -1,5 +1,6 @@
 //! The body found, as corners of the input that no edge enters.
 
+use taut_points::OrderBy;
 use taut_predicates::plane::orient;
 
 use crate::polygon::{Segment, is_inside};
@@ -60,7 +61,7 @@ pub(super) fn area_error(corners: &[[f64; 2]]) -> f64 {
 
 /// The strictly convex hull of points, counterclockwise, by exact signs.
 pub(super) fn hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
-    points.sort_by(|p, q| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])));
+    points.order_by(&|p, q| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])));
     points.dedup();
     let chain = |points: &mut dyn Iterator<Item = [f64; 2]>| {
         let mut kept: Vec<[f64; 2]> = vec![];

@@ -5,7 +5,7 @@
 //! taken out, the room that opens is carved again from a random point of the body, and what is larger is kept.
 //! *Guarantee.* No edge reaches deeper into a body than [`DEPTH`]; the rest is evidence, as the bound is proved apart.
 
-use taut_points::{Cancelled, Monitor};
+use taut_points::{Cancelled, Monitor, OrderBy};
 
 use crate::ellipse::local_optima;
 use crate::polygon::Segment;
@@ -89,7 +89,7 @@ pub(super) fn search(
         monitor.check()?;
         bodies.extend(search.first(center, Metric(form)));
     }
-    bodies.sort_by(|one, other| other.area.total_cmp(&one.area));
+    bodies.order_by(&|one, other| other.area.total_cmp(&one.area));
     bodies.dedup_by(|next, kept| (kept.area - next.area).abs() <= GAIN_MIN * kept.area);
     bodies.truncate(KEPT_MAX);
     let mut random = Random::new(seed);
@@ -101,7 +101,7 @@ pub(super) fn search(
             }
         }
     }
-    bodies.sort_by(|one, other| other.area.total_cmp(&one.area));
+    bodies.order_by(&|one, other| other.area.total_cmp(&one.area));
     Ok(bodies.into_iter().next())
 }
 
@@ -238,7 +238,7 @@ impl Search<'_> {
         let moments = body.region.moments()?;
         let mut sides = body.sides.clone();
         let angle = |side: &Side| side.normal[1].atan2(side.normal[0]);
-        sides[BOX_SIDES..].sort_by(|one, other| angle(one).total_cmp(&angle(other)));
+        sides[BOX_SIDES..].order_by(&|one, other| angle(one).total_cmp(&angle(other)));
         sides[BOX_SIDES..].rotate_left(random.below(own));
         sides.truncate(BOX_SIDES + own - (1 + random.below(RUINED_MAX)).min(own));
         let corner = body.region.corners[random.below(body.region.corners.len())];

@@ -10,8 +10,8 @@
 use std::cmp::Ordering;
 use std::sync::Arc;
 
-use taut_points::Cancelled;
 use taut_points::parallel::ParallelSlice;
+use taut_points::{Cancelled, OrderBy};
 
 use super::ascent::Ellipse;
 use super::cell::{Axis, Cell, Frame, Width};
@@ -336,7 +336,7 @@ impl Search<'_> {
         }
         let mut axes =
             [Axis::S, Axis::T, Axis::X, Axis::Y].into_iter().zip(changes).collect::<Vec<_>>();
-        axes.sort_by(|one, other| other.1.total_cmp(&one.1));
+        axes.order_by(&|one, other| other.1.total_cmp(&one.1));
         let axis = axes.into_iter().map(|axis| axis.0).find(|&axis| cell.halves(axis).is_some());
         let next = axis.map_or(Next::Nothing, Next::Split);
         Examined { cell, reason, bound: Some(bound), next, list, is_inside, larger }
@@ -406,7 +406,7 @@ pub(super) fn largest_circles(units: &Units, most: usize) -> Vec<Ellipse> {
     let circle = |center| Ellipse::of(Shape::new(0.0, 1.0), center, &units.edges);
     let centers = inner_points(&units.edges, units.extent);
     let mut circles: Vec<Ellipse> = centers.into_iter().map(circle).collect();
-    circles.sort_by(|one, other| other.size.total_cmp(&one.size));
+    circles.order_by(&|one, other| other.size.total_cmp(&one.size));
     circles.truncate(most);
     circles
 }

@@ -7,7 +7,7 @@
 use std::collections::HashMap;
 use std::rc::Rc;
 
-use taut_points::Cancelled;
+use taut_points::{Cancelled, OrderBy};
 
 use crate::frontier::{Frontier, Waiting};
 use crate::inner_points::inner_points;
@@ -151,7 +151,7 @@ impl Search<'_> {
                 .max_by(|one, other| one.area.total_cmp(&other.area));
             starts.extend(largest);
         }
-        starts.sort_by(|one, other| other.area.total_cmp(&one.area));
+        starts.order_by(&|one, other| other.area.total_cmp(&one.area));
         starts.truncate(STARTS_MAX);
         for found in starts {
             self.climb(&found);
@@ -240,7 +240,7 @@ impl Search<'_> {
         if all.is_empty() {
             return hull;
         }
-        all.sort_by(|one, other| other.0.value().total_cmp(&one.0.value()));
+        all.order_by(&|one, other| other.0.value().total_cmp(&one.0.value()));
         all.truncate(CONDITIONS_MAX);
         let columns: Vec<Column<5>> = all.iter().map(|pair| pair.0).collect();
         let sums = [at[0] + at[2], at[1] + at[3]];
@@ -297,7 +297,7 @@ impl Search<'_> {
         let Waiting { bound, node, cell: Open { given, cell, list } } = waiting;
         let influences = influences(&cell);
         let mut coordinates = [0, 1, 2, 3, 4];
-        coordinates.sort_by(|&one, &other| influences[other].total_cmp(&influences[one]));
+        coordinates.order_by(&|&one, &other| influences[other].total_cmp(&influences[one]));
         let halves = coordinates.into_iter().find_map(|k| Some((k, given.halves(k)?)));
         let Some((coordinate, halves)) = halves else {
             self.frontier.close(bound);

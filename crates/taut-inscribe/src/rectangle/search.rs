@@ -5,7 +5,7 @@
 
 use std::rc::Rc;
 
-use taut_points::Cancelled;
+use taut_points::{Cancelled, OrderBy};
 
 use crate::frontier::{Frontier, Waiting};
 use crate::polygon::{Segment, is_inside};
@@ -226,7 +226,7 @@ impl Search<'_> {
     fn open(&mut self, waiting: Waiting<Listed>) {
         let Waiting { bound, node, cell: (cell, list) } = waiting;
         let mut axes = Axis::ALL;
-        axes.sort_by(|&one, &other| cell.influence(other).total_cmp(&cell.influence(one)));
+        axes.order_by(&|&one, &other| cell.influence(other).total_cmp(&cell.influence(one)));
         let halves = axes.into_iter().find_map(|axis| Some((axis, cell.halves(axis)?)));
         let Some((axis, [below, above])) = halves else {
             self.frontier.close(bound);

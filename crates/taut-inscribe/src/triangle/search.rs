@@ -9,8 +9,8 @@
 
 use std::sync::Arc;
 
-use taut_points::Cancelled;
 use taut_points::parallel::ParallelSlice;
+use taut_points::{Cancelled, OrderBy};
 
 use super::ascent::Candidate;
 use super::bound::{doubled_area, row_error};
@@ -299,7 +299,7 @@ impl Search<'_> {
     /// The halves of a cell by the coordinate of the largest influence that has halves, and that coordinate.
     fn split(&mut self, cell: &Cell) -> Option<(u8, [Cell; 2])> {
         let mut order: Vec<(usize, f64)> = cell::influences(cell).into_iter().enumerate().collect();
-        order.sort_by(|one, other| other.1.total_cmp(&one.1));
+        order.order_by(&|one, other| other.1.total_cmp(&one.1));
         order.into_iter().find_map(|(coordinate, _)| {
             let (corner, axis) = (coordinate / 2, coordinate % 2);
             let halves = self.tiles.halves(&cell[corner], axis)?.map(|half| {

@@ -5,6 +5,7 @@ use super::frame::Frame;
 use super::gauge::{Gauge, Triangle, doubled_area, scaled};
 use super::groups::Groups;
 use crate::inner_points::inner_points;
+use taut_points::OrderBy;
 
 /// Starts of ascents before the search, the largest first.
 const STARTS_MAX: usize = 12;
@@ -32,7 +33,7 @@ pub(super) fn starts(frame: &Frame, edges: &Groups) -> Vec<Candidate> {
         }
         if let Some(found) = largest {
             best.push(found);
-            best.sort_by(|one, other| other.0.total_cmp(&one.0));
+            best.order_by(&|one, other| other.0.total_cmp(&one.0));
             best.truncate(STARTS_MAX);
         }
     }

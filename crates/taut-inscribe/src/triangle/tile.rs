@@ -5,6 +5,7 @@
 
 use std::collections::HashMap;
 use std::sync::{Arc, OnceLock};
+use taut_points::OrderBy;
 
 use super::frame::Frame;
 use super::gauge::turn;
@@ -165,7 +166,7 @@ impl<'a> Tiles<'a> {
 
 /// The convex hull of points, counterclockwise.
 fn convex_hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
-    points.sort_by(|p, q| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])));
+    points.order_by(&|p, q| p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])));
     points.dedup();
     if points.len() < 3 {
         return points;
@@ -221,7 +222,7 @@ fn normals(hull: &[[f64; 2]], tile: &Tile) -> Vec<[f64; 2]> {
             }
         }
     }
-    found.sort_by(|one, other| other.0.total_cmp(&one.0));
+    found.order_by(&|one, other| other.0.total_cmp(&one.0));
     found.truncate(HALF_PLANES_MAX);
     found.into_iter().map(|side| side.1).collect()
 }

@@ -8,6 +8,7 @@
 
 use crate::TriangleMesh;
 use crate::mesh::repeats;
+use taut_points::OrderBy;
 
 /// The overlap of two sets.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -54,7 +55,7 @@ fn names(one: &[[f64; 3]], other: &[[f64; 3]]) -> (Vec<u64>, Vec<u64>) {
             .find(|o| o.is_ne())
             .unwrap_or(std::cmp::Ordering::Equal)
     };
-    all.sort_unstable_by(|(p, i), (q, j)| order(p, q).then(i.cmp(j)));
+    all.order_by(&|(p, i), (q, j)| order(p, q).then(i.cmp(j)));
     let mut names = vec![0; all.len()];
     for (name, equal) in (0..).zip(all.chunk_by(|(p, _), (q, _)| p == q)) {
         equal.iter().for_each(|&(_, place)| names[place] = name);

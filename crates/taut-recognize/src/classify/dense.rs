@@ -1,5 +1,6 @@
 //! Small dense matrices, row after row: factors and eigenvalues, the same bits for any number of threads.
 
+use taut_points::OrderBy;
 /// The part of the mean diagonal that is added at first where a factor does not exist; ten times as much each time after.
 const RIDGE_START: f64 = 1e-12;
 /// Sweeps of rotations after which off-diagonal values are rounding: they fall quadratically, and ten do for any matrix of doubles.
@@ -75,7 +76,7 @@ pub(super) fn eigen(a: &[f64], n: usize) -> (Vec<f64>, Vec<f64>) {
         }
     }
     let mut order: Vec<usize> = (0..n).collect();
-    order.sort_by(|&i, &j| a[j * n + j].total_cmp(&a[i * n + i]));
+    order.order_by(&|&i, &j| a[j * n + j].total_cmp(&a[i * n + i]));
     let values = order.iter().map(|&i| a[i * n + i]).collect();
     let vectors = order
         .iter()

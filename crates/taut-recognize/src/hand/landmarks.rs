@@ -9,6 +9,7 @@
 //! a finger's length, and here a multiple of the square root of the area, so that no unit is needed.
 
 use std::f64::consts::TAU;
+use taut_points::OrderBy;
 
 use super::Side;
 use super::failure::Failure;
@@ -157,7 +158,7 @@ fn find_minima(angles: &[f64], radius: usize) -> Vec<usize> {
                 })
         })
         .collect();
-    found.sort_by(|&a, &b| angles[a].total_cmp(&angles[b]).then(a.cmp(&b)));
+    found.order_by(&|&a, &b| angles[a].total_cmp(&angles[b]).then(a.cmp(&b)));
     found.truncate(CANDIDATES_MAX);
     found.sort_unstable();
     found

@@ -9,6 +9,7 @@
 //! Des. 22(2), 2005; Fleishman, Cohen-Or and Silva, *Robust moving least-squares fitting with sharp features*, ACM Trans. Graph. 24(3), 2005.
 
 use super::spheres::{Point, cross, dot, minus};
+use taut_points::OrderBy;
 
 /// The biweight is 0 beyond this many standard deviations: 95 % efficient for normal residuals.
 const BIWEIGHT_CUTOFF: f64 = 4.685;
@@ -235,7 +236,7 @@ pub(super) fn principal(mut a: [[f64; 3]; 3]) -> [(f64, Point); 3] {
         }
     }
     let mut order = [0, 1, 2];
-    order.sort_by(|&p: &usize, &q: &usize| a[q][q].total_cmp(&a[p][p]));
+    order.order_by(&|&p: &usize, &q: &usize| a[q][q].total_cmp(&a[p][p]));
     order.map(|k| (a[k][k], axes[k]))
 }
 

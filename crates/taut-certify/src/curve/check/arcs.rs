@@ -14,6 +14,7 @@
 //! points, Annals of Statistics 34(1), 2006; circles through drawn points: Fischler and Bolles 1981.
 
 use std::f64::consts::PI;
+use taut_points::OrderBy;
 
 use super::super::CurveDoubt;
 
@@ -70,7 +71,7 @@ pub(super) fn arc(outliers: &[(usize, [f64; 2])], free: f64, width: f64) -> Opti
     };
     let room = [range(0), range(1)];
     let mut order: Vec<&(usize, [f64; 2])> = outliers.iter().collect();
-    order.sort_by(|a, b| a.1[0].total_cmp(&b.1[0]).then(a.1[1].total_cmp(&b.1[1])));
+    order.order_by(&|a, b| a.1[0].total_cmp(&b.1[0]).then(a.1[1].total_cmp(&b.1[1])));
     let sizes: Vec<usize> = WINDOWS.into_iter().filter(|&size| size < order.len()).collect();
     let step = order.len().div_ceil(CENTERS_MAX).max(1);
     let tried = order.len().div_ceil(step) * sizes.len() * CIRCLES;

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
+use taut_points::OrderBy;
 
 use super::super::CurveDoubt;
 use super::arcs;
@@ -127,7 +128,7 @@ fn near_one_stretch(edges: &Edges, placed: &Placed, usual: f64) -> Option<CurveD
             near.push((ways[edge] + t * (ways[edge + 1] - ways[edge]), row));
         }
     }
-    near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    near.order_by(&|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     let (many, length) = (near.len(), ways[edges.ends.len()]);
     let most = (many as f64).ln() + NEAR_RARITY;
     let mut count = OUTLIERS_MIN / 2;

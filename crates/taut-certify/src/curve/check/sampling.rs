@@ -4,6 +4,7 @@ use super::super::CurveDoubt;
 use super::band::Foot;
 use super::features::Features;
 use super::valley::valley;
+use taut_points::OrderBy;
 
 /// A gap is compared with this many gaps on either side.
 const NEIGHBOR_GAPS: usize = 32;
@@ -65,7 +66,7 @@ pub(super) fn ordered(feet: &[Foot], first_edge: usize, features: &Features) -> 
         })
         .collect();
     // Many have one foot, a vertex.
-    samples.sort_by(|a, b| {
+    samples.order_by(&|a, b| {
         let by_place = a.along.total_cmp(&b.along).then(a.offset.total_cmp(&b.offset));
         by_place.then(a.row.cmp(&b.row))
     });

@@ -10,6 +10,7 @@
 
 use super::super::CurveDoubt;
 use super::sampling::Sample;
+use taut_points::OrderBy;
 
 /// Rows of the windows, in steps of about √2: the longest is a stretch that bends of the curve no longer explain.
 const WINDOWS: [usize; 12] = [8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384];
@@ -108,7 +109,7 @@ fn spread(curve: usize, samples: &[Sample]) -> Option<CurveDoubt> {
             let (_, &mut spread, _) = offsets.select_nth_unstable_by(at, f64::total_cmp);
             spreads.push((spread, samples[start].vertex));
         }
-        spreads.sort_by(|a, b| a.0.total_cmp(&b.0));
+        spreads.order_by(&|a, b| a.0.total_cmp(&b.0));
         let ((usual, _), (largest, vertex)) =
             (spreads[spreads.len() / 2], spreads[spreads.len() - 1]);
         if largest > most * usual {

@@ -1,5 +1,6 @@
 //! That every row is a vertex or listed as unused, once, and that duplicates are all that they are said to be.
 
+use taut_points::OrderBy;
 use taut_points::parallel::ParallelSlice;
 
 use super::super::{Surface, SurfaceViolation};
@@ -84,7 +85,7 @@ fn firsts(places: &Places) -> Vec<u32> {
     let mut firsts = vec![0; order.len()];
     for alike in order.chunk_by_mut(|a, b| a.0 == b.0) {
         // All are finite. Each of few numbers has rows in different places, and then they are sorted apart.
-        alike.sort_unstable_by(|&(_, a), &(_, b)| {
+        alike.order_by(&|&(_, a), &(_, b)| {
             place(a).partial_cmp(&place(b)).unwrap_or(std::cmp::Ordering::Equal).then(a.cmp(&b))
         });
         for same in alike.chunk_by(|&(_, a), &(_, b)| place(a) == place(b)) {

@@ -4,6 +4,7 @@ use super::super::{Fingerprint, MeshViolation, NO_NEIGHBOR, TriangulationVerdict
 use super::prove::{Claim, counted};
 use super::signs::lexicographic;
 use super::sites::{Recent, Sites};
+use taut_points::OrderBy;
 
 /// Checks the simplices of points whose hull has dimension 1 at most, which is known already.
 pub(super) fn check<const D: usize>(
@@ -66,7 +67,7 @@ fn along<const D: usize>(
     };
     let turned = |&[a, b]: &[u32; 2]| if order(a, b).is_gt() { [b, a] } else { [a, b] };
     let mut edges: Vec<_> = edges.iter().map(turned).enumerate().collect();
-    edges.sort_by(|(_, e), (_, f)| order(e[0], f[0]));
+    edges.order_by(&|(_, e), (_, f)| order(e[0], f[0]));
     edges.into_iter()
 }
 

@@ -13,6 +13,7 @@ use super::folder::{Folder, remove};
 use super::plan::DiskPlan;
 use crate::Error;
 use crate::outofcore::tree::{CellBox, FINE_LEVELS, Router, Tree};
+use taut_points::OrderBy;
 
 /// Points of the sample of a cell.
 const SAMPLE_POINTS: u64 = 1 << 14;
@@ -117,7 +118,7 @@ impl Splitting<'_> {
             }
             Ok(())
         })?;
-        sample.sort_unstable_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
+        sample.order_by(&|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
         let wanted = (count * 5).div_ceil(self.plan.leaf_points * 4).next_power_of_two().ilog2();
         let router = Router::new(sample, (wanted + FINE_LEVELS).min(SPLIT_LEVELS_MAX));
         let mut cells = vec![CellBox::EMPTY; router.cells()];

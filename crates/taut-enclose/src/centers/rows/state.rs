@@ -7,6 +7,7 @@
 //! its clusters the fewest rows.
 
 use std::sync::Arc;
+use taut_points::OrderBy;
 
 use super::core_set::{CoreSet, Words, size};
 use crate::centers::depth_first::{self, Place};
@@ -259,7 +260,7 @@ impl<'s> State<'s> {
             Place::Open => 0.0,
             Place::LeaveOut => -1.0,
         };
-        places.sort_by(|a, b| rest(b).total_cmp(&rest(a)));
+        places.order_by(&|a, b| rest(b).total_cmp(&rest(a)));
         places
     }
 

@@ -1,5 +1,6 @@
 //! One pass over the items: how far each reaches under an ellipsoid, and where.
 
+use taut_points::OrderBy;
 use taut_points::parallel::IntoParallel;
 
 use super::support_points::SupportPoint;
@@ -41,7 +42,7 @@ pub(super) fn pass(
         found.squares.push(square);
         found.outside.extend(support_points);
     }
-    found.outside.sort_by(|a, b| b.0.total_cmp(&a.0));
+    found.outside.order_by(&|a, b| b.0.total_cmp(&a.0));
     found
 }
 

@@ -1,5 +1,6 @@
 //! Points in which items touch: the working set knows each by its number, its item and a direction.
 
+use taut_points::OrderBy;
 use taut_points::parallel::IntoParallel;
 
 use crate::ellipsoid::sample::Sample;
@@ -84,7 +85,7 @@ pub(super) fn first_working_set(framed: &Framed, axes: Vec<Axes>) -> (WorkingSet
     }
     let mut order: Vec<usize> = (0..points.len()).collect();
     let leverages: Vec<f64> = points.iter().map(|y| dot(y, y)).collect();
-    order.sort_by(|&a, &b| leverages[b].total_cmp(&leverages[a]));
+    order.order_by(&|&a, &b| leverages[b].total_cmp(&leverages[a]));
     let size = FIRST_POOL_FACTOR * (rank + 1) * (rank + 2) / 2;
     let mut chosen: Vec<usize> = order.iter().take(size).copied().collect();
     let step = framed.len().div_ceil(SAMPLE_SIZE);

@@ -6,6 +6,7 @@
 use super::super::directions::gcd;
 use super::super::polytope::{self, Sides};
 use super::super::vectors::dot;
+use taut_points::OrderBy;
 
 /// How near to a vertex a facet passes that meets there, in units: rounding, and the units by which facets have moved inward.
 const VERTEX_UNITS_MAX: f64 = 8.0;
@@ -45,7 +46,7 @@ pub(super) fn separation(one: &Shape, two: &mut Shape) -> Option<Vec<u64>> {
     let of_two = (0..two.sides.normals.len()).map(|j| (overlap(two, one, j), false, j));
     let mut facets: Vec<(f64, bool, usize)> = of_one.chain(of_two).collect();
     facets.retain(|facet| facet.0 <= OVERLAP_UNITS_MAX);
-    facets.sort_by(|a, b| a.0.total_cmp(&b.0));
+    facets.order_by(&|a, b| a.0.total_cmp(&b.0));
     facets.into_iter().find_map(|(_, is_of_one, j)| match is_of_one {
         true => {
             let (triple, weights, weight) =
@@ -109,7 +110,7 @@ fn opposed(
         })
         .filter(|near| near.0 <= VERTEX_UNITS_MAX)
         .collect();
-    meeting.sort_by(|a, b| a.0.total_cmp(&b.0));
+    meeting.order_by(&|a, b| a.0.total_cmp(&b.0));
     meeting.truncate(FACETS_AT_VERTEX_MAX);
     let target = normal.map(|x| -x as i64);
     for (at, &(_, i)) in meeting.iter().enumerate() {

@@ -1,6 +1,7 @@
 //! From the scores of all splits to rates.
 
 use std::collections::BTreeMap;
+use taut_points::OrderBy;
 
 use super::split::{Outcome, Probe, Scored};
 use super::{OpenSetFigures, ProtocolOptions, ProtocolRates};
@@ -107,7 +108,7 @@ fn over_people(
 /// The trade-off of identification: shares of probes accepted under a wrong name, and rejected.
 fn identification(probes: &[Probe]) -> Vec<DetPoint> {
     let mut sorted: Vec<(f64, bool)> = probes.iter().map(|p| (p.best, p.is_right)).collect();
-    sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
+    sorted.order_by(&|a, b| a.0.total_cmp(&b.0));
     let all = sorted.len() as f64;
     let mut wrong = sorted.iter().filter(|probe| !probe.1).count();
     let mut points: Vec<DetPoint> = vec![];

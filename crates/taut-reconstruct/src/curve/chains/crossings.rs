@@ -3,6 +3,7 @@
 //! *Idea.* Edges sorted by their smaller site are in Hilbert order, nearly: the tree of boxes over them answers, for a leaf of
 //! eight edges at a time, which other leaves come into question.
 
+use taut_points::OrderBy;
 use taut_points::parallel::IntoParallel;
 use taut_predicates::plane::{in_diametral_circle, orient};
 
@@ -93,7 +94,7 @@ pub(super) fn remove(sites: &[[f64; 2]], edges: &mut Vec<[u32; 2]>) -> u64 {
     meetings.sort_unstable();
     let mut involved: Vec<u32> = meetings.iter().map(|pair| pair[0]).collect();
     involved.dedup();
-    involved.sort_by(|&a, &b| length(a).total_cmp(&length(b)).then(a.cmp(&b)));
+    involved.order_by(&|&a, &b| length(a).total_cmp(&length(b)).then(a.cmp(&b)));
     let mut dropped = vec![false; edges.len()];
     let mut kept = vec![false; edges.len()];
     for edge in involved {

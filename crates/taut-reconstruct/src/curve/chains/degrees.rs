@@ -1,5 +1,6 @@
 //! At most two edges to a site.
 
+use taut_points::OrderBy;
 /// Keeps at each site with more than two edges the best pair, and drops edges that one of their ends gave up. Tells how many were
 /// dropped.
 ///
@@ -37,7 +38,7 @@ fn best_pair(sites: &[[f64; 2]], around: &[[u32; 2]]) -> [[u32; 2]; 2] {
         (dx.hypot(dy), dx, dy, [site, to])
     };
     let mut spokes: Vec<_> = around.iter().map(spoke).collect();
-    spokes.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.3.cmp(&b.3)));
+    spokes.order_by(&|a, b| a.0.total_cmp(&b.0).then(a.3.cmp(&b.3)));
     spokes.truncate(COMPARED_EDGES_MAX);
     let (mut best, mut least) = ([spokes[0].3, spokes[1].3], f64::INFINITY);
     for (i, a) in spokes.iter().enumerate() {

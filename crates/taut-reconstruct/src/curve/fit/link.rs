@@ -6,6 +6,7 @@
 //! *Guarantee.* No seed gets more than one neighbor on a side, so the result is chains and loops; it turns and scales with the seeds.
 
 use taut_oblivious::hilbert_order;
+use taut_points::OrderBy;
 
 use super::parameters::{
     ACROSS_FACTOR, ALONG_COS_MIN, APART_FACTOR, APART_FACTOR_MAX, CHAIN_SEEDS_MIN,
@@ -170,7 +171,7 @@ fn join_ends(sides: &mut Sides<'_>, index: &Index<'_>) {
             }
         });
     }
-    pairs.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+    pairs.order_by(&|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
     for (_, a, b) in pairs {
         if sides.partner[a].is_none() && sides.partner[b].is_none() {
             sides.join(a, b);

@@ -25,7 +25,7 @@ mod seeds;
 mod spline;
 mod split;
 
-use taut_points::Monitor;
+use taut_points::{Monitor, OrderBy};
 
 use super::Ends;
 use super::answer::Outcome;
@@ -155,7 +155,7 @@ fn typical(splines: &[Spline], factor: impl Fn(&Spline) -> f64) -> f64 {
             left = after;
         }
     }
-    all.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+    all.order_by(&|a, b| a.0.total_cmp(&b.0));
     let total: usize = all.iter().map(|&(_, points)| points).sum();
     let mut before = 0;
     let middle = all.iter().find(|&&(_, points)| {

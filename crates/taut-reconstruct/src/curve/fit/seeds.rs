@@ -16,8 +16,8 @@
 //! needs no feature size to be 1.
 
 use taut_oblivious::hilbert_order;
-use taut_points::Monitor;
 use taut_points::parallel::ParallelSlice;
+use taut_points::{Monitor, OrderBy};
 
 use super::local::{Parabola, Window};
 use super::parameters::{
@@ -453,7 +453,7 @@ impl<'a> Search<'a> {
         along.clear();
         along.extend(self.window.local.iter().map(|&p| [p[0], parabola.residual(p)]));
         along.retain(|p| p[1].abs() <= most);
-        along.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+        along.order_by(&|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
         let squares: f64 = along.iter().map(|p| p[1] * p[1]).sum();
         let steps: f64 = along.windows(2).map(|p| (p[1][1] - p[0][1]).powi(2)).sum();
         steps >= 2.0 * NEUMANN_RATIO_MIN * squares

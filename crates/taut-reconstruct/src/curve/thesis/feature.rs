@@ -12,7 +12,7 @@
 //! *Trap.* Within r < δ samples are a round blob: roundness counts only after flatness. Where the noise is so large that a look never
 //! becomes flat it says nothing, and an estimate from the other probes alone is too large.
 
-use taut_points::Monitor;
+use taut_points::{Monitor, OrderBy};
 
 use super::disks::{Disks, Growing};
 use super::strip::{least_strip, reduce_to_hull};
@@ -40,7 +40,7 @@ pub(super) fn least_feature(
     let mut order: Vec<usize> = (0..n).collect();
     // In single precision: of two samples, each the K-th nearest of the other, rounding may put either first. They may be each other's
     // nearest, too, but then the next ones differ.
-    order.sort_by(|&a, &b| {
+    order.order_by(&|&a, &b| {
         let nearest = |count| {
             let [a, b] = [a, b].map(|sample| disks.radius(sample, count) as f32);
             a.total_cmp(&b)

@@ -10,6 +10,7 @@
 //! precision, as they turn with the input.
 
 use std::cmp::Ordering;
+use taut_points::OrderBy;
 
 use super::disks::Disks;
 
@@ -22,7 +23,7 @@ pub(super) fn select(
 ) -> Vec<usize> {
     let disks = Disks::over(centers);
     let mut order: Vec<usize> = (0..centers.len()).collect();
-    order.sort_by(|&a, &b| {
+    order.order_by(&|&a, &b| {
         let [a, b] = [a, b].map(|center| size(center).map(|x| x as f32));
         let pairs = b.iter().zip(&a);
         pairs.fold(Ordering::Equal, |order, (b, a)| order.then(b.total_cmp(a)))

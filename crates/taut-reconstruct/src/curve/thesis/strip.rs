@@ -7,6 +7,7 @@
 //! *Trap.* On edges that are parallel to rounding the farthest vertex may be either of two; it never turns more than twice around.
 //! *Reference.* Andrew 1979 for the hull; Houle and Toussaint 1988 for the width.
 
+use taut_points::OrderBy;
 /// The strip.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Strip {
@@ -22,7 +23,7 @@ fn cross(o: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
 
 /// Leaves of the points the vertices of their convex hull, counter-clockwise from the leftmost.
 pub(super) fn reduce_to_hull(points: &mut Vec<[f64; 2]>) {
-    points.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    points.order_by(&|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     points.dedup();
     if points.len() < 3 {
         return;

@@ -1,0 +1,27 @@
+//! Sorts of few items, compiled once for each type of item.
+//!
+//! A sort of the standard library is compiled anew for each closure, which takes ten kilobytes; there are hundreds of them, and most put
+//! a few items in order. Here the order is called through a pointer, which makes a sort about twice as slow.
+
+use std::cmp::Ordering;
+
+/// Sorts of slices that are no loop of importance.
+pub trait OrderBy<T> {
+    /// Sorts; equal items stay in their order.
+    ///
+    /// ```
+    /// use taut_points::OrderBy;
+    ///
+    /// let mut numbers = [2.0, 1.0, 3.0];
+    /// numbers.order_by(&|a, b| f64::total_cmp(b, a));
+    /// assert_eq!(numbers, [3.0, 2.0, 1.0]);
+    /// ```
+    fn order_by(&mut self, compare: &dyn Fn(&T, &T) -> Ordering);
+}
+
+impl<T> OrderBy<T> for [T] {
+    #[inline(never)]
+    fn order_by(&mut self, compare: &dyn Fn(&T, &T) -> Ordering) {
+        self.sort_by(compare);
+    }
+}
