@@ -13,7 +13,7 @@
 use std::cmp::Ordering;
 use std::ops::Range;
 
-use rayon::prelude::*;
+use taut_points::parallel::{IntoParallel, ParallelSlice};
 
 use crate::hilbert::{self, bits_max};
 use crate::morton;
@@ -181,7 +181,14 @@ fn order_keyed<const D: usize>(len: usize, keyed: &dyn Keyed<D>) -> Vec<u32> {
 
 /// The numbers of points in records.
 fn numbers(records: Vec<u64>) -> Vec<u32> {
-    records.into_par_iter().map(|r| r as u32).collect()
+    let mut numbers = vec![0; records.len()];
+    let parts = numbers.par_chunks_mut(TASK).zip(records.par_chunks(TASK));
+    parts.for_each(|(numbers, records)| {
+        for (number, record) in numbers.iter_mut().zip(records) {
+            *number = *record as u32;
+        }
+    });
+    numbers
 }
 
 /// Sorts records of equal points by their numbers.
