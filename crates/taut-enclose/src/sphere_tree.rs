@@ -15,7 +15,7 @@ mod split;
 use taut_certify::Ball;
 use taut_points::parallel::ParallelSlice;
 use taut_points::{
-    InputError, Monitor, PointSource, Points, ReadError, Rows, Scalar, Scratch, on_threads,
+    InputError, Monitor, OrderBy, PointSource, Points, ReadError, Rows, Scalar, Scratch, on_threads,
 };
 
 use crate::frame::frame_pass;
@@ -189,7 +189,7 @@ impl<T: Scalar> Open<'_, T> {
     /// Puts the points of the first side (true) before those of the second, each in their order.
     fn part(&mut self, dim: usize, sides: &[bool]) -> usize {
         let mut order: Vec<usize> = (0..sides.len()).collect();
-        order.sort_by_key(|&i| !sides[i]);
+        order.order_by_key(|&i| !sides[i]);
         let values: Vec<T> =
             order.iter().flat_map(|&i| &self.values[i * dim..(i + 1) * dim]).copied().collect();
         let rows: Vec<u64> = order.iter().map(|&i| self.order[i]).collect();

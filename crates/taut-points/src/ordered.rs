@@ -17,6 +17,11 @@ pub trait OrderBy<T> {
     /// assert_eq!(numbers, [3.0, 2.0, 1.0]);
     /// ```
     fn order_by(&mut self, compare: &dyn Fn(&T, &T) -> Ordering);
+
+    /// Sorts by a key, which is asked for at each comparison; items of equal keys stay in their order.
+    fn order_by_key<K: Ord>(&mut self, key: impl Fn(&T) -> K) {
+        self.order_by(&|a, b| key(a).cmp(&key(b)));
+    }
 }
 
 impl<T> OrderBy<T> for [T] {

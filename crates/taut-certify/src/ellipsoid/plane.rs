@@ -13,7 +13,7 @@ mod conic;
 
 use std::cmp::Ordering;
 
-use taut_points::{Monitor, PointSource, gather, map_blocks};
+use taut_points::{Monitor, OrderBy, PointSource, gather, map_blocks};
 
 use self::basis::Basis;
 use crate::{CheckError, Violation};
@@ -103,7 +103,7 @@ fn find(points: &[[f64; 2]], rows: &[u64]) -> Option<(Basis, Vec<u64>)> {
     // Larger subsets first: the whole support is what is asked about.
     let mut masks: Vec<u32> = (1..1u32 << points.len()).collect();
     masks.retain(|mask| (3..=5).contains(&mask.count_ones()));
-    masks.sort_by_key(|mask| std::cmp::Reverse(mask.count_ones()));
+    masks.order_by_key(|mask| std::cmp::Reverse(mask.count_ones()));
     masks.into_iter().find_map(|mask| {
         let chosen = |i: &usize| mask >> i & 1 == 1;
         let part: Vec<[f64; 2]> = (0..points.len()).filter(chosen).map(|i| points[i]).collect();

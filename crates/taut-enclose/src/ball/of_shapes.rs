@@ -250,7 +250,7 @@ fn prove(
     }
     let mut support: Vec<(SupportPoint, f64)> =
         best.support.into_iter().filter(|entry| entry.1 > 0.0).collect();
-    support.sort_by_key(|entry| entry.0.item);
+    support.order_by_key(|entry| entry.0.item);
     let total: f64 = support.iter().map(|entry| entry.1).sum();
     let (mut mean, mut square) = (vec![0.0; dim], 0.0);
     for (support_point, lambda) in &support {

@@ -8,7 +8,7 @@
 
 use taut_certify::{Ball, BallCertificate, PassBounds, Solution, Stop, Trace};
 use taut_points::parallel::ParallelSlice;
-use taut_points::{Cancelled, ReadError};
+use taut_points::{Cancelled, OrderBy, ReadError};
 
 use super::BallOptions;
 use super::core_set::ROUNDING;
@@ -104,7 +104,7 @@ fn sort_by_id(best: &mut Candidate) {
         .zip(best.lambda.iter().copied())
         .filter(|pair| pair.1 > 0.0)
         .collect();
-    pairs.sort_unstable_by_key(|pair| pair.0);
+    pairs.order_by_key(|pair| pair.0);
     (best.support, best.lambda) = pairs.into_iter().unzip();
 }
 

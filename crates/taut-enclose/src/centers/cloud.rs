@@ -12,7 +12,7 @@
 use std::cmp::Ordering;
 use std::ops::Range;
 
-use taut_points::{Monitor, ReadError};
+use taut_points::{Monitor, OrderBy, ReadError};
 
 use super::grouping::Grouping;
 use super::items::{ItemSet, Position, Shape, distance, square};
@@ -191,7 +191,7 @@ impl<P: Position> Cloud<P> {
                 all.select_nth_unstable_by(count, |a, b| self.order(*a, *b));
                 all.truncate(count);
             }
-            all.sort_unstable_by(|a, b| self.order(*a, *b));
+            all.order_by(&|a, b| self.order(*a, *b));
             return all;
         }
         let mut bounds: Vec<f64> =

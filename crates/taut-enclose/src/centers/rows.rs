@@ -29,7 +29,7 @@ use std::sync::Arc;
 use taut_certify::{
     Centers, CentersCertificate, Items, LowerBound, PassBounds, Placement, Solution, Stop, Trace,
 };
-use taut_points::Monitor;
+use taut_points::{Monitor, OrderBy};
 
 use self::core_set::CoreSet;
 use self::proof::{Proof, prove};
@@ -279,7 +279,7 @@ fn answer(
     options: &CentersOptions<'_>,
 ) -> Result<Centers, Error> {
     let mut centers = incumbent.centers.clone();
-    centers.sort_unstable_by_key(|&site| sites.row(site));
+    centers.order_by_key(|&site| sites.row(site));
     centers.dedup();
     let (reaches, nearest) = sites.nearest(&centers);
     let mut is_out = vec![false; sites.len()];

@@ -5,7 +5,7 @@
 //! one another, which is a lower bound; where z items may be left out, the k + z first centers lose those of the fewest items.
 //! *Reference.* Gonzalez, Theoretical Computer Science 38, 1985; Lloyd, IEEE Trans. Information Theory 28, 1982.
 
-use taut_points::{Monitor, ReadError};
+use taut_points::{Monitor, OrderBy, ReadError};
 
 use super::cloud::{Cloud, Far};
 use super::items::Position;
@@ -139,7 +139,7 @@ fn heaviest<P: Position>(cloud: &Cloud<P>, traversal: &[u32], k: usize, z: usize
         let mut sizes = vec![0usize; first.len()];
         cloud.assign(&first, |_, center, _| sizes[center] += 1);
         let mut order: Vec<usize> = (0..first.len()).collect();
-        order.sort_by_key(|&at| std::cmp::Reverse(sizes[at]));
+        order.order_by_key(|&at| std::cmp::Reverse(sizes[at]));
         order.truncate(k);
         order.sort_unstable();
         order.into_iter().map(|at| first[at].clone()).collect()

@@ -7,7 +7,7 @@ use std::collections::HashMap;
 use taut_certify::{
     Centers, CentersCertificate, Items, LowerBound, Placement, Solution, Stop, Trace,
 };
-use taut_points::PointsHash;
+use taut_points::{OrderBy, PointsHash};
 
 use super::CentersOptions;
 use super::item_rows::ItemRows;
@@ -56,7 +56,7 @@ impl TrivialCenters {
             place_of.push(place);
         }
         let mut order: Vec<usize> = (0..places.len()).collect();
-        order.sort_by_key(|&place| std::cmp::Reverse(places[place].1));
+        order.order_by_key(|&place| std::cmp::Reverse(places[place].1));
         let kept = &mut order[..k.min(places.len())];
         kept.sort_unstable();
         let mut center_of = vec![None; places.len()];

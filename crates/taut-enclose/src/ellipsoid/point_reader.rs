@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use taut_points::{
-    BlockHash, InputError, Monitor, PointSource, Points, PointsHash, Rows, Scalar, gather,
+    BlockHash, InputError, Monitor, OrderBy, PointSource, Points, PointsHash, Rows, Scalar, gather,
     hash_block, map_blocks,
 };
 
@@ -347,7 +347,7 @@ fn take_block<T: Scalar>(
         let (_, &mut (_, last), _) = far.select_nth_unstable_by(most - 1, farther);
         none_above = last;
         far.truncate(most);
-        far.sort_unstable_by_key(|(i, _)| *i);
+        far.order_by_key(|(i, _)| *i);
     }
     let dim = points.dim();
     let mut taken = TakenRows {

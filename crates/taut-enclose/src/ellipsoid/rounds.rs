@@ -13,6 +13,7 @@
 //! 1e16 has no digit in a model made without it.
 
 use taut_certify::Stop;
+use taut_points::OrderBy;
 
 use super::counters::Counters;
 use super::newton::{self, Tolerance, gap};
@@ -208,7 +209,7 @@ fn first_working_set(
     }
     let images = whitener.apply(&sample.set);
     let mut leverages = images.leverages.clone();
-    leverages.sort_unstable_by(|a, b| b.total_cmp(a));
+    leverages.order_by(&|a, b| b.total_cmp(a));
     // Few of the listed points should be thrown away again, and enough should be listed.
     let rank = 2 * size as u64 * leverages.len() as u64 / n + 10;
     let above = leverages.get(rank as usize).copied().unwrap_or(0.0);
@@ -256,7 +257,7 @@ pub(super) fn candidate(
 ) -> Candidate {
     let weighted = set.ids().iter().zip(set.weights()).filter(|(_, u)| **u > 0.0);
     let mut pairs: Vec<(u64, f64)> = weighted.map(|(&id, &u)| (id, u)).collect();
-    pairs.sort_unstable_by_key(|pair| pair.0);
+    pairs.order_by_key(|pair| pair.0);
     let (support, multipliers) = pairs.into_iter().unzip();
     Candidate { support, multipliers, matrix: whitener.matrix().to_vec(), center, found }
 }

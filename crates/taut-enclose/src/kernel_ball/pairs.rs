@@ -11,7 +11,7 @@
 use std::collections::VecDeque;
 
 use taut_certify::Kernel;
-use taut_points::{Cancelled, Monitor};
+use taut_points::{Cancelled, Monitor, OrderBy};
 
 use super::features::Features;
 
@@ -224,7 +224,7 @@ impl Pairs {
     pub(super) fn support(&self) -> Vec<usize> {
         let mut places: Vec<usize> =
             (0..self.lambda.len()).filter(|&i| self.lambda[i] > 0.0).collect();
-        places.sort_unstable_by_key(|&i| self.features.ids[i]);
+        places.order_by_key(|&i| self.features.ids[i]);
         places
     }
 }

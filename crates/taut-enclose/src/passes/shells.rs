@@ -286,7 +286,7 @@ impl BlockSums {
     fn total(self, dim: usize) -> Moments {
         let mut nodes: Vec<(u64, Moments)> =
             self.nodes.into_iter().map(|((level, index), node)| (index << level, node)).collect();
-        nodes.sort_unstable_by_key(|(first, _)| *first);
+        nodes.order_by_key(|(first, _)| *first);
         let mut all = Moments::nothing(dim);
         nodes.iter().for_each(|(_, node)| all.merge(node));
         all

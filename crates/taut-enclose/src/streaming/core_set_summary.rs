@@ -11,7 +11,7 @@
 //! VLDB 2019 (larger summaries).
 
 use taut_certify::{Centers, CentersCertificate, Items, LowerBound, Placement, Solution};
-use taut_points::{InputError, Monitor, PointSource, Points, Scalar, hash_points};
+use taut_points::{InputError, Monitor, OrderBy, PointSource, Points, Scalar, hash_points};
 
 use super::measure::measure;
 use crate::separated_set::{gap, rounded_up};
@@ -131,7 +131,7 @@ impl CoreSetSummary {
         let both = self.rows.iter().zip(self.coordinates.chunks_exact(dim));
         let others = other.rows.iter().zip(other.coordinates.chunks_exact(dim));
         let mut all: Vec<(u64, &[f64])> = both.chain(others).map(|(&row, x)| (row, x)).collect();
-        all.sort_unstable_by_key(|&(row, _)| row);
+        all.order_by_key(|&(row, _)| row);
         if let Some(twice) = all.windows(2).find(|pair| pair[0].0 == pair[1].0) {
             return Err(Error::Input(InputError::Option {
                 name: "other",

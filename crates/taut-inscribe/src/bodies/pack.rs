@@ -315,7 +315,7 @@ impl<'a, F: Family> Packing<'a, F> {
             self.family.grow(&mut body)?;
             grown.push((self.family.score(&body), body));
         }
-        grown.sort_by_key(|(score, _)| Reverse(*score));
+        grown.order_by_key(|(score, _)| Reverse(*score));
         grown.truncate(if self.improves_volume() { STARTS } else { IMPROVED_STARTS });
         self.best(grown.into_iter().map(|(_, body)| body).collect(), until)
     }
@@ -336,7 +336,7 @@ impl<'a, F: Family> Packing<'a, F> {
                 *score = self.recreate(body, until, score_of)?;
             }
             // Of equal ones the first.
-            scored.sort_by_key(|(score, _)| Reverse(*score));
+            scored.order_by_key(|(score, _)| Reverse(*score));
             rounds -= 1;
             if rounds == 0 {
                 return Ok(scored.into_iter().next());

@@ -11,8 +11,8 @@ mod crossings;
 mod degrees;
 mod gaps;
 
-use taut_points::Monitor;
 use taut_points::parallel::ParallelSlice;
+use taut_points::{Monitor, OrderBy};
 
 use super::Ends;
 use crate::Error;
@@ -114,7 +114,7 @@ pub(super) fn chains(sites: usize, edges: &[[u32; 2]]) -> Vec<Chain> {
             }
         }
     }
-    chains.sort_unstable_by_key(|chain| chain.sites[0]);
+    chains.order_by_key(|chain| chain.sites[0]);
     chains
 }
 

@@ -13,7 +13,7 @@ use std::collections::{BTreeSet, HashMap};
 use std::rc::Rc;
 
 use taut_delaunay::GHOST;
-use taut_points::{Cancelled, Monitor};
+use taut_points::{Cancelled, Monitor, OrderBy};
 
 use super::cells::Cells;
 use super::relabel_regions::REGION_CELLS_MAX;
@@ -149,7 +149,7 @@ impl Bench<'_> {
             }
         }
         // Stable: of those alike the first one.
-        better.sort_by_key(|&(gain, objection, _)| (Reverse(gain), objection));
+        better.order_by_key(|&(gain, objection, _)| (Reverse(gain), objection));
         let best = better.into_iter().find(|(_, _, change)| !self.leaves_a_bubble(inside, change));
         best.map(|(_, _, change)| change)
     }

@@ -5,6 +5,7 @@ use super::item::Layout;
 use crate::arithmetic::U;
 use crate::ball::check::structure::directions;
 use crate::{Items, Violation};
+use taut_points::OrderBy;
 
 /// The amount by which the gap claimed may fall short of the gap found, relatively and in units of 1: a solver forms the quotient in
 /// arithmetic of its own.
@@ -146,7 +147,7 @@ fn core_set(certificate: &CentersCertificate, n: u64) -> Result<(), Violation> {
         return Ok(());
     }
     let mut order: Vec<usize> = (0..rows.len()).collect();
-    order.sort_unstable_by_key(|&position| (rows[position], position));
+    order.order_by_key(|&position| (rows[position], position));
     let twice = order.windows(2).find(|pair| rows[pair[0]] == rows[pair[1]]);
     twice.map_or(Ok(()), |pair| Err(refused(pair[1], "as does an entry before it").into()))
 }

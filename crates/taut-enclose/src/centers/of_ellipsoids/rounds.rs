@@ -11,7 +11,7 @@
 //! one after some that have brought the bounds no nearer to each other, where these are as near as rounding can keep apart.
 
 use taut_certify::{PassBounds, Stop};
-use taut_points::{Monitor, ReadError};
+use taut_points::{Monitor, OrderBy, ReadError};
 
 use super::bodies::{Bodies, ServedWhole, length};
 use super::pool::{Numbered, Pool};
@@ -179,7 +179,7 @@ impl<'a, P: Position> Rounds<'a, P> {
                     continue;
                 }
             };
-            proved.sort_by(|a, b| a.threshold.total_cmp(&b.threshold));
+            proved.order_by(&|a, b| a.threshold.total_cmp(&b.threshold));
             let (core_set, separated) = (numbered.items(&core_set), numbered.items(&separated));
             return Ok(Found {
                 best,
@@ -248,7 +248,7 @@ impl<'a, P: Position> Rounds<'a, P> {
     /// Ellipsoids in the order of how far they reach.
     fn farthest_first(&self, served: &[ServedWhole]) -> Vec<usize> {
         let mut order: Vec<usize> = (0..served.len()).collect();
-        order.sort_by(|&a, &b| served[b].reach.total_cmp(&served[a].reach).then(a.cmp(&b)));
+        order.order_by(&|&a, &b| served[b].reach.total_cmp(&served[a].reach).then(a.cmp(&b)));
         order
     }
 

@@ -1,6 +1,7 @@
 //! From multipliers to an answer with a certificate.
 
 use taut_certify::{Ellipsoid, EllipsoidCertificate, Solution, Stop, Trace};
+use taut_points::OrderBy;
 use taut_points::parallel::ParallelSlice;
 
 use super::base::Base;
@@ -61,7 +62,7 @@ impl Base {
                 (support_point.item, self.direction(&support_point.direction), u)
             })
             .collect();
-        support.sort_by_key(|entry| entry.0);
+        support.order_by_key(|entry| entry.0);
         let images: Vec<f64> =
             support.iter().flat_map(|(i, a, _)| map.touching(shapes, *i, a)).collect();
         let multipliers: Vec<f64> = support.iter().map(|entry| entry.2).collect();

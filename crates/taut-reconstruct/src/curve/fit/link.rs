@@ -183,7 +183,7 @@ fn join_ends(sides: &mut Sides<'_>, index: &Index<'_>) {
 /// goes along them, and would not turn with the points otherwise.
 fn trace(sides: &Sides<'_>, rank: &[u32]) -> Vec<Chain> {
     let mut starts: Vec<usize> = (0..sides.seeds.len()).collect();
-    starts.sort_unstable_by_key(|&i| rank[i]);
+    starts.order_by_key(|&i| rank[i]);
     let mut seen = vec![false; sides.seeds.len()];
     let mut chains = Vec::new();
     for &start in &starts {

@@ -72,7 +72,7 @@ impl<'a, 'j, const D: usize> Readers<'a, 'j, D> {
         self,
         mut judge: impl FnMut(&mut dyn Iterator<Item = Part<D, V>>) -> Result<(), TilesError>,
     ) -> Result<Coverage<D>, TilesError> {
-        let mut failed = thread::scope(|scope| {
+        let failed = thread::scope(|scope| {
             let mut receivers = vec![];
             let mut readers = vec![];
             for first in 0..self.count {
@@ -89,9 +89,8 @@ impl<'a, 'j, const D: usize> Readers<'a, 'j, D> {
             });
             [judged].into_iter().chain(read).filter_map(Result::err).collect::<Vec<Misplaced>>()
         });
-        // The sort is stable: what was judged comes first.
-        failed.sort_by_key(|failed| failed.0);
-        match failed.into_iter().next() {
+        // The first of equals is returned: what was judged comes first.
+        match failed.into_iter().min_by_key(|failed| failed.0) {
             Some((_, error)) => Err(error),
             None => Ok(self.turn.into_inner().unwrap_or_else(PoisonError::into_inner).coverage),
         }
