@@ -18,7 +18,7 @@ use super::manifest::Manifest;
 use super::overview::Overview;
 use super::reading::{Part, Readers};
 use super::rows::Coverage;
-use super::tile::{Counts, OTHER_TILE, TileSites, file_name};
+use super::tile::{Counts, OTHER_TILE, TileFile, TileSites, file_name};
 use super::{Shares, TilesError, TilesVerdict, TilesViolation, TriangulationCounts, count};
 
 /// All that is known before the first tile.
@@ -206,7 +206,8 @@ impl<const D: usize> Job<'_, D> {
         let coverage = Coverage::<D>::new(self.manifest.points, &self.temporary, self.shares.rows)?;
         let between = Between::<D, V, F, W>::new(&self.temporary, self.shares.between);
         let mut judge = Judge { job: &self, kind, hull, between, all: Totals::default() };
-        let coverage = Readers::new(&self, coverage).read(|parts| judge.tile(parts))?;
+        let readers = Readers::new(&self, coverage, TileFile::simplices::<V>);
+        let coverage = readers.read(&mut |parts| judge.tile(parts))?;
         let Judge { kind, mut hull, between, mut all, .. } = judge;
         self.monitor.pass(3, between.count());
         all.ties += between.check(
@@ -301,7 +302,7 @@ where
     K: Kind<D, V, F>,
     H: Hull<D, V, F>,
 {
-    fn tile(&mut self, parts: impl Iterator<Item = Part<D, V>>) -> Result<(), TilesError> {
+    fn tile(&mut self, parts: impl Iterator<Item = Part<D>>) -> Result<(), TilesError> {
         let mut begun: Option<Begun<D>> = None;
         for part in parts {
             self.job.monitor.check()?;
@@ -313,8 +314,9 @@ where
                     let (hull, fingerprint) = (sites.outside.len() as u64, Fingerprint::default());
                     *begun = Some(Begun { sites, first: 0, links: 0, hull, fingerprint });
                 }
-                (Part::Simplices(simplices, neighbors), Some(tile)) => {
-                    self.simplices(tile, &simplices, neighbors)?;
+                (Part::Simplices(simplices, mut neighbors), Some(tile)) => {
+                    let simplices = simplices.as_chunks().0;
+                    self.simplices(tile, simplices, neighbors.as_chunks_mut().0)?;
                 }
                 (Part::End(counts), Some(tile)) => self.end(tile, &counts)?,
                 (_, None) => {}
@@ -327,7 +329,7 @@ where
         &mut self,
         tile: &mut Begun<D>,
         simplices: &[[u32; V]],
-        mut neighbors: Vec<[u32; V]>,
+        neighbors: &mut [[u32; V]],
     ) -> Result<(), TilesError> {
         if self.all.simplices == 0
             && let Some(simplex) = simplices.first()
@@ -337,7 +339,7 @@ where
         }
         let first = tile.first;
         let chunk = first..first + simplices.len() as u64;
-        for (number, (simplex, across)) in simplices.iter().zip(&mut neighbors).enumerate() {
+        for (number, (simplex, across)) in simplices.iter().zip(&mut *neighbors).enumerate() {
             for facet in 0..V {
                 let neighbor = across[facet];
                 if V > 2 && chunk.contains(&u64::from(neighbor)) {
@@ -349,7 +351,7 @@ where
                 }
             }
         }
-        let judged = self.kind.judge(self.job, &tile.sites, simplices, &neighbors);
+        let judged = self.kind.judge(self.job, &tile.sites, simplices, neighbors);
         let judged = judged.map_err(|violation| {
             let TileSites { tile, ref rows, .. } = *tile.sites;
             TilesViolation::of_chunk(&violation, tile, first, rows)

@@ -14,25 +14,36 @@ use std::thread;
 
 use super::inside::Job;
 use super::rows::{Coverage, Site};
-use super::tile::{Counts, Expected, TileFile, TileSites};
+use super::tile::{Counts, Expected, TileFile, TileSites, WithNeighbors};
 use super::{TilesError, TilesViolation};
 
 /// Threads that read where memory and the threads of the check allow.
 const READERS_MAX: usize = 2;
 
 /// What a thread that reads hands on, in the order of the file.
-pub(super) enum Part<const D: usize, const V: usize> {
+pub(super) enum Part<const D: usize> {
     Tile(Arc<TileSites<D>>),
-    Simplices(Vec<[u32; V]>, Vec<[u32; V]>),
+    /// Simplices one after the other, and their neighbors: not as arrays, so that readers are compiled once for all kinds of simplices.
+    Simplices(Vec<u32>, Vec<u32>),
     End(Counts),
 }
 
 /// An error, and the place of its tile among all.
 type Misplaced = (usize, TilesError);
 
+/// Reads so many simplices, of which the first has that number.
+type ReadSimplices<const D: usize> =
+    fn(&mut TileFile<D>, usize, u64) -> Result<WithNeighbors, TilesError>;
+
+/// What judges the parts of a tile.
+type Judge<'a, const D: usize> =
+    dyn FnMut(&mut dyn Iterator<Item = Part<D>>) -> Result<(), TilesError> + 'a;
+
 /// The threads that read.
 pub(super) struct Readers<'a, 'j, const D: usize> {
     job: &'a Job<'j, D>,
+    /// Reads simplices of the kind there is.
+    simplices: ReadSimplices<D>,
     expected: Expected,
     count: usize,
     turn: Mutex<Turn<D>>,
@@ -49,7 +60,11 @@ struct Turn<const D: usize> {
 
 impl<'a, 'j, const D: usize> Readers<'a, 'j, D> {
     /// Sites and duplicates go to `coverage`.
-    pub(super) fn new(job: &'a Job<'j, D>, coverage: Coverage<D>) -> Self {
+    pub(super) fn new(
+        job: &'a Job<'j, D>,
+        coverage: Coverage<D>,
+        simplices: ReadSimplices<D>,
+    ) -> Self {
         let expected = Expected {
             points: job.manifest.points,
             row_bytes: job.manifest.row_bytes,
@@ -64,14 +79,11 @@ impl<'a, 'j, const D: usize> Readers<'a, 'j, D> {
         let is_shared = rayon::current_num_threads() > 1 && job.manifest.tiles.iter().all(fits);
         let count = if is_shared { READERS_MAX } else { 1 };
         let turn = Mutex::new(Turn { coverage, place: 0, is_over: false });
-        Readers { job, expected, count, turn, is_next: Condvar::new() }
+        Readers { job, simplices, expected, count, turn, is_next: Condvar::new() }
     }
 
     /// Reads all tiles; `judge` is given the parts of each in turn.
-    pub(super) fn read<const V: usize>(
-        self,
-        mut judge: impl FnMut(&mut dyn Iterator<Item = Part<D, V>>) -> Result<(), TilesError>,
-    ) -> Result<Coverage<D>, TilesError> {
+    pub(super) fn read(self, judge: &mut Judge<'_, D>) -> Result<Coverage<D>, TilesError> {
         let failed = thread::scope(|scope| {
             let mut receivers = vec![];
             let mut readers = vec![];
@@ -79,9 +91,9 @@ impl<'a, 'j, const D: usize> Readers<'a, 'j, D> {
                 let (send, receive) = sync_channel(1);
                 receivers.push(receive);
                 let this = &self;
-                readers.push(scope.spawn(move || this.read_from::<V>(first, &send)));
+                readers.push(scope.spawn(move || this.read_from(first, &send)));
             }
-            let judged = self.judge_in_order(&receivers, &mut judge);
+            let judged = self.judge_in_order(&receivers, judge);
             // A thread that still reads has nobody to hand on to, and ends.
             drop(receivers);
             let read = readers.into_iter().map(|reader| {
@@ -96,10 +108,10 @@ impl<'a, 'j, const D: usize> Readers<'a, 'j, D> {
         }
     }
 
-    fn judge_in_order<const V: usize>(
+    fn judge_in_order(
         &self,
-        receivers: &[Receiver<Part<D, V>>],
-        judge: &mut impl FnMut(&mut dyn Iterator<Item = Part<D, V>>) -> Result<(), TilesError>,
+        receivers: &[Receiver<Part<D>>],
+        judge: &mut Judge<'_, D>,
     ) -> Result<(), Misplaced> {
         for place in 0..self.job.manifest.tiles.len() {
             let receiver = &receivers[place % receivers.len()];
@@ -119,11 +131,7 @@ impl<'a, 'j, const D: usize> Readers<'a, 'j, D> {
     }
 
     /// Reads one tile in `count` from the first on.
-    fn read_from<const V: usize>(
-        &self,
-        first: usize,
-        send: &SyncSender<Part<D, V>>,
-    ) -> Result<(), Misplaced> {
+    fn read_from(&self, first: usize, send: &SyncSender<Part<D>>) -> Result<(), Misplaced> {
         for place in (first..self.job.manifest.tiles.len()).step_by(self.count) {
             let read = self.read_tile(place, send);
             if !matches!(read, Ok(Some(()))) {
@@ -136,10 +144,10 @@ impl<'a, 'j, const D: usize> Readers<'a, 'j, D> {
     }
 
     /// Reads a tile and hands it on; `None` if nobody wants it any more.
-    fn read_tile<const V: usize>(
+    fn read_tile(
         &self,
         place: usize,
-        send: &SyncSender<Part<D, V>>,
+        send: &SyncSender<Part<D>>,
     ) -> Result<Option<()>, TilesError> {
         let job = self.job;
         let mut file = TileFile::<D>::open(job.folder, job.manifest.tiles[place], &self.expected)?;
@@ -152,13 +160,13 @@ impl<'a, 'j, const D: usize> Readers<'a, 'j, D> {
             file.duplicates(|[row, first]| self.duplicate(&mut turn.coverage, row, first))?;
         }
         // Five chunks are held where two threads read, three where one does.
-        let chunk = (job.shares.chunk / (8 * V * self.count) as u64).max(1);
+        let chunk = (job.shares.chunk / (8 * u64::from(job.vertices) * self.count as u64)).max(1);
         let mut is_vertex = vec![false; sites.rows.len()];
         let mut done = 0;
         while done < file.counts.simplices {
             let count = chunk.min(file.counts.simplices - done);
-            let (simplices, neighbors) = file.simplices::<V>(count as usize, done)?;
-            for &v in simplices.as_flattened() {
+            let (simplices, neighbors) = (self.simplices)(&mut file, count as usize, done)?;
+            for &v in &simplices {
                 is_vertex[v as usize] = true;
             }
             done += count;

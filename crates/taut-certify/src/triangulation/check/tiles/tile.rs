@@ -62,8 +62,8 @@ pub(super) struct Expected {
     pub(super) memory: u64,
 }
 
-/// Simplices, and the neighbors of each.
-pub(super) type WithNeighbors<const V: usize> = (Vec<[u32; V]>, Vec<[u32; V]>);
+/// Simplices one after the other, and the neighbors of each.
+pub(super) type WithNeighbors = (Vec<u32>, Vec<u32>);
 
 /// The file of a tile that is being read.
 pub(super) struct TileFile<const D: usize> {
@@ -241,8 +241,9 @@ impl<const D: usize> TileFile<D> {
         &mut self,
         count: usize,
         first: u64,
-    ) -> Result<WithNeighbors<V>, TilesError> {
-        let (mut simplices, mut neighbors) = (Vec::with_capacity(count), Vec::with_capacity(count));
+    ) -> Result<WithNeighbors, TilesError> {
+        let (mut simplices, mut neighbors): (Vec<[u32; V]>, Vec<[u32; V]>) =
+            (Vec::with_capacity(count), Vec::with_capacity(count));
         let (tile, sites, all) = (self.tile, self.counts.sites, self.counts.simplices);
         self.items(8 * V, count as u64, |bytes| {
             let (words, _) = bytes.as_chunks::<4>();
@@ -260,7 +261,7 @@ impl<const D: usize> TileFile<D> {
             neighbors.push(across);
             Ok(())
         })?;
-        Ok((simplices, neighbors))
+        Ok((simplices.into_flattened(), neighbors.into_flattened()))
     }
 
     /// Reads the copies and all that is left; the copies ascend.
