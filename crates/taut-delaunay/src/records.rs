@@ -4,8 +4,8 @@
 use std::mem::ManuallyDrop;
 
 use crate::simplex::Simplex;
-use crate::threads::Record;
 use crate::threads::atomics::AtomicU8;
+use crate::threads::{Plain, Record, plain_records};
 
 /// Zeros, in pages that nobody has touched yet.
 pub(crate) fn zeros(count: usize) -> Vec<AtomicU8> {
@@ -59,6 +59,12 @@ impl<const V: usize> Records<V> {
     #[inline(always)]
     pub(crate) fn all(&self) -> &[Record<V>] {
         &self.all
+    }
+
+    /// All slots, in use or not, for a thread that is alone with them.
+    #[inline(always)]
+    pub(crate) fn alone(&mut self) -> &[Plain<V>] {
+        plain_records(&mut self.all)
     }
 
     /// Takes the first `len` slots into use.

@@ -15,8 +15,7 @@ use super::seen::{PointOffset, View, minor};
 use super::walk::{LAST_FACET, LocatedTriangle, NEXT_FACET};
 use crate::kernel::Counters;
 use crate::simplex::{GHOST, decode};
-use crate::threads::Hold;
-use crate::threads::Record;
+use crate::threads::{Hold, Slot};
 
 /// An edge (a, b) with what is behind it: the facet of the triangle (d, b, a) and whether that is in conflict.
 ///
@@ -46,7 +45,7 @@ pub(super) trait Sink {
 #[inline(always)]
 pub(super) fn dig<M: MulAdd, S: Sink, H: Hold>(
     view: &View<'_>,
-    triangles: &[Record<3>],
+    triangles: &[H::Slot<3>],
     hold: &mut H,
     found: LocatedTriangle,
     pending: &mut Vec<Edge>,
@@ -112,7 +111,7 @@ pub(super) fn dig<M: MulAdd, S: Sink, H: Hold>(
 #[inline(always)]
 fn look<M: MulAdd>(
     view: &View<'_>,
-    triangles: &[Record<3>],
+    triangles: &[impl Slot<3>],
     behind: u32,
     [a, b]: [PointOffset; 2],
     ab: f64,
@@ -139,7 +138,7 @@ fn look<M: MulAdd>(
 #[inline(never)]
 fn conflict_exact(
     view: &View<'_>,
-    triangles: &[Record<3>],
+    triangles: &[impl Slot<3>],
     behind: u32,
     exact: &mut Exact,
 ) -> bool {
