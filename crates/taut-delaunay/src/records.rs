@@ -5,7 +5,7 @@ use std::mem::ManuallyDrop;
 
 use crate::simplex::Simplex;
 use crate::threads::atomics::AtomicU8;
-use crate::threads::{Plain, Record, plain_records};
+use crate::threads::{Plain, Record, Slot, plain_records};
 
 /// Zeros, in pages that nobody has touched yet.
 pub(crate) fn zeros(count: usize) -> Vec<AtomicU8> {
@@ -35,18 +35,21 @@ unsafe fn fill_with_zeros<T>(array: &mut Vec<T>, count: usize) {
     }
 }
 
-/// The slots of a mesh: those in use, and zeros behind them.
+/// The slots of a mesh: those in use, zeros behind them, and memory behind these that nobody has written yet.
 pub(crate) struct Records<const V: usize> {
     all: Vec<Record<V>>,
     used: usize,
 }
 
 impl<const V: usize> Records<V> {
+    /// Slots that become zeros at once for one thread: so many that they are still in its cache when it writes simplices there.
+    const PIECE: usize = (1 << 18) / size_of::<Record<V>>();
+
     /// Room for `capacity` slots, none of them in use. Pages that are never touched cost nothing.
     pub(crate) fn new(capacity: usize) -> Self {
-        // SAFETY: zeros are valid atomic numbers.
-        let all = unsafe { Box::<[Record<V>]>::new_zeroed_slice(capacity).assume_init() };
-        Self { all: all.into_vec(), used: 0 }
+        let mut records = Self { all: Vec::with_capacity(capacity), used: 0 };
+        records.extend();
+        records
     }
 
     /// Returns how many slots are in use, dead ones included.
@@ -55,13 +58,18 @@ impl<const V: usize> Records<V> {
         self.used
     }
 
-    /// All slots, in use or not.
+    /// Returns how many slots there is room for.
+    pub(crate) fn capacity(&self) -> usize {
+        self.all.capacity()
+    }
+
+    /// All slots that are zeros or in use.
     #[inline(always)]
     pub(crate) fn all(&self) -> &[Record<V>] {
         &self.all
     }
 
-    /// All slots, in use or not, for a thread that is alone with them.
+    /// The same for a thread that is alone with them.
     #[inline(always)]
     pub(crate) fn alone(&mut self) -> &[Plain<V>] {
         plain_records(&mut self.all)
@@ -74,9 +82,33 @@ impl<const V: usize> Records<V> {
     }
 
     /// Makes room for `capacity` slots, at least as many as there are.
-    pub(crate) fn grow(&mut self, capacity: usize) {
+    pub(crate) fn reserve(&mut self, capacity: usize) {
+        self.all.reserve_exact(capacity.saturating_sub(self.all.len()));
+    }
+
+    /// Makes some of the room zeros, for one thread. Returns false if there is none.
+    pub(crate) fn extend(&mut self) -> bool {
+        let len = self.all.len();
+        let longer = self.all.capacity().min(len + Self::PIECE);
         // SAFETY: zeros are valid atomic numbers.
-        unsafe { fill_with_zeros(&mut self.all, capacity) }
+        unsafe { fill_with_zeros(&mut self.all, longer) };
+        longer > len
+    }
+
+    /// Makes all of the room zeros, for several threads: in pages that nobody has touched yet, unless most of it is written.
+    pub(crate) fn extend_to_end(&mut self) {
+        let capacity = self.all.capacity();
+        if self.used > capacity / 2 {
+            // SAFETY: zeros are valid atomic numbers.
+            unsafe { fill_with_zeros(&mut self.all, capacity) };
+        } else if self.all.len() < capacity {
+            // SAFETY: as above.
+            let fresh = unsafe { Box::<[Record<V>]>::new_zeroed_slice(capacity).assume_init() };
+            for (to, from) in fresh.iter().zip(self.as_slice()) {
+                to.set(*from);
+            }
+            self.all = fresh.into_vec();
+        }
     }
 
     /// The slots in use.

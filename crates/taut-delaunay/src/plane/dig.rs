@@ -83,6 +83,8 @@ pub(super) fn dig<M: MulAdd, S: Sink, H: Hold>(
     loop {
         let (triangle, facet) = decode(edge.behind);
         let t = &triangles[triangle as usize];
+        // Asked before the branch, as nobody foresees which way it goes: what is loaded after it waits.
+        let (next, last) = (NEXT_FACET[facet], LAST_FACET[facet]);
         if edge.conflict {
             if H::SHARED && !hold.hold([t.vertex(facet)]) {
                 pending.clear();
@@ -90,16 +92,16 @@ pub(super) fn dig<M: MulAdd, S: Sink, H: Hold>(
             }
             tests += 2;
             entered += 1;
-            let (left, right) = (t.neighbor(NEXT_FACET[facet]), t.neighbor(LAST_FACET[facet]));
+            let (left, right) = (t.neighbor(next), t.neighbor(last));
             pending.push(look::<M>(view, triangles, right, [edge.d, edge.b], edge.db, exact));
             edge = look::<M>(view, triangles, left, [a, edge.d], edge.ad, exact);
             sink.enter(triangle);
         } else {
-            let (from, to) = (t.vertex(LAST_FACET[facet]), t.vertex(NEXT_FACET[facet]));
+            let (from, to) = (t.vertex(last), t.vertex(next));
             sink.rim(edge.behind, [from, to], edge.b);
             a = edge.b;
-            let Some(next) = pending.pop() else { break };
-            edge = next;
+            let Some(nearest) = pending.pop() else { break };
+            edge = nearest;
         }
     }
     counters.conflict_tests += tests;

@@ -224,9 +224,10 @@ impl SharedMesh<2, 3> for Mesh {
             let (last, settings) = (self.workers[0].last, self.settings);
             let worker = || Worker { last, ..Worker::new(settings) };
             self.workers.extend(std::iter::repeat_with(worker).take(more));
-            let len = self.records.all().len() + more * Room::SLOTS_SPARE;
-            self.records.grow(len.min(TRIANGLES_MAX).max(self.records.all().len()));
+            let capacity = self.records.capacity() + more * Room::SLOTS_SPARE;
+            self.records.reserve(capacity.min(TRIANGLES_MAX));
         }
+        self.records.extend_to_end();
         let shared = Shared {
             sites: &self.sites,
             triangles: self.records.all(),
@@ -251,7 +252,10 @@ impl SharedMesh<2, 3> for Mesh {
         if len >= TRIANGLES_MAX {
             return Err(TooMany);
         }
-        self.records.grow((len + len / 8 + Room::SLOTS_SPARE).min(TRIANGLES_MAX));
+        if !self.records.extend() {
+            self.records.reserve((len + len / 8 + Room::SLOTS_SPARE).min(TRIANGLES_MAX));
+            self.records.extend();
+        }
         Ok(())
     }
 

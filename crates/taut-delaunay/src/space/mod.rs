@@ -277,8 +277,8 @@ impl Mesh {
 
     /// Makes room for so many slots, as far as the limit allows.
     fn enlarge(&mut self, len: usize) {
-        let len = len.min(self.limit).max(self.records.all().len());
-        self.records.grow(len);
+        let len = len.min(self.limit).max(self.marks.len());
+        self.records.reserve(len);
         extend_zeros(&mut self.marks, len);
     }
 }
@@ -299,8 +299,9 @@ impl SharedMesh<3, 4> for Mesh {
             let (last, settings) = (self.workers[0].last, self.settings);
             let worker = || Worker { last, ..Worker::new(count, settings) };
             self.workers.extend(std::iter::repeat_with(worker).take(more));
-            self.enlarge(self.records.all().len() + more * Room::SLOTS_SPARE);
+            self.enlarge(self.records.capacity() + more * Room::SLOTS_SPARE);
         }
+        self.records.extend_to_end();
         let end = self.records.all().len().min(self.limit) as u32;
         let view = View {
             sites: &self.sites,
@@ -328,7 +329,10 @@ impl SharedMesh<3, 4> for Mesh {
             return Err(TooMany);
         }
         // An eighth at a time: doubling would be the peak of the whole build.
-        self.enlarge(len + len / 8 + Room::SLOTS_SPARE);
+        if !self.records.extend() {
+            self.enlarge(len + len / 8 + Room::SLOTS_SPARE);
+            self.records.extend();
+        }
         Ok(())
     }
 
