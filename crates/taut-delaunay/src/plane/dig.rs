@@ -54,7 +54,7 @@ pub(super) fn dig<M: MulAdd, S: Sink, H: Hold>(
     sink: &mut S,
 ) -> bool {
     let first = triangles[found.triangle as usize].neighbors();
-    let (mut tests, mut entered) = (3, 0);
+    let mut entered = 0;
     pending.push(look::<M>(
         view,
         triangles,
@@ -90,7 +90,6 @@ pub(super) fn dig<M: MulAdd, S: Sink, H: Hold>(
                 pending.clear();
                 return false;
             }
-            tests += 2;
             entered += 1;
             let (left, right) = (t.neighbor(next), t.neighbor(last));
             pending.push(look::<M>(view, triangles, right, [edge.d, edge.b], edge.db, exact));
@@ -104,7 +103,8 @@ pub(super) fn dig<M: MulAdd, S: Sink, H: Hold>(
             edge = nearest;
         }
     }
-    counters.conflict_tests += tests;
+    // Three edges of the first triangle, and two more of each that was entered.
+    counters.conflict_tests += 3 + 2 * entered;
     counters.replaced += entered;
     true
 }
