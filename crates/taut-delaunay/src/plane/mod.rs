@@ -224,8 +224,8 @@ impl SharedMesh<2, 3> for Mesh {
             let (last, settings) = (self.workers[0].last, self.settings);
             let worker = || Worker { last, ..Worker::new(settings) };
             self.workers.extend(std::iter::repeat_with(worker).take(more));
-            let capacity = self.records.capacity() + more * Room::SLOTS_SPARE;
-            self.records.reserve(capacity.min(TRIANGLES_MAX));
+            let room = self.records.room() + more * Room::SLOTS_SPARE;
+            self.records.reserve(room.min(TRIANGLES_MAX));
         }
         self.records.extend_to_end();
         let shared = Shared {

@@ -118,7 +118,7 @@ impl Worker {
 }
 
 /// What threads share, or what one has that is alone: its records and marks are those of its [`Hold`].
-pub(crate) struct View<'a, R: Slot<4>, M: Mark> {
+pub(crate) struct View<'a, R, M> {
     sites: &'a [Site],
     simplices: &'a [R],
     marks: &'a [M],
@@ -276,10 +276,10 @@ impl Mesh {
     }
 
     /// Makes room for so many slots, as far as the limit allows.
-    fn enlarge(&mut self, len: usize) {
-        let len = len.min(self.limit).max(self.marks.len());
-        self.records.reserve(len);
-        extend_zeros(&mut self.marks, len);
+    fn enlarge(&mut self, room: usize) {
+        let room = room.min(self.limit).max(self.records.room());
+        self.records.reserve(room);
+        extend_zeros(&mut self.marks, room);
     }
 }
 
@@ -299,7 +299,7 @@ impl SharedMesh<3, 4> for Mesh {
             let (last, settings) = (self.workers[0].last, self.settings);
             let worker = || Worker { last, ..Worker::new(count, settings) };
             self.workers.extend(std::iter::repeat_with(worker).take(more));
-            self.enlarge(self.records.capacity() + more * Room::SLOTS_SPARE);
+            self.enlarge(self.records.room() + more * Room::SLOTS_SPARE);
         }
         self.records.extend_to_end();
         let end = self.records.all().len().min(self.limit) as u32;
@@ -328,8 +328,8 @@ impl SharedMesh<3, 4> for Mesh {
         if len >= self.limit {
             return Err(TooMany);
         }
-        // An eighth at a time: doubling would be the peak of the whole build.
         if !self.records.extend() {
+            // An eighth at a time: doubling would be the peak of the whole build.
             self.enlarge(len + len / 8 + Room::SLOTS_SPARE);
             self.records.extend();
         }
