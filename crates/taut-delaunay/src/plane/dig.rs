@@ -83,7 +83,8 @@ pub(super) fn dig<M: MulAdd, S: Sink, H: Hold>(
     loop {
         let (triangle, facet) = decode(edge.behind);
         let t = &triangles[triangle as usize];
-        // Asked before the branch, as nobody foresees which way it goes: what is loaded after it waits.
+        // Before the branch, as nobody can foresee which way it goes: what comes after it waits. Written in both branches, these took
+        // 3 % of an insertion.
         let (next, last) = (NEXT_FACET[facet], LAST_FACET[facet]);
         if edge.conflict {
             if H::SHARED && !hold.hold([t.vertex(facet)]) {
