@@ -254,7 +254,7 @@ impl SharedMesh<2, 3> for Mesh {
         }
         if !self.records.extend() {
             self.records.reserve((len + len / 8 + Room::SLOTS_SPARE).min(TRIANGLES_MAX));
-            self.records.extend();
+            self.records.extend_to_end();
         }
         Ok(())
     }

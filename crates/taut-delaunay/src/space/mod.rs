@@ -331,7 +331,7 @@ impl SharedMesh<3, 4> for Mesh {
         if !self.records.extend() {
             // An eighth at a time: doubling would be the peak of the whole build.
             self.enlarge(len + len / 8 + Room::SLOTS_SPARE);
-            self.records.extend();
+            self.records.extend_to_end();
         }
         Ok(())
     }
