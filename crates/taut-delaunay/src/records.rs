@@ -49,7 +49,7 @@ pub(crate) struct Records<const V: usize> {
 impl<const V: usize> Records<V> {
     /// Slots that become zeros at once for one thread: 256 KiB, which its cache still has when it writes simplices there. To write
     /// all zeros of a small mesh at once took 3 % of a build of 100 000 sites in space.
-    const PIECE: usize = (1 << 18) / size_of::<Record<V>>();
+    const PIECE: usize = (1 << if cfg!(miri) { 10 } else { 18 }) / size_of::<Record<V>>();
 
     /// Makes room for `room` slots, none of them in use. Pages that are never touched cost nothing.
     pub(crate) fn new(room: usize) -> Self {
