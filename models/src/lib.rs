@@ -30,7 +30,7 @@ mod threads {
     #[path = "../../../crates/taut-delaunay/src/threads/slots.rs"]
     pub(crate) mod slots;
 
-    pub(crate) use record::Record;
+    pub(crate) use record::{Mark, Record, Slot};
 
     #[cfg(test)]
     mod models;

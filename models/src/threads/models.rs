@@ -6,7 +6,7 @@ use std::sync::atomic::Ordering::Relaxed;
 use loom::cell::UnsafeCell;
 use loom::thread;
 
-use super::Record;
+use super::{Record, Slot};
 use super::atomics::AtomicU32;
 use super::held::{Hold, Holder, Owners};
 use super::runs::Runs;

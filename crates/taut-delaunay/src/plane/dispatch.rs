@@ -10,7 +10,7 @@ use super::{Shared, Worker, insert_with};
 use crate::threads::{Hold, Inserted, Progress};
 
 pub(super) fn insert<H: Hold>(
-    shared: &Shared<'_>,
+    shared: &Shared<'_, H::Slot<3>>,
     worker: &mut Worker,
     hold: &mut H,
     sites: &[u32],
@@ -36,7 +36,7 @@ pub(super) fn insert<H: Hold>(
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
 fn insert_avx2<H: Hold>(
-    shared: &Shared<'_>,
+    shared: &Shared<'_, H::Slot<3>>,
     worker: &mut Worker,
     hold: &mut H,
     sites: &[u32],

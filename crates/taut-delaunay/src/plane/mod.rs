@@ -35,9 +35,9 @@ use taut_predicates::{Exact, MulAdd, Separate};
 use crate::kernel::{Counters, Kernel, Settings, TooMany};
 use crate::records::Records;
 use crate::simplex::{GHOST, Simplex, code};
-use crate::threads::Record;
 use crate::threads::{
-    Alone, Hold, Holder, Inserted, OwnSlots, Owners, Progress, Room, SharedMesh, repair_beginnings,
+    Alone, Hold, Holder, Inserted, OwnSlots, Owners, Plain, Progress, Record, Room, SharedMesh,
+    Slot, repair_beginnings,
 };
 use dig::{Edge, dig};
 use seen::{PointOffset, View};
@@ -89,10 +89,10 @@ impl Worker {
     }
 }
 
-/// What threads share.
-pub(crate) struct Shared<'a> {
+/// What threads share, or what one has that is alone: its records are those of its [`Hold`].
+pub(crate) struct Shared<'a, R> {
     sites: &'a [[f64; 2]],
-    triangles: &'a [Record<3>],
+    triangles: &'a [R],
     room: Room<'a>,
     settings: Settings,
 }
@@ -150,12 +150,9 @@ impl Kernel<2, 3> for Mesh {
         }
         let mut left = sites;
         loop {
-            let (view, _, workers) = self.share(1);
+            let (shared, worker) = self.alone();
             let progress = &mut Progress::default();
-            // SAFETY: the mesh is borrowed by this call alone, and nothing else looks at the records of the view.
-            #[allow(unsafe_code)]
-            let alone = &mut unsafe { Alone::new() };
-            let done = dispatch::insert(&view, &mut workers[0], alone, left, progress);
+            let done = dispatch::insert(&shared, worker, &mut Alone, left, progress);
             self.end_sharing();
             match done {
                 Inserted::All => return Ok(()),
@@ -175,9 +172,10 @@ impl Kernel<2, 3> for Mesh {
     }
 
     fn locate(&mut self, q: [f64; 2], hint: u32) -> u32 {
-        let view = View::new(&self.sites, q, self.settings.filtered);
-        let Worker { exact, counters, .. } = &mut self.workers[0];
-        match walk::<Separate, false>(&view, self.records.all(), hint, exact, counters) {
+        let (Shared { sites, triangles, settings, .. }, worker) = self.alone();
+        let view = View::new(sites, q, settings.filtered);
+        let Worker { exact, counters, .. } = worker;
+        match walk::<Separate, Alone>(&view, triangles, hint, exact, counters) {
             Ok(found) => found.triangle,
             Err(triangle) => triangle,
         }
@@ -197,13 +195,27 @@ impl Kernel<2, 3> for Mesh {
     }
 }
 
+impl Mesh {
+    /// What the first worker needs to work alone.
+    fn alone(&mut self) -> (Shared<'_, Plain<3>>, &mut Worker) {
+        let end = self.records.all().len() as u32;
+        let shared = Shared {
+            sites: &self.sites,
+            triangles: self.records.alone(),
+            room: Room { next: &self.next, end },
+            settings: self.settings,
+        };
+        (shared, &mut self.workers[0])
+    }
+}
+
 impl SharedMesh<2, 3> for Mesh {
-    type View<'a> = Shared<'a>;
+    type View<'a> = Shared<'a, Record<3>>;
     type Worker = Worker;
 
     const SITES_MIN: usize = 4000;
 
-    fn share(&mut self, threads: usize) -> (Shared<'_>, &Owners, &mut [Worker]) {
+    fn share(&mut self, threads: usize) -> (Self::View<'_>, &Owners, &mut [Worker]) {
         if threads > 1 && self.owners.len() < self.sites.len() {
             self.owners = Owners::new(self.sites.len());
         }
@@ -212,9 +224,10 @@ impl SharedMesh<2, 3> for Mesh {
             let (last, settings) = (self.workers[0].last, self.settings);
             let worker = || Worker { last, ..Worker::new(settings) };
             self.workers.extend(std::iter::repeat_with(worker).take(more));
-            let len = self.records.all().len() + more * Room::SLOTS_SPARE;
-            self.records.grow(len.min(TRIANGLES_MAX).max(self.records.all().len()));
+            let room = self.records.room() + more * Room::SLOTS_SPARE;
+            self.records.reserve(room.min(TRIANGLES_MAX));
         }
+        self.records.extend_to_end();
         let shared = Shared {
             sites: &self.sites,
             triangles: self.records.all(),
@@ -239,12 +252,15 @@ impl SharedMesh<2, 3> for Mesh {
         if len >= TRIANGLES_MAX {
             return Err(TooMany);
         }
-        self.records.grow((len + len / 8 + Room::SLOTS_SPARE).min(TRIANGLES_MAX));
+        if !self.records.extend() {
+            self.records.reserve((len + len / 8 + Room::SLOTS_SPARE).min(TRIANGLES_MAX));
+            self.records.extend_to_end();
+        }
         Ok(())
     }
 
     fn insert_concurrently(
-        view: &Shared<'_>,
+        view: &Self::View<'_>,
         worker: &mut Worker,
         holder: &mut Holder<'_>,
         sites: &[u32],
@@ -260,7 +276,7 @@ const ATTEMPTS_EACH: usize = 4;
 /// Inserts sites in this order.
 #[inline(always)]
 fn insert_with<M: MulAdd, H: Hold>(
-    shared: &Shared<'_>,
+    shared: &Shared<'_, H::Slot<3>>,
     worker: &mut Worker,
     hold: &mut H,
     sites: &[u32],
@@ -297,7 +313,7 @@ fn insert_with<M: MulAdd, H: Hold>(
             }
         } else {
             let Worker { last, slots, exact, counters, pending, free, .. } = &mut *worker;
-            let found = walk::<M, false>(&view, triangles, *last, exact, counters)
+            let found = walk::<M, H>(&view, triangles, *last, exact, counters)
                 .expect("a walk ends in a mesh that stands still");
             let (low, high) = (slots.pop(), slots.pop());
             free.extend([high, low]);
@@ -319,7 +335,7 @@ fn insert_with<M: MulAdd, H: Hold>(
 fn insert_beside_others<M: MulAdd, H: Hold>(
     view: &View<'_>,
     towards: PointOffset,
-    shared: &Shared<'_>,
+    shared: &Shared<'_, H::Slot<3>>,
     worker: &mut Worker,
     hold: &mut H,
     site: u32,
@@ -327,7 +343,7 @@ fn insert_beside_others<M: MulAdd, H: Hold>(
 ) -> bool {
     let Worker { last, slots, exact, counters, pending, free, undo, .. } = worker;
     let triangles = shared.triangles;
-    let found = match walk::<M, true>(view, triangles, *last, exact, counters) {
+    let found = match walk::<M, H>(view, triangles, *last, exact, counters) {
         Ok(found) => found,
         Err(at) => {
             *last = at;

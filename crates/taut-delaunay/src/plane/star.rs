@@ -12,12 +12,12 @@ use super::dig::Sink;
 use super::seen::{PointOffset, minor};
 use super::walk::LocatedTriangle;
 use crate::simplex::{GHOST, Simplex, code, decode};
-use crate::threads::Record;
+use crate::threads::Slot;
 
 /// Replaces the cavity by the star of a site: vertex 0 of each triangle is the site, facet 0 the edge of the rim.
-pub(super) struct Star<'a> {
+pub(super) struct Star<'a, R> {
     site: u32,
-    triangles: &'a [Record<3>],
+    triangles: &'a [R],
     free: &'a mut Vec<u32>,
     first: u32,
     last: u32,
@@ -28,16 +28,16 @@ pub(super) struct Star<'a> {
     start: u32,
 }
 
-impl<'a> Star<'a> {
+impl<'a, R: Slot<3>> Star<'a, R> {
     /// The star of `site`, whose cavity begins with the triangle `found`; `next` as seen from the site.
     #[inline(always)]
     pub(super) fn new(
         site: u32,
-        triangles: &'a [Record<3>],
+        triangles: &'a [R],
         free: &'a mut Vec<u32>,
         found: &LocatedTriangle,
         next: PointOffset,
-    ) -> Star<'a> {
+    ) -> Self {
         free.push(found.triangle);
         // Before the first triangle there is none to link to; a slot that is free bears what is written into it.
         Star {
@@ -63,7 +63,7 @@ impl<'a> Star<'a> {
     }
 }
 
-impl Sink for Star<'_> {
+impl<R: Slot<3>> Sink for Star<'_, R> {
     #[inline(always)]
     fn enter(&mut self, triangle: u32) {
         self.free.push(triangle);

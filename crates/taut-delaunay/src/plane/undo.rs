@@ -14,7 +14,7 @@ use super::dig::Sink;
 use super::seen::PointOffset;
 use super::star::Star;
 use crate::simplex::{Simplex, code, decode};
-use crate::threads::Record;
+use crate::threads::Slot;
 
 /// The triangles of a cavity as they were.
 #[derive(Default)]
@@ -23,7 +23,7 @@ pub(super) struct Undo(Vec<(u32, Simplex<3>)>);
 impl Undo {
     /// Keeps a triangle.
     #[inline(always)]
-    pub(super) fn note(&mut self, triangles: &[Record<3>], triangle: u32) {
+    pub(super) fn note(&mut self, triangles: &[impl Slot<3>], triangle: u32) {
         let record = &triangles[triangle as usize];
         let kept = Simplex { vertices: record.vertices(), neighbors: record.neighbors() };
         self.0.push((triangle, kept));
@@ -38,7 +38,7 @@ impl Undo {
     /// Writes all of them back, and forgets them; `own` are the slots that held none.
     #[cold]
     #[inline(never)]
-    pub(super) fn take_back(&mut self, triangles: &[Record<3>], own: [u32; 2]) {
+    pub(super) fn take_back(&mut self, triangles: &[impl Slot<3>], own: [u32; 2]) {
         for slot in own {
             triangles[slot as usize].kill();
         }
@@ -55,13 +55,13 @@ impl Undo {
 }
 
 /// A star, and what is needed to take it back.
-pub(super) struct Recorded<'a> {
-    pub(super) star: Star<'a>,
-    pub(super) triangles: &'a [Record<3>],
+pub(super) struct Recorded<'a, R> {
+    pub(super) star: Star<'a, R>,
+    pub(super) triangles: &'a [R],
     pub(super) undo: &'a mut Undo,
 }
 
-impl Sink for Recorded<'_> {
+impl<R: Slot<3>> Sink for Recorded<'_, R> {
     #[inline(always)]
     fn enter(&mut self, triangle: u32) {
         self.undo.note(self.triangles, triangle);

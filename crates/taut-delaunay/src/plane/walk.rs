@@ -11,7 +11,7 @@ use taut_predicates::{Exact, MulAdd};
 use super::seen::{PointOffset, View, minor};
 use crate::kernel::Counters;
 use crate::simplex::{DEAD_MARK, GHOST, decode};
-use crate::threads::Record;
+use crate::threads::{Hold, Slot};
 
 /// Steps beside other threads, at most: along a line of sites a walk may have as many as there are sites, but it could go in a
 /// circle while triangles change.
@@ -34,7 +34,7 @@ pub(super) struct LocatedTriangle {
 
 impl LocatedTriangle {
     /// Tests whether the triangle is there, and has these vertices.
-    pub(super) fn is_at(&self, triangles: &[Record<3>]) -> bool {
+    pub(super) fn is_at(&self, triangles: &[impl Slot<3>]) -> bool {
         let t = &triangles[self.triangle as usize];
         let places = [self.facet, NEXT_FACET[self.facet], LAST_FACET[self.facet]];
         self.vertices == places.map(|place| t.vertex(place))
@@ -51,9 +51,9 @@ pub(super) fn is_triangle([first, second, third]: [u32; 3]) -> bool {
 /// in reasonable time: then it says where it stands, and else it is one only if the triangle [`is_at`](LocatedTriangle::is_at) its
 /// place once it is held.
 #[inline(always)]
-pub(super) fn walk<M: MulAdd, const SHARED: bool>(
+pub(super) fn walk<M: MulAdd, H: Hold>(
     view: &View<'_>,
-    triangles: &[Record<3>],
+    triangles: &[H::Slot<3>],
     from: u32,
     exact: &mut Exact,
     counters: &mut Counters,
@@ -66,7 +66,7 @@ pub(super) fn walk<M: MulAdd, const SHARED: bool>(
     }
     let mut facet = 0;
     let vertices = triangles[triangle as usize].vertices();
-    if SHARED && (!is_triangle(vertices) || vertices.contains(&GHOST)) {
+    if H::SHARED && (!is_triangle(vertices) || vertices.contains(&GHOST)) {
         return Err(triangle);
     }
     let [_, b, a] = vertices;
@@ -84,7 +84,7 @@ pub(super) fn walk<M: MulAdd, const SHARED: bool>(
         steps += 1;
         let t = &triangles[triangle as usize];
         let d_id = t.vertex(facet);
-        if SHARED && (d_id == DEAD_MARK || steps > STEPS_MAX) {
+        if H::SHARED && (d_id == DEAD_MARK || steps > STEPS_MAX) {
             return Err(triangle);
         }
         let d = view.see::<M>(d_id);

@@ -17,13 +17,10 @@
 //! *Reference.* Bowyer; Watson, both Comput. J. 24(2), 1981.
 
 use crate::simplex::GHOST;
-use crate::threads::Hold;
-use crate::threads::Record;
+use crate::threads::{Hold, Mark, Slot};
 
 use super::Site;
 use super::signs::{Judge, Signs};
-use std::sync::atomic::AtomicU8;
-use std::sync::atomic::Ordering::Relaxed;
 
 /// This simplex has been listed as a neighbor of the cavity.
 const SEEN_BIT: u8 = 2;
@@ -71,8 +68,8 @@ impl Cavity {
         &mut self,
         signs: S,
         sites: &[Site],
-        simplices: &[Record<4>],
-        marks: &[AtomicU8],
+        simplices: &[H::Slot<4>],
+        marks: &[H::Mark],
         judge: &mut Judge,
         hold: &mut H,
         q: &Site,
@@ -84,7 +81,7 @@ impl Cavity {
             self.inside.resize(64, 0);
         }
         self.inside[0] = start;
-        marks[start as usize].store(INSIDE_BIT, Relaxed);
+        marks[start as usize].set(INSIDE_BIT);
         let mut all_held = true;
         loop {
             let room = seen + 4 * (inside - listed) + S::WIDTH;
@@ -98,15 +95,15 @@ impl Cavity {
                     all_held = false;
                     break;
                 }
-                marks[t as usize].store(INSIDE_BIT, Relaxed);
+                marks[t as usize].set(INSIDE_BIT);
                 for code in simplices[t as usize].neighbors() {
                     let neighbor = code >> 2;
                     let mark = &marks[neighbor as usize];
-                    let before = mark.load(Relaxed);
+                    let before = mark.get();
                     list[seen] = neighbor;
                     signs.fetch(simplices.as_ptr().wrapping_add(neighbor as usize));
                     seen += usize::from(before == 0);
-                    mark.store(before | SEEN_BIT, Relaxed);
+                    mark.set(before | SEEN_BIT);
                 }
             }
             listed = inside;
@@ -139,15 +136,15 @@ impl Cavity {
             self.bound(signs, simplices, marks);
         }
         for &t in &self.seen[..seen] {
-            marks[t as usize].store(0, Relaxed);
+            marks[t as usize].set(0);
         }
-        marks[start as usize].store(0, Relaxed);
+        marks[start as usize].set(0);
         (seen as u64, all_held)
     }
 
     /// Lists the facets between the cavity and the rest.
     #[inline(always)]
-    fn bound<S: Signs>(&mut self, signs: S, simplices: &[Record<4>], marks: &[AtomicU8]) {
+    fn bound<S: Signs>(&mut self, signs: S, simplices: &[impl Slot<4>], marks: &[impl Mark]) {
         let room = 4 * self.inside.len();
         if self.facets.len() < room {
             self.facets.resize(2 * room, Facet::default());
@@ -157,7 +154,7 @@ impl Cavity {
         for &t in &self.inside {
             let simplex = &simplices[t as usize];
             let [a, b, c, d] = simplex.neighbors();
-            let is_seen = |code: u32| marks[(code >> 2) as usize].load(Relaxed) == SEEN_BIT;
+            let is_seen = |code: u32| marks[(code >> 2) as usize].get() == SEEN_BIT;
             signs.put::<0>(simplex, &mut list[boundary]);
             boundary += usize::from(is_seen(a));
             signs.put::<1>(simplex, &mut list[boundary]);

@@ -58,7 +58,7 @@ impl Level {
 
 /// [`insert_with`], compiled for the level of the mesh.
 pub(super) fn insert<H: Hold>(
-    view: &View<'_>,
+    view: &View<'_, H::Slot<4>, H::Mark>,
     worker: &mut Worker,
     hold: &mut H,
     sites: &[u32],

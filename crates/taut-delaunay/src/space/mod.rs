@@ -28,6 +28,7 @@ mod walk;
 #[cfg(target_arch = "x86_64")]
 mod whole;
 
+use std::cell::Cell;
 use std::marker::PhantomData;
 use std::sync::atomic::{AtomicU8, AtomicU32};
 
@@ -36,9 +37,9 @@ use taut_predicates::Separate;
 use crate::kernel::{Counters, Kernel, Settings, TooMany};
 use crate::records::{Records, extend_zeros, zeros};
 use crate::simplex::{DEAD_MARK, GHOST, Simplex, code};
-use crate::threads::Record;
 use crate::threads::{
-    Alone, Hold, Holder, Inserted, OwnSlots, Owners, Progress, Room, SharedMesh, repair_beginnings,
+    Alone, Hold, Holder, Inserted, Mark, OwnSlots, Owners, Plain, Progress, Record, Room,
+    SharedMesh, Slot, plain_marks, repair_beginnings,
 };
 use cavity::{Cavity, FACETS};
 use lanes::Level;
@@ -116,12 +117,11 @@ impl Worker {
     }
 }
 
-/// What threads share.
-#[derive(Clone, Copy)]
-pub(crate) struct View<'a> {
+/// What threads share, or what one has that is alone: its records and marks are those of its [`Hold`].
+pub(crate) struct View<'a, R, M> {
     sites: &'a [Site],
-    simplices: &'a [Record<4>],
-    marks: &'a [AtomicU8],
+    simplices: &'a [R],
+    marks: &'a [M],
     room: Room<'a>,
     level: Level,
 }
@@ -187,12 +187,8 @@ impl Kernel<3, 4> for Mesh {
     fn insert(&mut self, sites: &[u32]) -> Result<(), TooMany> {
         let mut left = sites;
         loop {
-            let (view, _, workers) = self.share(1);
-            let progress = &mut Progress::default();
-            // SAFETY: the mesh is borrowed by this call alone, and nothing else looks at the records of the view.
-            #[allow(unsafe_code)]
-            let alone = &mut unsafe { Alone::new() };
-            let done = lanes::insert(&view, &mut workers[0], alone, left, progress);
+            let (view, worker) = self.alone();
+            let done = lanes::insert(&view, worker, &mut Alone, left, &mut Progress::default());
             self.end_sharing();
             match done {
                 Inserted::All => return Ok(()),
@@ -213,13 +209,13 @@ impl Kernel<3, 4> for Mesh {
 
     fn locate(&mut self, q: [f64; 3], hint: u32) -> u32 {
         let q = &Site::new(q);
-        let (sites, records, level) = (&self.sites, self.records.all(), self.level);
-        let Worker { judge, counters, .. } = &mut self.workers[0];
+        let (View { sites, simplices, level, .. }, worker) = self.alone();
+        let Worker { judge, counters, .. } = worker;
         let found = if matches!(level, Level::Unfiltered) {
-            walk::walk::<_, false>(Unfiltered, sites, records, judge, counters, q, hint)
+            walk::walk::<_, Alone>(Unfiltered, sites, simplices, judge, counters, q, hint)
         } else {
             let signs = Scalar::<Separate>(PhantomData);
-            walk::walk::<_, false>(signs, sites, records, judge, counters, q, hint)
+            walk::walk::<_, Alone>(signs, sites, simplices, judge, counters, q, hint)
         };
         match found {
             Ok((t, _)) | Err(t) => t,
@@ -266,21 +262,34 @@ impl Mesh {
         }
     }
 
+    /// What the first worker needs to work alone.
+    fn alone(&mut self) -> (View<'_, Plain<4>, Cell<u8>>, &mut Worker) {
+        let end = self.records.all().len().min(self.limit) as u32;
+        let view = View {
+            sites: &self.sites,
+            simplices: self.records.alone(),
+            marks: plain_marks(&mut self.marks),
+            room: Room { next: &self.next, end },
+            level: self.level,
+        };
+        (view, &mut self.workers[0])
+    }
+
     /// Makes room for so many slots, as far as the limit allows.
-    fn enlarge(&mut self, len: usize) {
-        let len = len.min(self.limit).max(self.records.all().len());
-        self.records.grow(len);
-        extend_zeros(&mut self.marks, len);
+    fn enlarge(&mut self, room: usize) {
+        let room = room.min(self.limit).max(self.records.room());
+        self.records.reserve(room);
+        extend_zeros(&mut self.marks, room);
     }
 }
 
 impl SharedMesh<3, 4> for Mesh {
-    type View<'a> = View<'a>;
+    type View<'a> = View<'a, Record<4>, AtomicU8>;
     type Worker = Worker;
 
     const SITES_MIN: usize = 1500;
 
-    fn share(&mut self, threads: usize) -> (View<'_>, &Owners, &mut [Worker]) {
+    fn share(&mut self, threads: usize) -> (Self::View<'_>, &Owners, &mut [Worker]) {
         let count = self.sites.len() - 1;
         if threads > 1 && self.owners.len() < count {
             self.owners = Owners::new(count);
@@ -290,8 +299,9 @@ impl SharedMesh<3, 4> for Mesh {
             let (last, settings) = (self.workers[0].last, self.settings);
             let worker = || Worker { last, ..Worker::new(count, settings) };
             self.workers.extend(std::iter::repeat_with(worker).take(more));
-            self.enlarge(self.records.all().len() + more * Room::SLOTS_SPARE);
+            self.enlarge(self.records.room() + more * Room::SLOTS_SPARE);
         }
+        self.records.extend_to_end();
         let end = self.records.all().len().min(self.limit) as u32;
         let view = View {
             sites: &self.sites,
@@ -318,13 +328,16 @@ impl SharedMesh<3, 4> for Mesh {
         if len >= self.limit {
             return Err(TooMany);
         }
-        // An eighth at a time: doubling would be the peak of the whole build.
-        self.enlarge(len + len / 8 + Room::SLOTS_SPARE);
+        if !self.records.extend() {
+            // An eighth at a time: doubling would be the peak of the whole build.
+            self.enlarge(len + len / 8 + Room::SLOTS_SPARE);
+            self.records.extend_to_end();
+        }
         Ok(())
     }
 
     fn insert_concurrently(
-        view: &View<'_>,
+        view: &Self::View<'_>,
         worker: &mut Worker,
         holder: &mut Holder<'_>,
         sites: &[u32],
@@ -341,7 +354,7 @@ const ATTEMPTS_EACH: usize = 4;
 #[inline(always)]
 fn insert_with<S: Signs, H: Hold>(
     signs: S,
-    view: &View<'_>,
+    view: &View<'_, H::Slot<4>, H::Mark>,
     worker: &mut Worker,
     hold: &mut H,
     sites: &[u32],
@@ -367,10 +380,11 @@ fn insert_with<S: Signs, H: Hold>(
             progress.failed += 1;
         }
         if !is_found {
+            debug_assert!(H::SHARED, "nobody is in the way of one thread");
             progress.deferred.push(site);
             continue;
         }
-        let is_placed = replace(view, worker, hold, site);
+        let is_placed = replace(view, worker, site);
         hold.done();
         if !is_placed {
             return Inserted::Full(i);
@@ -384,7 +398,7 @@ fn insert_with<S: Signs, H: Hold>(
 #[inline(always)]
 fn find<S: Signs, H: Hold>(
     signs: S,
-    view: &View<'_>,
+    view: &View<'_, H::Slot<4>, H::Mark>,
     worker: &mut Worker,
     hold: &mut H,
     site: u32,
@@ -392,12 +406,7 @@ fn find<S: Signs, H: Hold>(
     let q = &view.sites[row(site)];
     let Worker { last, cavity, judge, counters, .. } = worker;
     let View { sites, simplices, marks, .. } = *view;
-    // The two calls are one: a constant chooses.
-    let found = if H::SHARED {
-        walk::walk::<S, true>(signs, sites, simplices, judge, counters, q, *last)
-    } else {
-        walk::walk::<S, false>(signs, sites, simplices, judge, counters, q, *last)
-    };
+    let found = walk::walk::<S, H>(signs, sites, simplices, judge, counters, q, *last);
     let (start, vertices) = match found {
         Ok(found) => found,
         Err(at) => {
@@ -432,7 +441,7 @@ fn find<S: Signs, H: Hold>(
 #[inline(always)]
 fn is_in_conflict<S: Signs>(
     signs: S,
-    view: &View<'_>,
+    view: &View<'_, impl Slot<4>, impl Mark>,
     judge: &mut Judge,
     counters: &mut Counters,
     t: u32,
@@ -449,7 +458,7 @@ fn is_in_conflict<S: Signs>(
 /// Lets the next walk begin at another simplex, if there is none any more where the last one ended.
 #[cold]
 #[inline(never)]
-fn begin_elsewhere(view: &View<'_>, worker: &mut Worker) {
+fn begin_elsewhere(view: &View<'_, impl Slot<4>, impl Mark>, worker: &mut Worker) {
     let is_live = |&t: &u32| walk::is_simplex(view.simplices[t as usize].vertices());
     worker.last = view.room.some_of(worker.last, is_live);
 }
@@ -457,7 +466,7 @@ fn begin_elsewhere(view: &View<'_>, worker: &mut Worker) {
 /// Puts the star of `site` in the place of the cavity that `worker` has found. Returns false, and changes nothing, if there is
 /// no room.
 #[inline(always)]
-fn replace<H: Hold>(view: &View<'_>, worker: &mut Worker, hold: &H, site: u32) -> bool {
+fn replace(view: &View<'_, impl Slot<4>, impl Mark>, worker: &mut Worker, site: u32) -> bool {
     let Worker { last, slots: own, cavity, star, counters, .. } = worker;
     let simplices = view.simplices;
     let (facets, slots) = cavity.facets_and_slots();
@@ -476,7 +485,7 @@ fn replace<H: Hold>(view: &View<'_>, worker: &mut Worker, hold: &H, site: u32) -
     for _ in 0..more {
         slots.push(own.pop());
     }
-    star.fill(simplices, hold, facets, slots, site);
+    star.fill(simplices, facets, slots, site);
     *last = slots[slots.len() - 1];
     true
 }

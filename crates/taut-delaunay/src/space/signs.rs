@@ -9,7 +9,7 @@ use std::ops::{Add, Mul, Sub};
 use taut_predicates::{Exact, MulAdd, Separate, Sign, Stages, space};
 
 use crate::kernel::Settings;
-use crate::threads::Record;
+use crate::threads::Slot;
 
 use super::cavity::{FACETS, Facet, ghost_place};
 use super::{Site, row};
@@ -131,7 +131,7 @@ pub(super) trait Signs: Copy {
     fn conflicts(
         self,
         sites: &[Site],
-        simplices: &[Record<4>],
+        simplices: &[impl Slot<4>],
         group: &[u32],
         q: &Site,
     ) -> (u32, u32);
@@ -140,7 +140,7 @@ pub(super) trait Signs: Copy {
     fn conflicts_in_pairs(
         self,
         sites: &[Site],
-        simplices: &[Record<4>],
+        simplices: &[impl Slot<4>],
         group: &[u32],
         q: &Site,
     ) -> Option<(u32, u32)>;
@@ -149,7 +149,7 @@ pub(super) trait Signs: Copy {
     fn conflicts_in_whole(
         self,
         sites: &[Site],
-        simplices: &[Record<4>],
+        simplices: &[impl Slot<4>],
         group: &[u32],
         q: &Site,
     ) -> Option<(u32, u32, u32)>;
@@ -163,7 +163,7 @@ pub(super) trait Signs: Copy {
 
     /// Writes facet I of a simplex.
     #[inline(always)]
-    fn put<const I: usize>(self, simplex: &Record<4>, facet: &mut Facet) {
+    fn put<const I: usize>(self, simplex: &impl Slot<4>, facet: &mut Facet) {
         let vertices = FACETS[I].map(|i| simplex.vertex(i));
         *facet = Facet { vertices, outside: simplex.neighbor(I) };
     }
@@ -256,7 +256,7 @@ impl<M: MulAdd> Signs for Scalar<M> {
     fn conflicts(
         self,
         sites: &[Site],
-        simplices: &[Record<4>],
+        simplices: &[impl Slot<4>],
         group: &[u32],
         q: &Site,
     ) -> (u32, u32) {
@@ -270,7 +270,7 @@ impl<M: MulAdd> Signs for Scalar<M> {
     fn conflicts_in_pairs(
         self,
         _: &[Site],
-        _: &[Record<4>],
+        _: &[impl Slot<4>],
         _: &[u32],
         _: &Site,
     ) -> Option<(u32, u32)> {
@@ -280,7 +280,7 @@ impl<M: MulAdd> Signs for Scalar<M> {
     fn conflicts_in_whole(
         self,
         _: &[Site],
-        _: &[Record<4>],
+        _: &[impl Slot<4>],
         _: &[u32],
         _: &Site,
     ) -> Option<(u32, u32, u32)> {
@@ -310,14 +310,14 @@ impl Signs for Unfiltered {
     const FILTERED: bool = false;
     const WIDTH: usize = 1;
 
-    fn conflicts(self, _: &[Site], _: &[Record<4>], _: &[u32], _: &Site) -> (u32, u32) {
+    fn conflicts(self, _: &[Site], _: &[impl Slot<4>], _: &[u32], _: &Site) -> (u32, u32) {
         (0, 1)
     }
 
     fn conflicts_in_pairs(
         self,
         _: &[Site],
-        _: &[Record<4>],
+        _: &[impl Slot<4>],
         _: &[u32],
         _: &Site,
     ) -> Option<(u32, u32)> {
@@ -327,7 +327,7 @@ impl Signs for Unfiltered {
     fn conflicts_in_whole(
         self,
         _: &[Site],
-        _: &[Record<4>],
+        _: &[impl Slot<4>],
         _: &[u32],
         _: &Site,
     ) -> Option<(u32, u32, u32)> {
@@ -368,7 +368,7 @@ impl Judge {
         &mut self,
         signs: S,
         sites: &[Site],
-        simplices: &[Record<4>],
+        simplices: &[impl Slot<4>],
         group: &[u32],
         open: u32,
         q: &Site,
@@ -381,7 +381,7 @@ impl Judge {
             match ghost_place(simplex.vertices()) {
                 None => finite |= 1 << lane,
                 Some(place) => {
-                    let beyond = self.beyond::<S>(sites, simplices, simplex, place, q);
+                    let beyond = self.beyond::<S, _>(sites, simplices, simplex, place, q);
                     inside |= u32::from(beyond) << lane;
                 }
             }
@@ -416,11 +416,11 @@ impl Judge {
     /// Returns true if q is in conflict with a ghost: strictly beyond its facet, or in the plane of the facet and in conflict with
     /// the simplex behind it. Compiled for any processor, so its filter does without fused multiplication, which would be
     /// a call here.
-    fn beyond<S: Signs>(
+    fn beyond<S: Signs, R: Slot<4>>(
         &mut self,
         sites: &[Site],
-        simplices: &[Record<4>],
-        ghost: &Record<4>,
+        simplices: &[R],
+        ghost: &R,
         place: usize,
         q: &Site,
     ) -> bool {
@@ -444,7 +444,7 @@ impl Judge {
     }
 
     /// Returns true if q is in conflict with a finite simplex, whatever the filter says.
-    fn holds(&mut self, sites: &[Site], simplex: &Record<4>, q: &Site) -> bool {
+    fn holds(&mut self, sites: &[Site], simplex: &impl Slot<4>, q: &Site) -> bool {
         let [a, b, c, d] = rows(sites, simplex.vertices()).map(Site::point);
         space::conflict_exact(a, b, c, d, q.point(), &mut self.exact)
     }

@@ -11,7 +11,7 @@
 //! points, and no gain on a torus either.
 
 use crate::simplex::{Simplex, code, decode};
-use crate::threads::{Hold, Record};
+use crate::threads::Slot;
 
 use super::cavity::Facet;
 use super::row;
@@ -47,26 +47,24 @@ impl Star {
     /// Writes one simplex (q, a, b, c) for each facet into the slot of the same place, with all neighbors on both
     /// sides.
     #[inline(always)]
-    pub(super) fn fill<H: Hold>(
+    pub(super) fn fill(
         &mut self,
-        simplices: &[Record<4>],
-        hold: &H,
+        simplices: &[impl Slot<4>],
         facets: &[Facet],
         slots: &[u32],
         q: u32,
     ) {
         if facets.len() <= TABLE_MAX {
-            self.fill_by_table(simplices, hold, facets, slots, q);
+            self.fill_by_table(simplices, facets, slots, q);
         } else {
-            self.fill_by_hash(simplices, hold, facets, slots, q);
+            self.fill_by_hash(simplices, facets, slots, q);
         }
     }
 
     #[inline(always)]
-    fn fill_by_table<H: Hold>(
+    fn fill_by_table(
         &mut self,
-        simplices: &[Record<4>],
-        hold: &H,
+        simplices: &[impl Slot<4>],
         facets: &[Facet],
         slots: &[u32],
         q: u32,
@@ -97,7 +95,7 @@ impl Star {
         }
         for ((facet, &slot), &[a, b, c]) in facets.iter().zip(slots).zip(&*corners) {
             let neighbors = [facet.outside, table[at(c, b)], table[at(a, c)], table[at(b, a)]];
-            place(simplices, hold, facet, slot, q, neighbors);
+            place(simplices, facet, slot, q, neighbors);
         }
     }
 
@@ -105,10 +103,9 @@ impl Star {
     /// hundreds of neighbors: an apex over a plane full of sites, the center of a sphere.
     #[cold]
     #[inline(never)]
-    fn fill_by_hash<H: Hold>(
+    fn fill_by_hash(
         &mut self,
-        simplices: &[Record<4>],
-        hold: &H,
+        simplices: &[impl Slot<4>],
         facets: &[Facet],
         slots: &[u32],
         q: u32,
@@ -120,7 +117,7 @@ impl Star {
             (facet.vertices[(i + 1) % 3], facet.vertices[(i + 2) % 3])
         };
         for (facet, &slot) in facets.iter().zip(slots) {
-            place(simplices, hold, facet, slot, q, [facet.outside, 0, 0, 0]);
+            place(simplices, facet, slot, q, [facet.outside, 0, 0, 0]);
         }
         let size = (3 * facets.len()).next_power_of_two();
         self.edges.clear();
@@ -151,16 +148,9 @@ impl Star {
 
 /// Writes a simplex and tells the one outside.
 #[inline(always)]
-fn place<H: Hold>(
-    simplices: &[Record<4>],
-    hold: &H,
-    facet: &Facet,
-    slot: u32,
-    q: u32,
-    neighbors: [u32; 4],
-) {
+fn place(simplices: &[impl Slot<4>], facet: &Facet, slot: u32, q: u32, neighbors: [u32; 4]) {
     let [a, b, c] = facet.vertices;
-    hold.write(&simplices[slot as usize], Simplex { vertices: [q, a, b, c], neighbors });
+    simplices[slot as usize].set(Simplex { vertices: [q, a, b, c], neighbors });
     let (outside, side) = decode(facet.outside);
     simplices[outside as usize].set_neighbor(side, code(slot, 0));
 }

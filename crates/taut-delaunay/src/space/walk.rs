@@ -9,7 +9,7 @@
 
 use crate::kernel::Counters;
 use crate::simplex::{DEAD_MARK, decode};
-use crate::threads::Record;
+use crate::threads::{Hold, Slot};
 
 use super::Site;
 use super::cavity::{FACETS, ghost_place};
@@ -22,10 +22,10 @@ const STEPS_MAX: u64 = 1 << 20;
 /// A simplex in conflict with q, reached from any live one, and its vertices; or where a walk beside other threads stands that came
 /// to a slot without a simplex, or was long.
 #[inline(always)]
-pub(super) fn walk<S: Signs, const SHARED: bool>(
+pub(super) fn walk<S: Signs, H: Hold>(
     signs: S,
     sites: &[Site],
-    simplices: &[Record<4>],
+    simplices: &[H::Slot<4>],
     judge: &mut Judge,
     counters: &mut Counters,
     q: &Site,
@@ -42,7 +42,7 @@ pub(super) fn walk<S: Signs, const SHARED: bool>(
         let simplex = &simplices[t as usize];
         let vertices = simplex.vertices();
         steps += 1;
-        if SHARED && (!is_simplex(vertices) || steps > STEPS_MAX) {
+        if H::SHARED && (!is_simplex(vertices) || steps > STEPS_MAX) {
             counters.walk_steps += steps;
             return Err(t);
         }
@@ -71,7 +71,7 @@ pub(super) fn walk<S: Signs, const SHARED: bool>(
         let (next, entry) = decode(simplex.neighbor(beyond.trailing_zeros() as usize));
         t = next;
         // Beside other threads it may be another facet than the one that was crossed: then all four are asked, for these vertices.
-        unknown = if SHARED { 0b1111 } else { 0b1111 & !(1 << entry) };
+        unknown = if H::SHARED { 0b1111 } else { 0b1111 & !(1 << entry) };
     }
 }
 

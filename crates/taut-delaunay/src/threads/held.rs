@@ -1,17 +1,22 @@
 //! Who holds which vertex.
 
-use std::marker::PhantomData;
 use std::sync::atomic::Ordering::{Acquire, Relaxed, Release};
 
 use crate::records::zeros;
-use crate::simplex::{GHOST, Simplex};
-use crate::threads::Record;
+use crate::simplex::GHOST;
 use crate::threads::atomics::{AtomicBool, AtomicU8, fence, spin_loop};
+use crate::threads::{Mark, Record, Slot};
 
 /// The vertices that a thread holds while it changes the mesh around them.
 pub(crate) trait Hold {
     /// States whether there are other threads.
     const SHARED: bool;
+
+    /// A simplex as this thread reads and writes it.
+    type Slot<const V: usize>: Slot<V>;
+
+    /// A mark as this thread reads and writes it.
+    type Mark: Mark;
 
     /// Holds the finite ones of these vertices as well. Returns false if another thread holds one of them.
     fn hold<const V: usize>(&mut self, vertices: [u32; V]) -> bool;
@@ -19,57 +24,11 @@ pub(crate) trait Hold {
     /// Holds a vertex that is in no simplex yet, nor ever was: who reads of it in one that is written from now on finds it held.
     fn hold_new(&mut self, vertex: u32);
 
-    /// Writes a simplex whose vertices it holds.
-    #[inline(always)]
-    fn write<const V: usize>(&self, record: &Record<V>, simplex: Simplex<V>) {
-        record.set(simplex);
-    }
-
     /// An insertion is done: gives all vertices back if there are many, or if another thread waits for one of them.
     fn done(&mut self);
 
     /// Gives all vertices back, and waits for the one that another thread holds, but not for long.
     fn back_off(&mut self);
-}
-
-/// The only thread holds everything.
-pub(crate) struct Alone(PhantomData<*const ()>);
-
-impl Alone {
-    /// Returns the token of a thread that is alone with a mesh.
-    ///
-    /// # Safety
-    /// While the token exists, no other thread reads or writes a record that is given to [`write`](Hold::write), and there is no
-    /// reference to the simplex in it.
-    #[allow(unsafe_code)]
-    pub(crate) unsafe fn new() -> Self {
-        Alone(PhantomData)
-    }
-}
-
-impl Hold for Alone {
-    const SHARED: bool = false;
-
-    #[inline(always)]
-    fn hold<const V: usize>(&mut self, _: [u32; V]) -> bool {
-        true
-    }
-
-    #[inline(always)]
-    fn hold_new(&mut self, _: u32) {}
-
-    #[inline(always)]
-    #[allow(unsafe_code)]
-    fn write<const V: usize>(&self, record: &Record<V>, simplex: Simplex<V>) {
-        // SAFETY: who made the token promised it.
-        unsafe { record.set_alone(simplex) }
-    }
-
-    #[inline(always)]
-    fn done(&mut self) {}
-
-    #[inline(always)]
-    fn back_off(&mut self) {}
 }
 
 /// Who holds what.
@@ -153,6 +112,9 @@ impl Holder<'_> {
 
 impl Hold for Holder<'_> {
     const SHARED: bool = true;
+
+    type Slot<const V: usize> = Record<V>;
+    type Mark = AtomicU8;
 
     #[inline(always)]
     fn hold<const V: usize>(&mut self, vertices: [u32; V]) -> bool {

@@ -23,8 +23,10 @@
 //! *Reference.* Foteinos and Chrisochoides, *High quality real-time image-to-mesh conversion*, 2014, for vertices that are held
 //! in a Delaunay refinement; Batista et al., Comput. Geom. 43, 2010, for locks on simplices and vertices compared.
 //!
-//! `held` says who holds what, `slots` where new simplices go, `runs` who inserts which sites, `round` does it.
+//! `held` says who holds what, `slots` where new simplices go, `runs` who inserts which sites, `round` does it; `alone` is for one
+//! thread.
 
+mod alone;
 pub(crate) mod atomics;
 mod held;
 mod record;
@@ -34,7 +36,8 @@ mod slots;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use held::{Alone, Hold, Holder, Owners};
-pub(crate) use record::Record;
+pub(crate) use alone::{Alone, Plain, plain_marks, plain_records};
+pub(crate) use held::{Hold, Holder, Owners};
+pub(crate) use record::{Mark, Record, Slot};
 pub(crate) use round::{Inserted, Progress, SharedMesh, insert_round, repair_beginnings};
 pub(crate) use slots::{OwnSlots, Room};

@@ -1,14 +1,52 @@
 //! A simplex of a mesh under construction, at which several threads may look while one changes it.
 //!
-//! *Idea.* A record is a [`Simplex`] whose numbers are relaxed atomic words: on one thread these are plain loads and stores,
-//! and with several a walk may read a record while it is written, and see old numbers beside new ones, but nothing that was
-//! never written. Who holds the vertices of a simplex (`held`) reads and changes it alone.
+//! *Idea.* A record is a [`Simplex`] whose numbers are relaxed atomic words: a walk may read a record while it is written, and see
+//! old numbers beside new ones, but nothing that was never written. Who holds the vertices of a simplex (`held`) reads and changes
+//! it alone.
 //! *Guarantee.* Records that were never written are zero, which is no simplex: its vertices are equal.
+//! *Trap.* The compiler takes a relaxed load for one that may change all memory, so it loads every pointer and length again after
+//! each. One thread alone has plain numbers instead (`alone`), and the kernels are generic over the two.
 
 use std::sync::atomic::Ordering::Relaxed;
 
 use crate::simplex::{DEAD_MARK, Simplex};
-use crate::threads::atomics::AtomicU32;
+use crate::threads::atomics::{AtomicU8, AtomicU32};
+
+/// A simplex that is read and written through a shared reference.
+pub(crate) trait Slot<const V: usize> {
+    /// Vertex `i`.
+    fn vertex(&self, i: usize) -> u32;
+
+    /// The code across the facet opposite vertex `i`.
+    fn neighbor(&self, i: usize) -> u32;
+
+    /// All vertices.
+    fn vertices(&self) -> [u32; V];
+
+    /// All neighbors.
+    fn neighbors(&self) -> [u32; V];
+
+    /// Writes the whole record.
+    fn set(&self, simplex: Simplex<V>);
+
+    /// Writes the code across the facet opposite vertex `i`.
+    fn set_neighbor(&self, i: usize, code: u32);
+
+    /// Takes the simplex out of its slot.
+    fn kill(&self);
+
+    /// The addresses of the vertices and of the neighbors, for vector instructions. A caller that reads there without
+    /// atomic instructions must hold the simplex, or one across a facet.
+    #[cfg(target_arch = "x86_64")]
+    fn addresses(&self) -> [*const u32; 2];
+}
+
+/// A byte beside a simplex that is read and written through a shared reference.
+pub(crate) trait Mark {
+    fn get(&self) -> u8;
+
+    fn set(&self, value: u8);
+}
 
 /// A [`Simplex`] of atomic numbers.
 #[repr(C)]
@@ -24,34 +62,29 @@ impl<const V: usize> Default for Record<V> {
     }
 }
 
-impl<const V: usize> Record<V> {
-    /// Vertex `i`.
+impl<const V: usize> Slot<V> for Record<V> {
     #[inline(always)]
-    pub(crate) fn vertex(&self, i: usize) -> u32 {
+    fn vertex(&self, i: usize) -> u32 {
         self.vertices[i].load(Relaxed)
     }
 
-    /// The code across the facet opposite vertex `i`.
     #[inline(always)]
-    pub(crate) fn neighbor(&self, i: usize) -> u32 {
+    fn neighbor(&self, i: usize) -> u32 {
         self.neighbors[i].load(Relaxed)
     }
 
-    /// All vertices.
     #[inline(always)]
-    pub(crate) fn vertices(&self) -> [u32; V] {
+    fn vertices(&self) -> [u32; V] {
         std::array::from_fn(|i| self.vertex(i))
     }
 
-    /// All neighbors.
     #[inline(always)]
-    pub(crate) fn neighbors(&self) -> [u32; V] {
+    fn neighbors(&self) -> [u32; V] {
         std::array::from_fn(|i| self.neighbor(i))
     }
 
-    /// Writes the whole record.
     #[inline(always)]
-    pub(crate) fn set(&self, simplex: Simplex<V>) {
+    fn set(&self, simplex: Simplex<V>) {
         for i in 0..V {
             self.vertices[i].store(simplex.vertices[i], Relaxed);
         }
@@ -60,74 +93,31 @@ impl<const V: usize> Record<V> {
         }
     }
 
-    /// Writes the whole record with wide stores. After eight narrow ones a vector load that follows soon has to wait for them, which
-    /// took 4 % of the time of a torus with noise.
-    ///
-    /// # Safety
-    /// No other thread reads or writes the record meanwhile, and there is no reference to the simplex in it.
-    #[cfg(not(loom))]
-    #[allow(unsafe_code)]
     #[inline(always)]
-    pub(crate) unsafe fn set_alone(&self, simplex: Simplex<V>) {
-        const {
-            assert!(size_of::<Self>() == size_of::<Simplex<V>>());
-            assert!(align_of::<Self>() == align_of::<Simplex<V>>());
-        };
-        // SAFETY: the same numbers at the same places, all of them atomic and so to be written while they are borrowed; the caller
-        // promises that no thread does so at the same time.
-        unsafe { std::ptr::from_ref(self).cast_mut().cast::<Simplex<V>>().write(simplex) }
-    }
-
-    /// Calls [`set`](Self::set), as loom knows atomic stores only.
-    ///
-    /// # Safety
-    /// As outside of loom; this version does not need it.
-    #[cfg(loom)]
-    #[allow(unsafe_code)]
-    pub(crate) unsafe fn set_alone(&self, simplex: Simplex<V>) {
-        self.set(simplex);
-    }
-
-    /// Writes the code across the facet opposite vertex `i`.
-    #[inline(always)]
-    pub(crate) fn set_neighbor(&self, i: usize, code: u32) {
+    fn set_neighbor(&self, i: usize, code: u32) {
         self.neighbors[i].store(code, Relaxed);
     }
 
-    /// Takes the simplex out of its slot.
     #[inline(always)]
-    pub(crate) fn kill(&self) {
+    fn kill(&self) {
         self.vertices[0].store(DEAD_MARK, Relaxed);
     }
 
-    /// The addresses of the vertices and of the neighbors, for vector instructions. A caller that reads there without
-    /// atomic instructions must hold the simplex, or one across a facet.
     #[cfg(target_arch = "x86_64")]
     #[inline(always)]
-    pub(crate) fn addresses(&self) -> [*const u32; 2] {
+    fn addresses(&self) -> [*const u32; 2] {
         [self.vertices.as_ptr().cast(), self.neighbors.as_ptr().cast()]
     }
 }
 
-#[cfg(all(test, not(loom)))]
-mod tests {
-    use super::*;
+impl Mark for AtomicU8 {
+    #[inline(always)]
+    fn get(&self) -> u8 {
+        self.load(Relaxed)
+    }
 
-    /// Miri (`scripts/miri`) checks that a shared reference to a record allows this write.
-    #[test]
-    #[allow(unsafe_code)]
-    fn a_record_is_written_at_once_as_it_is_number_by_number() {
-        let records: [Record<4>; 3] = std::array::from_fn(|_| Record::default());
-        let simplex = Simplex { vertices: [1, 2, 3, 4], neighbors: [50, 60, 70, 80] };
-        // SAFETY: there is no other thread.
-        unsafe { records[1].set_alone(simplex) };
-        records[2].set(simplex);
-        let read = |record: &Record<4>| (record.vertices(), record.neighbors());
-        assert_eq!(read(&records[0]), ([0; 4], [0; 4]));
-        assert_eq!(read(&records[1]), (simplex.vertices, simplex.neighbors));
-        assert_eq!(read(&records[1]), read(&records[2]));
-        records[1].set_neighbor(3, 81);
-        records[1].kill();
-        assert_eq!(read(&records[1]), ([DEAD_MARK, 2, 3, 4], [50, 60, 70, 81]));
+    #[inline(always)]
+    fn set(&self, value: u8) {
+        self.store(value, Relaxed);
     }
 }

@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::atomic::Ordering::Relaxed;
 
-use crate::threads::Record;
+use crate::threads::Slot;
 use crate::threads::atomics::AtomicU32;
 
 /// Slots that a thread takes at once.
@@ -55,21 +55,21 @@ pub(crate) struct OwnSlots {
 impl OwnSlots {
     /// Makes sure that `count` slots are there. Returns false if there is no room for so many.
     #[inline(always)]
-    pub(crate) fn reserve<const V: usize>(
+    pub(crate) fn reserve<const V: usize, R: Slot<V>>(
         &mut self,
         count: usize,
         room: Room<'_>,
-        records: &[Record<V>],
+        records: &[R],
     ) -> bool {
         self.free.len() + self.fresh.len() >= count || self.refill(count, room, records)
     }
 
     #[cold]
-    fn refill<const V: usize>(
+    fn refill<const V: usize, R: Slot<V>>(
         &mut self,
         count: usize,
         room: Room<'_>,
-        records: &[Record<V>],
+        records: &[R],
     ) -> bool {
         let missing = count - self.free.len() - self.fresh.len();
         let Some(more) = room.take(missing as u32) else { return false };
@@ -100,7 +100,11 @@ impl OwnSlots {
     }
 
     /// Gives back what was taken last and not used, if nobody took any after it; marks the rest as dead.
-    pub(crate) fn give_back<const V: usize>(&mut self, next: &AtomicU32, records: &[Record<V>]) {
+    pub(crate) fn give_back<const V: usize, R: Slot<V>>(
+        &mut self,
+        next: &AtomicU32,
+        records: &[R],
+    ) {
         if next.load(Relaxed) == self.fresh.end {
             next.store(self.fresh.start, Relaxed);
             self.fresh = 0..0;
@@ -110,7 +114,7 @@ impl OwnSlots {
     }
 
     /// Marks the fresh slots as dead.
-    fn mark_dead<const V: usize>(&mut self, records: &[Record<V>]) {
+    fn mark_dead<const V: usize, R: Slot<V>>(&mut self, records: &[R]) {
         for slot in std::mem::take(&mut self.fresh) {
             records[slot as usize].kill();
             self.free.push(slot);

@@ -10,12 +10,12 @@ use std::ops::{Add, Mul, Sub};
 
 use taut_points::{InstructionSet, instruction_set};
 
+use crate::simplex::Simplex;
 use crate::space::cavity::Facet;
 use crate::space::pairs::{self, Pair};
 use crate::space::signs::{Lane, Number, Signs, in_sphere, orientation};
 use crate::space::{Site, View, Worker, insert_with, row, whole};
-use crate::threads::Record;
-use crate::threads::{Hold, Inserted, Progress};
+use crate::threads::{Hold, Inserted, Progress, Slot};
 
 /// Proof that the processor has AVX2 and FMA: there is no other way to make one than to ask it.
 #[derive(Clone, Copy, Debug)]
@@ -33,7 +33,7 @@ impl Avx2 {
     /// [`insert_with`], four numbers at a time.
     pub(super) fn insert<H: Hold>(
         self,
-        view: &View<'_>,
+        view: &View<'_, H::Slot<4>, H::Mark>,
         worker: &mut Worker,
         hold: &mut H,
         sites: &[u32],
@@ -42,7 +42,7 @@ impl Avx2 {
         #[target_feature(enable = "avx2,fma,bmi1,bmi2")]
         fn compiled<H: Hold>(
             yes: Avx2,
-            view: &View<'_>,
+            view: &View<'_, H::Slot<4>, H::Mark>,
             worker: &mut Worker,
             hold: &mut H,
             sites: &[u32],
@@ -63,7 +63,7 @@ impl Avx512 {
     /// [`insert_with`], eight numbers at a time.
     pub(super) fn insert<H: Hold>(
         self,
-        view: &View<'_>,
+        view: &View<'_, H::Slot<4>, H::Mark>,
         worker: &mut Worker,
         hold: &mut H,
         sites: &[u32],
@@ -72,7 +72,7 @@ impl Avx512 {
         #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma,bmi1,bmi2")]
         fn compiled<H: Hold>(
             yes: Avx512,
-            view: &View<'_>,
+            view: &View<'_, H::Slot<4>, H::Mark>,
             worker: &mut Worker,
             hold: &mut H,
             sites: &[u32],
@@ -216,7 +216,7 @@ fn pair(low: &Site, high: &Site) -> __m512d {
 /// [`within`] holds.
 #[inline]
 #[target_feature(enable = "avx512f,avx2")]
-unsafe fn columns8<const J: usize>(sites: &[Site], s: &[&Record<4>; 8]) -> [F64x8; 3] {
+unsafe fn columns8<const J: usize>(sites: &[Site], s: &[&impl Slot<4>; 8]) -> [F64x8; 3] {
     // SAFETY: the caller's promise.
     let (ac, bd, eg, fh) = unsafe {
         (
@@ -238,7 +238,7 @@ unsafe fn columns8<const J: usize>(sites: &[Site], s: &[&Record<4>; 8]) -> [F64x
 /// Tests whether all vertices of these simplices have a row, asked once for all.
 #[inline]
 #[target_feature(enable = "avx2")]
-fn within<const N: usize>(sites: &[Site], group: &[&Record<4>; N]) -> bool {
+fn within<const N: usize>(sites: &[Site], group: &[&impl Slot<4>; N]) -> bool {
     let one = _mm_set1_epi32(1);
     let mut last = _mm_setzero_si128();
     for simplex in group {
@@ -255,7 +255,7 @@ fn within<const N: usize>(sites: &[Site], group: &[&Record<4>; N]) -> bool {
 /// # Safety
 /// [`within`] holds.
 #[inline(always)]
-unsafe fn corner<'a, const J: usize>(sites: &'a [Site], simplex: &Record<4>) -> &'a Site {
+unsafe fn corner<'a, const J: usize>(sites: &'a [Site], simplex: &impl Slot<4>) -> &'a Site {
     // SAFETY: the caller's promise.
     unsafe { sites.get_unchecked(row(simplex.vertex(J))) }
 }
@@ -265,7 +265,7 @@ unsafe fn corner<'a, const J: usize>(sites: &'a [Site], simplex: &Record<4>) -> 
 /// # Safety
 /// The processor has AVX2.
 #[inline(always)]
-unsafe fn corners4(sites: &[Site], simplices: &[Record<4>], group: &[u32]) -> [[F64x4; 3]; 4] {
+unsafe fn corners4(sites: &[Site], simplices: &[impl Slot<4>], group: &[u32]) -> [[F64x4; 3]; 4] {
     let s = &simplices[group[0] as usize];
     let t = &simplices[group[1] as usize];
     let u = &simplices[group[2] as usize];
@@ -292,7 +292,7 @@ unsafe fn corners4(sites: &[Site], simplices: &[Record<4>], group: &[u32]) -> [[
 /// # Safety
 /// The processor has AVX-512F and AVX2.
 #[inline(always)]
-unsafe fn corners8(sites: &[Site], simplices: &[Record<4>], group: &[u32]) -> [[F64x8; 3]; 4] {
+unsafe fn corners8(sites: &[Site], simplices: &[impl Slot<4>], group: &[u32]) -> [[F64x8; 3]; 4] {
     let s = &[
         &simplices[group[0] as usize],
         &simplices[group[1] as usize],
@@ -351,7 +351,7 @@ fn splat<L: Lane>(q: &Site) -> [L; 3] {
 #[inline(always)]
 unsafe fn conflicts4(
     sites: &[Site],
-    simplices: &[Record<4>],
+    simplices: &[impl Slot<4>],
     group: &[u32],
     q: &Site,
 ) -> (u32, u32) {
@@ -365,7 +365,7 @@ unsafe fn conflicts4(
 
 #[inline(never)]
 #[target_feature(enable = "avx2,fma")]
-fn pairs4(sites: &[Site], simplices: &[Record<4>], group: &[u32], q: &Site) -> (u32, u32) {
+fn pairs4(sites: &[Site], simplices: &[impl Slot<4>], group: &[u32], q: &Site) -> (u32, u32) {
     // SAFETY: this function has the features.
     let [a, b, c, d] = unsafe { corners4(sites, simplices, group) };
     let q = splat(q);
@@ -376,7 +376,7 @@ fn pairs4(sites: &[Site], simplices: &[Record<4>], group: &[u32], q: &Site) -> (
 /// Besides inside and open: which are ties.
 #[inline(never)]
 #[target_feature(enable = "avx2,fma")]
-fn whole4(sites: &[Site], simplices: &[Record<4>], group: &[u32], q: &Site) -> (u32, u32, u32) {
+fn whole4(sites: &[Site], simplices: &[impl Slot<4>], group: &[u32], q: &Site) -> (u32, u32, u32) {
     // SAFETY: this function has the features.
     let [a, b, c, d] = unsafe { corners4(sites, simplices, group) };
     let q = splat(q);
@@ -404,7 +404,7 @@ fn masks8(F64x8(det): F64x8, F64x8(bound): F64x8) -> (u32, u32) {
 #[inline(always)]
 unsafe fn conflicts8(
     sites: &[Site],
-    simplices: &[Record<4>],
+    simplices: &[impl Slot<4>],
     group: &[u32],
     q: &Site,
 ) -> (u32, u32) {
@@ -418,7 +418,7 @@ unsafe fn conflicts8(
 
 #[inline(never)]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
-fn pairs8(sites: &[Site], simplices: &[Record<4>], group: &[u32], q: &Site) -> (u32, u32) {
+fn pairs8(sites: &[Site], simplices: &[impl Slot<4>], group: &[u32], q: &Site) -> (u32, u32) {
     // SAFETY: this function has the features.
     let [a, b, c, d] = unsafe { corners8(sites, simplices, group) };
     let q = splat(q);
@@ -429,7 +429,7 @@ fn pairs8(sites: &[Site], simplices: &[Record<4>], group: &[u32], q: &Site) -> (
 /// Besides inside and open: which are ties.
 #[inline(never)]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
-fn whole8(sites: &[Site], simplices: &[Record<4>], group: &[u32], q: &Site) -> (u32, u32, u32) {
+fn whole8(sites: &[Site], simplices: &[impl Slot<4>], group: &[u32], q: &Site) -> (u32, u32, u32) {
     // SAFETY: this function has the features.
     let [a, b, c, d] = unsafe { corners8(sites, simplices, group) };
     let q = splat(q);
@@ -472,8 +472,8 @@ fn beyond4([a, b, c, d]: [&Site; 4], q: &Site) -> (u32, u32) {
 /// Facet I in one store: its vertices, and the code in the last place.
 #[inline]
 #[target_feature(enable = "avx2")]
-fn put<const I: usize>(simplex: &Record<4>, facet: &mut Facet) {
-    const { assert!(size_of::<Facet>() == 16 && size_of::<Record<4>>() == 32) };
+fn put<const I: usize>(simplex: &impl Slot<4>, facet: &mut Facet) {
+    const { assert!(size_of::<Facet>() == 16 && size_of::<Simplex<4>>() == 32) };
     // SAFETY: four numbers each, at any address.
     let (vertices, neighbors) = unsafe {
         (
@@ -510,7 +510,7 @@ impl Signs for Avx2 {
     fn conflicts(
         self,
         sites: &[Site],
-        simplices: &[Record<4>],
+        simplices: &[impl Slot<4>],
         group: &[u32],
         q: &Site,
     ) -> (u32, u32) {
@@ -522,7 +522,7 @@ impl Signs for Avx2 {
     fn conflicts_in_pairs(
         self,
         sites: &[Site],
-        simplices: &[Record<4>],
+        simplices: &[impl Slot<4>],
         group: &[u32],
         q: &Site,
     ) -> Option<(u32, u32)> {
@@ -534,7 +534,7 @@ impl Signs for Avx2 {
     fn conflicts_in_whole(
         self,
         sites: &[Site],
-        simplices: &[Record<4>],
+        simplices: &[impl Slot<4>],
         group: &[u32],
         q: &Site,
     ) -> Option<(u32, u32, u32)> {
@@ -555,7 +555,7 @@ impl Signs for Avx2 {
     }
 
     #[inline(always)]
-    fn put<const I: usize>(self, simplex: &Record<4>, facet: &mut Facet) {
+    fn put<const I: usize>(self, simplex: &impl Slot<4>, facet: &mut Facet) {
         // SAFETY: as above.
         unsafe { put::<I>(simplex, facet) }
     }
@@ -569,7 +569,7 @@ impl Signs for Avx512 {
     fn conflicts(
         self,
         sites: &[Site],
-        simplices: &[Record<4>],
+        simplices: &[impl Slot<4>],
         group: &[u32],
         q: &Site,
     ) -> (u32, u32) {
@@ -581,7 +581,7 @@ impl Signs for Avx512 {
     fn conflicts_in_pairs(
         self,
         sites: &[Site],
-        simplices: &[Record<4>],
+        simplices: &[impl Slot<4>],
         group: &[u32],
         q: &Site,
     ) -> Option<(u32, u32)> {
@@ -593,7 +593,7 @@ impl Signs for Avx512 {
     fn conflicts_in_whole(
         self,
         sites: &[Site],
-        simplices: &[Record<4>],
+        simplices: &[impl Slot<4>],
         group: &[u32],
         q: &Site,
     ) -> Option<(u32, u32, u32)> {
@@ -613,7 +613,7 @@ impl Signs for Avx512 {
     }
 
     #[inline(always)]
-    fn put<const I: usize>(self, simplex: &Record<4>, facet: &mut Facet) {
+    fn put<const I: usize>(self, simplex: &impl Slot<4>, facet: &mut Facet) {
         // SAFETY: as above.
         unsafe { put::<I>(simplex, facet) }
     }

@@ -13,7 +13,7 @@ fn conflicts<S: Signs>(
     signs: S,
     pairs: bool,
     sites: &[Site],
-    simplices: &[Record<4>],
+    simplices: &[impl Slot<4>],
     q: &Site,
 ) -> (u32, u32) {
     let all: Vec<u32> = (0..8).collect();
@@ -40,7 +40,7 @@ struct Masks {
     whole: (u32, u32, u32),
 }
 
-fn all_masks<S: Signs>(signs: S, sites: &[Site], simplices: &[Record<4>], q: &Site) -> Masks {
+fn all_masks<S: Signs>(signs: S, sites: &[Site], simplices: &[impl Slot<4>], q: &Site) -> Masks {
     let corners = simplices[0].vertices().map(|v| &sites[row(v)]);
     let mut whole = (0, 0, 0);
     for (i, group) in (0..8).collect::<Vec<u32>>().chunks(S::WIDTH).enumerate() {
@@ -59,7 +59,7 @@ fn all_masks<S: Signs>(signs: S, sites: &[Site], simplices: &[Record<4>], q: &Si
     }
 }
 
-fn masks(level: Level, sites: &[Site], simplices: &[Record<4>], q: &Site) -> Masks {
+fn masks(level: Level, sites: &[Site], simplices: &[impl Slot<4>], q: &Site) -> Masks {
     match level {
         Level::Unfiltered => all_masks(Unfiltered, sites, simplices, q),
         Level::Scalar => all_masks(Scalar::<Separate>(PhantomData), sites, simplices, q),
