@@ -51,7 +51,9 @@ pub use parts::{
     BlockRuns, ByteReader, ByteWriter, Elsewhere, PartsError, check_kernels, check_part,
 };
 pub use points::{Points, Rows, Scalar, ScalarKind};
-pub use processor::{InstructionSet, KERNELS_VARIABLE, instruction_set, vectors};
+pub use processor::{
+    InstructionSet, KERNELS_VARIABLE, instruction_set, vectors, with_narrow_vectors,
+};
 pub use room::{failure_is_handled, try_reserve_exact};
 pub use source::{
     FileSource, MappedSource, OwnedPoints, PickedColumns, PointSource, Scratch, gather, read_at,

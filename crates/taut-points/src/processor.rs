@@ -8,7 +8,7 @@
 
 use std::sync::OnceLock;
 
-use pulp::Arch;
+use pulp::{Arch, WithSimd};
 
 /// The environment variable that limits the instruction sets: `portable`, `neon`, `avx2` or `avx512`; any other text stands for
 /// `portable`, an empty one and no variable for no limit.
@@ -78,6 +78,21 @@ pub fn vectors() -> Arch {
         InstructionSet::Portable if !cfg!(target_family = "wasm") => Arch::Scalar,
         _ => Arch::new(),
     }
+}
+
+/// Runs a kernel with vectors of 32 bytes at most: for what gains nothing from wider ones, so that there is no copy of its code for them.
+#[inline]
+pub fn with_narrow_vectors<Kernel: WithSimd>(kernel: Kernel) -> Kernel::Output {
+    #[cfg(target_arch = "x86_64")]
+    {
+        use pulp::Simd;
+        match pulp::x86::V3::try_new().filter(|_| instruction_set() >= InstructionSet::Avx2) {
+            Some(avx2) => avx2.vectorize(kernel),
+            None => pulp::Scalar::new().vectorize(kernel),
+        }
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    vectors().dispatch(kernel)
 }
 
 #[cold]

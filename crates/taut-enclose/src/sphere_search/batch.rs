@@ -7,7 +7,7 @@
 use pulp::{Simd, WithSimd};
 use taut_certify::Items;
 use taut_points::parallel::ParallelSlice;
-use taut_points::{ReadError, vectors};
+use taut_points::{ReadError, with_narrow_vectors};
 
 use super::dim::{AnyDim, Dim, Fixed, unrolled};
 use super::measure::{Measure, Squares, Surfaces, WideSquares, is_plain};
@@ -119,7 +119,7 @@ fn run_task<W: Work>(
     let task = Task { search, queries, work, found };
     let dim = AnyDim(search.dim());
     if search.is_plain && queries.iter().all(|query| is_plain(query.values)) {
-        return vectors().dispatch(task);
+        return with_narrow_vectors(task);
     }
     match search.items {
         Items::Points => task.answer::<_, WideSquares>(dim),

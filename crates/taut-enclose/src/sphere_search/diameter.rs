@@ -13,7 +13,7 @@
 
 use pulp::{Simd, WithSimd};
 use taut_certify::Items;
-use taut_points::{Monitor, ReadError, vectors};
+use taut_points::{Monitor, ReadError, with_narrow_vectors};
 
 use super::batch::run_one;
 use super::dim::{AnyDim, Dim, Fixed, unrolled};
@@ -47,7 +47,7 @@ pub(super) fn diameter(
     let task = Task { tree, factor: 1.0 + epsilon, monitor };
     let dim = AnyDim(tree.dim());
     match (tree.is_plain, tree.items) {
-        (true, _) => vectors().dispatch(task),
+        (true, _) => with_narrow_vectors(task),
         (false, Items::Points) => task.diameter::<_, WideSquares>(dim),
         (false, _) => task.diameter::<_, Surfaces<WideSquares>>(dim),
     }

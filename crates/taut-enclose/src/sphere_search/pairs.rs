@@ -10,7 +10,7 @@
 use pulp::{Simd, WithSimd};
 use taut_certify::Items;
 use taut_points::parallel::{IntoParallel, ParallelSlice};
-use taut_points::{ReadError, vectors};
+use taut_points::{ReadError, with_narrow_vectors};
 
 use super::dim::{AnyDim, Dim, Fixed, unrolled};
 use super::measure::{Measure, Squares, Surfaces, WideSquares};
@@ -140,7 +140,7 @@ impl Task<'_> {
         let is_plain = self.first.is_plain && self.other.is_plain;
         let dim = AnyDim(self.first.dim());
         match (are_points, is_plain) {
-            (_, true) => vectors().dispatch(self),
+            (_, true) => with_narrow_vectors(self),
             (true, false) => self.pairs::<_, WideSquares>(dim),
             (false, false) => self.pairs::<_, Surfaces<WideSquares>>(dim),
         }
