@@ -62,7 +62,7 @@ pub trait Source: Sync {
     type Item;
 
     /// How many there are.
-    fn len(&self) -> usize;
+    fn count(&self) -> usize;
 
     /// The items of a run. Each is asked for once.
     fn run(&self, run: Range<usize>) -> impl Iterator<Item = Self::Item>;
@@ -137,7 +137,7 @@ impl<S: Source> Parallel<S> {
 
     /// The items of each task.
     fn tasks(&self) -> Tasks {
-        let count = self.source.len();
+        let count = self.source.count();
         Tasks { count, size: self.least.max(count.div_ceil(TASKS_MAX)) }
     }
 
@@ -278,8 +278,8 @@ pub struct Enumerated<S>(S);
 impl<S: Source> Source for Enumerated<S> {
     type Item = (usize, S::Item);
 
-    fn len(&self) -> usize {
-        self.0.len()
+    fn count(&self) -> usize {
+        self.0.count()
     }
 
     fn run(&self, run: Range<usize>) -> impl Iterator<Item = Self::Item> {
@@ -293,8 +293,8 @@ pub struct Zipped<A, B>(A, B);
 impl<A: Source, B: Source> Source for Zipped<A, B> {
     type Item = (A::Item, B::Item);
 
-    fn len(&self) -> usize {
-        self.0.len().min(self.1.len())
+    fn count(&self) -> usize {
+        self.0.count().min(self.1.count())
     }
 
     fn run(&self, run: Range<usize>) -> impl Iterator<Item = Self::Item> {
@@ -308,8 +308,8 @@ pub struct Mapped<S, F>(S, F);
 impl<S: Source, T, F: Fn(S::Item) -> T + Sync> Source for Mapped<S, F> {
     type Item = T;
 
-    fn len(&self) -> usize {
-        self.0.len()
+    fn count(&self) -> usize {
+        self.0.count()
     }
 
     fn run(&self, run: Range<usize>) -> impl Iterator<Item = T> {
@@ -325,8 +325,8 @@ impl<S: Source, M, T, I: Fn() -> M + Sync, F: Fn(&mut M, S::Item) -> T + Sync> S
 {
     type Item = T;
 
-    fn len(&self) -> usize {
-        self.0.len()
+    fn count(&self) -> usize {
+        self.0.count()
     }
 
     fn run(&self, run: Range<usize>) -> impl Iterator<Item = T> {
@@ -341,8 +341,8 @@ pub struct Filtered<S, F>(S, F);
 impl<S: Source, F: Fn(&S::Item) -> bool + Sync> Source for Filtered<S, F> {
     type Item = S::Item;
 
-    fn len(&self) -> usize {
-        self.0.len()
+    fn count(&self) -> usize {
+        self.0.count()
     }
 
     fn run(&self, run: Range<usize>) -> impl Iterator<Item = S::Item> {
@@ -356,8 +356,8 @@ pub struct Flattened<S, F>(S, F);
 impl<S: Source, T: IntoIterator, F: Fn(S::Item) -> T + Sync> Source for Flattened<S, F> {
     type Item = T::Item;
 
-    fn len(&self) -> usize {
-        self.0.len()
+    fn count(&self) -> usize {
+        self.0.count()
     }
 
     fn run(&self, run: Range<usize>) -> impl Iterator<Item = T::Item> {
@@ -373,7 +373,7 @@ macro_rules! number_the_items_of {
         impl Source for Numbers<$number> {
             type Item = $number;
 
-            fn len(&self) -> usize {
+            fn count(&self) -> usize {
                 self.0.end.saturating_sub(self.0.start) as usize
             }
 
@@ -400,7 +400,7 @@ pub struct Borrowed<'a, T>(&'a [T]);
 impl<'a, T: Sync> Source for Borrowed<'a, T> {
     type Item = &'a T;
 
-    fn len(&self) -> usize {
+    fn count(&self) -> usize {
         self.0.len()
     }
 
@@ -418,7 +418,7 @@ pub struct Chunks<'a, T> {
 impl<'a, T: Sync> Source for Chunks<'a, T> {
     type Item = &'a [T];
 
-    fn len(&self) -> usize {
+    fn count(&self) -> usize {
         self.items.len().div_ceil(self.size)
     }
 
@@ -440,7 +440,7 @@ impl<T: Send> Owned<T> {
 impl<T: Send> Source for Owned<T> {
     type Item = T;
 
-    fn len(&self) -> usize {
+    fn count(&self) -> usize {
         self.0.len()
     }
 

@@ -87,8 +87,8 @@ pub fn with_narrow_vectors<Kernel: WithSimd>(kernel: Kernel) -> Kernel::Output {
     {
         use pulp::Simd;
         match pulp::x86::V3::try_new().filter(|_| instruction_set() >= InstructionSet::Avx2) {
-            Some(avx2) => avx2.vectorize(kernel),
-            None => pulp::Scalar::new().vectorize(kernel),
+            Some(avx2) => Simd::vectorize(avx2, kernel),
+            None => Simd::vectorize(pulp::Scalar::new(), kernel),
         }
     }
     #[cfg(not(target_arch = "x86_64"))]

@@ -1,7 +1,7 @@
 //! Learns the matcher of `Matcher::of_synthetic_hands` and prints its JSON:
 //! `cargo run --release -p taut-recognize --example default_matcher > crates/taut-recognize/src/hand/default_matcher.json`.
 
-use rayon::prelude::*;
+use taut_points::parallel::ParallelSlice;
 use taut_points::Points;
 use taut_recognize::classify::Labeled;
 use taut_recognize::hand::synthetic::Generator;
