@@ -1,8 +1,8 @@
 //! Learns the matcher of `Matcher::of_synthetic_hands` and prints its JSON:
 //! `cargo run --release -p taut-recognize --example default_matcher > crates/taut-recognize/src/hand/default_matcher.json`.
 
-use taut_points::parallel::ParallelSlice;
 use taut_points::Points;
+use taut_points::parallel::ParallelSlice;
 use taut_recognize::classify::Labeled;
 use taut_recognize::hand::synthetic::Generator;
 use taut_recognize::hand::{Hand, HandOptions, PROFILE};
