@@ -91,7 +91,7 @@ impl<const V: usize> Records<V> {
 
     /// Takes the first `len` slots into use.
     pub(crate) fn set_len(&mut self, len: usize) {
-        debug_assert!(len <= self.all.len(), "there is room");
+        assert!(len <= self.all.len(), "there is room");
         self.used = len;
     }
 
@@ -110,8 +110,8 @@ impl<const V: usize> Records<V> {
         longer > len
     }
 
-    /// Makes all of the room zeros, for several threads. If that is most of it, the slots in use move to pages that nobody has
-    /// touched yet, so that each thread touches its own.
+    /// Makes all of the room zeros, for several threads. If more slots are to be zeroed than are in use, those in use move to
+    /// pages that nobody has touched yet, so that each thread touches its own.
     pub(crate) fn extend_to_end(&mut self) {
         if self.room - self.all.len() <= self.used {
             // SAFETY: zeros are valid atomic numbers.
@@ -125,7 +125,10 @@ impl<const V: usize> Records<V> {
 
     /// The slots in use.
     pub(crate) fn as_slice(&self) -> &[Simplex<V>] {
-        const { assert!(size_of::<Record<V>>() == size_of::<Simplex<V>>()) };
+        const {
+            assert!(size_of::<Record<V>>() == size_of::<Simplex<V>>());
+            assert!(align_of::<Record<V>>() == align_of::<Simplex<V>>());
+        };
         // SAFETY: the same numbers at the same places, and nobody writes while they are borrowed: this module's callers write
         // in methods of a mesh that borrow it for themselves.
         unsafe { std::slice::from_raw_parts(self.all.as_ptr().cast(), self.used) }

@@ -9,11 +9,9 @@ use std::collections::BinaryHeap;
 /// The part of the waiting cells that a batch takes: a larger one splits more cells that a better answer would have closed.
 const BATCH_PART: usize = 3;
 
-/// Cells of a batch at least, and at most: threads get work for some milliseconds at a time.
+/// Cells of a batch at least, and at most: threads get work for some milliseconds at a time. Each cell is a task, as some cost many times as
+/// much as others.
 const BATCH_CELLS: [usize; 2] = [64, 1024];
-
-/// Cells that a thread takes at once, at most: some cells cost many times as much as others.
-pub(crate) const CELLS_AT_ONCE: usize = 8;
 
 /// A cell that waits, with its place in the tree.
 pub(crate) struct Waiting<T> {

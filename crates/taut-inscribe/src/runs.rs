@@ -6,7 +6,6 @@
 //! *Trap.* A ring that runs to and fro across the plane has boxes that all overlap; whoever needs a bound counts visits.
 
 use std::ops::Range;
-use taut_points::OrderBy;
 
 use crate::polygon::Segment;
 
@@ -142,7 +141,7 @@ impl Runs {
         for (slot, child) in waiting.iter_mut().zip(self.children(run)) {
             *slot = (in_box(&self.bounds(child)), child);
         }
-        waiting.order_by(&|one, other| one.0.total_cmp(&other.0));
+        waiting.sort_unstable_by(|one, other| one.0.total_cmp(&other.0));
         for (value, child) in waiting {
             if value >= best.1 {
                 return;

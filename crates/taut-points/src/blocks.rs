@@ -73,7 +73,7 @@ where
     results.into_iter().map_while(|result| result).collect()
 }
 
-/// What is done with a block, its first row, and its rows or why there are none; returns false to end the pass.
+/// Works on a block, given its first row and its rows or why there are none; returns false to end the pass.
 type Work<'a> = dyn Fn(usize, u64, Result<Rows<'_>, ReadError>) -> bool + Sync + 'a;
 
 /// The pass of [`map_blocks`], compiled once for all kinds of work.
@@ -86,8 +86,11 @@ fn for_each_block(source: &dyn PointSource, monitor: &Monitor<'_>, work: &Work<'
             Ok(()) => source.read(range, scratch),
             Err(cancelled) => Err(cancelled.into()),
         };
+        let was_read = rows.is_ok();
         let is_done = work(block as usize, first, rows);
-        monitor.points(points);
+        if was_read {
+            monitor.points(points);
+        }
         is_done
     };
     let workers = (rayon::current_num_threads() as u64).min(blocks.count());

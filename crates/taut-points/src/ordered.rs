@@ -1,11 +1,11 @@
 //! Sorts of few items, compiled once for each type of item.
 //!
-//! A sort of the standard library is compiled anew for each closure, which takes ten kilobytes; there are hundreds of them, and most put
-//! a few items in order. Here the order is called through a pointer, which makes a sort about twice as slow.
+//! A sort of the standard library is compiled for each closure, which takes ten kilobytes; there are hundreds of them, and most sort a few
+//! items. Here the order is called through a pointer, so these are not for hot loops, nor for many items.
 
 use std::cmp::Ordering;
 
-/// Sorts of slices that are no loop of importance.
+/// Sorts of slices outside of hot loops.
 pub trait OrderBy<T> {
     /// Sorts; equal items stay in their order.
     ///
@@ -18,7 +18,7 @@ pub trait OrderBy<T> {
     /// ```
     fn order_by(&mut self, compare: &dyn Fn(&T, &T) -> Ordering);
 
-    /// Sorts by a key, which is asked for at each comparison; items of equal keys stay in their order.
+    /// Sorts by a key, which is computed at each comparison; items of equal keys stay in their order.
     fn order_by_key<K: Ord>(&mut self, key: impl Fn(&T) -> K) {
         self.order_by(&|a, b| key(a).cmp(&key(b)));
     }

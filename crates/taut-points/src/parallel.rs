@@ -1,12 +1,13 @@
 //! The same work for many items on all threads of the current pool, with the results in their order.
 //!
-//! *Problem.* The adapters of rayon are compiled anew for each closure: a parallel `map` takes six kilobytes beside what it does, and there
-//! are a hundred of them in the module of Python.
-//! *Idea.* One loop over numbered tasks is compiled once, for any closure behind a reference; a task is a run of items, so the call
-//! through a pointer costs nothing beside it. What is compiled for each closure is the loop over the items of one task. The methods
-//! have the names of rayon's.
+//! *Problem.* The adapters of rayon are compiled for each closure: a parallel `map` takes six kilobytes beside its closure, and there are a
+//! hundred of them in the module of Python.
+//! *Idea.* One loop over numbered tasks is compiled once, for any closure behind a reference. A task is a range of items; only the loop
+//! over its items is compiled for each closure. The methods have the names of rayon's. Other than there, `map_init` makes its value for
+//! each task, and a failing loop still finishes the items before the failure.
 //! *Guarantee.* Results are in the order of the items, and an error is that of the first item that fails, whatever the number of threads.
-//! *Not for* items that are too many to have a lock each, where they are handed over: `par_iter_mut` of rayon hands out a million numbers.
+//! *Not for* collecting many millions of items, which are copied once more and need twice their memory meanwhile; nor for many tiny items
+//! that are handed over, each of which takes a lock: rayon itself is for these.
 
 use std::cmp::Ordering;
 use std::ops::Range;
@@ -14,11 +15,11 @@ use std::sync::atomic::AtomicUsize;
 use std::sync::atomic::Ordering::Relaxed;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Tasks of a loop that names no least number of items: enough for any number of threads to share them evenly.
+/// Most tasks of a loop that names no least number of items: eight for each of 128 threads.
 const TASKS_MAX: usize = 1 << 10;
 
 /// Calls `task` with each number below `count`, on all threads.
-fn run(count: usize, task: &(dyn Fn(usize) + Sync)) {
+fn run_tasks(count: usize, task: &(dyn Fn(usize) + Sync)) {
     match count {
         0 => {}
         1 => task(0),
@@ -29,11 +30,11 @@ fn run(count: usize, task: &(dyn Fn(usize) + Sync)) {
     }
 }
 
-/// As [`run`], for tasks that can fail and say whether they did not: what comes after a failure need not be done, what comes before
+/// As [`run_tasks`], for tasks that can fail and say whether they did not: what comes after a failure need not be done, what comes before
 /// it is.
-fn try_run(count: usize, task: &(dyn Fn(usize) -> bool + Sync)) {
+fn try_run_tasks(count: usize, task: &(dyn Fn(usize) -> bool + Sync)) {
     let failed = AtomicUsize::new(usize::MAX);
-    run(count, &|number| {
+    run_tasks(count, &|number| {
         if number < failed.load(Relaxed) && !task(number) {
             failed.fetch_min(number, Relaxed);
         }
@@ -56,17 +57,20 @@ fn both(a: &mut (dyn FnMut() + Send), b: &mut (dyn FnMut() + Send)) {
     rayon::join(a, b);
 }
 
-/// Numbered items, of which threads ask for runs.
+/// Numbered items, of which threads ask for ranges.
 pub trait Source: Sync {
-    /// What there is at each number.
+    /// An item.
     type Item;
 
-    /// How many there are.
+    /// Returns how many items there are, or at most, where some are left out.
     fn count(&self) -> usize;
 
-    /// The items of a run. Each is asked for once.
-    fn run(&self, run: Range<usize>) -> impl Iterator<Item = Self::Item>;
+    /// Returns the items of a range. Each item is asked for once.
+    fn items(&self, range: Range<usize>) -> impl Iterator<Item = Self::Item>;
 }
+
+/// Sources that leave no item out, so that a number names one item.
+pub trait Indexed: Source {}
 
 /// Items to be worked on by all threads.
 #[must_use]
@@ -87,17 +91,23 @@ impl<S: Source> Parallel<S> {
 
     /// A task has at least so many items. Without it there are about a thousand tasks.
     pub fn with_min_len(self, least: usize) -> Self {
-        Parallel { least: least.max(1), ..self }
+        Parallel { least: self.least.max(least), ..self }
     }
 
     /// The items with their numbers.
-    pub fn enumerate(self) -> Parallel<Enumerated<S>> {
+    pub fn enumerate(self) -> Parallel<Enumerated<S>>
+    where
+        S: Indexed,
+    {
         self.with(Enumerated)
     }
 
     /// Pairs of these items and others, as many as there are of both.
-    pub fn zip<Other: Source>(self, other: Parallel<Other>) -> Parallel<Zipped<S, Other>> {
-        self.with(|source| Zipped(source, other.source))
+    pub fn zip<Other: Indexed>(self, other: Parallel<Other>) -> Parallel<Zipped<S, Other>>
+    where
+        S: Indexed,
+    {
+        self.with_min_len(other.least).with(|source| Zipped(source, other.source))
     }
 
     /// `f` of each item.
@@ -114,12 +124,12 @@ impl<S: Source> Parallel<S> {
         self.with(|source| MappedWith(source, init, f))
     }
 
-    /// Those items for which `f` is true. Numbers are those of all items.
+    /// Those items for which `f` is true.
     pub fn filter<F: Fn(&S::Item) -> bool + Sync>(self, f: F) -> Parallel<Filtered<S, F>> {
         self.with(|source| Filtered(source, f))
     }
 
-    /// All that `f` returns for an item, and the next one, and so on. Numbers are those of the items.
+    /// The items of all lists that `f` returns, in order.
     pub fn flat_map_iter<T: IntoIterator, F: Fn(S::Item) -> T + Sync>(
         self,
         f: F,
@@ -144,7 +154,7 @@ impl<S: Source> Parallel<S> {
     /// Calls `f` with each item.
     pub fn for_each(self, f: impl Fn(S::Item) + Sync) {
         let tasks = self.tasks();
-        run(tasks.len(), &|task| self.source.run(tasks.of(task)).for_each(&f));
+        run_tasks(tasks.len(), &|task| self.source.items(tasks.of(task)).for_each(&f));
     }
 
     /// Calls `f` with each item, and something that `init` makes for each task.
@@ -162,8 +172,10 @@ impl<S: Source> Parallel<S> {
     ) -> Result<(), E> {
         let tasks = self.tasks();
         let failed: Mutex<Option<(usize, E)>> = Mutex::new(None);
-        try_run(tasks.len(), &|task| {
-            let Err(error) = self.source.run(tasks.of(task)).try_for_each(&f) else { return true };
+        try_run_tasks(tasks.len(), &|task| {
+            let Err(error) = self.source.items(tasks.of(task)).try_for_each(&f) else {
+                return true;
+            };
             let mut failed = lock(&failed);
             if failed.as_ref().is_none_or(|(first, _)| task < *first) {
                 *failed = Some((task, error));
@@ -194,7 +206,7 @@ impl<S: Source> Parallel<S> {
         S::Item: Send,
     {
         let tasks = self.tasks();
-        let of = |task| self.source.run(tasks.of(task)).fold(first(), &f);
+        let of = |task| self.source.items(tasks.of(task)).fold(first(), &f);
         let of_tasks: Vec<S::Item> = (0..tasks.len()).into_par_iter().map(of).collect();
         of_tasks.into_iter().fold(first(), &f)
     }
@@ -220,7 +232,7 @@ fn lock<T>(place: &Mutex<T>) -> MutexGuard<'_, T> {
     place.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// What items can be collected in.
+/// Collections of items.
 pub trait Collect<Item>: Sized {
     /// All items of a source.
     fn of<S: Source<Item = Item>>(items: Parallel<S>) -> Self;
@@ -229,12 +241,12 @@ pub trait Collect<Item>: Sized {
 impl<T: Send> Collect<T> for Vec<T> {
     fn of<S: Source<Item = T>>(items: Parallel<S>) -> Self {
         let tasks = items.tasks();
-        let of = |task| items.source.run(tasks.of(task)).collect();
+        let of = |task| items.source.items(tasks.of(task)).collect();
         if tasks.len() <= 1 {
             return of(0);
         }
         let parts: Vec<Mutex<Self>> = (0..tasks.len()).map(|_| Mutex::default()).collect();
-        run(parts.len(), &|task| *lock(&parts[task]) = of(task));
+        run_tasks(parts.len(), &|task| *lock(&parts[task]) = of(task));
         let parts = parts.into_iter();
         let parts: Vec<Self> =
             parts.map(|part| part.into_inner().unwrap_or_else(PoisonError::into_inner)).collect();
@@ -245,12 +257,12 @@ impl<T: Send> Collect<T> for Vec<T> {
 impl<T: Send, E: Send> Collect<Result<T, E>> for Result<Vec<T>, E> {
     fn of<S: Source<Item = Result<T, E>>>(items: Parallel<S>) -> Self {
         let tasks = items.tasks();
-        let of = |task| items.source.run(tasks.of(task)).collect();
+        let of = |task| items.source.items(tasks.of(task)).collect();
         if tasks.len() <= 1 {
             return of(0);
         }
         let parts: Vec<Mutex<Self>> = (0..tasks.len()).map(|_| Mutex::new(Ok(vec![]))).collect();
-        try_run(parts.len(), &|task| {
+        try_run_tasks(parts.len(), &|task| {
             let part: Self = of(task);
             let is_done = part.is_ok();
             *lock(&parts[task]) = part;
@@ -282,10 +294,12 @@ impl<S: Source> Source for Enumerated<S> {
         self.0.count()
     }
 
-    fn run(&self, run: Range<usize>) -> impl Iterator<Item = Self::Item> {
-        run.clone().zip(self.0.run(run))
+    fn items(&self, range: Range<usize>) -> impl Iterator<Item = Self::Item> {
+        range.clone().zip(self.0.items(range))
     }
 }
+
+impl<S: Indexed> Indexed for Enumerated<S> {}
 
 /// Pairs of items.
 pub struct Zipped<A, B>(A, B);
@@ -297,12 +311,14 @@ impl<A: Source, B: Source> Source for Zipped<A, B> {
         self.0.count().min(self.1.count())
     }
 
-    fn run(&self, run: Range<usize>) -> impl Iterator<Item = Self::Item> {
-        self.0.run(run.clone()).zip(self.1.run(run))
+    fn items(&self, range: Range<usize>) -> impl Iterator<Item = Self::Item> {
+        self.0.items(range.clone()).zip(self.1.items(range))
     }
 }
 
-/// What a function makes of items.
+impl<A: Indexed, B: Indexed> Indexed for Zipped<A, B> {}
+
+/// Results of a function of each item.
 pub struct Mapped<S, F>(S, F);
 
 impl<S: Source, T, F: Fn(S::Item) -> T + Sync> Source for Mapped<S, F> {
@@ -312,12 +328,14 @@ impl<S: Source, T, F: Fn(S::Item) -> T + Sync> Source for Mapped<S, F> {
         self.0.count()
     }
 
-    fn run(&self, run: Range<usize>) -> impl Iterator<Item = T> {
-        self.0.run(run).map(&self.1)
+    fn items(&self, range: Range<usize>) -> impl Iterator<Item = T> {
+        self.0.items(range).map(&self.1)
     }
 }
 
-/// What a function makes of items with something that each task has for itself.
+impl<S: Indexed, T, F: Fn(S::Item) -> T + Sync> Indexed for Mapped<S, F> {}
+
+/// Results of a function of an item and a value that each task has for itself.
 pub struct MappedWith<S, I, F>(S, I, F);
 
 impl<S: Source, M, T, I: Fn() -> M + Sync, F: Fn(&mut M, S::Item) -> T + Sync> Source
@@ -329,10 +347,15 @@ impl<S: Source, M, T, I: Fn() -> M + Sync, F: Fn(&mut M, S::Item) -> T + Sync> S
         self.0.count()
     }
 
-    fn run(&self, run: Range<usize>) -> impl Iterator<Item = T> {
+    fn items(&self, range: Range<usize>) -> impl Iterator<Item = T> {
         let mut own = self.1();
-        self.0.run(run).map(move |item| self.2(&mut own, item))
+        self.0.items(range).map(move |item| self.2(&mut own, item))
     }
+}
+
+impl<S: Indexed, M, T, I: Fn() -> M + Sync, F: Fn(&mut M, S::Item) -> T + Sync> Indexed
+    for MappedWith<S, I, F>
+{
 }
 
 /// Some of the items.
@@ -345,12 +368,12 @@ impl<S: Source, F: Fn(&S::Item) -> bool + Sync> Source for Filtered<S, F> {
         self.0.count()
     }
 
-    fn run(&self, run: Range<usize>) -> impl Iterator<Item = S::Item> {
-        self.0.run(run).filter(&self.1)
+    fn items(&self, range: Range<usize>) -> impl Iterator<Item = S::Item> {
+        self.0.items(range).filter(&self.1)
     }
 }
 
-/// All that a function makes of each item.
+/// Items of a list for each item.
 pub struct Flattened<S, F>(S, F);
 
 impl<S: Source, T: IntoIterator, F: Fn(S::Item) -> T + Sync> Source for Flattened<S, F> {
@@ -360,8 +383,8 @@ impl<S: Source, T: IntoIterator, F: Fn(S::Item) -> T + Sync> Source for Flattene
         self.0.count()
     }
 
-    fn run(&self, run: Range<usize>) -> impl Iterator<Item = T::Item> {
-        self.0.run(run).flat_map(&self.1)
+    fn items(&self, range: Range<usize>) -> impl Iterator<Item = T::Item> {
+        self.0.items(range).flat_map(&self.1)
     }
 }
 
@@ -374,13 +397,15 @@ macro_rules! number_the_items_of {
             type Item = $number;
 
             fn count(&self) -> usize {
-                self.0.end.saturating_sub(self.0.start) as usize
+                usize::try_from(self.0.end.saturating_sub(self.0.start)).expect("a loop over numbers that memory could hold")
             }
 
-            fn run(&self, run: Range<usize>) -> impl Iterator<Item = $number> {
-                self.0.start + run.start as $number..self.0.start + run.end as $number
+            fn items(&self, range: Range<usize>) -> impl Iterator<Item = $number> {
+                self.0.start + range.start as $number..self.0.start + range.end as $number
             }
         }
+
+        impl Indexed for Numbers<$number> {}
 
         impl IntoParallel for Range<$number> {
             type Source = Numbers<$number>;
@@ -404,10 +429,12 @@ impl<'a, T: Sync> Source for Borrowed<'a, T> {
         self.0.len()
     }
 
-    fn run(&self, run: Range<usize>) -> impl Iterator<Item = &'a T> {
-        self.0[run].iter()
+    fn items(&self, range: Range<usize>) -> impl Iterator<Item = &'a T> {
+        self.0[range].iter()
     }
 }
+
+impl<T: Sync> Indexed for Borrowed<'_, T> {}
 
 /// Parts of a slice.
 pub struct Chunks<'a, T> {
@@ -422,11 +449,13 @@ impl<'a, T: Sync> Source for Chunks<'a, T> {
         self.items.len().div_ceil(self.size)
     }
 
-    fn run(&self, run: Range<usize>) -> impl Iterator<Item = &'a [T]> {
-        let end = self.items.len().min(run.end * self.size);
-        self.items[end.min(run.start * self.size)..end].chunks(self.size)
+    fn items(&self, range: Range<usize>) -> impl Iterator<Item = &'a [T]> {
+        let end = self.items.len().min(range.end * self.size);
+        self.items[end.min(range.start * self.size)..end].chunks(self.size)
     }
 }
+
+impl<T: Sync> Indexed for Chunks<'_, T> {}
 
 /// Items that are handed over.
 pub struct Owned<T>(Vec<Mutex<Option<T>>>);
@@ -444,12 +473,14 @@ impl<T: Send> Source for Owned<T> {
         self.0.len()
     }
 
-    fn run(&self, run: Range<usize>) -> impl Iterator<Item = T> {
-        self.0[run].iter().map(|item| lock(item).take().expect("an item is asked for once"))
+    fn items(&self, range: Range<usize>) -> impl Iterator<Item = T> {
+        self.0[range].iter().map(|item| lock(item).take().expect("an item is asked for once"))
     }
 }
 
-/// What can be worked on by all threads item by item, and is given away.
+impl<T: Send> Indexed for Owned<T> {}
+
+/// Collections whose items are handed over to all threads.
 pub trait IntoParallel {
     /// Its items.
     type Source: Source;
@@ -473,7 +504,7 @@ pub trait ParallelSlice<T> {
     where
         T: Sync;
 
-    /// References to the items, to change them. Each takes a lock and 16 bytes meanwhile.
+    /// References to the items, to change them. Each item takes a lock and 24 bytes while the loop runs.
     fn par_iter_mut(&mut self) -> Parallel<Owned<&mut T>>
     where
         T: Send;
@@ -486,7 +517,7 @@ pub trait ParallelSlice<T> {
     where
         T: Sync;
 
-    /// Parts of `size` items, to change them; the last one may have fewer.
+    /// Parts of `size` items, to change them; the last one may have fewer. Each part takes a lock and 24 bytes while the loop runs.
     ///
     /// # Panics
     /// If `size` is 0.
@@ -626,6 +657,46 @@ mod tests {
                     assert!(all.is_ok_and(|all| all.iter().copied().eq(0..1000)));
                 }
             }
+        });
+    }
+
+    #[test]
+    fn items_are_left_out_made_more_and_put_together() {
+        on_pools(|| {
+            for count in [0, 1, 100, 3000u32] {
+                let items = || (0..count).into_par_iter();
+                let odd: Vec<u32> = items().filter(|i| i % 2 == 1).collect();
+                assert_eq!(odd, (0..count).filter(|i| i % 2 == 1).collect::<Vec<_>>());
+                let thirds: Vec<u32> =
+                    items().filter_map(|i| (i % 3 == 0).then_some(i / 3)).collect();
+                assert_eq!(thirds, (0..count.div_ceil(3)).collect::<Vec<_>>());
+                let twice: Vec<u32> = items().flat_map_iter(|i| [i, i]).collect();
+                assert_eq!(twice, (0..count).flat_map(|i| [i, i]).collect::<Vec<_>>());
+                let kept: Vec<u32> =
+                    items().map_init(|| 7, |kept, i| std::mem::replace(kept, 7) * i).collect();
+                assert_eq!(kept, (0..count).map(|i| 7 * i).collect::<Vec<_>>());
+                assert_eq!(items().reduce(|| 0, |a, b| a + b), (0..count).sum::<u32>());
+                assert!(items().all(|i| i < count));
+                assert_eq!(items().all(|i| i < 99), count <= 99);
+            }
+            let ends: Vec<u32> = (u32::MAX - 3..u32::MAX).into_par_iter().collect();
+            assert_eq!(ends, [u32::MAX - 3, u32::MAX - 2, u32::MAX - 1]);
+            #[allow(clippy::reversed_empty_ranges)]
+            let none: Vec<u64> = (5..2u64).into_par_iter().collect();
+            assert!(none.is_empty());
+            let pairs: Vec<(&u8, usize)> =
+                [1, 2, 3].par_iter().zip((0..2usize).into_par_iter()).collect();
+            assert_eq!(pairs, [(&1, 0), (&2, 1)]);
+        });
+    }
+
+    #[test]
+    fn a_panic_of_a_task_is_one_of_the_loop() {
+        on_pools(|| {
+            let outcome = std::panic::catch_unwind(|| {
+                (0..100usize).into_par_iter().for_each(|i| assert!(i != 50, "fifty"));
+            });
+            assert!(outcome.is_err());
         });
     }
 

@@ -8,9 +8,10 @@
 //! but for 2(k + 2)u, by (4k + 12)u more; the factor 1 + (2d + 8k + 200)u on S, and on the result, covers both and the steps between, the sum
 //! over at most 64 groups included.
 
+use taut_points::OrderBy;
+
 use super::distance::{feature_distance, squared_difference};
 use crate::arithmetic::U;
-use taut_points::OrderBy;
 
 /// Numbers of groups, coarse to fine, each used where the support has at least so many times [`GROUP_ROWS`] points.
 const GROUP_COUNTS: [usize; 3] = [1, 8, 64];

@@ -5,8 +5,9 @@
 //! Guarantee: volumes to rounding. Corners are floating-point numbers: nothing exact may hang on them.
 //! Reference: Sutherland and Hodgman, *Reentrant polygon clipping*, 1974.
 
-use crate::vector::{cross, difference, dot};
 use taut_points::OrderBy;
+
+use crate::vector::{cross, difference, dot};
 
 /// The half-space of points x with normal·x ≤ offset.
 #[derive(Clone, Copy, Debug)]

@@ -4,11 +4,12 @@
 //! other site has a say, and cells that reach to infinity, or sets that span a line only, are no special case.
 //! Guarantee: the cells of all sites fill the box, to rounding. Which sites have a say is exact.
 
+use taut_points::OrderBy;
+
 use super::convex::{Body, HalfSpace, Polygon, Polyhedron};
 use super::locator::Locator;
 use crate::Triangulation;
 use crate::vector::difference;
-use taut_points::OrderBy;
 
 /// Farther than any site in the scale of the sites; boxes that reach beyond are cut off here, so that products stay
 /// finite.

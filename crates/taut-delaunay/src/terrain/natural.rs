@@ -10,8 +10,8 @@
 //! *Reference.* Sibson, *A brief description of natural neighbour interpolation*, 1981.
 
 use std::collections::HashSet;
-use taut_points::OrderBy;
 
+use taut_points::OrderBy;
 use taut_predicates::{Sign, plane};
 
 use super::linear::{Corner, Plane, Within, on_edge, within};

@@ -1,6 +1,8 @@
 //! From centers in the units of the search to an answer in those of the rows: every reach once more, from the centers as they are
 //! returned.
 
+use taut_points::OrderBy;
+
 use super::cloud::{Cloud, Far};
 use super::grouping::{Grouping, Served};
 use super::items::{ItemSet, Position, Shape, distance};
@@ -10,7 +12,6 @@ use crate::Error;
 use crate::ball::reach_up;
 use crate::frame::exponent;
 use crate::kernel::{Center, Difference, relative_error};
-use taut_points::OrderBy;
 
 /// At most this many items that may reach as far as the farthest are measured exactly: mostly two or three for each of
 /// some centers.

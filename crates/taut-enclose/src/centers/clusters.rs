@@ -11,7 +11,6 @@
 //! need an empty cluster each, if no two of them fit in one: a clique.
 
 use std::sync::Arc;
-use taut_points::OrderBy;
 
 use super::cloud::Cloud;
 use super::conflict::Levels;
@@ -568,7 +567,7 @@ impl<P: Position> Clusters<P> {
                 places.push((cluster.feasible[found].radius, Place::Into(at)));
             }
         }
-        places.order_by(&|a, b| a.0.total_cmp(&b.0));
+        places.sort_by(|a, b| a.0.total_cmp(&b.0));
         if home.is_some() {
             return places;
         }

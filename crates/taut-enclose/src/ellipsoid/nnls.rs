@@ -14,10 +14,10 @@
 //! *Reference.* Lawson and Hanson, Solving Least Squares Problems, 1974, chapter 23.
 
 use std::collections::HashSet;
-use taut_points::OrderBy;
 
 use faer::linalg::matmul::matmul;
 use faer::{Accum, MatMut, MatRef, Par};
+use taut_points::OrderBy;
 
 use super::counters::Counters;
 use super::factor::Factor;

@@ -20,6 +20,8 @@
 //! *Reference.* Hawkins, Computational Statistics & Data Analysis 17, 1994, for exchanges; the factor follows from the
 //! determinant lemma for the change of rank 2.
 
+use taut_points::OrderBy;
+
 use super::concentrate::Raw;
 use super::search::{GOLDEN, mix};
 use super::starts::nearest;
@@ -27,7 +29,6 @@ use crate::Error;
 use crate::ellipsoid::dense::{cholesky, forward};
 use crate::ellipsoid::point_reader::PointReader;
 use crate::kernel::vector::{add_scaled, dot};
-use taut_points::OrderBy;
 
 /// This many rows on either side are looked at. On 10⁵ points ends were no lower with 3000.
 const BORDER_ROWS: usize = 2000;

@@ -7,7 +7,7 @@
 //! *Trap.* The middle of a box is a poor center for the ball around points on a curve; a few steps towards the farthest point
 //! (Bădoiu and Clarkson's first method, which 2.4 of the thesis uses too) shrink it, and the best center is kept.
 
-use taut_points::parallel::ParallelSlice;
+use rayon::prelude::*;
 
 use super::cuts::{AXES_MAX, Cuts};
 use super::measure::{BALL_SLACK, scaled};
@@ -117,7 +117,7 @@ fn split(points: Rows<'_>, order: &mut [u32], keyed: &mut [(f64, u32)], mut unit
         lower();
         upper();
     } else {
-        taut_points::parallel::join(lower, upper);
+        rayon::join(lower, upper);
     }
 }
 

@@ -18,8 +18,8 @@ impl<const D: usize> Dim for Fixed<D> {
     }
 }
 
-/// The dimension for which loops are compiled for itself. The copy of code for processors of x86-64 without AVX2, which are older than 2013
-/// or emulated, has loops for all dimensions alone: that saves a hundred kilobytes.
+/// The dimension for which loops are compiled for itself. The copy of the code for processors of x86-64 without AVX2 has
+/// one loop for all dimensions, which saves a hundred kilobytes.
 #[inline(always)]
 pub(super) fn unrolled<S: Simd>(dim: usize) -> Option<usize> {
     let is_old = cfg!(target_arch = "x86_64") && S::IS_SCALAR;

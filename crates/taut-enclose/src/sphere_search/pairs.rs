@@ -79,7 +79,7 @@ fn sorted(tasks: Vec<Vec<Found>>, rows: usize) -> Vec<RowPair> {
         buckets.push(bucket);
         rest = others;
     }
-    buckets.into_par_iter().for_each_init(Default::default, |memory, bucket| {
+    buckets.into_par_iter().with_min_len(8).for_each_init(Default::default, |memory, bucket| {
         sort_bucket(bucket, (1 << shift) - 1, memory);
     });
     pairs

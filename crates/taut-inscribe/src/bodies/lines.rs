@@ -10,7 +10,6 @@ use super::tree::{Parts, Tree};
 use super::vectors::{cross, dot, minus, plus};
 use crate::occlusion::frame;
 use crate::random::Random;
-use taut_points::OrderBy;
 
 /// Lines by which the search tells which body hides more. With 8,000 the share that the search sees is 1 to 2 % above that of
 /// other lines.
@@ -109,7 +108,7 @@ fn crossings(tree: &Tree, line: &Line) -> Vec<(f64, i32)> {
             }
         }
     }
-    found.order_by(&|one, other| one.0.total_cmp(&other.0));
+    found.sort_by(|one, other| one.0.total_cmp(&other.0));
     found
 }
 

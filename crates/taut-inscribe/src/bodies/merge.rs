@@ -9,6 +9,7 @@
 //! how few bodies can do that.
 
 use std::collections::BTreeSet;
+
 use taut_points::OrderBy;
 
 use super::pack::{Family, Packing, Reached, distance};

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-use taut_points::{InputError, Monitor, OrderBy, PointSource, PointsHash, hash_block, map_blocks};
+use taut_points::{InputError, Monitor, PointSource, PointsHash, hash_block, map_blocks};
 
 use super::caps;
 use super::scene::{MESH, WALL};
@@ -278,7 +278,7 @@ impl Boundary {
         // Equal numbers compare as equal here, 0 and −0 among them; none is NaN.
         let order =
             |a: &[f64; 3], b: &[f64; 3]| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal);
-        corners.order_by(&|a, b| order(&a.1, &b.1));
+        corners.sort_by(|a, b| order(&a.1, &b.1));
         let mut vertex = vec![0u32; corners.len()];
         for (number, same) in corners.chunk_by(|a, b| a.1 == b.1).enumerate() {
             same.iter().for_each(|&(corner, _)| vertex[corner] = number as u32);

@@ -7,6 +7,7 @@
 
 use std::cell::OnceCell;
 use std::cmp::Reverse;
+
 use taut_points::OrderBy;
 
 use super::BodiesOptions;

@@ -5,8 +5,9 @@
 //! *Reference.* Deits and Tedrake, Computing large convex regions of obstacle-free space through semidefinite programming (IRIS),
 //! Algorithmic Foundations of Robotics XI, 2015, section 3.2: the half-planes of one step.
 
-use crate::polygon::Segment;
 use taut_points::OrderBy;
+
+use crate::polygon::Segment;
 
 use super::region::{Region, Side, dot, minus};
 

@@ -8,6 +8,7 @@
 //! the chord.
 
 use std::f64::consts::{PI, TAU};
+
 use taut_points::OrderBy;
 
 use super::region::{Region, Side, cross, dot, minus};

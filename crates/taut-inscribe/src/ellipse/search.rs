@@ -20,7 +20,7 @@ use super::tree::{self, Log, Node, Reason};
 use super::view::View;
 use super::weights::{self, Column};
 use super::{EllipseOptions, report, widths};
-use crate::frontier::{CELLS_AT_ONCE, Frontier, Waiting};
+use crate::frontier::{Frontier, Waiting};
 use crate::inner_points::inner_points;
 use crate::levels::Levels;
 use crate::polygon::Segment;
@@ -347,7 +347,6 @@ impl Search<'_> {
         let this = &*self;
         let children: Vec<Vec<Examined>> = batch
             .par_iter()
-            .with_min_len(CELLS_AT_ONCE)
             .map(|Waiting { cell: Open { cell, next, list, is_inside }, .. }| match next {
                 Next::Split(axis) => {
                     let halves = cell.halves(*axis).into_iter().flatten();

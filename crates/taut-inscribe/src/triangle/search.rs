@@ -21,7 +21,7 @@ use super::rows::{self, Condition, Entered};
 use super::tile::Tiles;
 use super::tree::{self, Leaf, Log, Node, Reason};
 use super::{TriangleOptions, starts};
-use crate::frontier::{CELLS_AT_ONCE, Frontier, Waiting};
+use crate::frontier::{Frontier, Waiting};
 use crate::program::{self, Column};
 
 /// How much larger than the area sought that of the boxes alone may be for conditions to be worth their cost.
@@ -283,7 +283,6 @@ impl Search<'_> {
         let this = &*self;
         let children: Vec<[Examined; 2]> = split
             .par_iter()
-            .with_min_len(CELLS_AT_ONCE)
             .map(|(Waiting { cell: (_, list), .. }, _, halves)| {
                 halves.each_ref().map(|half| this.examine(half, list))
             })

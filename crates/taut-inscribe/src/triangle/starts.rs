@@ -1,11 +1,12 @@
 //! Triangles from which ascents start.
 
+use taut_points::OrderBy;
+
 use super::ascent::Candidate;
 use super::frame::Frame;
 use super::gauge::{Gauge, Triangle, doubled_area, scaled};
 use super::groups::Groups;
 use crate::inner_points::inner_points;
-use taut_points::OrderBy;
 
 /// Starts of ascents before the search, the largest first.
 const STARTS_MAX: usize = 12;

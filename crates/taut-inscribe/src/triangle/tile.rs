@@ -5,6 +5,7 @@
 
 use std::collections::HashMap;
 use std::sync::{Arc, OnceLock};
+
 use taut_points::OrderBy;
 
 use super::frame::Frame;

@@ -8,7 +8,6 @@
 
 use crate::TriangleMesh;
 use crate::mesh::repeats;
-use taut_points::OrderBy;
 
 /// The overlap of two sets.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -55,7 +54,7 @@ fn names(one: &[[f64; 3]], other: &[[f64; 3]]) -> (Vec<u64>, Vec<u64>) {
             .find(|o| o.is_ne())
             .unwrap_or(std::cmp::Ordering::Equal)
     };
-    all.order_by(&|(p, i), (q, j)| order(p, q).then(i.cmp(j)));
+    all.sort_unstable_by(|(p, i), (q, j)| order(p, q).then(i.cmp(j)));
     let mut names = vec![0; all.len()];
     for (name, equal) in (0..).zip(all.chunk_by(|(p, _), (q, _)| p == q)) {
         equal.iter().for_each(|&(_, place)| names[place] = name);

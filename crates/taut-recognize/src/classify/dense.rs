@@ -1,6 +1,7 @@
 //! Small dense matrices, row after row: factors and eigenvalues, the same bits for any number of threads.
 
 use taut_points::OrderBy;
+
 /// The part of the mean diagonal that is added at first where a factor does not exist; ten times as much each time after.
 const RIDGE_START: f64 = 1e-12;
 /// Sweeps of rotations after which off-diagonal values are rounding: they fall quadratically, and ten do for any matrix of doubles.

@@ -9,6 +9,7 @@
 //! a finger's length, and here a multiple of the square root of the area, so that no unit is needed.
 
 use std::f64::consts::TAU;
+
 use taut_points::OrderBy;
 
 use super::Side;

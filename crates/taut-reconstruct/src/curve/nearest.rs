@@ -1,7 +1,7 @@
 //! The edge next to a point: a hierarchy of boxes over the edges of all curves, searched from a good first guess.
 
+use rayon::prelude::*;
 use taut_certify::CurveComponent;
-use taut_points::parallel::ParallelSlice;
 
 /// A box of the lowest level has this many edges, and a box of the next this many boxes.
 const FAN_OUT: usize = 4;
@@ -41,7 +41,7 @@ impl Segments {
             let count = one.vertices.len();
             let to = if one.closed || count == 1 { count } else { count.saturating_sub(1) };
             let at = |k: usize| one.vertices[k % count].map(|x| x * scale);
-            ends.extend((0..to).map(|k| [at(k), at(k + 1)]));
+            ends.par_extend((0..to).into_par_iter().with_min_len(TASK).map(|k| [at(k), at(k + 1)]));
             first.push(ends.len() as u32);
         }
         let join = |boxes: &[[f64; 4]]| {

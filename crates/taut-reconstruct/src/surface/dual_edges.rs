@@ -11,8 +11,8 @@ use std::ops::Range;
 use std::sync::atomic::AtomicU32;
 use std::sync::atomic::Ordering::Relaxed;
 
+use rayon::prelude::*;
 use taut_delaunay::decode;
-use taut_points::parallel::{IntoParallel, ParallelSlice};
 
 use super::cells::Cells;
 use super::flats::{FLAT_RATIO_MAX, flats};

@@ -8,8 +8,9 @@
 //! *Reference.* Cazals and Pouget, *Estimating differential quantities using polynomial fitting of osculating jets*, Comput. Aided Geom.
 //! Des. 22(2), 2005; Fleishman, Cohen-Or and Silva, *Robust moving least-squares fitting with sharp features*, ACM Trans. Graph. 24(3), 2005.
 
-use super::spheres::{Point, cross, dot, minus};
 use taut_points::OrderBy;
+
+use super::spheres::{Point, cross, dot, minus};
 
 /// The biweight is 0 beyond this many standard deviations: 95 % efficient for normal residuals.
 const BIWEIGHT_CUTOFF: f64 = 4.685;

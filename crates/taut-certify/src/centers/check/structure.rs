@@ -1,11 +1,12 @@
 //! Refusals before any row is read: lengths, ranges, lists, and the gap between the bounds.
 
+use taut_points::OrderBy;
+
 use super::super::{Centers, CentersCertificate, CentersViolation, Placement};
 use super::item::Layout;
 use crate::arithmetic::U;
 use crate::ball::check::structure::directions;
 use crate::{Items, Violation};
-use taut_points::OrderBy;
 
 /// The amount by which the gap claimed may fall short of the gap found, relatively and in units of 1: a solver forms the quotient in
 /// arithmetic of its own.

@@ -14,6 +14,7 @@
 //! points, Annals of Statistics 34(1), 2006; circles through drawn points: Fischler and Bolles 1981.
 
 use std::f64::consts::PI;
+
 use taut_points::OrderBy;
 
 use super::super::CurveDoubt;

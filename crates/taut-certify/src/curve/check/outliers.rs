@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
+
 use taut_points::OrderBy;
 
 use super::super::CurveDoubt;

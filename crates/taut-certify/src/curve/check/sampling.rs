@@ -1,10 +1,11 @@
 //! How far apart samples are along a curve, how far off, and what lies across their band.
 
+use taut_points::OrderBy;
+
 use super::super::CurveDoubt;
 use super::band::Foot;
 use super::features::Features;
 use super::valley::valley;
-use taut_points::OrderBy;
 
 /// A gap is compared with this many gaps on either side.
 const NEIGHBOR_GAPS: usize = 32;

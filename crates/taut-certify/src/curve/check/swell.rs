@@ -8,9 +8,10 @@
 //! *Guarantee.* None: thresholds are choices, calibrated on draws of known curves (the example `curve_rates` of `taut-reconstruct`).
 //! O(n) for each of the window sizes.
 
+use taut_points::OrderBy;
+
 use super::super::CurveDoubt;
 use super::sampling::Sample;
-use taut_points::OrderBy;
 
 /// Rows of the windows, in steps of about √2: the longest is a stretch that bends of the curve no longer explain.
 const WINDOWS: [usize; 12] = [8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384];

@@ -143,6 +143,8 @@ impl<const D: usize, const V: usize> Complex<'_, D, V> {
             .simplices
             .par_chunks(BLOCK)
             .enumerate()
+            // A batch has half a megabyte to be made.
+            .with_min_len(8)
             .map_init(Batch::new, |batch, (block, simplices)| {
                 self.block::<G, F>(batch, block * BLOCK, simplices)
             })

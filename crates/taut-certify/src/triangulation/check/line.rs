@@ -1,10 +1,11 @@
 //! Points on a line, one point, and none: the chain of the points in lexicographic order.
 
+use taut_points::OrderBy;
+
 use super::super::{Fingerprint, MeshViolation, NO_NEIGHBOR, TriangulationVerdict};
 use super::prove::{Claim, counted};
 use super::signs::lexicographic;
 use super::sites::{Recent, Sites};
-use taut_points::OrderBy;
 
 /// Checks the simplices of points whose hull has dimension 1 at most, which is known already.
 pub(super) fn check<const D: usize>(

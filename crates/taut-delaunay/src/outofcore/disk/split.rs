@@ -8,12 +8,13 @@
 //! points and of the plan.
 //! *Trap.* A crash in the meantime must not lose points: the first buckets stay until the tree with the new leaves is written.
 
+use taut_points::OrderBy;
+
 use super::buckets::{Bucket, Buffers, read_records};
 use super::folder::{Folder, remove};
 use super::plan::DiskPlan;
 use crate::Error;
 use crate::outofcore::tree::{CellBox, FINE_LEVELS, Router, Tree};
-use taut_points::OrderBy;
 
 /// Points of the sample of a cell.
 const SAMPLE_POINTS: u64 = 1 << 14;

@@ -2,7 +2,7 @@
 //!
 //! Guarantee: that two simplices share a sphere is decided exactly; the coordinates of centers are rounded.
 
-use taut_points::parallel::IntoParallel;
+use rayon::prelude::*;
 use taut_predicates::Sign;
 
 use super::TriangulationIndex;

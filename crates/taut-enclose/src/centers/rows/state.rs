@@ -7,7 +7,6 @@
 //! its clusters the fewest rows.
 
 use std::sync::Arc;
-use taut_points::OrderBy;
 
 use super::core_set::{CoreSet, Words, size};
 use crate::centers::depth_first::{self, Place};
@@ -260,7 +259,7 @@ impl<'s> State<'s> {
             Place::Open => 0.0,
             Place::LeaveOut => -1.0,
         };
-        places.order_by(&|a, b| rest(b).total_cmp(&rest(a)));
+        places.sort_by(|a, b| rest(b).total_cmp(&rest(a)));
         places
     }
 

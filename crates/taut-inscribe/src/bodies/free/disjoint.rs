@@ -3,10 +3,11 @@
 //! *Idea.* One facet of either body keeps the other body out. At the vertex of the other that is nearest to this facet three
 //! facets meet, a positive combination of whose normals is opposite to it.
 
+use taut_points::OrderBy;
+
 use super::super::directions::gcd;
 use super::super::polytope::{self, Sides};
 use super::super::vectors::dot;
-use taut_points::OrderBy;
 
 /// How near to a vertex a facet passes that meets there, in units: rounding, and the units by which facets have moved inward.
 const VERTEX_UNITS_MAX: f64 = 8.0;

@@ -1,6 +1,7 @@
 //! From the scores of all splits to rates.
 
 use std::collections::BTreeMap;
+
 use taut_points::OrderBy;
 
 use super::split::{Outcome, Probe, Scored};

@@ -1,6 +1,7 @@
 //! At most two edges to a site.
 
 use taut_points::OrderBy;
+
 /// Keeps at each site with more than two edges the best pair, and drops edges that one of their ends gave up. Tells how many were
 /// dropped.
 ///

@@ -3,7 +3,6 @@
 use super::crossings::{self, EdgeTree};
 use super::{NONE, links};
 use crate::curve::boxes::{Bounds, Boxes};
-use taut_points::OrderBy;
 
 /// A gap is closed up to this many times the longest of the last [`LOCAL_EDGES`] edges before either end. Gaps that
 /// sampling leaves are of one missing edge, two spacings; four leaves room for spacings that vary.
@@ -55,7 +54,7 @@ pub(super) fn join(sites: &[[f64; 2]], edges: &mut Vec<[u32; 2]>) -> u64 {
             },
         );
     }
-    pairs.order_by(&|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+    pairs.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
     let tree = EdgeTree::new(sites, edges);
     let mut free = vec![true; ends.len()];
     let mut added: Vec<[u32; 2]> = Vec::new();

@@ -6,7 +6,7 @@
 //! *Guarantee.* The first in the order (squared distance in double precision, then coordinates): no cap on how many candidates
 //! are looked at, and the answer does not depend on the order of the input.
 
-use taut_points::parallel::ParallelSlice;
+use rayon::prelude::*;
 
 use crate::curve::boxes::{Bounds, Boxes, FAN_OUT};
 

@@ -44,12 +44,14 @@ pub(super) fn regress(spline: &Spline, parts: usize, noise: &Noise) -> Vec<Node>
     let asked: Vec<&Place> = places.iter().step_by(PLACES_PER_WINDOW).collect();
     let halves: Vec<f64> = asked
         .par_iter()
+        .with_min_len(16)
         .map_init(Window::default, |window, place| longest(spline, place, noise, window))
         .collect();
     let halves = median_around(spline, &asked, &halves);
     places
         .par_iter()
         .enumerate()
+        .with_min_len(16)
         .map_init(Window::default, |window, (number, place)| {
             let half = between(&halves, number, spline.closed);
             let Frame { origin, tangent } = place.frame;

@@ -4,8 +4,8 @@
 //! place on a fine polyline of it, and from then on all neighborhoods are ranges of a sorted list.
 //! *Guarantee.* O(n log n); a function of the nodes and the points that turns and scales with them.
 
+use rayon::prelude::*;
 use taut_oblivious::hilbert_order;
-use taut_points::parallel::ParallelSlice;
 
 use super::link::Chain;
 use super::parameters::{DEVIATION_MIN, NOISE_SEEDS, PIECES_PER_NODE, POINTS_PER_RUN};

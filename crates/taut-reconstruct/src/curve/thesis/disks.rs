@@ -6,7 +6,6 @@
 //! *Guarantee.* Coordinates are relative to the sample; the order is by distance, then by coordinates.
 
 use crate::curve::boxes::{Bounds, Boxes};
-use taut_points::OrderBy;
 
 /// A sample near another one: its squared distance and its place relative to it.
 pub(super) type Sample = (f64, [f64; 2]);
@@ -90,7 +89,7 @@ impl<'a> Growing<'a> {
             near.clear();
             disks.within(*center, self.fetched, |i| near.push(relative(*center, disks.samples[i])));
             if self.fetched > radius {
-                near.order_by(&|a, b| {
+                near.sort_unstable_by(|a, b| {
                     let places = a.1[0].total_cmp(&b.1[0]).then(a.1[1].total_cmp(&b.1[1]));
                     a.0.total_cmp(&b.0).then(places)
                 });

@@ -10,6 +10,7 @@
 //! precision, as they turn with the input.
 
 use std::cmp::Ordering;
+
 use taut_points::OrderBy;
 
 use super::disks::Disks;

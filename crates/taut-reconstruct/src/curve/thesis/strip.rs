@@ -8,6 +8,7 @@
 //! *Reference.* Andrew 1979 for the hull; Houle and Toussaint 1988 for the width.
 
 use taut_points::OrderBy;
+
 /// The strip.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Strip {

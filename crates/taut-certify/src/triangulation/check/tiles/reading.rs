@@ -160,7 +160,9 @@ impl<'a, 'j, const D: usize> Readers<'a, 'j, D> {
             file.duplicates(|[row, first]| self.duplicate(&mut turn.coverage, row, first))?;
         }
         // Five chunks are held where two threads read, three where one does.
-        let chunk = (job.shares.chunk / (8 * u64::from(job.vertices) * self.count as u64)).max(1);
+        // A triangulation of no points has no vertices of simplices.
+        let vertices = u64::from(job.vertices.max(1));
+        let chunk = (job.shares.chunk / (8 * vertices * self.count as u64)).max(1);
         let mut is_vertex = vec![false; sites.rows.len()];
         let mut done = 0;
         while done < file.counts.simplices {
