@@ -95,15 +95,16 @@ impl<const V: usize> Records<V> {
         self.used = len;
     }
 
-    /// Makes room for `room` slots, if there is not as much already.
+    /// Makes room for `room` slots, if there is not as much already. The memory is taken when the room becomes zeros.
     pub(crate) fn reserve(&mut self, room: usize) {
         self.room = self.room.max(room);
-        self.all.reserve_exact(self.room - self.all.len());
     }
 
     /// Makes some of the room zeros, for one thread. Returns false if there is no more.
     pub(crate) fn extend(&mut self) -> bool {
         let len = self.all.len();
+        // All of the room at once, or each piece would move the slots.
+        self.all.reserve_exact(self.room - len);
         let longer = self.room.min(len + Self::PIECE);
         // SAFETY: zeros are valid atomic numbers.
         unsafe { fill_with_zeros(&mut self.all, longer) };

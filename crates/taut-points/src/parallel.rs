@@ -6,6 +6,7 @@
 //! over its items is compiled for each closure. The methods have the names of rayon's. Other than there, `map_init` makes its value for
 //! each task, and a failing loop still finishes the items before the failure.
 //! *Guarantee.* Results are in the order of the items, and an error is that of the first item that fails, whatever the number of threads.
+//! A panic in a task is passed on to the caller of the loop when no task runs any more.
 //! *Not for* collecting many millions of items, which are copied once more and need twice their memory meanwhile; nor for many tiny items
 //! that are handed over, each of which takes a lock: rayon itself is for these.
 

@@ -91,12 +91,12 @@ impl<const V: usize> Slot<V> for Plain<V> {
 impl Mark for Cell<u8> {
     #[inline(always)]
     fn get(&self) -> u8 {
-        self.get()
+        Cell::get(self)
     }
 
     #[inline(always)]
     fn set(&self, value: u8) {
-        self.set(value);
+        Cell::set(self, value);
     }
 }
 

@@ -35,8 +35,8 @@ pub(crate) trait Slot<const V: usize> {
     /// Takes the simplex out of its slot.
     fn kill(&self);
 
-    /// The addresses of the vertices and of the neighbors, for vector instructions. A caller that reads there without
-    /// atomic instructions must hold the simplex, or one across a facet.
+    /// The addresses of the vertices and of the neighbors, for vector instructions: V numbers each, those that the other methods
+    /// read. A caller that reads there without atomic instructions must hold the simplex, or one across a facet.
     #[cfg(target_arch = "x86_64")]
     fn addresses(&self) -> [*const u32; 2];
 }
