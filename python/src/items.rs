@@ -4,7 +4,7 @@
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use taut::certify::{CentersViolation, Violation};
-use taut::enclose::Error as Refused;
+use taut::enclose::{Error as Refused, SearchError};
 use taut::points::{InputError, shown_number};
 use taut::{Error, Items};
 
@@ -25,7 +25,8 @@ pub(crate) fn raise(error: impl Into<Error>, items: Items, columns: usize) -> Py
         Error::Input(ref input) if !input.is_fault_of_caller() => {
             PyRuntimeError::new_err(error.to_string())
         }
-        Error::Enclose(Refused::NegativeRadius { row, value }) => {
+        Error::Enclose(Refused::NegativeRadius { row, value })
+        | Error::Search(SearchError::NegativeRadius { row, value }) => {
             PyValueError::new_err(negative_radius(row, value))
         }
         Error::Enclose(Refused::NonPositiveWeight { row, value }) => {

@@ -2,7 +2,7 @@
 
 use numpy::{PyArray1, ToPyArray};
 use pyo3::prelude::*;
-use taut::enclose::{Error, Neighbor, QueryOptions, SphereSearch, SphereSearchOptions};
+use taut::enclose::{Neighbor, QueryOptions, SearchError, SphereSearch, SphereSearchOptions};
 use taut::{Items, PointSource};
 
 use crate::items::{items_of_name, raise};
@@ -140,7 +140,7 @@ impl SearchTree {
         py: Python<'py>,
         queries: &Bound<'py, PyAny>,
         threads: &Bound<'py, PyAny>,
-        work: impl Fn(&dyn PointSource, &QueryOptions<'_>) -> Result<Vec<Vec<Neighbor>>, Error>
+        work: impl Fn(&dyn PointSource, &QueryOptions<'_>) -> Result<Vec<Vec<Neighbor>>, SearchError>
         + Send
         + Sync,
     ) -> PyResult<Lists<'py>> {

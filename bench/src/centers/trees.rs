@@ -4,7 +4,7 @@
 
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
 use taut_certify::Items;
-use taut_enclose::{QueryOptions, SphereSearch, SphereSearchOptions};
+use taut_search::{QueryOptions, SphereSearch, SphereSearchOptions};
 
 use super::*;
 

@@ -88,6 +88,7 @@ mod solution;
 mod surface;
 mod triangle;
 mod triangulation;
+mod unrolled;
 mod verdict;
 
 pub use ball::{Ball, BallCertificate};

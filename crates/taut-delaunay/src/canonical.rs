@@ -32,10 +32,15 @@ pub(crate) fn arrangement<const V: usize>(vertices: &[u32; V]) -> [u8; V] {
     }
     let (a, b) = (keys[V - 2], keys[V - 1]);
     (keys[V - 2], keys[V - 1]) = if odd { (b, a) } else { (a, b) };
-    keys.map(|key| key as u8)
+    let mut places = [0; V];
+    for (place, key) in places.iter_mut().zip(keys) {
+        *place = key as u8;
+    }
+    places
 }
 
 /// Compares simplices by their vertices in ascending order.
+#[inline(always)]
 fn compare<const V: usize>(a: &Simplex<V>, b: &Simplex<V>) -> Ordering {
     let ascending = |s: &Simplex<V>| {
         let mut v = s.vertices;
@@ -116,11 +121,13 @@ pub(crate) fn renumbered<const V: usize>(slots: &Slots<V>, sites: usize) -> Vec<
     };
     let simplex = |&slot: &u32| {
         let Simplex { vertices, neighbors } = slots[slot as usize];
-        let arranged = arrangement(&vertices).map(usize::from);
-        Simplex {
-            vertices: arranged.map(|from| vertices[from]),
-            neighbors: arranged.map(|from| renumber(neighbors[from])),
+        let arranged = arrangement(&vertices);
+        let mut simplex = Simplex { vertices, neighbors };
+        for (place, from) in arranged.into_iter().map(usize::from).enumerate() {
+            simplex.vertices[place] = vertices[from];
+            simplex.neighbors[place] = renumber(neighbors[from]);
         }
+        simplex
     };
     order.par_iter().with_min_len(TASK).map(simplex).collect()
 }

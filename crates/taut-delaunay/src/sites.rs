@@ -55,6 +55,15 @@ impl Scale {
         x * self.steps[0] * self.steps[1] + 0.0
     }
 
+    /// All of a row scaled. A loop, as maps of arrays are not always inlined.
+    #[inline(always)]
+    pub(crate) fn of_row<const D: usize>(self, mut row: [f64; D]) -> [f64; D] {
+        for x in &mut row {
+            *x = self.apply(*x);
+        }
+        row
+    }
+
     /// The scale that undoes this one.
     pub(crate) fn inverse(self) -> Self {
         Self::by(-self.exponent)
@@ -65,7 +74,11 @@ impl Scale {
 #[inline(always)]
 pub(crate) fn row<T: Scalar, const D: usize>(points: &Points<'_, T>, i: usize) -> [f64; D] {
     let values = points.row(i);
-    std::array::from_fn(|k| values[k].into())
+    let mut row = [0.0; D];
+    for (x, &value) in row.iter_mut().zip(values) {
+        *x = value.into();
+    }
+    row
 }
 
 impl<const D: usize> Sites<D> {
@@ -85,7 +98,7 @@ impl<const D: usize> Sites<D> {
         let largest = largest_magnitude(points)?;
         monitor.check()?;
         let (scale, integral, filtered) = normalization(points, largest);
-        let rows = hilbert_order(n, |i: usize| row::<T, D>(points, i).map(|x| scale.apply(x)));
+        let rows = hilbert_order(n, |i: usize| scale.of_row(row::<T, D>(points, i)));
         monitor.check()?;
         let settings = Settings { integral, filtered, vectors };
         let mut sites =
@@ -97,7 +110,7 @@ impl<const D: usize> Sites<D> {
 
     /// Reads the coordinates of the sites from the points they stand for.
     pub(crate) fn gather<T: Scalar>(&mut self, points: &Points<'_, T>) {
-        let site = |&i: &u32| row(points, i as usize).map(|x| self.scale.apply(x));
+        let site = |&i: &u32| self.scale.of_row(row(points, i as usize));
         self.coordinates = self.rows.par_iter().with_min_len(TASK).map(site).collect();
     }
 

@@ -1,6 +1,6 @@
 //! The finished triangulation in memory, for walking around in.
 
-use taut_points::{InputError, Points, Scalar, on_threads};
+use taut_points::{InputError, OrderBy, Points, Scalar, on_threads};
 
 use crate::affine::{Span, apex, span_of_plane, span_of_space};
 use crate::canonical::renumbered;
@@ -161,7 +161,7 @@ fn build<T: Scalar, const D: usize, const V: usize>(
 fn along_line<const D: usize>(sites: &Sites<D>) -> Vec<u32> {
     let mut chain: Vec<u32> = (0..sites.len() as u32).collect();
     let at = |i: u32| sites.coordinates[i as usize];
-    chain.sort_unstable_by(|&a, &b| at(a).partial_cmp(&at(b)).unwrap_or(std::cmp::Ordering::Equal));
+    chain.order_by(&|&a, &b| at(a).partial_cmp(&at(b)).unwrap_or(std::cmp::Ordering::Equal));
     chain
 }
 

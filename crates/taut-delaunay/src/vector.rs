@@ -1,8 +1,22 @@
 //! Vectors of the plane and of space as arrays, for what is done in plain `f64`.
 
+/// As the map of an array that is not empty, in a loop of known length: closures given to that one are not always inlined.
+#[inline(always)]
+pub(crate) fn mapped<T: Copy, U: Copy, const N: usize>(from: [T; N], f: impl Fn(T) -> U) -> [U; N] {
+    let mut to = [f(from[0]); N];
+    for i in 1..N {
+        to[i] = f(from[i]);
+    }
+    to
+}
+
 #[inline(always)]
 pub(crate) fn difference<const D: usize>(p: [f64; D], q: [f64; D]) -> [f64; D] {
-    std::array::from_fn(|i| p[i] - q[i])
+    let mut difference = p;
+    for i in 0..D {
+        difference[i] -= q[i];
+    }
+    difference
 }
 
 #[inline(always)]

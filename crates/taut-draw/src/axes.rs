@@ -5,6 +5,8 @@
 //! numbers are very large, very small or very close together, the axis says what they are counted in or from.
 //! *Trap.* Points that differ only in their last digits: labels are differences from an offset named in the title.
 
+use taut_points::OrderBy;
+
 use crate::number::{superscript, typeset};
 
 /// The power of two near the largest of `values`; 1 if all are 0.
@@ -199,7 +201,7 @@ pub(crate) fn logarithmic(span: &Span, most: usize) -> Ticks {
             }
         }
     }
-    marks.sort_by(|a, b| a.0.total_cmp(&b.0));
+    marks.order_by(&|a, b| a.0.total_cmp(&b.0));
     let inside = |at: &f64| (span.low..=span.high).contains(at);
     let ticks = marks
         .into_iter()

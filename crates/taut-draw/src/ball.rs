@@ -7,7 +7,7 @@
 //! in the caption.
 
 use taut_certify::{Ball, BallCertificate, Items, Solution};
-use taut_points::PointSource;
+use taut_points::{OrderBy, PointSource};
 
 use crate::item_pass::{Measure, PassQuery, Scaled};
 use crate::marks::{agree, all_finite, all_there, support_marks};
@@ -184,7 +184,7 @@ impl Picture<'_> {
         let BallCertificate { support, multipliers, .. } = self.certificate();
         let dim = self.input.dim;
         let mut heavy: Vec<usize> = (0..support.len()).collect();
-        heavy.sort_by(|&a, &b| multipliers[b].total_cmp(&multipliers[a]).then(a.cmp(&b)));
+        heavy.order_by(&|&a, &b| multipliers[b].total_cmp(&multipliers[a]).then(a.cmp(&b)));
         heavy.truncate(PROJECTION_SUPPORT_MAX);
         let mut vectors = Vec::with_capacity(heavy.len() * dim);
         let mut weights = Vec::new();

@@ -5,6 +5,7 @@
 //! *Scale.* F is divided by its largest entry s and offsets are multiplied by it, so that no square overflows.
 
 use taut_certify::{Ellipsoid, Items};
+use taut_points::OrderBy;
 
 use crate::item_pass::Measure;
 use crate::project::dot;
@@ -133,7 +134,7 @@ impl Body {
                 }
             }
         }
-        columns.sort_by(|a, b| length(b).total_cmp(&length(a)));
+        columns.order_by(&|a, b| length(b).total_cmp(&length(a)));
         columns
     }
 }

@@ -3,6 +3,8 @@
 //! *Idea.* A grid of discs in the tone of the class; a disc is the larger, the better the place fits its class. Borders between classes
 //! are followed from cell to cell of a finer grid.
 
+use taut_points::OrderBy;
+
 use crate::marks::dot_size;
 use crate::number::{count, counted};
 use crate::{Aspect, DrawOptions, Error, Figure, Layer2, LineStyle, Point2, Scene2, Shape2, Tone};
@@ -102,7 +104,7 @@ type Disc = ([f64; 2], Option<u32>, f64);
 /// The discs of a class, the larger the higher the rank of the score.
 fn sized(discs: &[Disc], class: u32) -> Vec<Point2> {
     let mut own: Vec<&Disc> = discs.iter().filter(|disc| disc.1 == Some(class)).collect();
-    own.sort_by(|a, b| a.2.total_cmp(&b.2));
+    own.order_by(&|a, b| a.2.total_cmp(&b.2));
     let last = own.len().saturating_sub(1).max(1) as f64;
     let disc = |(rank, disc): (usize, &&Disc)| Point2 {
         id: None,

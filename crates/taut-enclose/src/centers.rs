@@ -175,7 +175,6 @@ fn solve(
         return Ok(found);
     }
     match table.rows.dim {
-        1 => solve_in::<[f64; 1]>(&table, items, k, options, monitor),
         2 => solve_in::<[f64; 2]>(&table, items, k, options, monitor),
         3 => solve_in::<[f64; 3]>(&table, items, k, options, monitor),
         _ => solve_in::<Vec<f64>>(&table, items, k, options, monitor),

@@ -67,14 +67,6 @@ pub enum Error {
         /// Half-space, from 0.
         row: u64,
     },
-    /// A ray without a direction.
-    #[error(
-        "ray {row} has no direction: rows are the coordinates of an origin, then of a direction other than 0"
-    )]
-    NoDirection {
-        /// Ray, from 0.
-        row: u64,
-    },
     /// Half-spaces of which rounding tells neither that they hold an ellipsoid nor that they do not.
     #[error(
         "rounding leaves open whether the polytope has an interior: its sides are nearly parallel, or of very different lengths"

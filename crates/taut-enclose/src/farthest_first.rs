@@ -12,7 +12,6 @@
 mod blocks;
 mod boxes;
 mod chosen;
-mod columns;
 mod lazy;
 mod parts;
 mod prefix;

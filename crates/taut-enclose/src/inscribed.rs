@@ -12,13 +12,13 @@ mod path;
 mod start;
 
 use taut_certify::{InscribedCertificate, InscribedEllipsoid, PassBounds, Solution, Stop, Trace};
+use taut_kernels::DoubleDouble;
+use taut_kernels::vector::dot;
 use taut_points::{
     InputError, Monitor, PointSource, PointsHash, Rows, hash_block, map_blocks, shown_number,
 };
 
 use crate::Error;
-use crate::kernel::DoubleDouble;
-use crate::kernel::vector::dot;
 
 /// An ellipsoid is drawn in by at most this, so that rounding does not take it beyond a half-space.
 const SHRINKAGE_MAX: f64 = 1e-3;
@@ -185,9 +185,9 @@ fn seen(row: &[f64], center: &[f64], axes: &[f64]) -> View {
     let mut slack = DoubleDouble::from(row[dim]);
     let mut normal = vec![DoubleDouble::ZERO; dim];
     for (j, axes) in axes.chunks_exact(dim).enumerate() {
-        slack = slack.sub(DoubleDouble::product(row[j], center[j]));
+        slack = slack - DoubleDouble::product(row[j], center[j]);
         for (sum, &g) in normal.iter_mut().zip(axes) {
-            *sum = sum.add(DoubleDouble::product(row[j], g));
+            *sum = *sum + DoubleDouble::product(row[j], g);
         }
     }
     let largest = normal.iter().fold(slack.high.abs(), |m, v| m.max(v.high.abs()));

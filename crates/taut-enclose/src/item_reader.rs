@@ -15,9 +15,9 @@ use taut_points::{InputError, Monitor, PointSource, PointsHash, gather, map_bloc
 
 pub(crate) use self::pass::{Found, Pass, farther};
 use crate::Error;
-use crate::kernel::{Center, DoubleDouble};
 use crate::passes::{FirstAnswer, ask_first, ask_items, ask_spread};
 use crate::top::Far;
+use taut_kernels::{Center, DoubleDouble};
 
 /// The sample whose mean is the origin of a solver's calculations has this many rows.
 const SAMPLE_ROWS: u64 = 256;
@@ -254,7 +254,7 @@ impl<'a> ItemReader<'a> {
             let low = center.low.get(j).copied().unwrap_or(0.0);
             let shift = self.view.shift.get(j).copied().unwrap_or(0.0);
             let sum =
-                DoubleDouble::sum(high / self.view.scale, low / self.view.scale).add(shift.into());
+                DoubleDouble::sum(high / self.view.scale, low / self.view.scale) + shift.into();
             outside.high.push(sum.high);
             outside.low.push(sum.low);
         }
@@ -273,7 +273,7 @@ impl<'a> ItemReader<'a> {
         for (j, &high) in center.high.iter().enumerate() {
             let low = center.low.get(j).copied().unwrap_or(0.0);
             let shift = self.view.shift.get(j).copied().unwrap_or(0.0);
-            let sum = DoubleDouble::sum(high, -shift).add(low.into());
+            let sum = DoubleDouble::sum(high, -shift) + low.into();
             inside.high.push(sum.high * self.view.scale);
             inside.low.push(sum.low * self.view.scale);
         }

@@ -17,7 +17,6 @@
 //! | k centers of points in many places | [`CoreSetSummary`] | radius ≤ 4 times the optimum, less with larger summaries | one pass in each place, and one to measure |
 //! | a ball of rows that lie in several places | [`passes::Solver`] | the bytes of the same function in memory | a round of messages for each pass |
 //! | a tree of balls | [`sphere_tree()`] | each the smallest around its points | some thirty passes of O(nd) for each level |
-//! | nearest, within a radius, along a ray, farthest, pairs, diameter | [`SphereSearch`] | as by a search through all rows | O(n log n) to build, about O(log n) a query in few dimensions |
 //!
 //! Each takes points in memory or any [`PointSource`](taut_points::PointSource), and one struct of options, where a
 //! [`Monitor`](taut_points::Monitor) can watch the work and stop it.
@@ -44,13 +43,11 @@ mod frame;
 #[cfg(feature = "conic")]
 mod inscribed;
 mod item_reader;
-mod kernel;
 mod kernel_ball;
 pub mod passes;
 mod robust;
 mod separated_set;
 mod shapes;
-mod sphere_search;
 mod sphere_tree;
 mod streaming;
 mod top;
@@ -65,8 +62,5 @@ pub use farthest_first::{FarthestFirst, FarthestFirstOptions, farthest_first};
 pub use inscribed::{InscribedOptions, inscribed_ellipsoid};
 pub use kernel_ball::{KernelBallMethod, KernelBallOptions, kernel_ball};
 pub use robust::{RobustInParts, RobustOptions, robust_ellipsoid};
-pub use sphere_search::{
-    Diameter, Neighbor, QueryOptions, RowPair, SphereSearch, SphereSearchOptions,
-};
 pub use sphere_tree::{SphereNode, SphereTree, SphereTreeOptions, sphere_tree};
 pub use streaming::{CoreSetSummary, StreamingCenters, StreamingOptions, StreamingReport};

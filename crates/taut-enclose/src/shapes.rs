@@ -16,6 +16,7 @@ pub(crate) mod reach;
 mod thickening;
 
 use taut_certify::Items;
+use taut_kernels::DoubleDouble;
 use taut_points::parallel::IntoParallel;
 use taut_points::{
     BlockHash, InputError, Monitor, PointSource, PointsHash, Rows, ScalarKind, hash_block,
@@ -24,7 +25,6 @@ use taut_points::{
 
 use self::eigen::eigen;
 use crate::Error;
-use crate::kernel::DoubleDouble;
 
 /// Items in memory, each of them valid.
 pub(crate) struct Shapes {
@@ -117,7 +117,7 @@ impl Shapes {
                 if added == 0.0 {
                     return entry.into();
                 }
-                DoubleDouble::from(entry).add(DoubleDouble::product(entry, added))
+                DoubleDouble::from(entry) + DoubleDouble::product(entry, added)
             }
             Items::Balls if j == k => {
                 let radius = self.described(i)[0];

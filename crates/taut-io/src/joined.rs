@@ -6,7 +6,7 @@ use std::fs;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use taut_points::{PointSource, Points, ReadError, Rows, ScalarKind, Scratch};
+use taut_points::{OrderBy, PointSource, Points, ReadError, Rows, ScalarKind, Scratch};
 
 use crate::error::shown_path;
 use crate::filter::Filter;
@@ -113,7 +113,7 @@ pub(crate) fn files(folder: &Path) -> Result<Vec<PathBuf>, Error> {
             files.push(entry.path());
         }
     }
-    files.sort();
+    files.order();
     Ok(files)
 }
 

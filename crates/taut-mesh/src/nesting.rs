@@ -7,6 +7,7 @@
 //! *Guarantee.* Signs are exact, so for loops that do not meet so is the answer. O(n log n), and for each loop the edges on its level.
 //! *Trap.* A ray through a vertex crosses two edges or none: an edge holds its lower end and not its upper one.
 
+use taut_points::OrderBy;
 use taut_predicates::Sign;
 use taut_predicates::plane::orient;
 
@@ -42,12 +43,12 @@ pub fn parents(curves: &[Polyline<'_>]) -> Vec<Option<u32>> {
             }
         }
     }
-    edges.sort_by(|a, b| a.low[1].total_cmp(&b.low[1]));
+    edges.order_by(&|a, b| a.low[1].total_cmp(&b.low[1]));
     let mut asked: Vec<(u32, [f64; 2])> = (0u32..)
         .zip(curves)
         .filter_map(|(number, curve)| Some((number, *curve.vertices.first()?)))
         .collect();
-    asked.sort_by(|a, b| a.1[1].total_cmp(&b.1[1]).then(a.0.cmp(&b.0)));
+    asked.order_by(&|a, b| a.1[1].total_cmp(&b.1[1]).then(a.0.cmp(&b.0)));
     let mut depth = vec![0u32; curves.len()];
     around(&edges, &asked, |inner, loops| depth[inner as usize] = loops.len() as u32);
     let mut parents = vec![None; curves.len()];

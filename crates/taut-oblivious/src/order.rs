@@ -224,6 +224,27 @@ fn insertion_sort(records: &mut [u64], compare: impl Fn(u64, u64) -> Ordering) {
     }
 }
 
+/// Gives many records of one cell keys within the box of their points, and sorts them by these; without any extent they are
+/// sorted by their numbers, and false is returned. Compiled once for each number of dimensions, as there are many kinds of points.
+fn refine<const D: usize>(
+    run: &mut [u64],
+    at: &dyn Fn(usize) -> [f64; D],
+    key: &dyn Fn([u32; D]) -> u32,
+) -> bool {
+    let point = |record: u64| at(record as u32 as usize);
+    let (low, high) = bounds(run.iter().map(|&r| point(r)));
+    let Some(grid) = Grid::over(low, high) else {
+        sort_by_number(run);
+        return false;
+    };
+    for record in run.iter_mut() {
+        let cell = grid.cell(point(*record));
+        *record = u64::from(key(cell)) << 32 | u64::from(*record as u32);
+    }
+    sort(run);
+    true
+}
+
 /// Puts records that share a key in order, given records sorted by key.
 fn settle<const D: usize>(
     records: &mut [u64],
@@ -245,19 +266,8 @@ fn settle<const D: usize>(
                     compare(point(a), point(b)).then((a as u32).cmp(&(b as u32)))
                 });
             } else if last - first > COMPARISON_SORT_MAX {
-                let run = &mut records[first..last];
-                let (low, high) = bounds(run.iter().map(|&r| point(r)));
-                match Grid::over(low, high) {
-                    None => sort_by_number(run),
-                    Some(grid) => {
-                        for record in run.iter_mut() {
-                            *record = u64::from(key(grid.cell(point(*record)))) << 32
-                                | u64::from(*record as u32);
-                        }
-                        sort(run);
-                        open.push((first, last));
-                    }
-                }
+                let is_refined = refine(&mut records[first..last], at, key);
+                open.extend(is_refined.then_some((first, last)));
             }
             first = last;
         }

@@ -81,4 +81,6 @@ mod pages {
     struct ReadmeOfTautPoints;
     #[doc = include_str!("../../taut-predicates/README.md")]
     struct ReadmeOfTautPredicates;
+    #[doc = include_str!("../../taut-search/README.md")]
+    struct ReadmeOfTautSearch;
 }

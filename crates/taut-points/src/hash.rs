@@ -8,6 +8,9 @@
 //! with few digits differ in high bits only, which multiplication would never carry down.
 //! *Not* a cryptographic hash: it tells that data changed, not that somebody meant to deceive.
 
+#[cfg(target_arch = "x86_64")]
+mod x86;
+
 use crate::{Monitor, PointSource, Points, ReadError, Rows, Scalar, map_blocks};
 
 const LANES: usize = 32;
@@ -140,64 +143,44 @@ fn bits<T: Scalar>(value: T) -> u64 {
     (value.into() + 0.0).to_bits()
 }
 
-/// Inlined into the three functions below, each of which is compiled for another instruction set.
+/// The state of the lanes before the first value.
 #[inline(always)]
-fn lanes<T: Scalar>(values: &[T]) -> BlockHash {
-    let mut lanes: [u64; LANES] = std::array::from_fn(|lane| lane as u64 + 1);
-    let chunks = values.chunks_exact(LANES);
-    let rest = chunks.remainder();
-    for chunk in chunks {
-        for (lane, &value) in lanes.iter_mut().zip(chunk) {
-            *lane = step(*lane, bits(value));
-        }
-    }
+fn start() -> [u64; LANES] {
+    std::array::from_fn(|lane| lane as u64 + 1)
+}
+
+/// Puts the lanes together with the values after the last full group.
+#[inline(always)]
+fn put_together<T: Scalar>(lanes: [u64; LANES], values: &[T]) -> BlockHash {
+    let rest = values.as_chunks::<LANES>().1;
     let hash = rest.iter().fold(values.len() as u64, |h, &value| step(h, bits(value)));
     BlockHash(finish(lanes.into_iter().fold(hash, |h, lane| step(h, finish(lane)))))
 }
 
-/// Integer arithmetic gives the same hash on every machine; wider registers only give it sooner: hashing rides
-/// on the first pass of a solver and would otherwise cost as much as two.
-#[cfg(target_arch = "x86_64")]
-mod dispatch {
-    use super::{BlockHash, Points, Scalar, lanes};
-    use crate::{InstructionSet, instruction_set};
-
-    #[target_feature(enable = "avx512f,avx512dq")]
-    fn avx512<T: Scalar>(values: &[T]) -> BlockHash {
-        lanes(values)
-    }
-
-    #[target_feature(enable = "avx2")]
-    fn avx2<T: Scalar>(values: &[T]) -> BlockHash {
-        lanes(values)
-    }
-
-    #[allow(unsafe_code)]
-    pub(super) fn hash<T: Scalar>(points: &Points<'_, T>) -> BlockHash {
-        match instruction_set() {
-            // SAFETY: the processor has the features of the set.
-            InstructionSet::Avx512 => unsafe { avx512(points.values()) },
-            // SAFETY: as above.
-            InstructionSet::Avx2 => unsafe { avx2(points.values()) },
-            _ => lanes(points.values()),
+/// For every processor; the vectors of [`x86`] do the same sooner.
+fn portable<T: Scalar>(values: &[T]) -> BlockHash {
+    let mut lanes = start();
+    for chunk in values.as_chunks::<LANES>().0 {
+        for (lane, &value) in lanes.iter_mut().zip(chunk) {
+            *lane = step(*lane, bits(value));
         }
     }
+    put_together(lanes, values)
 }
 
-#[cfg(not(target_arch = "x86_64"))]
-mod dispatch {
-    use super::{BlockHash, Points, Scalar, lanes};
-
-    pub(super) fn hash<T: Scalar>(points: &Points<'_, T>) -> BlockHash {
-        lanes(points.values())
+fn dispatched<T: Scalar>(points: &Points<'_, T>) -> BlockHash {
+    #[cfg(target_arch = "x86_64")]
+    if let Some(hash) = x86::hash(points.values()) {
+        return hash;
     }
+    portable(points.values())
 }
 
 /// The hash of one block of [`Blocks`](crate::Blocks).
 pub fn hash_block(rows: &Rows<'_>) -> BlockHash {
     match rows {
-        Rows::F32(points) => dispatch::hash(points),
-        Rows::F64(points) => dispatch::hash(points),
+        Rows::F32(points) => dispatched(points),
+        Rows::F64(points) => dispatched(points),
     }
 }
 
@@ -223,9 +206,22 @@ mod tests {
 
     #[test]
     fn every_instruction_set_gives_the_same_hash() {
-        let values: Vec<f64> = (0..1003).map(|i| (i as f64 * 0.37).sin()).collect();
-        let points = Points::new(&values, 17).unwrap();
-        assert_eq!(dispatch::hash(&points), lanes(&values));
+        let mut values: Vec<f64> = (0..1003).map(|i| (i as f64 * 0.37).sin() * 1e300).collect();
+        values.extend([-0.0, 0.0, f64::MIN_POSITIVE / 4.0, -1e-310]);
+        let narrow: Vec<f32> = values.iter().map(|&v| (v * 1e-300) as f32).collect();
+        for n in (0..100).chain([values.len()]) {
+            assert_eq!(hashes(&values[values.len() - n..]), []);
+            assert_eq!(hashes(&narrow[narrow.len() - n..]), []);
+        }
+    }
+
+    /// The hashes of instruction sets that are not the portable one.
+    fn hashes<T: Scalar>(values: &[T]) -> Vec<BlockHash> {
+        #[cfg(target_arch = "x86_64")]
+        let vectors = x86::each_instruction_set(values);
+        #[cfg(not(target_arch = "x86_64"))]
+        let vectors = Vec::<BlockHash>::new();
+        vectors.into_iter().filter(|&hash| hash != portable(values)).collect()
     }
 
     #[test]

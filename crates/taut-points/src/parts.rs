@@ -10,7 +10,7 @@ mod bytes;
 pub use bytes::{ByteReader, ByteWriter};
 
 use crate::hash::HashRun;
-use crate::{BlockHash, Blocks, InstructionSet, PointSource, PointsHash, ReadError};
+use crate::{BlockHash, Blocks, InstructionSet, OrderBy, PointSource, PointsHash, ReadError};
 
 /// Why a part of a point set, or what was found in it, is refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -131,7 +131,7 @@ impl BlockRuns {
     pub fn merge(self, other: Self, rows: u64) -> Result<Self, PartsError> {
         let mut all = self.runs;
         all.extend(other.runs);
-        all.sort_unstable_by_key(|run| run.first);
+        all.order_by_key(|run| run.first);
         let mut runs: Vec<Run> = vec![];
         for run in all {
             match runs.last_mut() {

@@ -116,6 +116,7 @@ impl<'a, T: Scalar> Points<'a, T> {
     ///
     /// # Panics
     /// When `i ≥ n`.
+    #[inline]
     pub fn row(&self, i: usize) -> &'a [T] {
         &self.values[i * self.dim..(i + 1) * self.dim]
     }

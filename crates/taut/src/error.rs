@@ -10,6 +10,8 @@ pub enum Error {
     Input(InputError),
     /// A ball, an ellipsoid or centers were asked for.
     Enclose(taut_enclose::Error),
+    /// Queries of points or of balls were asked.
+    Search(taut_search::Error),
     /// A triangulation or an order was asked for.
     Delaunay(taut_delaunay::Error),
     /// A circle in a polygon was asked for.
@@ -27,6 +29,7 @@ impl std::fmt::Display for Error {
         match self {
             Error::Input(error) => error.fmt(f),
             Error::Enclose(error) => error.fmt(f),
+            Error::Search(error) => error.fmt(f),
             Error::Delaunay(error) => error.fmt(f),
             Error::Inscribe(error) => error.fmt(f),
             #[cfg(feature = "recognize")]
@@ -42,6 +45,7 @@ impl std::error::Error for Error {
         match self {
             Error::Input(error) => error.source(),
             Error::Enclose(error) => error.source(),
+            Error::Search(error) => error.source(),
             Error::Delaunay(error) => error.source(),
             Error::Inscribe(error) => error.source(),
             #[cfg(feature = "recognize")]
@@ -63,6 +67,15 @@ impl From<taut_enclose::Error> for Error {
         match error {
             taut_enclose::Error::Input(error) => Error::Input(error),
             other => Error::Enclose(other),
+        }
+    }
+}
+
+impl From<taut_search::Error> for Error {
+    fn from(error: taut_search::Error) -> Self {
+        match error {
+            taut_search::Error::Input(error) => Error::Input(error),
+            other => Error::Search(other),
         }
     }
 }

@@ -144,6 +144,7 @@
 //! Not for: distances other than Euclidean, or weights other than those of centers.
 #![forbid(unsafe_code)]
 
+pub mod enclose;
 mod error;
 pub mod files;
 
@@ -151,7 +152,6 @@ pub use error::Error;
 
 pub use taut_certify as certify;
 pub use taut_delaunay as delaunay;
-pub use taut_enclose as enclose;
 pub use taut_inscribe as inscribe;
 pub use taut_oblivious as oblivious;
 pub use taut_points as points;

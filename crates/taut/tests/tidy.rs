@@ -24,16 +24,18 @@ mod published;
 mod vocabulary;
 
 /// The layer of each package: an arrow may only go to a lower one.
-const LAYERS: [(&str, i32); 19] = [
+const LAYERS: [(&str, i32); 21] = [
     ("taut-points", -1),
     ("taut-certify", 0),
     ("taut-io", 0),
+    ("taut-kernels", 0),
     ("taut-mesh", 0),
     ("taut-oblivious", 0),
     ("taut-predicates", 0),
     ("taut-delaunay", 1),
     ("taut-enclose", 1),
     ("taut-reference", 1),
+    ("taut-search", 1),
     ("taut-inscribe", 2),
     ("taut-recognize", 2),
     ("taut-reconstruct", 2),
@@ -54,8 +56,9 @@ const SAME_LAYER: [(&str, &str); 3] =
 const TOOLS: [&str; 2] = ["bench", "fuzz"];
 
 /// The crates with named kernels, where `unsafe` is denied but can be allowed with a reason.
-const KERNELS: [&str; 6] = [
+const KERNELS: [&str; 7] = [
     "taut-points",
+    "taut-kernels",
     "taut-enclose",
     "taut-delaunay",
     "taut-oblivious",

@@ -28,6 +28,7 @@ pub(crate) mod ellipsoids;
 mod enclosure;
 mod lower_bound;
 pub(crate) mod parts;
+mod plain_squares;
 mod scale;
 pub(crate) mod structure;
 

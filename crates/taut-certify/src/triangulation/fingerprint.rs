@@ -14,6 +14,8 @@ use std::str::FromStr;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use taut_points::Points;
 
+use crate::unrolled::unrolled;
+
 /// The fingerprint of a set of simplices. Written as 32 hexadecimal digits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Fingerprint(pub u128);
@@ -55,10 +57,11 @@ impl SiteHash {
 }
 
 impl Fingerprint {
-    /// Adds the simplex with these vertices, in any order.
+    /// Adds the simplex with these vertices, at most four, in any order.
     #[inline(always)]
     pub fn add<const V: usize>(&mut self, vertices: [SiteHash; V]) {
-        let sum = vertices.iter().fold(0u128, |sum, vertex| sum.wrapping_add(vertex.0));
+        let mut sum = 0u128;
+        unrolled!(i < V, { sum = sum.wrapping_add(vertices[i].0) });
         let (high, low) = ((sum >> 64) as u64, sum as u64);
         // Twice: one product alone would tell no more than which pairs of vertices share how many simplices.
         let (a, b) = folded(high ^ KEYS[0], low ^ KEYS[1]);

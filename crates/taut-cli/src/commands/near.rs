@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::bail;
 use taut::Monitor;
-use taut::enclose::{Error as SolveError, QueryOptions, SphereSearch, SphereSearchOptions};
+use taut::enclose::{QueryOptions, SearchError, SphereSearch, SphereSearchOptions};
 
 use crate::commands::ball::items;
 use crate::effort::Effort;
@@ -176,7 +176,7 @@ impl Args {
         points: &Opened,
         watch: &Watch,
     ) -> anyhow::Result<Table> {
-        let ask = |monitor: &Monitor<'_>| -> Result<Table, SolveError> {
+        let ask = |monitor: &Monitor<'_>| -> Result<Table, SearchError> {
             let options = QueryOptions { monitor: *monitor, ..QueryOptions::default() };
             Ok(match self.diameter {
                 true => Table::of_diameter(&search.diameter(self.epsilon, &options)?),
@@ -196,7 +196,7 @@ impl Args {
             });
             return Ok(Table::of_pairs(&pairs.map_err(|error| other.explain(error))?));
         }
-        let ask = |monitor: &Monitor<'_>| -> Result<Table, SolveError> {
+        let ask = |monitor: &Monitor<'_>| -> Result<Table, SearchError> {
             let options = QueryOptions { monitor: *monitor, ..QueryOptions::default() };
             let source = other.source();
             let found = if self.rays.is_some() {

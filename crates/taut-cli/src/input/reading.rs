@@ -7,7 +7,7 @@ use std::sync::Arc;
 use anyhow::{anyhow, bail};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use taut::certify::{Fault, ReadingChoice, ScaleChoice, Violation};
-use taut::enclose::Error as SolveError;
+use taut::enclose::{Error as SolveError, SearchError};
 use taut::inscribe::Error as InscribeError;
 use taut::points::{InputError, ReadError, ScalarKind, shown_number};
 use taut::{AnySolution, PointSource};
@@ -422,6 +422,7 @@ impl Opened {
         match error.into() {
             taut::Error::Input(error) => self.explain_input(error),
             taut::Error::Enclose(error) => self.explain_enclosing(error),
+            taut::Error::Search(error) => self.explain_searching(error),
             taut::Error::Inscribe(error) => self.explain_inscribing(error),
             other => anyhow!("{}: {other}", self.name()),
         }
@@ -510,12 +511,6 @@ impl Opened {
                 self.name(),
                 self.row(row)
             ),
-            SolveError::NoDirection { row } => anyhow!(
-                "{}, row {}: the ray has no direction, as the numbers after the origin are all 0: repair or remove that row, or \
-                 choose the columns with --columns",
-                self.name(),
-                self.row(row)
-            ),
             SolveError::Unbounded { direction } => anyhow!(
                 "{}: the polytope is unbounded in the direction {}, so no ellipsoid in it is the largest: add \
                  half-spaces that end it",
@@ -531,6 +526,25 @@ impl Opened {
             SolveError::Undecided => anyhow!("{}: {error}", self.name()),
             SolveError::Empty | SolveError::Overflow => anyhow!("{}: {error}", self.name()),
             other => other.into(),
+        }
+    }
+
+    /// Returns what is refused of points, balls and rays in queries; of balls it is what solvers refuse.
+    fn explain_searching(&self, error: SearchError) -> anyhow::Error {
+        match error {
+            SearchError::NegativeRadius { row, value } => {
+                self.explain_enclosing(SolveError::NegativeRadius { row, value })
+            }
+            SearchError::NoRadius { columns } => {
+                self.explain_enclosing(SolveError::NoRadius { columns })
+            }
+            SearchError::NoDirection { row } => anyhow!(
+                "{}, row {}: the ray has no direction, as the numbers after the origin are all 0: repair or remove that row, or \
+                 choose the columns with --columns",
+                self.name(),
+                self.row(row)
+            ),
+            other => anyhow!("{}: {other}", self.name()),
         }
     }
 

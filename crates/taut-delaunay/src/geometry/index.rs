@@ -6,6 +6,7 @@
 
 use std::ops::Range;
 
+use taut_points::OrderBy;
 use taut_points::parallel::ParallelSlice;
 
 /// This many sites lie under one leaf: one bit each in a word.
@@ -130,7 +131,7 @@ impl<const D: usize> Index<D> {
             let first = stack.len();
             stack.extend(self.children(node));
             let distance = |node: &Node| self.bounds(*node).distance_squared_to(q);
-            stack[first..].sort_by(|a, b| distance(b).total_cmp(&distance(a)));
+            stack[first..].order_by(&|a, b| distance(b).total_cmp(&distance(a)));
         }
     }
 }

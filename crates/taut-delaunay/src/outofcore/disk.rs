@@ -23,7 +23,9 @@ mod tree_file;
 use std::fs::{self, File};
 use std::path::Path;
 
-use taut_points::{Blocks, InputError, Monitor, PointSource, PointsHash, Scratch, hash_block};
+use taut_points::{
+    Blocks, InputError, Monitor, OrderBy, PointSource, PointsHash, Scratch, hash_block,
+};
 
 pub use plan::DiskPlan;
 
@@ -357,7 +359,7 @@ where
     let totals = run(&whole, &walk, &course, &sites, &files, &options.monitor)?;
     let all = walk.nodes().iter().filter_map(|&node| Some((node, files.tile_bytes(node)?)));
     let mut tiles: Vec<(u32, u64)> = all.collect();
-    tiles.sort_unstable();
+    tiles.order();
     Ok(Complete { points_hash: cut.points_hash, totals, tiles })
 }
 

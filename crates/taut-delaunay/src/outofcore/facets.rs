@@ -9,6 +9,8 @@
 //! *Trap.* Facets may have the vertex at infinity. In space a facet is rotated, never sorted: orientation tells the sides
 //! apart.
 
+use taut_points::OrderBy;
+
 use super::front::{FrozenFacet, Link};
 use crate::Error;
 use crate::simplex::{GHOST, Simplex, code, decode};
@@ -162,7 +164,7 @@ pub(super) fn unfinished<const D: usize, const V: usize>(
             }
         }
     }
-    found.sort_unstable_by_key(|&(side, _)| side);
+    found.order_by_key(|&(side, _)| side);
     Ok((States(states), FrozenLinks(found)))
 }
 

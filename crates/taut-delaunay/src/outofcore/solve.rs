@@ -17,7 +17,7 @@
 //! *Trap.* A node whose sites do not span all dimensions passes everything on.
 
 use taut_oblivious::machine::prefetch;
-use taut_points::Monitor;
+use taut_points::{Monitor, OrderBy};
 
 use super::facets::{FrozenLinks, States, facet_of, renumbered, unfinished};
 use super::front::{Front, FrozenFacet, Link};
@@ -283,7 +283,7 @@ impl<const D: usize, const V: usize, G: Geometry<D, V>> Solved<D, V, G> {
                 front.facets.push(FrozenFacet { vertices, link });
             }
         }
-        front.facets.sort_unstable_by_key(|f| f.vertices);
+        front.facets.order_by_key(|f| f.vertices);
         front
     }
 }

@@ -20,6 +20,7 @@ mod marks;
 #[cfg(test)]
 mod tests;
 
+use taut_points::OrderBy;
 use taut_predicates::plane::{lexicographic, orient};
 
 use crate::simplex::{GHOST, Simplex, code, decode};
@@ -130,13 +131,13 @@ pub(crate) fn constrain(
     for (number, &segment) in segments.iter().enumerate() {
         mesh.insert(number as u32, segment, &mut result)?;
     }
-    result.pieces.sort_unstable();
+    result.pieces.order();
     result.pieces.dedup_by(|again, first| {
         let same = again.sites == first.sites;
         first.odd ^= same && again.odd;
         same
     });
-    result.splits.sort_unstable();
+    result.splits.order();
     Ok(result)
 }
 

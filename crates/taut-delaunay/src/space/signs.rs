@@ -292,7 +292,8 @@ impl<M: MulAdd> Signs for Scalar<M> {
         let [a, b, c, d] = corners;
         let corners = [less::<M>(a, q), less(b, q), less(c, q), less(d, q)];
         let (mut beyond, mut open) = (0, 0);
-        for (i, [a, b, c]) in FACETS.into_iter().enumerate() {
+        for i in 0..FACETS.len() {
+            let [a, b, c] = FACETS[i];
             let (Real(det, _), Real(bound, _)) = orientation([corners[a], corners[b], corners[c]]);
             let out = det < -bound;
             beyond |= u32::from(out) << i;
@@ -424,7 +425,8 @@ impl Judge {
         place: usize,
         q: &Site,
     ) -> bool {
-        let [a, b, c] = FACETS[place].map(|i| &sites[row(ghost.vertex(i))]);
+        let site = |i: usize| &sites[row(ghost.vertex(FACETS[place][i]))];
+        let (a, b, c) = (site(0), site(1), site(2));
         if S::FILTERED {
             let corners = [less::<Separate>(a, q), less(b, q), less(c, q)];
             let (Real(det, _), Real(bound, _)) = orientation(corners);

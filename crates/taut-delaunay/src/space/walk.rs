@@ -60,7 +60,10 @@ pub(super) fn walk<S: Signs, H: Hold>(
             while open != 0 && beyond == 0 {
                 let i = open.trailing_zeros();
                 open &= open - 1;
-                let [a, b, c] = FACETS[i as usize].map(|j| corners[j]);
+                let [a, b, c] = {
+                    let [a, b, c] = FACETS[i as usize];
+                    [corners[a], corners[b], corners[c]]
+                };
                 beyond = u32::from(judge.orient([q, a, b, c]).is_negative()) << i;
             }
             if beyond == 0 {

@@ -1,5 +1,7 @@
 //! The radius against the number of centers: how much a further one is worth.
 
+use taut_points::OrderBy;
+
 use crate::marks::all_finite;
 use crate::number::count;
 use crate::{Axis, DrawOptions, Error, Figure, Plot, Scale, Series, SeriesStyle, Tone};
@@ -25,7 +27,7 @@ pub fn elbow_figure(steps: &[ElbowStep], options: &DrawOptions) -> Result<Figure
     let numbers: Vec<_> = steps.iter().flat_map(numbers).collect();
     all_finite(numbers.iter().map(|(what, value)| (*what, value)))?;
     let mut steps = steps.to_vec();
-    steps.sort_by_key(|step| step.k);
+    steps.order_by_key(|step| step.k);
     let series = |name: &str, tone, value: fn(&ElbowStep) -> f64| Series {
         name: name.to_owned(),
         tone,

@@ -7,7 +7,7 @@
 use std::collections::BTreeSet;
 
 use taut_certify::{InscribedCertificate, InscribedEllipsoid};
-use taut_points::{Blocks, PointSource, Scratch};
+use taut_points::{Blocks, OrderBy, PointSource, Scratch};
 
 use crate::Error;
 use crate::body::length;
@@ -97,7 +97,7 @@ impl Sides {
 
 /// Keeps the support and the nearest others, the nearest first.
 fn nearest(sides: &mut Vec<Side>, support: &BTreeSet<u64>, most: usize) {
-    sides.sort_by(|a, b| a.distance.total_cmp(&b.distance).then(a.id.cmp(&b.id)));
+    sides.order_by(&|a, b| a.distance.total_cmp(&b.distance).then(a.id.cmp(&b.id)));
     let mut room = most.saturating_sub(support.len());
     sides.retain(|side| {
         let is_other = !support.contains(&side.id);

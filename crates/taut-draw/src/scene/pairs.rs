@@ -6,6 +6,7 @@
 //! *Limits.* Of more than seven coordinates the six are drawn whose shadows are tilted most: others say little.
 
 use taut_certify::Items;
+use taut_points::OrderBy;
 
 use super::plane::{LARGE_CORNERS, Place, SMALL_CORNERS};
 use super::{Group, Layer, Mark, Marks, Scene};
@@ -71,7 +72,7 @@ pub(crate) fn coordinates(body: &Body) -> Vec<usize> {
             (others.map(|k| body.correlation(j, k).abs()).fold(0.0, f64::max), j)
         })
         .collect();
-    tilted.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+    tilted.order_by(&|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
     let mut chosen: Vec<usize> = tilted.into_iter().take(drawn(dim)).map(|(_, j)| j).collect();
     chosen.sort_unstable();
     chosen

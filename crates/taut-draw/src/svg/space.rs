@@ -4,6 +4,7 @@
 //! third axis, and painted from back to front; what is far is smaller and paler. The viewer of the HTML page does the
 //! same from the same numbers.
 
+use taut_points::OrderBy;
 use taut_points::parallel::ParallelSlice;
 
 use super::Hover;
@@ -261,7 +262,7 @@ fn draw_spheres(
         .filter(|s| finite(&s.center) && s.radius.is_finite() && s.radius >= 0.0)
         .map(|s| (camera.turn(stage.place(&s.center)), stage.length(s.radius), s))
         .collect();
-    placed.sort_by(|a, b| a.0[2].total_cmp(&b.0[2]));
+    placed.order_by(&|a, b| a.0[2].total_cmp(&b.0[2]));
     let wired = spheres.len() <= WIRED_SPHERES_MAX;
     let (classes, attributes) = stroke(layer.tone, layer.line_style);
     let mut fill = String::new();

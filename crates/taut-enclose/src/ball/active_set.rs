@@ -16,13 +16,13 @@
 //! *Reference.* Active sets on this dual: Gärtner and Schönherr, SoCG 2000; Fischer, Gärtner and Kutz, ESA 2003, walk
 //! the same path in d dimensions.
 
+use taut_kernels::vector::{add_combination, add_scaled, dot};
+use taut_kernels::{Center, squared_distances};
 use taut_points::parallel::ParallelSlice;
 use taut_points::{Cancelled, Monitor};
 
 use super::factor::Factor;
 use super::working_set::WorkingSet;
-use crate::kernel::vector::{add_combination, add_scaled, dot};
-use crate::kernel::{Center, squared_distances};
 
 /// An item violates when its f exceeds the level by this part of the squared radius. Below 1e-13 the steps of a
 /// full-rank cospherical set become exchanges at rounding level (tens of pivots for each one that matters).

@@ -15,12 +15,12 @@ use clarabel::algebra::CscMatrix;
 use clarabel::solver::{
     DefaultSettingsBuilder, DefaultSolver, IPSolver, SecondOrderConeT, SolverStatus,
 };
+use taut_kernels::vector::dot;
 use taut_points::OrderBy;
 
 use super::factor::Factor;
 use super::working_set::WorkingSet;
 use crate::Error;
-use crate::kernel::vector::dot;
 
 /// An item lies in the hull of those before it when its squared distance to it is below this part of its squared norm:
 /// leaving that out changes no squared distance by more.

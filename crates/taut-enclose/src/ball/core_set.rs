@@ -17,6 +17,7 @@
 //! tried and each cost more than they saved: so few points are ever scanned again that nothing is left to save.
 
 use taut_certify::{Items, PassBounds, Stop};
+use taut_kernels::{Center, relative_error};
 use taut_points::{Cancelled, Monitor, ReadError};
 
 use super::BallOptions;
@@ -25,7 +26,6 @@ use super::outcome::Outcome;
 use super::working_set::WorkingSet;
 use crate::Error;
 use crate::item_reader::{ItemReader, Query};
-use crate::kernel::{Center, relative_error};
 use crate::top::Far;
 
 /// Largest batch that doubling reaches.

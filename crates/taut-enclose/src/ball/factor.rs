@@ -6,7 +6,7 @@
 //! below, which works on contiguous rows. Both are O(s²) for s points.
 //! *Reference.* Golub and Van Loan, Matrix Computations, 6.5 (updating a Cholesky factor).
 
-use crate::kernel::vector::{add_scaled, dot, rotate};
+use taut_kernels::vector::{add_scaled, dot, rotate};
 
 #[derive(Clone, Debug, Default)]
 pub(super) struct Factor {

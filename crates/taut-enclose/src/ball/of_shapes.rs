@@ -10,6 +10,8 @@
 //! *Reference.* The oracle is the trust-region problem; Moré and Sorensen, SIAM J. Sci. Stat. Comput. 4(3), 1983.
 
 use taut_certify::{Ball, BallCertificate, Items, PassBounds, Solution, Stop, Trace};
+use taut_kernels::vector::{add_scaled, dot};
+use taut_kernels::{Center, DoubleDouble};
 use taut_points::parallel::{IntoParallel, ParallelSlice};
 use taut_points::{InputError, Monitor, OrderBy, PointSource, ReadError};
 
@@ -18,8 +20,6 @@ use super::core_set::{ROUNDING, solve_working_set};
 use super::working_set::WorkingSet;
 use super::{BallMethod, BallOptions};
 use crate::Error;
-use crate::kernel::vector::{add_scaled, dot};
-use crate::kernel::{Center, DoubleDouble};
 use crate::shapes::Shapes;
 use crate::shapes::axes::{Axes, diagonal, units};
 use crate::shapes::eigen::eigen;

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use taut_certify::{PassBounds, Stop};
+use taut_kernels::Center;
 
 use crate::item_reader::{ItemReader, PassResult};
-use crate::kernel::Center;
 use crate::top::Far;
 
 /// A center with its multipliers, and the pass that was made from it.

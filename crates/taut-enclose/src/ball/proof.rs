@@ -7,6 +7,7 @@
 //! [`super::core_set`]. Nothing is taken from the solver's state.
 
 use taut_certify::{Ball, BallCertificate, PassBounds, Solution, Stop, Trace};
+use taut_kernels::{Center, Difference, DoubleDouble, relative_error, vanishes};
 use taut_points::parallel::ParallelSlice;
 use taut_points::{Cancelled, OrderBy, ReadError};
 
@@ -15,7 +16,6 @@ use super::core_set::ROUNDING;
 use super::outcome::{Candidate, Outcome};
 use crate::Error;
 use crate::item_reader::{ItemReader, Query};
-use crate::kernel::{Center, Difference, DoubleDouble, relative_error, vanishes};
 
 pub(super) fn prove(
     reader: &mut ItemReader<'_>,
@@ -28,9 +28,9 @@ pub(super) fn prove(
     if center.high.iter().any(|c| !c.is_finite()) {
         return Err(Error::Overflow);
     }
-    let total = best.lambda.iter().fold(DoubleDouble::ZERO, |sum, &l| sum.add(l.into()));
+    let total = best.lambda.iter().fold(DoubleDouble::ZERO, |sum, &l| sum + l.into());
     let weights: Vec<DoubleDouble> =
-        best.lambda.iter().map(|&l| DoubleDouble::from(l).div(total)).collect();
+        best.lambda.iter().map(|&l| DoubleDouble::from(l) / total).collect();
     let support = Measurement::new(reader, &best.support, &weights, &center)?;
     let upper = upper_bound(reader, &best, &support, &center)?;
     let lower = lower_bound(&weights, &support);
@@ -44,7 +44,7 @@ pub(super) fn prove(
         0.0 => 0.0,
         // JSON knows no infinity.
         _ if lower.high <= 0.0 => f64::MAX,
-        _ => DoubleDouble::from(radius * scale).div(lower).sub(1.0.into()).round_up().max(0.0),
+        _ => (DoubleDouble::from(radius * scale) / lower - 1.0.into()).round_up().max(0.0),
     };
     let wanted = if options.epsilon > 0.0 { options.epsilon } else { ROUNDING };
     let mut stop = outcome.stop.expect("a method says why it stopped");
@@ -150,7 +150,7 @@ impl Measurement {
                     reader.scale(),
                 ));
                 for (j, sum) in beside.iter_mut().enumerate() {
-                    *sum = sum.add(weights[k * ROWS_AT_ONCE + i].mul(difference.coordinate(j)));
+                    *sum = *sum + weights[k * ROWS_AT_ONCE + i] * difference.coordinate(j);
                 }
             }
             Ok(Measurement { items, beside })
@@ -165,7 +165,7 @@ impl Measurement {
         for part in parts.map_err(ReadError::from)? {
             all.items.extend(part.items);
             for (sum, more) in all.beside.iter_mut().zip(part.beside) {
-                *sum = sum.add(more);
+                *sum = *sum + more;
             }
         }
         Ok(all)
@@ -219,11 +219,11 @@ pub(crate) fn reach_up(difference: &Difference, squared: DoubleDouble, r: f64) -
     // More than double-double can be off by, in parts of the square: what is nearer is a tie, to be told exactly.
     let doubt = squared.high * (difference.dim() as f64 + 8.0) * 2f64.powi(-98);
     let holds = |reach: f64| {
-        let beyond = DoubleDouble::sum(reach, -r).square().sub(squared).high;
+        let beyond = (DoubleDouble::sum(reach, -r).square() - squared).high;
         if beyond.abs() > doubt { beyond > 0.0 } else { difference.is_within(reach, r) }
     };
     // The root carries one rounding of its own: make sure that the reach holds, and that nothing less does.
-    let mut reach = squared.sqrt().add(r.into()).round_up();
+    let mut reach = (squared.sqrt() + r.into()).round_up();
     while reach > r && holds(reach.next_down()) {
         reach = reach.next_down();
     }
@@ -236,15 +236,15 @@ pub(crate) fn reach_up(difference: &Difference, squared: DoubleDouble, r: f64) -
 /// The bound that the multipliers prove, in double-double; `weights` are they, divided by their sum.
 fn lower_bound(weights: &[DoubleDouble], support: &Measurement) -> DoubleDouble {
     let items = || weights.iter().zip(&support.items);
-    let mean = items().fold(DoubleDouble::ZERO, |sum, (w, item)| sum.add(w.mul(item.r.into())));
+    let mean = items().fold(DoubleDouble::ZERO, |sum, (w, item)| sum + *w * item.r.into());
     let mut inner = DoubleDouble::ZERO;
     for (w, item) in items() {
-        let spread = DoubleDouble::from(item.r).sub(mean).square();
-        inner = inner.add(w.mul(item.squared.sub(spread)));
+        let spread = (DoubleDouble::from(item.r) - mean).square();
+        inner = inner + *w * (item.squared - spread);
     }
     // The offset of the returned center, being rounded, from the one that the multipliers mean.
-    let inner = support.beside.iter().fold(inner, |inner, sum| inner.sub(sum.square()));
-    let bound = mean.add(inner.sqrt());
+    let inner = support.beside.iter().fold(inner, |inner, sum| inner - sum.square());
+    let bound = mean + inner.sqrt();
     // No ball is smaller than one it holds.
     let largest = support.items.iter().map(|item| item.r).fold(0.0, f64::max);
     if bound < largest.into() { largest.into() } else { bound }

@@ -4,6 +4,7 @@
 //! from c gives the upper bound and the item that reaches farthest, which is all these methods ask of a pass.
 
 use taut_certify::{Items, PassBounds, Stop};
+use taut_kernels::{Center, relative_error};
 
 use super::BallOptions;
 use super::core_set::{ROUNDING, lower_bound};
@@ -11,7 +12,6 @@ use super::outcome::Outcome;
 use super::working_set::WorkingSet;
 use crate::Error;
 use crate::item_reader::{ItemReader, Query};
-use crate::kernel::{Center, relative_error};
 
 /// A method at work.
 pub(super) struct Run<'s, 'a> {

@@ -7,10 +7,9 @@ use std::collections::HashMap;
 
 use faer::linalg::matmul::matmul;
 use faer::{Accum, MatMut, MatRef, Par};
+use taut_kernels::vector::{add_combination, add_scaled_exactly};
+use taut_kernels::{Center, DoubleDouble};
 use taut_points::parallel::IntoParallel;
-
-use crate::kernel::vector::{add_combination, add_scaled_exactly};
-use crate::kernel::{Center, DoubleDouble};
 
 /// One task multiplies this many columns of the Gram matrix: fixed, so that the result does not depend on threads.
 const TILE_COLUMNS: usize = 128;
@@ -108,12 +107,10 @@ impl WorkingSet {
         let mut total = DoubleDouble::ZERO;
         for (&i, &l) in items.iter().zip(lambda) {
             add_scaled_exactly(&mut sums, &mut errors, l, self.row(i));
-            total = total.add(l.into());
+            total = total + l.into();
         }
         let terms: Vec<DoubleDouble> = (self.origin.iter().zip(sums.into_iter().zip(errors)))
-            .map(|(&origin, (sum, error))| {
-                DoubleDouble::sum(sum, error).div(total).add(origin.into())
-            })
+            .map(|(&origin, (sum, error))| DoubleDouble::sum(sum, error) / total + origin.into())
             .collect();
         let high: Vec<f64> = terms.iter().map(|term| term.high).collect();
         let largest = high.iter().fold(0.0f64, |m, c| m.max(c.abs()));
@@ -195,7 +192,7 @@ impl WorkingSet {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kernel::vector::dot;
+    use taut_kernels::vector::dot;
     use taut_points::{Distribution, generate};
 
     #[test]

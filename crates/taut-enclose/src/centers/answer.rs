@@ -1,6 +1,7 @@
 //! From centers in the units of the search to an answer in those of the rows: every reach once more, from the centers as they are
 //! returned.
 
+use taut_kernels::{Center, Difference, relative_error};
 use taut_points::OrderBy;
 
 use super::cloud::{Cloud, Far};
@@ -11,7 +12,6 @@ use super::read::Table;
 use crate::Error;
 use crate::ball::reach_up;
 use crate::frame::exponent;
-use crate::kernel::{Center, Difference, relative_error};
 
 /// At most this many items that may reach as far as the farthest are measured exactly: mostly two or three for each of
 /// some centers.

@@ -52,7 +52,6 @@ pub(super) fn solve(
     }
     let bodies = Bodies::of(&shapes)?;
     match shapes.dim() {
-        1 => solve_in::<[f64; 1]>(&shapes, &bodies, k, options, monitor),
         2 => solve_in::<[f64; 2]>(&shapes, &bodies, k, options, monitor),
         3 => solve_in::<[f64; 3]>(&shapes, &bodies, k, options, monitor),
         _ => solve_in::<Vec<f64>>(&shapes, &bodies, k, options, monitor),

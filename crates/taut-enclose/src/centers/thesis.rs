@@ -12,7 +12,7 @@
 //! *Reference.* Thesis, section 2.5.
 
 use taut_certify::{PassBounds, Stop};
-use taut_points::{Monitor, ReadError};
+use taut_points::{Monitor, OrderBy, ReadError};
 
 use super::cloud::Cloud;
 use super::items::{Position, Shape, distance};
@@ -135,7 +135,7 @@ fn branch<P: Position>(
             order.push((d, at));
         }
     }
-    order.sort_by(|a, b| a.0.total_cmp(&b.0));
+    order.order_by(&|a, b| a.0.total_cmp(&b.0));
     let mut joins: Vec<usize> = order.into_iter().map(|(_, at)| at).collect();
     if clusters.len() < k && items.radius(p as usize) < threshold {
         joins.push(clusters.len());

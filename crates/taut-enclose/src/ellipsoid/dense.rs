@@ -1,6 +1,6 @@
 //! Small dense linear algebra by rows: triangular factors and the line search on a pencil.
 
-use crate::kernel::vector::{add_scaled, dot};
+use taut_kernels::vector::{add_scaled, dot};
 
 /// A ← L with A = LL′, of the lower triangle by rows, n × n; false when A is not positive definite to rounding.
 pub(crate) fn cholesky(a: &mut [f64], n: usize) -> bool {

@@ -9,8 +9,7 @@
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{cholesky_in_place, cholesky_in_place_scratch};
 use faer::{MatMut, Par};
-
-use crate::kernel::vector::{add_scaled, dot, rotate};
+use taut_kernels::vector::{add_scaled, dot, rotate};
 
 #[derive(Clone, Debug, Default)]
 pub(super) struct Factor {

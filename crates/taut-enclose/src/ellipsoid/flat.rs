@@ -14,6 +14,9 @@
 use std::ops::Range;
 
 use taut_certify::{Ellipsoid, Hull, Solution, Stop};
+use taut_kernels::compensated::Map;
+use taut_kernels::vector::{add_scaled, dot};
+use taut_kernels::{Center, DoubleDouble};
 use taut_points::{PointSource, Points, ReadError, Rows, Scalar, ScalarKind, Scratch};
 
 use super::counters::Counters;
@@ -25,9 +28,6 @@ use super::sample::Sample;
 use super::whitener::{Rebased, Whitener};
 use super::{EllipsoidOptions, method};
 use crate::Error;
-use crate::kernel::compensated::Map;
-use crate::kernel::vector::{add_scaled, dot};
-use crate::kernel::{Center, DoubleDouble};
 use crate::top::Far;
 
 /// The excess of residuals over the rounding of the coordinates, for √d of them, and still count as none.
@@ -353,7 +353,7 @@ pub(super) fn lifted(origin: &[f64], directions: &[f64], center: &Center) -> Cen
         let coordinate =
             DoubleDouble { high: center.high[k], low: center.low.get(k).copied().unwrap_or(0.0) };
         for (term, &b) in terms.iter_mut().zip(direction) {
-            *term = term.add(coordinate.mul(b.into()));
+            *term = *term + coordinate * b.into();
         }
     }
     Center {

@@ -8,13 +8,13 @@
 //! span, in coordinates of extent 1. "2d points" are at most 2d: a point may be extreme twice.
 //! *Reference.* The thesis, 3.3; Kumar and Yıldırım, J. Optim. Theory Appl. 126(1), 2005.
 
+use taut_kernels::vector::{add_scaled, dot};
 use taut_points::{Distribution, generate};
 
 use super::point_reader::PointReader;
 use super::sample::Sample;
 use super::working_set::WorkingSet;
 use crate::Error;
-use crate::kernel::vector::{add_scaled, dot};
 
 /// X₀ with equal weights.
 pub(super) fn points(

@@ -13,6 +13,7 @@
 
 use faer::linalg::matmul::matmul;
 use faer::{Accum, MatMut, MatRef, Par};
+use taut_kernels::vector::dot;
 use taut_points::parallel::ParallelSlice;
 use taut_points::{Monitor, OrderBy, ReadError};
 
@@ -23,7 +24,6 @@ use super::newton::{REBASE_TOLERANCE, gap};
 use super::whitener::{Rebased, Whitener};
 use super::working_set::{WorkingSet, copy_row};
 use crate::Error;
-use crate::kernel::vector::dot;
 
 /// The active set takes over at this gap at the latest: what points differ by may be far less than a gap of 1e-9.
 const GAP_MIN: f64 = 1e-13;

@@ -17,14 +17,14 @@ use std::collections::HashSet;
 
 use faer::linalg::matmul::matmul;
 use faer::{Accum, MatMut, MatRef, Par};
+use taut_kernels::triangle::{POINTS, Triangle, forms, moments};
+use taut_kernels::vector::dot;
 use taut_points::OrderBy;
 
 use super::counters::Counters;
 use super::factor::Factor;
 use super::whitener::Whitened;
 use super::working_set::copy_row;
-use crate::kernel::triangle::{POINTS, Triangle, forms, moments};
-use crate::kernel::vector::dot;
 
 /// A column whose squared distance from the span of the others is below this part of its square depends on them.
 const DEPENDENT_RATIO: f64 = 1e-11;

@@ -20,6 +20,8 @@ mod rounds;
 mod support_points;
 
 use taut_certify::{Ellipsoid, EllipsoidCertificate, Solution, Trace};
+use taut_kernels::Center;
+use taut_kernels::vector::add_scaled;
 use taut_points::{InputError, Monitor, OwnedPoints, PointSource};
 
 use self::base::Base;
@@ -30,8 +32,6 @@ use super::sample::Sample;
 use super::whitener::Rebased;
 use super::{EllipsoidMethod, EllipsoidOptions};
 use crate::Error;
-use crate::kernel::Center;
-use crate::kernel::vector::add_scaled;
 use crate::shapes::Shapes;
 use crate::shapes::frame::Map;
 

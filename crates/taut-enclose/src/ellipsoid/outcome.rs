@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 
 use taut_certify::{PassBounds, Stop};
+use taut_kernels::Center;
 
 use super::counters::Counters;
 use super::newton::gap;
 use super::point_reader::PassResult;
 use super::whitener::Whitener;
-use crate::kernel::Center;
 
 /// Multipliers, the ellipsoid they mean, and the pass that shows how far points lie outside.
 pub(super) struct Candidate {

@@ -6,6 +6,9 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
+use taut_kernels::Center;
+use taut_kernels::extremes::{all_finite, largest};
+use taut_kernels::triangle::{POINTS, above, leverages};
 use taut_points::{
     BlockHash, InputError, Monitor, OrderBy, PointSource, Points, PointsHash, Rows, Scalar, gather,
     hash_block, map_blocks,
@@ -13,9 +16,6 @@ use taut_points::{
 
 use super::question::{Kind, Question, TakenIds};
 use crate::Error;
-use crate::kernel::Center;
-use crate::kernel::extremes::{all_finite, largest};
-use crate::kernel::triangle::{POINTS, above, leverages};
 use crate::passes::{PointsAnswer, ask_points};
 use crate::top::{Far, Top};
 

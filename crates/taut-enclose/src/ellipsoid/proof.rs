@@ -9,6 +9,10 @@
 //! the digits whatever might be outside.
 
 use taut_certify::{Ellipsoid, EllipsoidCertificate, Hull, Items, Solution, Stop, Trace};
+use taut_kernels::Center;
+use taut_kernels::compensated::Map;
+use taut_kernels::triangle::leverages;
+use taut_kernels::vector::dot;
 
 use super::dense::{cholesky, divide_rows};
 use super::outcome::{Candidate, Outcome, log_unit_ball};
@@ -16,10 +20,6 @@ use super::point_reader::PointReader;
 use super::question::{Kind, Question};
 use super::{EllipsoidOptions, ROUNDING};
 use crate::Error;
-use crate::kernel::Center;
-use crate::kernel::compensated::Map;
-use crate::kernel::triangle::leverages;
-use crate::kernel::vector::dot;
 use crate::top::{Far, Top};
 
 /// u of the rounding of `f64`.

@@ -5,6 +5,8 @@
 
 use std::collections::BTreeSet;
 
+use taut_kernels::Center;
+use taut_kernels::compensated::Map;
 use taut_points::{
     BlockHash, ByteReader, ByteWriter, InputError, Monitor, PartsError, PointSource,
 };
@@ -14,8 +16,6 @@ use super::point_reader::{Query, TakenRows, measure, take, visit};
 use super::proof;
 use crate::Error;
 use crate::item_reader::farther;
-use crate::kernel::Center;
-use crate::kernel::compensated::Map;
 use crate::top::{Far, Top};
 
 /// A question about all points.

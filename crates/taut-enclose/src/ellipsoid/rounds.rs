@@ -13,6 +13,7 @@
 //! 1e16 has no digit in a model made without it.
 
 use taut_certify::Stop;
+use taut_kernels::{Center, DoubleDouble};
 use taut_points::OrderBy;
 
 use super::counters::Counters;
@@ -26,7 +27,6 @@ use super::whitener::Whitener;
 use super::working_set::{WorkingSet, copy_row};
 use super::{EllipsoidOptions, ROUNDING};
 use crate::Error;
-use crate::kernel::{Center, DoubleDouble};
 use crate::top::Far;
 
 /// Points are listed that are at most this far from the border, relatively: the proof measures again what rounding

@@ -6,11 +6,12 @@
 //! they may be copies of one. A working set like that has no ellipsoid, and gives leverages of 1e16 outside. So the points
 //! farthest from the span of those before them are taken, too: an affine basis.
 
+use taut_kernels::vector::dot;
+
 use super::point_reader::PointReader;
 use super::whitener::{Rebased, Whitener};
 use super::working_set::{WorkingSet, copy_row};
 use crate::Error;
-use crate::kernel::vector::dot;
 
 /// The sample has this many rows.
 const SAMPLE_ROWS: u64 = 4096;

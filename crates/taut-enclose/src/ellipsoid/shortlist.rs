@@ -7,6 +7,7 @@
 //! *Trap.* A list is of use only if M₀ is near the end: that of a covariance is for normal points, not for points near
 //! an ellipsoid. So the ellipsoid of a sample comes first.
 
+use taut_kernels::vector::dot;
 use taut_points::Points;
 
 use super::dense::divide_rows;
@@ -15,7 +16,6 @@ use super::sample::Sample;
 use super::whitener::Whitener;
 use super::working_set::WorkingSet;
 use crate::Error;
-use crate::kernel::vector::dot;
 use crate::shapes::eigen::eigen;
 use crate::top::Far;
 

@@ -9,10 +9,11 @@
 //! more turn and no accuracy (shifted CholeskyQR; Fukaya, Kannan, Nakatsukasa, Yamamoto, Yanagisawa, SIAM J. Sci.
 //! Comput. 42(1), 2020).
 
+use taut_kernels::triangle::{POINTS, Triangle, images, moments};
+use taut_kernels::vector::dot;
+
 use super::dense::{cholesky, divide_rows, forward};
 use super::working_set::WorkingSet;
-use crate::kernel::triangle::{POINTS, Triangle, images, moments};
-use crate::kernel::vector::dot;
 
 /// It is left at that after this many turns: each takes off at least some ten digits of a condition number.
 const TURNS_MAX: usize = 40;

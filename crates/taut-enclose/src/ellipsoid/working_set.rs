@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 
-use crate::kernel::triangle::POINTS;
+use taut_kernels::triangle::POINTS;
 
 /// Points relative to an origin, in the order the kernels want, and their multipliers u.
 #[derive(Clone, Debug)]

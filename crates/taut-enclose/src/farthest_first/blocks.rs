@@ -3,13 +3,13 @@
 //! *Idea.* A leaf is a block of the source. It is read when its farthest point may be the farthest of all; then its rows are
 //! compared with all chosen points that were missed since, in chunks, each until it is below what can matter.
 
+use taut_kernels::{Center, squared_distances};
 use taut_points::{Blocks, PointSource, Points, Rows, Scalar};
 
 use super::chosen::{Chosen, Scratch};
 use super::lazy::{Key, Leaf, Leaves, Top};
 use crate::Error;
 use crate::frame::Frame;
-use crate::kernel::{Center, squared_distances};
 
 /// Rows that are looked at together.
 const CHUNK: usize = 128;
@@ -104,7 +104,7 @@ impl BlockLeaf<'_> {
 
 /// The farthest of rows that follow each other from `first_row` on; not below 0.
 fn farthest(first_row: u64, least: &[f64]) -> Key {
-    let value = crate::kernel::extremes::largest(least);
+    let value = taut_kernels::extremes::largest(least);
     let at = least.iter().position(|&v| v == value).unwrap_or(0);
     Key { value, row: first_row + at as u64 }
 }

@@ -4,12 +4,12 @@
 //! farthest point of the leaf is from those before it changes nothing; one comparison rules out all 256. Of the chosen
 //! points that were missed the one next to the box is taken first: it lowers the bound most, which rules out most others.
 
+use taut_kernels::columns::{GROUP_SIZE, add_gaps, lower};
 use taut_oblivious::hilbert_order;
 use taut_points::parallel::ParallelSlice;
 use taut_points::{Points, Scalar};
 
 use super::chosen::{Chosen, Scratch};
-use super::columns::{GROUP_SIZE, add_gaps, lower};
 use super::lazy::{Key, Leaf, Leaves, Top};
 use crate::Error;
 use crate::frame::Frame;

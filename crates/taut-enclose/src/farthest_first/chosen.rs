@@ -1,6 +1,6 @@
 //! The points chosen so far, in the forms that comparing with them takes.
 
-use crate::kernel::{Center, squared_distances};
+use taut_kernels::{Center, squared_distances};
 
 /// Distances between chosen points are kept for this many of them: 64 MiB. Later ones are compared with all points that
 /// are looked at.

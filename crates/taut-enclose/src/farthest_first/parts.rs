@@ -5,13 +5,13 @@
 //! *Guarantee.* The order is the one in memory. Passes are at most as many as points, and few where the farthest points are apart.
 
 use taut_certify::{Stop, Trace};
+use taut_kernels::{Center, squared_distances};
 use taut_points::{Elsewhere, ReadError, gather};
 
 use super::FarthestFirst;
 use super::lazy::{Job, Key};
 use crate::Error;
 use crate::frame::{Frame, SQUARE_MIN};
-use crate::kernel::{Center, squared_distances};
 use crate::passes::{ask_farthest, ask_reach};
 use crate::streaming::Reach;
 use crate::top::Far;

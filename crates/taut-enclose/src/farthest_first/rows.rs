@@ -8,13 +8,13 @@
 //! are the same number, so the values are those of a pass over the rows.
 //! *Reference.* Elkan, Using the triangle inequality to accelerate k-means, ICML 2003.
 
+use taut_kernels::{Center, relative_error, squared_distances};
 use taut_points::parallel::IntoParallel;
 use taut_points::{Points, Scalar};
 
 use super::chosen::{Chosen, Scratch};
 use super::lazy::{Key, Leaf, Leaves, Top};
 use crate::Error;
-use crate::kernel::{Center, relative_error, squared_distances};
 
 /// A leaf has this many rows.
 const LEAF_ROWS: usize = 256;

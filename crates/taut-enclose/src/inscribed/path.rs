@@ -9,6 +9,8 @@
 //! by the least relative change that satisfies both equations.
 
 use taut_certify::{PassBounds, Stop};
+use taut_kernels::DoubleDouble;
+use taut_kernels::vector::{add_scaled, dot};
 use taut_points::{Monitor, ReadError};
 
 use super::start::Interior;
@@ -16,8 +18,6 @@ use super::{HalfSpaces, InscribedOptions, PathResult, ROUNDING, View, seen};
 use crate::Error;
 use crate::ellipsoid::dense::cholesky;
 use crate::ellipsoid::outcome::log_unit_ball;
-use crate::kernel::DoubleDouble;
-use crate::kernel::vector::{add_scaled, dot};
 
 /// μ is multiplied by this once its minimum is nearly reached.
 const MU_FACTOR: f64 = 0.1;
@@ -270,9 +270,9 @@ pub(super) fn log_determinant(axes: &[f64], dim: usize) -> f64 {
         let top = &above[k];
         sum += top[k].high.abs().ln();
         for row in below {
-            let factor = row[k].div(top[k]);
+            let factor = row[k] / top[k];
             for (value, other) in row[k..].iter_mut().zip(&top[k..]) {
-                *value = value.sub(factor.mul(*other));
+                *value = *value - factor * *other;
             }
         }
     }

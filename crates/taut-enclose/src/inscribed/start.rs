@@ -14,10 +14,10 @@ use clarabel::solver::{
     DefaultSettingsBuilder, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus,
     SupportedConeT, ZeroConeT,
 };
+use taut_kernels::vector::{add_scaled, dot};
 
 use super::HalfSpaces;
 use crate::Error;
-use crate::kernel::vector::{add_scaled, dot};
 use crate::shapes::eigen::eigen;
 
 /// The rest that a conic solver leaves of a sum that is 0, for unit normals.

@@ -4,14 +4,14 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use taut_certify::Items;
+use taut_kernels::extremes::{all_finite, largest};
+use taut_kernels::{Center, squared_distances};
 use taut_points::{
     BlockHash, InputError, Monitor, PointSource, Points, Rows, Scalar, hash_block, map_blocks,
 };
 
 use super::{PassResult, Query, View};
 use crate::Error;
-use crate::kernel::extremes::{all_finite, largest};
-use crate::kernel::{Center, squared_distances};
 use crate::top::{Face, Far, Top, TopByFace};
 
 /// Rows whose distances are worked out before they are compared: 4 KiB of results.

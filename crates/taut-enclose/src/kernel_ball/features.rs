@@ -1,12 +1,12 @@
 //! Rows as points of the feature space, and their squared distances ρ(x, y) = K(x, x) + K(y, y) − 2K(x, y).
 
 use taut_certify::Kernel;
+use taut_kernels::vector::dot;
+use taut_kernels::{Center, squared_distances};
 use taut_points::{PointSource, Rows, gather};
 
 use super::decay::decay_all;
 use crate::Error;
-use crate::kernel::vector::dot;
-use crate::kernel::{Center, squared_distances};
 
 /// Some rows of a source, widened to `f64`.
 #[derive(Clone, Default)]

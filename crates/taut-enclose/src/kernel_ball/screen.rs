@@ -13,15 +13,14 @@
 use std::sync::{Mutex, PoisonError};
 
 use taut_certify::Kernel;
+use taut_kernels::{Center as Mean, squared_distances};
 use taut_points::{Monitor, OrderBy, PointSource, Rows, map_blocks};
 
 use super::cluster::Cluster;
 use super::decay::decay_all;
 use super::distance_bounds::DistanceBounds;
 use super::features::Features;
-
 use crate::Error;
-use crate::kernel::{Center as Mean, squared_distances};
 use crate::top::{Far, Top};
 
 /// Members of a group of the finest level, at least.

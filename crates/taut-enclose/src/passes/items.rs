@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use taut_certify::Items;
+use taut_kernels::Center;
 use taut_points::{
     BlockHash, ByteReader, ByteWriter, Elsewhere, Monitor, PartsError, PointSource, PointsHash,
 };
@@ -11,7 +12,6 @@ use super::partial::{Body, Partial};
 use super::query::{Query, Question};
 use crate::Error;
 use crate::item_reader::{Found, Pass, Query as PassQuery, View, farther, spread};
-use crate::kernel::Center;
 use crate::top::{Far, Top, TopByFace};
 
 /// A pass over items.

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeSet;
 
+use taut_kernels::Center;
+use taut_kernels::extremes::largest;
 use taut_points::{
     BlockHash, ByteReader, ByteWriter, Elsewhere, Monitor, PartsError, PointSource, PointsHash,
     Rows, Scalar, map_blocks,
@@ -11,8 +13,6 @@ use super::partial::{Body, Partial};
 use super::query::{Query, Question, among_all};
 use crate::Error;
 use crate::frame::{Extent, Frame, extent_and_hashes};
-use crate::kernel::Center;
-use crate::kernel::extremes::largest;
 use crate::streaming::nearest_squares;
 use crate::top::{Far, Top};
 

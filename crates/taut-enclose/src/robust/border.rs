@@ -20,6 +20,7 @@
 //! *Reference.* Hawkins, Computational Statistics & Data Analysis 17, 1994, for exchanges; the factor follows from the
 //! determinant lemma for the change of rank 2.
 
+use taut_kernels::vector::{add_scaled, dot};
 use taut_points::OrderBy;
 
 use super::concentrate::Raw;
@@ -28,7 +29,6 @@ use super::starts::nearest;
 use crate::Error;
 use crate::ellipsoid::dense::{cholesky, forward};
 use crate::ellipsoid::point_reader::PointReader;
-use crate::kernel::vector::{add_scaled, dot};
 
 /// This many rows on either side are looked at. On 10⁵ points ends were no lower with 3000.
 const BORDER_ROWS: usize = 2000;

@@ -10,12 +10,12 @@
 //! *Reference.* C-steps after Rousseeuw, Van Driessen, Technometrics 41, 1999; the estimator is that of Rousseeuw, 1985.
 
 use taut_certify::{Enclosure, Solution};
+use taut_kernels::vector::dot;
 use taut_points::Points;
 
 use super::estimate::Estimate;
 use super::flat::{Flat, Part};
 use crate::ellipsoid::point_reader::PointReader;
-use crate::kernel::vector::dot;
 use crate::{EllipsoidOptions, Error, ellipsoid};
 
 /// Rows that reach no farther out than this are kept.

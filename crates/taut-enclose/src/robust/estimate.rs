@@ -10,14 +10,14 @@
 //! *Trap.* A covariance may be indefinite after a far outlier was dropped and yet not be flat: it is shifted, and the
 //! moments taken again in the better metric.
 
+use taut_kernels::triangle::{POINTS, Triangle, images, leverages, moments};
+use taut_kernels::vector::dot;
+use taut_kernels::{Center, DoubleDouble};
 use taut_points::{ByteReader, ByteWriter, PartsError};
 
 use crate::Error;
 use crate::ellipsoid::dense::{cholesky, divide_rows, forward};
 use crate::ellipsoid::point_reader::PointReader;
-use crate::kernel::triangle::{POINTS, Triangle, images, leverages, moments};
-use crate::kernel::vector::dot;
-use crate::kernel::{Center, DoubleDouble};
 
 /// Rows count as flat after this many turns of shifting: each takes off some ten digits of a condition number.
 const TURNS_MAX: usize = 40;

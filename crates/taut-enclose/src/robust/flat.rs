@@ -6,10 +6,10 @@
 //! *Reference.* Rousseeuw, Van Driessen, Technometrics 41, 1999, section 3.3, who report the hyperplane and stop there.
 
 use taut_certify::Hull;
+use taut_kernels::vector::{add_scaled, dot};
 use taut_points::Points;
 
 use crate::ellipsoid::point_reader::PointReader;
-use crate::kernel::vector::{add_scaled, dot};
 use crate::{EllipsoidOptions, Error, ellipsoid};
 
 /// Another row may be this many times farther off than the rows kept and still count as on the subspace.

@@ -12,12 +12,12 @@
 //! *Reference.* Hubert, Rousseeuw, Verdonck, J. Computational and Graphical Statistics 21, 2012; Maronna, Zamar,
 //! Technometrics 44, 2002, for OGK.
 
+use taut_kernels::vector::dot;
 use taut_points::OrderBy;
 
 use super::chi_square::quantile;
 use super::eigen::eigenvectors;
 use super::scale::{median, qn};
-use crate::kernel::vector::dot;
 
 /// The number of them.
 pub(super) const START_COUNT: usize = 6;

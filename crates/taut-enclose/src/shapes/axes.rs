@@ -3,14 +3,14 @@
 //! *Idea.* What is asked of an item again and again, its farthest point from a center, is asked along its own axes
 //! ([`reach`](super::reach)). These are found once, in O(d³) for each item.
 
+use taut_kernels::Center;
+use taut_kernels::vector::{add_scaled, dot};
 use taut_points::parallel::IntoParallel;
 
 use super::Shapes;
 use super::eigen::eigen;
 use super::frame::Framed;
 use crate::Error;
-use crate::kernel::Center;
-use crate::kernel::vector::{add_scaled, dot};
 
 /// Squares of half axes, and their directions as rows.
 pub(crate) struct Axes {

@@ -5,7 +5,7 @@
 //! *Guarantee.* Eigenvalues to a few units in the last place of the largest; vectors orthonormal to the same.
 //! *Reference.* Golub and Van Loan, Matrix Computations, sections 8.3.1 and 8.3.4.
 
-use crate::kernel::vector::{add_scaled, dot};
+use taut_kernels::vector::{add_scaled, dot};
 
 /// At most this many rotations of the whole matrix are made for each eigenvalue; three are usual.
 const ROTATIONS_MAX: usize = 60;

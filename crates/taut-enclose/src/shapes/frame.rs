@@ -8,7 +8,7 @@ use taut_points::parallel::IntoParallel;
 use taut_points::{InstructionSet, instruction_set};
 
 use super::Shapes;
-use crate::kernel::{Center, DoubleDouble};
+use taut_kernels::{Center, DoubleDouble};
 
 /// A linear map by rows, r × d, and the center it is taken from.
 #[derive(Clone, Copy)]
@@ -31,7 +31,7 @@ impl Map<'_> {
     fn image(&self, x: &[DoubleDouble]) -> Vec<f64> {
         let coordinate = |a: usize| {
             let terms = self.row(a).iter().zip(x).filter(|(p, _)| **p != 0.0);
-            terms.fold(DoubleDouble::ZERO, |sum, (&p, &x)| sum.add(x.mul(p.into()))).high
+            terms.fold(DoubleDouble::ZERO, |sum, (&p, &x)| sum + x * p.into()).high
         };
         (0..self.rank()).map(coordinate).collect()
     }
@@ -40,7 +40,7 @@ impl Map<'_> {
     fn offset(&self, x: &[f64]) -> Vec<DoubleDouble> {
         let tail = |j: usize| self.center.low.get(j).copied().unwrap_or(0.0);
         let parts = x.iter().zip(&self.center.high).enumerate();
-        parts.map(|(j, (x, c))| DoubleDouble::sum(*x, -c).add((-tail(j)).into())).collect()
+        parts.map(|(j, (x, c))| DoubleDouble::sum(*x, -c) + (-tail(j)).into()).collect()
     }
 
     /// P(x − c).
@@ -68,7 +68,7 @@ impl Map<'_> {
     pub(crate) fn touching(&self, shapes: &Shapes, i: usize, a: &[f64]) -> Vec<f64> {
         let mut offset = self.offset(shapes.center(i));
         for (x, v) in offset.iter_mut().zip(step(shapes, i, a)) {
-            *x = x.add(v);
+            *x = *x + v;
         }
         self.image(&offset)
     }
@@ -80,15 +80,15 @@ pub(crate) fn step(shapes: &Shapes, i: usize, a: &[f64]) -> Vec<DoubleDouble> {
     let mut v = vec![DoubleDouble::ZERO; dim];
     for (j, v) in v.iter_mut().enumerate() {
         for (k, &ak) in a.iter().enumerate() {
-            *v = v.add(shapes.entry(i, j, k).mul(ak.into()));
+            *v = *v + shapes.entry(i, j, k) * ak.into();
         }
     }
-    let q = v.iter().zip(a).fold(DoubleDouble::ZERO, |sum, (v, &a)| sum.add(v.mul(a.into())));
+    let q = v.iter().zip(a).fold(DoubleDouble::ZERO, |sum, (v, &a)| sum + *v * a.into());
     if q.high <= 0.0 {
         return vec![DoubleDouble::ZERO; dim];
     }
     let root = q.sqrt();
-    v.iter().map(|v| v.div(root)).collect()
+    v.iter().map(|&v| v / root).collect()
 }
 
 /// The same with the multiply-add as an instruction rather than a function call.
@@ -110,13 +110,13 @@ fn congruence(map: Map<'_>, shapes: &Shapes, i: usize) -> Vec<f64> {
         product.fill(DoubleDouble::ZERO);
         for (j, &p) in map.row(a).iter().enumerate().filter(|(_, p)| **p != 0.0) {
             for (k, sum) in product.iter_mut().enumerate() {
-                *sum = sum.add(shapes.entry(i, j, k).mul(p.into()));
+                *sum = *sum + shapes.entry(i, j, k) * p.into();
             }
         }
         for b in 0..=a {
             let mut sum = DoubleDouble::ZERO;
             for (&p, &v) in map.row(b).iter().zip(&product).filter(|(p, _)| **p != 0.0) {
-                sum = sum.add(v.mul(p.into()));
+                sum = sum + v * p.into();
             }
             shape[a * rank + b] = sum.high;
             shape[b * rank + a] = sum.high;

@@ -7,7 +7,7 @@
 //! *Trap.* An eigenvalue in `f64` is known to 1e-16 at best, and τ is of that size: from eigenvalues the checker's τ could
 //! not be found again, and answers would be refused.
 
-use crate::kernel::DoubleDouble;
+use taut_kernels::DoubleDouble;
 
 /// Unit roundoff of doubled precision with room for quotients: 64·2⁻¹⁰⁶, as the checker takes it.
 const ROUNDOFF: f64 = f64::from_bits((1023 - 100) << 52);
@@ -49,7 +49,7 @@ fn is_definite(rows: &[Vec<f64>], tau: f64) -> bool {
     let mut matrix: Vec<Vec<DoubleDouble>> =
         rows.iter().map(|row| row.iter().map(|&v| v.into()).collect()).collect();
     for (j, row) in matrix.iter_mut().enumerate() {
-        row[j] = row[j].add(row[j].mul(added));
+        row[j] = row[j] + row[j] * added;
     }
     for k in 0..n {
         let (done, rest) = matrix.split_at_mut(k + 1);
@@ -59,9 +59,9 @@ fn is_definite(rows: &[Vec<f64>], tau: f64) -> bool {
             return false;
         }
         for row in rest {
-            let factor = row[k].div(pivot[k]);
+            let factor = row[k] / pivot[k];
             for (value, above) in row[k + 1..].iter_mut().zip(&pivot[k + 1..]) {
-                *value = value.sub(factor.mul(*above));
+                *value = *value - factor * *above;
             }
         }
     }

@@ -1,11 +1,11 @@
 //! One guess of the radius, and points of the stream that are more than twice that apart.
 
+use taut_kernels::{Center, squared_distances};
 use taut_points::{ByteReader, ByteWriter, Monitor, PartsError, Points, ReadError, Scalar};
 
 use super::{SeparatedSet, rounded_up};
 use crate::Error;
 use crate::frame::{SQUARE_MIN, exponent};
-use crate::kernel::{Center, squared_distances};
 
 /// It is asked whether to go on each time this many points have gone by.
 const POINTS_BETWEEN_ASKS: u64 = 64;

@@ -1,14 +1,13 @@
 //! One pass that measures centers: how far the farthest point is from the nearest of them.
 
+use taut_kernels::extremes::largest;
+use taut_kernels::{Center, squared_distances};
 use taut_points::{BlockHash, Monitor, PointSource, Points, PointsHash, Rows, Scalar, map_blocks};
 
+use super::distance;
 use crate::Error;
 use crate::frame::{SQUARE_MIN, survey_blocks};
-use crate::kernel::extremes::largest;
-use crate::kernel::{Center, squared_distances};
 use crate::passes::ask_reach;
-
-use super::distance;
 
 /// Rows that are measured together.
 const CHUNK: usize = 512;

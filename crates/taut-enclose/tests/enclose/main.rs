@@ -48,7 +48,5 @@ mod robust_mutations;
 mod robust_odd_sets;
 mod robust_volume;
 mod shapes;
-mod sphere_search;
-mod sphere_search_sizes;
 mod sphere_tree;
 mod streaming;

@@ -4,6 +4,8 @@
 //! that no motion changes. Those that cross the mesh are kept. The search may see each of them very often, so what it makes of
 //! them is no estimate: [`occlusion`](crate::occlusion()) draws lines of its own.
 
+use taut_points::OrderBy;
+
 use super::polytope::Sides;
 use super::scene::{WALL, free_parts};
 use super::tree::{Parts, Tree};
@@ -108,7 +110,7 @@ fn crossings(tree: &Tree, line: &Line) -> Vec<(f64, i32)> {
             }
         }
     }
-    found.sort_by(|one, other| one.0.total_cmp(&other.0));
+    found.order_by(&|one, other| one.0.total_cmp(&other.0));
     found
 }
 

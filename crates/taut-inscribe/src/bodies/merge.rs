@@ -141,7 +141,7 @@ impl<F: Family> Packing<'_, F> {
                 (once + twice.count(), pair)
             })
             .collect();
-        sorted.sort_unstable();
+        sorted.order();
         sorted.into_iter().map(|(_, pair)| pair).collect()
     }
 

@@ -7,6 +7,7 @@
 //! by at most Σ λⱼ|uⱼ|₁. Offsets that are smaller by |uⱼ|₁ have the same weights for the mesh as given.
 
 use taut_certify::{BodyProof, ConvexBody};
+use taut_points::OrderBy;
 
 use super::directions::{Directions, Offsets, gcd, opposite};
 use super::grow::Dop;
@@ -111,7 +112,7 @@ pub(super) fn separated(tree: &Tree, dop: &Dop) -> Option<(Offsets, Vec<Vec<u64>
             entry.is_some()
         });
         if is_separated {
-            combined.sort_unstable();
+            combined.order();
             return Some((h, combined));
         }
         h[..directions.len()].iter_mut().for_each(|h| *h -= 1);

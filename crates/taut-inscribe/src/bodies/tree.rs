@@ -3,6 +3,8 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use taut_points::OrderBy;
+
 use super::clip::{self, Scratch, TOUCH};
 use super::directions::{Directions, Offsets, opposite};
 use super::scene::{Insides, MESH, WALL};
@@ -265,7 +267,7 @@ impl Tree {
             heights.push((a[2] + (n[0] * a[0] + n[1] * a[1]) / n[2], self.surfaces[t]));
             true
         });
-        heights.sort_by(|one, other| one.0.total_cmp(&other.0));
+        heights.order_by(&|one, other| one.0.total_cmp(&other.0));
         heights
     }
 

@@ -7,9 +7,8 @@
 
 use taut_points::OrderBy;
 
-use crate::polygon::Segment;
-
 use super::region::{Region, Side, dot, minus};
+use crate::polygon::Segment;
 
 /// A norm |w|² = m₀w₁² + 2m₁w₁w₂ + m₂w₂².
 #[derive(Clone, Copy, Debug)]

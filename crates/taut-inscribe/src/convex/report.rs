@@ -3,10 +3,9 @@
 use taut_points::OrderBy;
 use taut_predicates::plane::orient;
 
+use super::region::{Region, cross, minus};
 use crate::polygon::{Segment, is_inside};
 use crate::units::Units;
-
-use super::region::{Region, cross, minus};
 
 /// First share by which a body is shrunk towards its centroid where rounding lets edges into it, and the factor of the next ones.
 const SHRINKING: (f64, f64) = (1e-15, 4.0);

@@ -17,7 +17,7 @@ mod conic;
 mod hull;
 mod samples;
 
-use taut_points::{Cancelled, Monitor};
+use taut_points::{Cancelled, Monitor, OrderBy};
 
 use self::conic::{Conic, Real};
 use self::hull::{DIFFERENCE_MAX, Facet};
@@ -157,7 +157,7 @@ impl Search<'_> {
             let triples = TRIPLES.map(|triple| triple.map(|place| facet.corners[place]));
             incidences.extend(triples.map(|triple| (triple, number as u32)));
         }
-        incidences.sort_unstable();
+        incidences.order();
         for around in incidences.chunk_by(|one, other| one.0 == other.0) {
             monitor.check()?;
             let triple = around[0].0;

@@ -3,6 +3,8 @@
 //! *Trap.* Raw bytes within XML are no XML, although VTK and ParaView write and read them so: only what stands before
 //! the underscore that begins them is read as tags.
 
+use taut_points::OrderBy;
+
 use super::MeshBuilder;
 use super::writing::Job;
 use crate::cursor::{Cursor, Kind};
@@ -128,7 +130,7 @@ pub(super) fn read(mesh: &mut MeshBuilder<'_>, cursor: &mut Cursor<'_>) -> Resul
     }
     // A stream is read once, so the arrays are taken as they come.
     let start = cursor.at;
-    arrays.sort_by_key(|array| array.offset);
+    arrays.order_by_key(|array| array.offset);
     let (mut ids, mut ends, mut types) = (Vec::new(), Vec::new(), Vec::new());
     for array in &arrays {
         let place = FilePlace::Element(array.name, 0);

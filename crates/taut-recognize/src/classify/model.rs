@@ -1,8 +1,8 @@
 //! A trained classifier as data: predictions, and saving as JSON with a format and a version.
 
 use serde::{Deserialize, Serialize};
-use taut_points::Points;
 use taut_points::parallel::IntoParallel;
+use taut_points::{OrderBy, Points};
 
 use super::calibrate::Calibration;
 use super::data::check_finite;
@@ -216,7 +216,7 @@ impl Model {
     fn check(&self) -> Result<(), &'static str> {
         let (dim, classes) = (self.learned.preparation.dim(), self.classes.len());
         let mut names = self.classes.clone();
-        names.sort_unstable();
+        names.order();
         if names.iter().any(String::is_empty) || names.windows(2).any(|pair| pair[0] == pair[1]) {
             return Err("its classes have an empty name, or one name twice");
         }

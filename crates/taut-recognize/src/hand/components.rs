@@ -4,6 +4,8 @@
 //! that follows works on runs.
 //! *Trap.* The set is 4-connected, so that its outline is a simple polygon, and its complement is 8-connected.
 
+use taut_points::OrderBy;
+
 use super::mask::Mask;
 
 /// A run of pixels of one row: columns from `start` to before `end`.
@@ -54,7 +56,7 @@ pub fn largest_component(mask: &Mask) -> Option<LargestComponent> {
         .filter(|&(index, sum)| index != largest && sum.area > 0)
         .map(|(_, sum)| sum.component())
         .collect();
-    others.sort_by_key(|other| std::cmp::Reverse(other.area));
+    others.order_by_key(|other| std::cmp::Reverse(other.area));
     let mut only = Mask::new(mask.width(), mask.height());
     for (run, _) in runs.iter().zip(&labels).filter(|&(_, &label)| label == largest) {
         only.fill(run.y, run.start, run.end);
@@ -73,7 +75,7 @@ pub fn largest_component(mask: &Mask) -> Option<LargestComponent> {
     for (run, _) in gaps.iter().zip(&labels).filter(|&(_, &label)| is_hole[label]) {
         only.fill(run.y, run.start, run.end);
     }
-    holes.sort_by_key(|hole| std::cmp::Reverse(hole.area));
+    holes.order_by_key(|hole| std::cmp::Reverse(hole.area));
     Some(LargestComponent { mask: only, area, others, holes })
 }
 

@@ -6,6 +6,7 @@
 //! the border of a set of cells they are closed and turned alike. They are in the order of their sites, so they are a function of the
 //! labels, not of the numbers of cells.
 
+use taut_points::OrderBy;
 use taut_points::parallel::IntoParallel;
 
 use super::cells::Cells;
@@ -181,7 +182,7 @@ pub(super) fn is_cycle(link: &[[u32; 2]]) -> bool {
         return is_round(link, |site| link.iter().position(|side| side[0] == site));
     }
     let mut sorted: Vec<usize> = (0..link.len()).collect();
-    sorted.sort_unstable_by_key(|&k| link[k][0]);
+    sorted.order_by_key(|&k| link[k][0]);
     let place = |site| sorted.binary_search_by_key(&site, |&k| link[k][0]).ok();
     is_round(link, |site| place(site).map(|k| sorted[k]))
 }
@@ -205,7 +206,7 @@ pub(super) fn is_fan(link: &[[u32; 2]]) -> bool {
     for (side, [a, b]) in (0..).zip(link) {
         ends.extend([(*a, side), (*b, side)]);
     }
-    ends.sort_unstable();
+    ends.order();
     let mut parity = ParityUnionFind::new(link.len());
     let mut parts = link.len();
     for at_site in ends.chunk_by(|a, b| a.0 == b.0) {

@@ -11,6 +11,7 @@ use std::sync::atomic::Ordering::Relaxed;
 use std::sync::atomic::{AtomicU8, AtomicU32};
 
 use taut_delaunay::{GHOST, Simplex, decode};
+use taut_points::OrderBy;
 use taut_points::parallel::{IntoParallel, ParallelSlice};
 
 /// Cells or sites of one task.
@@ -106,11 +107,13 @@ impl Cells {
     }
 
     /// The cell across a facet, and the place of the facet in it.
+    #[inline(always)]
     pub(super) fn across(&self, cell: u32, facet: usize) -> (u32, usize) {
         decode(self.beyond[cell as usize][facet])
     }
 
     /// The sites of the facet opposite the i-th of a cell, counter-clockwise as seen from beyond it.
+    #[inline(always)]
     pub(super) fn facet(&self, cell: u32, i: usize) -> [u32; 3] {
         let sites = self.sites(cell);
         let [a, b, c] = OUTWARD[i];
@@ -169,7 +172,7 @@ fn in_order(all: &mut [Moving], mut visit: impl FnMut(usize, &Moving)) {
     /// Up to this many, it costs less to compare all with all than to guess which is the lower one.
     const COMPARE_ALL_MAX: usize = 20;
     if all.len() > COMPARE_ALL_MAX {
-        all.sort_unstable_by_key(|moving| moving.name);
+        all.order_by_key(|moving| moving.name);
         all.iter().enumerate().for_each(|(rank, moving)| visit(rank, moving));
         return;
     }

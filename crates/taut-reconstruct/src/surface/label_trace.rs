@@ -4,7 +4,7 @@
 //! those that Kruskal's algorithm obeys one by one, which is easier to follow: each joins two parts of space, until one is left.
 //! *Guarantee.* What is obeyed is what `tree` obeys; the ghosts, which are one, are one cell here.
 
-use taut_points::{Monitor, PointSource};
+use taut_points::{Monitor, OrderBy, PointSource};
 
 use super::answer::Sites;
 use super::cells::Cells;
@@ -119,7 +119,7 @@ pub fn label_trace(source: &dyn PointSource, monitor: &Monitor<'_>) -> Result<La
         })
         .collect();
     let first = |facet: u32| facet.min(cells.mirror(facet));
-    facets.sort_unstable_by_key(|&facet| (!dual_edges.at(facet).key, first(facet)));
+    facets.order_by_key(|&facet| (!dual_edges.at(facet).key, first(facet)));
     let facet = |&facet: &u32| {
         let (cell, i) = ((facet >> 2) as usize, facet & 3);
         let beyond = (cells.mirror(facet) >> 2) as usize;

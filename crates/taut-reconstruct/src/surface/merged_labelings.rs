@@ -16,6 +16,7 @@ use std::cmp::Reverse;
 use std::collections::BTreeSet;
 
 use taut_delaunay::GHOST;
+use taut_points::OrderBy;
 
 use super::border::{Face, Links, faces, is_fan};
 use super::cells::Cells;
@@ -164,7 +165,7 @@ impl Region {
             *facet < across && is_at[(across >> 2) as usize]
         };
         let mut kept: Vec<u32> = facets.filter(is_between).collect();
-        kept.sort_unstable_by_key(|&facet| (Reverse(dual_edges.at(facet).weight()), facet));
+        kept.order_by_key(|&facet| (Reverse(dual_edges.at(facet).weight()), facet));
         let mut parity = ParityUnionFind::new(cells.len());
         for facet in kept {
             parity.join(facet >> 2, cells.mirror(facet) >> 2, dual_edges.at(facet).is_opposite());

@@ -15,6 +15,7 @@
 
 use std::f64::consts::PI;
 
+use taut_points::OrderBy;
 use taut_points::parallel::IntoParallel;
 
 use super::border::{Face, Links, is_fan};
@@ -163,7 +164,7 @@ fn without_small_fans(faces: &[Face], sites: usize) -> Option<Vec<Face>> {
     for site in failing {
         let mut fans = fans(links.at(site));
         // The largest stays, of several the one with the smallest neighbor.
-        fans.sort_by_key(|fan| (std::cmp::Reverse(fan.len()), fan.iter().copied().min()));
+        fans.order_by_key(|fan| (std::cmp::Reverse(fan.len()), fan.iter().copied().min()));
         for side in fans.into_iter().skip(1).flatten() {
             let mut name = [site, side[0], side[1]];
             name.sort_unstable();

@@ -363,7 +363,12 @@ pub(super) fn flip(
 }
 
 /// Returns what a dual edge between two cells adds to the agreement with the labels.
+#[inline(always)]
 fn agrees(dual_edge: DualEdge, cells: [u32; 2], inside: &[bool]) -> i64 {
-    let [a, b] = cells.map(|cell| inside[cell as usize]);
-    if a == b { dual_edge.signed() } else { -dual_edge.signed() }
+    let [one, other] = cells;
+    if inside[one as usize] == inside[other as usize] {
+        dual_edge.signed()
+    } else {
+        -dual_edge.signed()
+    }
 }

@@ -20,7 +20,7 @@
 
 use std::collections::{BTreeSet, HashSet};
 
-use taut_points::{Cancelled, Monitor};
+use taut_points::{Cancelled, Monitor, OrderBy};
 
 use super::cells::Cells;
 use super::cycles::{Found, Network, Objection};
@@ -128,7 +128,7 @@ impl Improver<'_> {
             Objection::new(facet, one > two, network)
         });
         self.objections.extend(new);
-        self.objections.sort_by_key(|objection| objection.facet);
+        self.objections.order_by_key(|objection| objection.facet);
         let unsettled = self.objections.iter_mut().filter(|objection| objection.tried == 0);
         unsettled.for_each(|objection| objection.settle(network));
     }

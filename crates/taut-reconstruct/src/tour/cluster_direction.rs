@@ -11,6 +11,8 @@
 //! *Trap.* Widths are of very different size: without the squares a bridge would move as slowly as the closest two sites allow.
 //! *Reference.* Jünger and Pulleyblank, Geometric duality and combinatorial optimization, 1993, for zones and "moats" around clusters.
 
+use taut_points::OrderBy;
+
 use super::candidates::Candidates;
 use super::tree::LeastTree;
 use super::union::Union;
@@ -33,7 +35,7 @@ impl ClusterDirection {
         let zero = vec![0.0; n];
         LeastTree::new(candidates, n, None)
             .find(&zero, |a, b| edges.push((candidates.length(a, b), a, b)));
-        edges.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+        edges.order_by(&|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
         let mut union = Union::of(n);
         let mut cluster: Vec<u32> = (0..n as u32).collect();
         let mut formed = vec![0.0; n];

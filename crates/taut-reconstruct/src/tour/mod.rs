@@ -27,7 +27,7 @@ mod tree;
 pub(crate) mod union;
 
 use taut_certify::{tour_bound, tour_length};
-use taut_points::Monitor;
+use taut_points::{Monitor, OrderBy};
 use taut_predicates::plane::{lexicographic, orient};
 
 use crate::Error;
@@ -199,7 +199,7 @@ fn along_line(sites: &[[f64; 2]]) -> Option<Vec<u32>> {
         }
     }
     let mut order: Vec<u32> = all.collect();
-    order.sort_unstable_by(by);
+    order.order_by(&by);
     Some(order)
 }
 

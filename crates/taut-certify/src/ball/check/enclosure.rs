@@ -2,8 +2,8 @@
 //!
 //! *Problem.* |p − c| ≤ ρ with ρ = R − r (R for points), for each of n rows, in one pass.
 //! *Idea.* Three stages, each asked only about what the one before left open.
-//! 1. Plain: S = Σ fl(pⱼ − cⱼ)² in `f64`, with eight partial sums. Each difference is off by a factor 1 ± u, each
-//!    square passes at most m = d/8 + 16 roundings, and the tail t of the center moves the point by at most |t|. So
+//! 1. Plain: S = Σ fl(pⱼ − cⱼ)² in `f64`, with at least two partial sums. Each difference is off by a factor 1 ± u, each
+//!    square passes at most m = d/2 + 16 roundings, and the tail t of the center moves the point by at most |t|. So
 //!    |p − c| lies within |t| of √S·(1 ± κ) for κ ≥ mu/2 + 4u; κ = (m + 16)u also covers the rounding of the two
 //!    thresholds with which S is compared, and what underflows: less than 2⁻¹⁰⁰⁰, beside ρ² ≥ 2⁻⁵⁰⁸, as ρ ≠ 0 is
 //!    no less than 2⁻⁵⁴R.
@@ -20,12 +20,14 @@ use taut_points::{Monitor, PointSource, Points, Rows, Scalar};
 
 use super::super::{Ball, BallCertificate};
 use super::difference::{Difference, is_tame_number, underflow};
+use super::plain_squares::plain_squares;
 use super::scale::Scale;
 use crate::arithmetic::{ExactSum, Known, U, two_sum};
 use crate::hashed_pass::{KeptRows, WantedRows, hashed_pass};
 use crate::{CheckError, Items, Violation};
 
-const LANES: usize = 8;
+/// Rows whose plain squares are found at once.
+const ROWS: usize = 64;
 
 /// One ball, ready to be compared with rows.
 pub(super) struct Enclosure<'a> {
@@ -42,7 +44,7 @@ impl<'a> Enclosure<'a> {
     pub(super) fn of(ball: &'a Ball, items: Items) -> Self {
         let dim = ball.center.len();
         let scale = Scale::of(ball.radius);
-        let kappa = ((dim / LANES + 16) + 16) as f64 * U;
+        let kappa = ((dim / 2 + 16) + 16) as f64 * U;
         let squares: f64 = ball.center_tail.iter().map(|t| (t * scale.up).powi(2)).sum();
         // The second term is there for squares that underflow.
         let tail = match ball.center_tail.iter().all(|&t| t == 0.0) {
@@ -76,16 +78,14 @@ impl<'a> Enclosure<'a> {
         first: u64,
         rows: &Rows<'_>,
     ) -> Result<Option<Violation>, Violation> {
-        match (rows, self.scale.is_needed()) {
-            (Rows::F32(points), false) => self.rows::<f32, false>(first, points),
-            (Rows::F32(points), true) => self.rows::<f32, true>(first, points),
-            (Rows::F64(points), false) => self.rows::<f64, false>(first, points),
-            (Rows::F64(points), true) => self.rows::<f64, true>(first, points),
+        match rows {
+            Rows::F32(points) => self.rows(first, points),
+            Rows::F64(points) => self.rows(first, points),
         }
     }
 
     /// The first row outside; an error if a row is no point or ball at all.
-    fn rows<T: Scalar, const SCALED: bool>(
+    fn rows<T: Scalar>(
         &self,
         first: u64,
         points: &Points<'_, T>,
@@ -93,25 +93,32 @@ impl<'a> Enclosure<'a> {
         let mut outside = None;
         let mut difference = Difference::new(self.ball.center.len());
         let thresholds_of_points = self.thresholds(self.ball.radius);
-        for (number, row) in (first..).zip(points.rows()) {
-            let (position, r) = item(self.items, row);
-            let plain = plain_square::<T, SCALED>(position, &self.ball.center, self.scale.up);
-            let (inside, beyond) = match self.items {
-                Items::Balls => self.thresholds(self.ball.radius - r),
-                _ => thresholds_of_points,
-            };
-            if plain < inside && r >= 0.0 {
-                continue;
-            }
-            is_valid(number, row, r)?;
-            if outside.is_some() {
-                continue;
-            }
-            if plain > beyond
-                || self.ball.radius < r
-                || self.is_outside(position, r, &mut difference)
-            {
-                outside = Some(self.violation(number, position, r, &mut difference));
+        let (mut wide, mut squares) = (vec![], [0.0; ROWS]);
+        let numbered = (first..).step_by(ROWS).zip(points.values().chunks(ROWS * points.dim()));
+        for (first, values) in numbered {
+            let squares = &mut squares[..values.len() / points.dim()];
+            let center = &self.ball.center;
+            plain_squares(values, center, self.scale.up, &mut wide, squares);
+            let rows = values.chunks_exact(points.dim()).zip(squares);
+            for (number, (row, &mut plain)) in (first..).zip(rows) {
+                let (position, r) = item(self.items, row);
+                let (inside, beyond) = match self.items {
+                    Items::Balls => self.thresholds(self.ball.radius - r),
+                    _ => thresholds_of_points,
+                };
+                if plain < inside && r >= 0.0 {
+                    continue;
+                }
+                is_valid(number, row, r)?;
+                if outside.is_some() {
+                    continue;
+                }
+                if plain > beyond
+                    || self.ball.radius < r
+                    || self.is_outside(position, r, &mut difference)
+                {
+                    outside = Some(self.violation(number, position, r, &mut difference));
+                }
             }
         }
         Ok(outside)
@@ -223,24 +230,4 @@ fn is_valid<T: Scalar>(number: u64, row: &[T], r: f64) -> Result<(), Violation> 
         }
     }
     if r >= 0.0 { Ok(()) } else { Err(Violation::NegativeRadius { row: number, value: r }) }
-}
-
-/// Σ (pⱼ − cⱼ)² in plain arithmetic; without `SCALED` the factor is 1.
-#[inline(always)]
-fn plain_square<T: Scalar, const SCALED: bool>(position: &[T], center: &[f64], factor: f64) -> f64 {
-    let square = |x: T, c: f64| {
-        let difference = if SCALED { (x.into() - c) * factor } else { x.into() - c };
-        difference * difference
-    };
-    let (head, rest) = position.as_chunks::<LANES>();
-    let (center_head, center_rest) = center.as_chunks::<LANES>();
-    let mut sums = [0.0; LANES];
-    for (x, c) in head.iter().zip(center_head) {
-        for lane in 0..LANES {
-            sums[lane] += square(x[lane], c[lane]);
-        }
-    }
-    let [a, b, c, d, e, f, g, h] = sums;
-    let head = ((a + e) + (c + g)) + ((b + f) + (d + h));
-    rest.iter().zip(center_rest).fold(head, |sum, (&x, &c)| sum + square(x, c))
 }

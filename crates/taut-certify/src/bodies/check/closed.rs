@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use taut_points::OrderBy;
+
 use super::{BodiesViolation, MESH, Triangle};
 
 /// A corner by the bits of its coordinates.
@@ -105,11 +107,11 @@ fn odd(triangles: &[[[f64; 3]; 3]]) -> Vec<Edge> {
         }
         let mut edges: Vec<Edge> = same_hash.iter().map(|&hash| edge(hash)).collect();
         edges.retain(|(ends, _)| ends[0] != ends[1]);
-        edges.sort_unstable();
+        edges.order();
         let same = edges.chunk_by(|one, other| one.0 == other.0);
         odd.extend(same.filter(|same| same.len() % 2 == 1).map(|same| same[0]));
     }
-    odd.sort_unstable();
+    odd.order();
     odd
 }
 

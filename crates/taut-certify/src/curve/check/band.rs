@@ -99,7 +99,7 @@ pub(super) fn of_vertices(curves: &[CurveComponent]) -> Vec<Foot> {
 fn distinct(rows: &[[f64; 2]], is_outlier: &[bool]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..rows.len()).collect();
     // −0 equals 0.
-    let key = |row: usize| rows[row].map(|x| x + 0.0);
+    let key = |row: usize| [rows[row][0] + 0.0, rows[row][1] + 0.0];
     order.par_sort_unstable_by(|&i, &j| {
         let ([a, b], [c, d]) = (key(i), key(j));
         let by_place = a.total_cmp(&c).then(b.total_cmp(&d));
@@ -197,11 +197,15 @@ fn projection(edges: &Edges, p: [f64; 2], edge: usize) -> f64 {
 }
 
 /// p less the point of an edge.
+#[inline(always)]
 fn beside(edges: &Edges, p: [f64; 2], edge: usize, t: f64) -> [f64; 2] {
     let [a, b] = edges.segment(edge);
     match t {
-        1.0 => [0, 1].map(|k| p[k] - b[k]),
-        _ => [0, 1].map(|k| (p[k] - a[k]) - t * (b[k] - a[k])),
+        1.0 => [p[0] - b[0], p[1] - b[1]],
+        _ => {
+            let along = |k: usize| (p[k] - a[k]) - t * (b[k] - a[k]);
+            [along(0), along(1)]
+        }
     }
 }
 

@@ -68,7 +68,9 @@ impl Edges {
         (curve, edge - self.first_edge[curve])
     }
 
+    #[inline(always)]
     pub(super) fn segment(&self, edge: usize) -> [[f64; 2]; 2] {
-        self.ends[edge].map(|end| self.points[end])
+        let [from, to] = self.ends[edge];
+        [self.points[from], self.points[to]]
     }
 }

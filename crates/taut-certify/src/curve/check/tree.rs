@@ -30,8 +30,10 @@ impl Area {
     }
 
     /// The squared distance of a point; infinite for an empty box.
+    #[inline(always)]
     pub(super) fn distance_squared(&self, p: [f64; 2]) -> f64 {
-        let [x, y] = [0, 1].map(|k| (self.least[k] - p[k]).max(p[k] - self.most[k]).max(0.0));
+        let along = |k: usize| (self.least[k] - p[k]).max(p[k] - self.most[k]).max(0.0);
+        let (x, y) = (along(0), along(1));
         x * x + y * y
     }
 }

@@ -1,10 +1,14 @@
 //! |F(x − c)|² of many points at once, in plain `f64`, and up to where it proves them inside.
 //!
 //! *Idea.* Points are laid out in groups of eight, coordinate by coordinate, so that each entry of F is used for
-//! eight points by vector instructions. The zeros around a triangular F are skipped.
+//! eight points by vector instructions; two groups are taken together, with two sums for each, which hides the latency of the
+//! additions. The zeros around a triangular F are skipped.
 //! *Guarantee.* With e the bound of [`Frame::image_error`] for the largest offsets of the panel, |y| lies within e of
 //! the length of the computed images, and their squares sum up with at most r + 2 roundings. So a sum of at most
 //! ((1 − e)(1 − (r + 8)u))², rounded down, proves |y| ≤ 1.
+
+use pulp::{Simd, WithSimd};
+use taut_points::vectors;
 
 use super::frame::Frame;
 use crate::arithmetic::U;
@@ -64,9 +68,7 @@ impl Panel {
                 *extent = offset.iter().fold(*extent, |most, x| most.max(x.abs()));
             }
         }
-        for (squares, group) in self.squares.iter_mut().zip(self.offsets.chunks_exact(self.dim)) {
-            *squares = squares_of(frame, group);
-        }
+        vectors().dispatch(Squares { frame, offsets: &self.offsets, squares: &mut self.squares });
         let rounding = (frame.rank + 8) as f64 * U;
         let error = frame.image_error::<f64>(&self.extents, None);
         let proved = (1.0 - error) * (1.0 - rounding);
@@ -106,21 +108,69 @@ fn fill(frame: &Frame<'_>, points: &[f64], count: usize, group: &mut [Lanes]) {
     }
 }
 
-/// Σ over the rows f of F of (f·x)² for eight offsets x.
-#[inline(always)]
-fn squares_of(frame: &Frame<'_>, group: &[Lanes]) -> Lanes {
-    let mut squares = [0.0; LANES];
-    for a in 0..frame.rank {
-        let (row, span) = frame.row(a);
-        let mut image = [0.0; LANES];
-        for (f, x) in row.iter().zip(&group[span]) {
-            for lane in 0..LANES {
-                image[lane] += f * x[lane];
+/// Σ over the rows f of F of (f·x)² for all offsets x.
+struct Squares<'a> {
+    frame: &'a Frame<'a>,
+    offsets: &'a [Lanes],
+    squares: &'a mut [Lanes],
+}
+
+impl WithSimd for Squares<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Squares { frame, offsets, squares } = self;
+        // Registers that hold one coordinate of a group.
+        let width = LANES / S::F64_LANES;
+        let offsets = S::as_simd_f64s(offsets.as_flattened()).0;
+        let squares = S::as_mut_simd_f64s(squares.as_flattened_mut()).0;
+        let pairs = offsets.chunks(2 * width * frame.dim).zip(squares.chunks_mut(2 * width));
+        for (pair, squares) in pairs {
+            // The last group may be alone, and is its own partner then.
+            let (group, partner) = (&pair[..width * frame.dim], squares.len() - width);
+            let other = &pair[partner * frame.dim..];
+            for register in 0..width {
+                let (square, of_other) = squares_of(simd, frame, group, other, width, register);
+                squares[register] = square;
+                squares[partner + register] = of_other;
             }
         }
-        for lane in 0..LANES {
-            squares[lane] += image[lane] * image[lane];
-        }
     }
-    squares
+}
+
+/// The sums for one register of two groups, whose coordinates are `width` registers apart.
+#[inline(always)]
+fn squares_of<S: Simd>(
+    simd: S,
+    frame: &Frame<'_>,
+    group: &[S::f64s],
+    other: &[S::f64s],
+    width: usize,
+    register: usize,
+) -> (S::f64s, S::f64s) {
+    let zero = simd.splat_f64s(0.0);
+    let (mut squares, mut of_other) = (zero, zero);
+    for a in 0..frame.rank {
+        let (row, span) = frame.row(a);
+        let span = span.start * width..span.end * width;
+        let columns = group[span.clone()].chunks_exact(width).zip(other[span].chunks_exact(width));
+        let [mut even, mut odd, mut even_of_other, mut odd_of_other] = [zero; 4];
+        let mut terms = row.iter().zip(columns);
+        while let Some((&f, (x, y))) = terms.next() {
+            let f = simd.splat_f64s(f);
+            even = simd.mul_add_e_f64s(f, x[register], even);
+            even_of_other = simd.mul_add_e_f64s(f, y[register], even_of_other);
+            if let Some((&f, (x, y))) = terms.next() {
+                let f = simd.splat_f64s(f);
+                odd = simd.mul_add_e_f64s(f, x[register], odd);
+                odd_of_other = simd.mul_add_e_f64s(f, y[register], odd_of_other);
+            }
+        }
+        let (image, image_of_other) =
+            (simd.add_f64s(even, odd), simd.add_f64s(even_of_other, odd_of_other));
+        squares = simd.mul_add_e_f64s(image, image, squares);
+        of_other = simd.mul_add_e_f64s(image_of_other, image_of_other, of_other);
+    }
+    (squares, of_other)
 }

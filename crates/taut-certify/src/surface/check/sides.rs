@@ -10,6 +10,8 @@
 
 use std::cmp::Ordering;
 
+use taut_points::OrderBy;
+
 use super::super::{Surface, SurfaceDoubt, SurfaceViolation};
 use super::crossing::Faces;
 use super::meet::contains;
@@ -86,7 +88,7 @@ fn around(shape: &Shape, faces: &Faces<'_>, p: &[f64; 3], but: Option<u32>) -> O
     if on.is_some() {
         return None;
     }
-    crossed.sort_unstable();
+    crossed.order();
     let odd = crossed.chunk_by(|a, b| a == b).filter(|same| same.len() % 2 == 1);
     Some(odd.map(|same| same[0]).collect())
 }

@@ -6,6 +6,8 @@
 //! *Guarantee.* Every count is exact; O(n log n).
 //! *Trap.* The formula for the genus holds for surfaces only: where a component is none, it is not evaluated.
 
+use taut_points::OrderBy;
+
 use super::super::{SurfaceComponent, SurfaceDoubt, SurfaceTopology, SurfaceViolation};
 use super::buckets;
 use super::sets::Sets;
@@ -197,7 +199,7 @@ fn loops(bare: impl Iterator<Item = Side>, component: &[u32], topology: &mut Sur
         let own = component[side.triangle() as usize];
         ends.extend(side.ends.map(|row| (row, own, number)));
     }
-    ends.sort_unstable();
+    ends.order();
     let (mut whole, mut own) = (Sets::new(ends.len() / 2), Sets::new(ends.len() / 2));
     for pair in ends.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
         whole.join(pair[0].2, pair[1].2, false);

@@ -15,10 +15,11 @@ use std::cmp::Ordering;
 use taut_points::parallel::ParallelSlice;
 
 use super::super::{Fingerprint, MeshViolation, NO_NEIGHBOR, SiteHash};
-use super::geometry::{Geometry, Lifted};
+use super::geometry::{Geometry, Lifted, largest};
 use super::near_ties::NearTies;
 use super::signs::{Conflict, Signs, UNDERFLOW, sign_of};
 use super::sites::{NO_SITE, Recent, Sites};
+use crate::unrolled::unrolled;
 
 /// Simplices in a block of work.
 const BLOCK: usize = 1 << 13;
@@ -410,10 +411,10 @@ impl<const D: usize, const V: usize> Batch<D, V> {
         for (place, (simplex, neighbors)) in rows.enumerate() {
             let number = first + place;
             let (mut hashes, mut points) = ([SiteHash::default(); V], [[0.0; D]; V]);
-            for i in 0..V {
+            unrolled!(i < V, {
                 let vertex = self.recent.vertex(sites, simplex[i]);
                 (hashes[i], points[i]) = (vertex.hash, vertex.point);
-            }
+            });
             paired.fingerprint.add(hashes);
             let prepared = Prepared::<D>::of::<G, V>(&points);
             if !(signs.is_filtered && prepared.is_positive::<G, V>()) {
@@ -421,11 +422,11 @@ impl<const D: usize, const V: usize> Batch<D, V> {
                 complex.is_positive::<G>(number)?;
             }
             self.prepared.push(prepared);
-            for facet in 0..V {
+            unrolled!(facet < V, {
                 let neighbor = neighbors[facet];
                 self.ahead[count] = Ahead { place: (4 * place + facet) as u32, neighbor };
                 count += usize::from(neighbor as usize >= number);
-            }
+            });
         }
         Ok(count)
     }
@@ -494,12 +495,12 @@ impl<const D: usize> Prepared<D> {
     fn of<G: Geometry<D, V>, const V: usize>(points: &[[f64; D]; V]) -> Self {
         let mut edges = [[0.0; D]; V];
         let mut max = [0.0f64; D];
-        for i in 1..V {
-            for k in 0..D {
-                edges[i - 1][k] = points[i][k] - points[0][k];
-                max[k] = max[k].max(edges[i - 1][k].abs());
-            }
-        }
+        unrolled!(i < V - 1, {
+            unrolled!(k < D, {
+                edges[i][k] = points[i + 1][k] - points[0][k];
+                max[k] = max[k].max(edges[i][k].abs());
+            });
+        });
         Prepared { origin: points[0], lifted: G::lifted(&edges[..V - 1]), max }
     }
 
@@ -511,14 +512,14 @@ impl<const D: usize> Prepared<D> {
     #[inline(always)]
     fn test<G: Geometry<D, V>, const V: usize>(&self, q: &[f64; D]) -> Tested {
         let (mut r, mut max) = (*q, self.max);
-        for k in 0..D {
+        unrolled!(k < D, {
             r[k] -= self.origin[k];
             max[k] = max[k].max(r[k].abs());
-        }
+        });
         Tested {
             value: G::in_sphere(&self.lifted, &r),
             size: G::lifted_volume(&max),
-            largest: max.iter().fold(0.0f64, |largest, &m| largest.max(m)),
+            largest: largest(&max),
         }
     }
 }

@@ -13,6 +13,7 @@
 
 use super::signs::UNDERFLOW;
 use crate::arithmetic::{Ring, U};
+use crate::unrolled::unrolled;
 
 /// N and O.
 pub(crate) struct Lifted<T, const D: usize> {
@@ -71,9 +72,17 @@ pub(crate) trait Geometry<const D: usize, const V: usize>: Sync {
     /// The largest monomial of D.
     #[inline(always)]
     fn lifted_volume(max: &[f64; D]) -> f64 {
-        let largest = max.iter().fold(0.0f64, |largest, &m| largest.max(m));
+        let largest = largest(max);
         Self::volume(max) * largest * largest
     }
+}
+
+/// The largest of sizes.
+#[inline(always)]
+pub(crate) fn largest<const D: usize>(sizes: &[f64; D]) -> f64 {
+    let mut largest = 0.0f64;
+    unrolled!(k < D, { largest = largest.max(sizes[k]) });
+    largest
 }
 
 /// |v|².
@@ -81,9 +90,7 @@ pub(crate) trait Geometry<const D: usize, const V: usize>: Sync {
 fn square<T: Ring, const D: usize>(v: &[T; D]) -> T {
     // A loop: a closure would not be compiled for the vectors that its caller is compiled for.
     let mut sum = v[0].times(&v[0]);
-    for x in &v[1..] {
-        sum = sum.plus(&x.times(x));
-    }
+    unrolled!(k < D - 1, { sum = sum.plus(&v[k + 1].times(&v[k + 1])) });
     sum
 }
 

@@ -134,8 +134,14 @@ pub(crate) fn certify(
             sum / &weight
         })
         .collect();
-    let center: Vec<f64> = mean.iter().map(|m| m.to_f64().unwrap()).collect();
-    let rest = |j: usize| (&mean[j] - exact(center[j])).to_f64().unwrap();
+    let less = |m: &BigRational, high: f64| (m - exact(high)).to_f64().unwrap();
+    // What is left may be rounded up to half a unit of the last place, and the other neighbor is the sum then.
+    let nearest = |m: &BigRational| {
+        let high = m.to_f64().unwrap();
+        high + less(m, high)
+    };
+    let center: Vec<f64> = mean.iter().map(nearest).collect();
+    let rest = |j: usize| less(&mean[j], center[j]);
     let center_tail = if with_tail { (0..dim).map(rest).collect() } else { vec![] };
     let mut certificate = BallCertificate {
         items,

@@ -11,8 +11,8 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use taut_points::{
-    BlockHash, Blocks, InputError, Monitor, PointSource, Points, PointsHash, Rows, Scalar, Scratch,
-    hash_block,
+    BlockHash, Blocks, InputError, Monitor, OrderBy, PointSource, Points, PointsHash, Rows, Scalar,
+    Scratch, hash_block,
 };
 
 use super::buckets::{Bucket, Buffers};
@@ -107,7 +107,7 @@ pub(super) fn distribute<const D: usize>(
                 all.merge(&std::mem::replace(cell, CellBox::EMPTY));
             }
         }
-        commit.hashes.sort_unstable_by_key(|&(block, _)| block);
+        commit.hashes.order_by_key(|&(block, _)| block);
         for (length, bucket) in commit.lengths.iter_mut().zip(&buckets) {
             *length = bucket.sync()?;
         }

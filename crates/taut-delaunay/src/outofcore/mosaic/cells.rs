@@ -8,8 +8,8 @@
 
 use std::collections::HashSet;
 
-use taut_points::Monitor;
 use taut_points::parallel::ParallelSlice;
+use taut_points::{Monitor, OrderBy};
 
 use super::{Mosaic, Place, Tile, View};
 use crate::query::{Body, clipped};
@@ -89,7 +89,7 @@ fn star<const D: usize, const W: usize>(
             }
         }
     }
-    others.sort_unstable_by_key(|other| other.0);
+    others.order_by_key(|other| other.0);
     others.dedup_by_key(|other| other.0);
     Ok(Some(others.into_iter().map(|(_, at)| at).collect()))
 }

@@ -12,6 +12,7 @@ use std::io::{self, Write};
 
 use taut_certify::{Fingerprint, SiteHash};
 use taut_oblivious::machine::prefetch;
+use taut_points::OrderBy;
 
 use super::super::bytes::WordSum;
 use super::super::front::{Front, Link};
@@ -189,7 +190,7 @@ fn links_to_hull<const D: usize, const V: usize, G: Geometry<D, V>>(
         solved.states.is_final(t) && simplex.vertices[facet] == GHOST && !link.is_outside()
     };
     let mut links: Vec<Link> = solved.links.iter().filter(is_hull).map(|(_, link)| link).collect();
-    links.sort_unstable_by_key(|link| (link.tile, link.code));
+    links.order_by_key(|link| (link.tile, link.code));
     links
 }
 

@@ -9,7 +9,7 @@ use super::TriangulationIndex;
 use crate::geometry::{Geometry, InPlane, InSpace};
 use crate::groups::join;
 use crate::simplex::decode;
-use crate::vector::{cross, difference, dot, largest, square};
+use crate::vector::{cross, difference, dot, largest, mapped, square};
 
 /// Simplices of one task.
 const TASK: usize = 1 << 12;
@@ -24,11 +24,11 @@ impl Center<2, 3> for InPlane {
     fn center([a, b, c]: [[f64; 2]; 3]) -> ([f64; 2], f64) {
         let edges = [difference(b, a), difference(c, a)];
         let size = largest(&edges);
-        let [u, v] = edges.map(|p| p.map(|x| x / size));
+        let [u, v] = mapped(edges, |p| mapped(p, |x| x / size));
         let area = u[0] * v[1] - u[1] * v[0];
         let (u2, v2) = (square(u), square(v));
         let center = [v[1] * u2 - u[1] * v2, u[0] * v2 - v[0] * u2];
-        (center.map(|x| size * x / (2.0 * area)), area.abs())
+        (mapped(center, |x| size * x / (2.0 * area)), area.abs())
     }
 }
 
@@ -36,7 +36,7 @@ impl Center<3, 4> for InSpace {
     fn center([a, b, c, d]: [[f64; 3]; 4]) -> ([f64; 3], f64) {
         let edges = [difference(b, a), difference(c, a), difference(d, a)];
         let size = largest(&edges);
-        let [u, v, w] = edges.map(|p| p.map(|x| x / size));
+        let [u, v, w] = mapped(edges, |p| mapped(p, |x| x / size));
         let (vw, wu, uv) = (cross(v, w), cross(w, u), cross(u, v));
         let (u2, v2, w2) = (square(u), square(v), square(w));
         let volume = dot(u, vw);
@@ -48,9 +48,8 @@ impl Center<3, 4> for InSpace {
 
 impl<const D: usize, const V: usize> TriangulationIndex<D, V> {
     fn scaled_corners(&self, number: u32) -> [[f64; D]; V] {
-        self.triangulation
-            .vertices(number)
-            .map(|v| self.triangulation.sites.coordinates[v as usize])
+        let coordinates = &self.triangulation.sites.coordinates;
+        mapped(self.triangulation.vertices(number), |v| coordinates[v as usize])
     }
 
     /// The center of each simplex, and how well it is determined.
@@ -77,7 +76,7 @@ impl<const D: usize, const V: usize> TriangulationIndex<D, V> {
             .with_min_len(TASK)
             .flat_map_iter(|number| {
                 let simplex = &slots[number as usize];
-                let corners = simplex.vertices.map(|v| coordinates[v as usize]);
+                let corners = mapped(simplex.vertices, |v| coordinates[v as usize]);
                 (0..V).filter_map(move |i| {
                     let (other, facet) = decode(simplex.neighbors[i]);
                     let is_next = number < other && other < self.count;

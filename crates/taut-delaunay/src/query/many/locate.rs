@@ -17,7 +17,7 @@ use crate::geometry::{Geometry, InPlane, InSpace};
 use crate::query::locator::Locator;
 use crate::simplex::{GHOST, decode};
 use crate::sites::row;
-use crate::vector::{cross, difference, dot};
+use crate::vector::{cross, difference, dot, mapped};
 
 /// Simplices that a walk from the answer before may visit; then it starts again from the nearest site.
 const WALK_STEPS_MAX: usize = 40;
@@ -65,7 +65,7 @@ fn error_bound<const D: usize>(relative: &[[f64; D]], error: f64, underflow: f64
 impl Sides<2, 3> for InPlane {
     #[inline(always)]
     fn sides(corners: [[f64; 2]; 3], q: [f64; 2]) -> ([f64; 3], f64) {
-        let [a, b, c] = corners.map(|p| difference(p, q));
+        let [a, b, c] = mapped(corners, |p| difference(p, q));
         let turn = |p: [f64; 2], q: [f64; 2]| p[0] * q[1] - p[1] * q[0];
         let bound = error_bound(&[a, b, c], PLANE_ERROR, plane::UNDERFLOW_ERROR);
         ([turn(b, c), turn(c, a), turn(a, b)], bound)
@@ -75,7 +75,7 @@ impl Sides<2, 3> for InPlane {
 impl Sides<3, 4> for InSpace {
     #[inline(always)]
     fn sides(corners: [[f64; 3]; 4], q: [f64; 3]) -> ([f64; 4], f64) {
-        let [a, b, c, d] = corners.map(|p| difference(p, q));
+        let [a, b, c, d] = mapped(corners, |p| difference(p, q));
         let (ab, cd) = (cross(a, b), cross(c, d));
         let bound = error_bound(&[a, b, c, d], SPACE_ERROR, space::UNDERFLOW_ERROR);
         ([dot(b, cd), -dot(a, cd), dot(d, ab), -dot(c, ab)], bound)
@@ -98,7 +98,7 @@ impl<const D: usize, const V: usize> TriangulationIndex<D, V> {
     fn walk<G: Sides<D, V>>(&self, point: [f64; D], start: u32, steps_max: usize) -> (End, usize) {
         let simplices = self.triangulation.slots();
         let sites = &self.triangulation.sites;
-        let scaled = point.map(|x| sites.scale.apply(x));
+        let scaled = sites.scale.of_row(point);
         let back = sites.scale.inverse();
         // A point that does not survive the scale of the sites is looked for among the coordinates as they were given.
         let survives = (0..D).all(|i| back.apply(scaled[i]) == point[i]);
@@ -109,9 +109,9 @@ impl<const D: usize, const V: usize> TriangulationIndex<D, V> {
                 return (End::Outside(here), step);
             }
             let simplex = &simplices[here as usize];
-            let corners = simplex.vertices.map(|v| {
+            let corners = mapped(simplex.vertices, |v| {
                 let site = sites.coordinates[v as usize];
-                if survives { site } else { site.map(|x| back.apply(x)) }
+                if survives { site } else { back.of_row(site) }
             });
             let (sides, bound) = G::sides(corners, target);
             let mut least = 0;

@@ -1,11 +1,11 @@
 //! The ellipsoids in the units of the search, and how far each reaches from centers.
 
+use taut_kernels::vector::dot;
+use taut_kernels::{Center, DoubleDouble};
 use taut_points::parallel::{IntoParallel, ParallelSlice};
 
 use crate::Error;
 use crate::centers::items::Position;
-use crate::kernel::vector::dot;
-use crate::kernel::{Center, DoubleDouble};
 use crate::shapes::Shapes;
 use crate::shapes::axes::{Axes, diagonal, power_below, units};
 use crate::shapes::eigen::eigen;

@@ -5,13 +5,13 @@
 //! *Guarantee.* Distances are those of [`squared_distances`], symmetric and to [`relative_error`]; where squares would
 //! overflow or vanish they are taken again in other units, so that only a distance that is no `f64` itself is lost.
 
+use taut_kernels::{Center, Difference, relative_error, squared_distances};
 use taut_points::PointsHash;
 use taut_points::parallel::{IntoParallel, ParallelSlice};
 
 use crate::centers::item_rows::ItemRows;
 use crate::centers::items::Shape;
 use crate::centers::{EXACT_DISTANCES, reach_of};
-use crate::kernel::{Center, Difference, relative_error, squared_distances};
 
 /// Rows that share a word.
 pub(super) const WORD: usize = 64;

@@ -14,9 +14,10 @@
 //! *Reference.* Active sets on this dual: Gärtner and Schönherr, SoCG 2000; Fischer, Gärtner and Kutz, ESA 2003. Steps in R:
 //! Dinkelbach, Management Science 13, 1967.
 
+use taut_kernels::vector::{add_scaled, dot};
+
 use super::Ball;
 use crate::centers::items::{ItemSet, Position, Shape};
-use crate::kernel::vector::{add_scaled, dot};
 
 /// A position of which a smaller part is across the others depends on them.
 const DEPENDENT_RATIO: f64 = 1e-11;

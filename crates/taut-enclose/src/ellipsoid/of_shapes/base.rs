@@ -1,10 +1,10 @@
 //! Coordinates in which items are round, all in all, and the way back from them.
 
 use taut_certify::Hull;
+use taut_kernels::vector::{add_scaled, dot};
+use taut_kernels::{Center, DoubleDouble};
 
 use crate::ellipsoid::dense::forward;
-use crate::kernel::vector::{add_scaled, dot};
-use crate::kernel::{Center, DoubleDouble};
 use crate::shapes::Shapes;
 
 /// Coordinates y = P(x − o) in which the items are round, all in all.
@@ -51,7 +51,7 @@ impl Base {
         };
         let tail = |j: usize| self.center.low.get(j).copied().unwrap_or(0.0);
         let terms: Vec<DoubleDouble> = (0..dim)
-            .map(|j| DoubleDouble { high: self.center.high[j], low: tail(j) }.add(x[j].into()))
+            .map(|j| DoubleDouble { high: self.center.high[j], low: tail(j) } + x[j].into())
             .collect();
         Center {
             high: terms.iter().map(|term| term.high).collect(),

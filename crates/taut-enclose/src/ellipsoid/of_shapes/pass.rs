@@ -1,10 +1,10 @@
 //! One pass over the items: how far each reaches under an ellipsoid, and where.
 
+use taut_kernels::vector::{add_scaled, dot};
 use taut_points::OrderBy;
 use taut_points::parallel::IntoParallel;
 
 use super::support_points::SupportPoint;
-use crate::kernel::vector::{add_scaled, dot};
 use crate::shapes::eigen::eigen;
 use crate::shapes::frame::Framed;
 use crate::shapes::reach::{alternatives, farthest};

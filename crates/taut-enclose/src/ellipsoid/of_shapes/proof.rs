@@ -1,6 +1,7 @@
 //! From multipliers to an answer with a certificate.
 
 use taut_certify::{Ellipsoid, EllipsoidCertificate, Solution, Stop, Trace};
+use taut_kernels::vector::dot;
 use taut_points::OrderBy;
 use taut_points::parallel::ParallelSlice;
 
@@ -10,7 +11,6 @@ use crate::Error;
 use crate::ellipsoid::outcome::log_unit_ball;
 use crate::ellipsoid::proof::{LOGARITHM_ROUNDING, answer, lower_gap};
 use crate::ellipsoid::{EllipsoidOptions, ROUNDING};
-use crate::kernel::vector::dot;
 use crate::shapes::Shapes;
 use crate::shapes::eigen::eigen;
 use crate::shapes::frame::Map;

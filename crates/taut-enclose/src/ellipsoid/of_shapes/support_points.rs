@@ -1,11 +1,11 @@
 //! Points in which items touch: the working set knows each by its number, its item and a direction.
 
+use taut_kernels::vector::dot;
 use taut_points::OrderBy;
 use taut_points::parallel::IntoParallel;
 
 use crate::ellipsoid::sample::Sample;
 use crate::ellipsoid::working_set::WorkingSet;
-use crate::kernel::vector::dot;
 use crate::shapes::eigen::eigen;
 use crate::shapes::frame::Framed;
 

@@ -1,5 +1,7 @@
 //! Ends that face each other across a gap are joined.
 
+use taut_points::OrderBy;
+
 use super::crossings::{self, EdgeTree};
 use super::{NONE, links};
 use crate::curve::boxes::{Bounds, Boxes};
@@ -54,7 +56,7 @@ pub(super) fn join(sites: &[[f64; 2]], edges: &mut Vec<[u32; 2]>) -> u64 {
             },
         );
     }
-    pairs.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+    pairs.order_by(&|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
     let tree = EdgeTree::new(sites, edges);
     let mut free = vec![true; ends.len()];
     let mut added: Vec<[u32; 2]> = Vec::new();

@@ -16,7 +16,7 @@
 //! *Reference.* The aim is that of Dey and Wenger, Computational Geometry 19, 2001; shortest tours as curves: Giesen 1999; the
 //! exchanges: Lin and Kernighan 1973.
 
-use taut_points::Monitor;
+use taut_points::{Monitor, OrderBy};
 
 use super::belief;
 use super::graph::Edge;
@@ -247,7 +247,7 @@ impl Search {
                     .map(move |near| (near.0, a, near.1))
             })
             .collect();
-        order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+        order.order_by(&|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
         for (_, a, b) in order {
             if self.links[a as usize].contains(&NONE) && self.links[b as usize].contains(&NONE) {
                 self.replace(a, NONE, b);

@@ -10,6 +10,7 @@
 //! *Reference.* Conditions 1 and 2 of the thesis, section 4.2.
 
 use taut_delaunay::GHOST;
+use taut_points::OrderBy;
 use taut_predicates::space::orient;
 
 use super::angles::{Bound, half_plane};
@@ -69,7 +70,7 @@ impl Ring {
         let Self { kept, by_measure, sliver, .. } = self;
         by_measure.clear();
         by_measure.extend(0..kept.len() as u32);
-        by_measure.sort_unstable_by(|&i, &j| {
+        by_measure.order_by(&|&i, &j| {
             let [one, other] = [i, j].map(|i| &kept[i as usize]);
             one.measure.total_cmp(&other.measure).then(one.third.cmp(&other.third))
         });

@@ -20,6 +20,35 @@ const WRITE_BYTES: usize = 1 << 16;
 /// Fewest records of a run that are read at once.
 const READ_RECORDS_MIN: usize = 16;
 
+/// Records of more words are sorted by their numbers first.
+const NARROW_WORDS_MAX: usize = 2;
+
+/// Sorts records; wide ones by number, so that the sort is compiled once for all widths.
+fn sort<const W: usize>(records: &mut [[u64; W]]) {
+    if W <= NARROW_WORDS_MAX {
+        return records.par_sort_unstable();
+    }
+    let mut order = order(records.as_flattened(), W);
+    // Each cycle of the permutation is followed once; a place that has its record is then a cycle of its own.
+    for start in 0..records.len() {
+        let mut place = start;
+        while order[place] != start {
+            let from = std::mem::replace(&mut order[place], place);
+            records.swap(place, from);
+            place = from;
+        }
+        order[place] = place;
+    }
+}
+
+/// The numbers of the records, `width` words each, in ascending order of the records.
+fn order(words: &[u64], width: usize) -> Vec<usize> {
+    let record = |number: usize| &words[number * width..][..width];
+    let mut order: Vec<usize> = (0..words.len() / width).collect();
+    order.par_sort_unstable_by(|&a, &b| record(a).cmp(record(b)));
+    order
+}
+
 /// Takes records of `W` words in any order.
 pub(super) struct Sorter<const W: usize> {
     folder: PathBuf,
@@ -34,7 +63,8 @@ pub(super) struct Sorter<const W: usize> {
 impl<const W: usize> Sorter<W> {
     /// An empty list that takes `bytes` of memory, and files in `folder`.
     pub(super) fn new(folder: &Path, bytes: u64) -> Self {
-        let capacity = usize::try_from(bytes).unwrap_or(usize::MAX) / (8 * W);
+        let number = if W > NARROW_WORDS_MAX { size_of::<usize>() } else { 0 };
+        let capacity = usize::try_from(bytes).unwrap_or(usize::MAX) / (8 * W + number);
         let capacity = capacity.max(READ_RECORDS_MIN);
         Sorter { folder: folder.to_owned(), capacity, records: vec![], file: None, ends: vec![] }
     }
@@ -59,7 +89,7 @@ impl<const W: usize> Sorter<W> {
 
     fn write_run(&mut self) -> Result<(), TilesError> {
         let failed = self.failed();
-        self.records.par_sort_unstable();
+        sort(&mut self.records);
         if self.file.is_none() {
             self.file = Some(tempfile::tempfile_in(&self.folder).map_err(&failed)?);
         }
@@ -84,7 +114,7 @@ impl<const W: usize> Sorter<W> {
     /// All records, in ascending order.
     pub(super) fn sorted(mut self) -> Result<Sorted<W>, TilesError> {
         if self.file.is_none() {
-            self.records.par_sort_unstable();
+            sort(&mut self.records);
             let records = std::mem::take(&mut self.records).into_iter();
             return Ok(Sorted { folder: self.folder, peeked: None, records, merge: None });
         }
@@ -195,6 +225,27 @@ impl<const W: usize> Sorted<W> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn records_of_any_width_are_sorted() {
+        fn sorts<const W: usize>() {
+            let mut state = 1u64;
+            let mut records = vec![[0; W]; 1000];
+            for word in records.as_flattened_mut() {
+                state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+                *word = state >> 60;
+            }
+            let mut expected = records.clone();
+            expected.sort_unstable();
+            sort(&mut records);
+            assert_eq!(records, expected);
+        }
+        sorts::<1>();
+        sorts::<2>();
+        sorts::<3>();
+        sorts::<5>();
+        sorts::<17>();
+    }
 
     #[test]
     fn records_come_back_in_order_from_memory_and_from_files() {

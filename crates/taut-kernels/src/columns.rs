@@ -1,18 +1,21 @@
 //! Squared distances to points stored by coordinate, in up to three dimensions.
 //!
-//! *Guarantee.* The values are those of [`squared_distances`](crate::kernel::squared_distances) for rows of the same
+//! *Guarantee.* The values are those of [`squared_distances`](crate::squared_distances) for rows of the same
 //! coordinates, bit by bit: the squares are added in order of the coordinates, and no operation is fused.
 //! *Trap.* That a box is no nearer than its points holds in rounded arithmetic, too, as long as both sides round the same
 //! operations in the same order: rounding never changes which of two numbers is larger.
 
-use crate::kernel::vector::dispatched;
+use crate::vector::dispatched;
 
 /// A group has this many points: two registers, or more where they are shorter.
-pub(super) const GROUP_SIZE: usize = 16;
+pub const GROUP_SIZE: usize = 16;
 
 dispatched! {
     /// Lowers each of `least` to the squared distance of its point to `center`, where that is less; returns the largest
     /// of them then. `columns` holds coordinate after coordinate of as many points, a multiple of [`GROUP_SIZE`].
+    ///
+    /// # Panics
+    /// If there are no coordinates or more than three, or fewer values than that.
     lower(columns: &[f64], center: &[f64], least: &mut [f64]) -> f64, lower_body
 }
 
@@ -65,7 +68,7 @@ fn add_gaps_body<const FUSED: bool>(values: &[f64], low: f64, high: f64, gaps: &
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kernel::{Center, squared_distances};
+    use crate::{Center, squared_distances};
     use proptest::prelude::*;
 
     proptest! {

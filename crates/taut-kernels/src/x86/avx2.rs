@@ -4,7 +4,46 @@ use std::arch::x86_64::*;
 
 use taut_points::{Scalar, ScalarKind};
 
-use crate::kernel::lanes::Lanes;
+use crate::lanes::Lanes;
+
+// Macros, as closures do not have the features of the function around them, and are then not always inlined: the
+// instructions in them become calls.
+
+/// Of two rows: [a₀₁, b₀₁, a₂₃, b₂₃] with both halves of each row already added.
+macro_rules! pair {
+    ($a:expr, $b:expr) => {
+        _mm256_hadd_pd(_mm256_add_pd($a.0, $a.1), _mm256_add_pd($b.0, $b.1))
+    };
+}
+
+/// Sums of the halves of two pairs.
+macro_rules! four {
+    ($a:expr, $b:expr) => {{
+        let (a, b) = ($a, $b);
+        _mm256_add_pd(_mm256_permute2f128_pd::<0x20>(a, b), _mm256_permute2f128_pd::<0x31>(a, b))
+    }};
+}
+
+/// Lanes 0, 2, 1, 3.
+macro_rules! in_order {
+    ($v:expr) => {
+        _mm256_permute4x64_pd::<0b11_01_10_00>($v)
+    };
+}
+
+/// The columns of four rows of four.
+macro_rules! square {
+    ($a:expr, $b:expr, $c:expr, $d:expr) => {{
+        let (ab_even, ab_odd) = (_mm256_unpacklo_pd($a, $b), _mm256_unpackhi_pd($a, $b));
+        let (cd_even, cd_odd) = (_mm256_unpacklo_pd($c, $d), _mm256_unpackhi_pd($c, $d));
+        [
+            _mm256_permute2f128_pd::<0x20>(ab_even, cd_even),
+            _mm256_permute2f128_pd::<0x20>(ab_odd, cd_odd),
+            _mm256_permute2f128_pd::<0x31>(ab_even, cd_even),
+            _mm256_permute2f128_pd::<0x31>(ab_odd, cd_odd),
+        ]
+    }};
+}
 
 #[derive(Clone, Copy)]
 pub(super) struct Avx2(__m256d, __m256d);
@@ -74,23 +113,14 @@ impl Lanes for Avx2 {
     unsafe fn sum_each(rows: [Self; 8]) -> [f64; 8] {
         // SAFETY: see above.
         unsafe {
-            // Of two rows: [a₀₁, b₀₁, a₂₃, b₂₃] with both halves of each row already added.
-            let pair =
-                |a: Self, b: Self| _mm256_hadd_pd(_mm256_add_pd(a.0, a.1), _mm256_add_pd(b.0, b.1));
-            let four = |a, b| {
-                _mm256_add_pd(
-                    _mm256_permute2f128_pd::<0x20>(a, b),
-                    _mm256_permute2f128_pd::<0x31>(a, b),
-                )
-            };
             let mut sums = [0.0; 8];
             _mm256_storeu_pd(
                 sums.as_mut_ptr(),
-                four(pair(rows[0], rows[1]), pair(rows[2], rows[3])),
+                four!(pair!(rows[0], rows[1]), pair!(rows[2], rows[3])),
             );
             _mm256_storeu_pd(
                 sums.as_mut_ptr().add(4),
-                four(pair(rows[4], rows[5]), pair(rows[6], rows[7])),
+                four!(pair!(rows[4], rows[5]), pair!(rows[6], rows[7])),
             );
             sums
         }
@@ -108,6 +138,11 @@ impl Lanes for Avx2 {
         unsafe {
             Avx2(_mm256_fmadd_pd(self.0, factor.0, sum.0), _mm256_fmadd_pd(self.1, factor.1, sum.1))
         }
+    }
+
+    #[inline(always)]
+    unsafe fn multiply_add_one(a: f64, b: f64, sum: f64) -> f64 {
+        a.mul_add(b, sum)
     }
 
     #[inline(always)]
@@ -139,10 +174,16 @@ impl Lanes for Avx2 {
     unsafe fn split(first: Self, second: Self) -> (Self, Self) {
         // SAFETY: see above.
         unsafe {
-            let order = |v: __m256d| _mm256_permute4x64_pd::<0b11_01_10_00>(v);
-            let even = |v: Self| order(_mm256_unpacklo_pd(v.0, v.1));
-            let odd = |v: Self| order(_mm256_unpackhi_pd(v.0, v.1));
-            (Avx2(even(first), even(second)), Avx2(odd(first), odd(second)))
+            (
+                Avx2(
+                    in_order!(_mm256_unpacklo_pd(first.0, first.1)),
+                    in_order!(_mm256_unpacklo_pd(second.0, second.1)),
+                ),
+                Avx2(
+                    in_order!(_mm256_unpackhi_pd(first.0, first.1)),
+                    in_order!(_mm256_unpackhi_pd(second.0, second.1)),
+                ),
+            )
         }
     }
 
@@ -151,19 +192,14 @@ impl Lanes for Avx2 {
     unsafe fn transpose(rows: [Self; 8]) -> [Self; 8] {
         // SAFETY: see above.
         unsafe {
-            let square = |a: __m256d, b: __m256d, c: __m256d, d: __m256d| {
-                let (ab_even, ab_odd) = (_mm256_unpacklo_pd(a, b), _mm256_unpackhi_pd(a, b));
-                let (cd_even, cd_odd) = (_mm256_unpacklo_pd(c, d), _mm256_unpackhi_pd(c, d));
-                [
-                    _mm256_permute2f128_pd::<0x20>(ab_even, cd_even),
-                    _mm256_permute2f128_pd::<0x20>(ab_odd, cd_odd),
-                    _mm256_permute2f128_pd::<0x31>(ab_even, cd_even),
-                    _mm256_permute2f128_pd::<0x31>(ab_odd, cd_odd),
-                ]
-            };
-            let left = |i: usize| square(rows[i].0, rows[i + 1].0, rows[i + 2].0, rows[i + 3].0);
-            let right = |i: usize| square(rows[i].1, rows[i + 1].1, rows[i + 2].1, rows[i + 3].1);
-            let (first, last) = ([left(0), left(4)], [right(0), right(4)]);
+            let first = [
+                square!(rows[0].0, rows[1].0, rows[2].0, rows[3].0),
+                square!(rows[4].0, rows[5].0, rows[6].0, rows[7].0),
+            ];
+            let last = [
+                square!(rows[0].1, rows[1].1, rows[2].1, rows[3].1),
+                square!(rows[4].1, rows[5].1, rows[6].1, rows[7].1),
+            ];
             [
                 Avx2(first[0][0], first[1][0]),
                 Avx2(first[0][1], first[1][1]),

@@ -14,29 +14,33 @@ type Eight = [f64; 8];
 
 /// A linear map by rows, r × d, and the center it is taken from.
 #[derive(Clone, Copy)]
-pub(crate) struct Map<'a> {
-    pub(crate) matrix: &'a [f64],
-    pub(crate) center: &'a Center,
+pub struct Map<'a> {
+    /// M.
+    pub matrix: &'a [f64],
+    /// c.
+    pub center: &'a Center,
     /// True if it is square and lower triangular; what is above the diagonal is not read then.
-    pub(crate) triangular: bool,
+    pub triangular: bool,
 }
 
 impl<'a> Map<'a> {
     /// The same with another matrix.
-    pub(crate) fn with<'b>(&'b self, matrix: &'b [f64]) -> Map<'b> {
+    pub fn with<'b>(&'b self, matrix: &'b [f64]) -> Map<'b> {
         Map { matrix, ..*self }
     }
 
-    pub(crate) fn dim(&self) -> usize {
+    /// The number d of coordinates.
+    pub fn dim(&self) -> usize {
         self.center.dim()
     }
 
-    pub(crate) fn rank(&self) -> usize {
+    /// The number r of rows.
+    pub fn rank(&self) -> usize {
         self.matrix.len() / self.dim()
     }
 
     /// M(x − c) for each row, n × r, and |M(x − c)|² rounded up.
-    pub(crate) fn images(&self, rows: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    pub fn images(&self, rows: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let (dim, rank) = (self.dim(), self.rank());
         let count = rows.len() / dim;
         let (mut images, mut squares) = (vec![0.0; count * rank], vec![0.0; count]);
@@ -45,7 +49,7 @@ impl<'a> Map<'a> {
             for (i, row) in rows.chunks_exact(dim).enumerate() {
                 for (j, &x) in row.iter().enumerate() {
                     let tail = self.center.low.get(j).copied().unwrap_or(0.0);
-                    let difference = DoubleDouble::sum(x, -self.center.high[j]).add((-tail).into());
+                    let difference = DoubleDouble::sum(x, -self.center.high[j]) + (-tail).into();
                     (high[j][i], low[j][i]) = (difference.high, difference.low);
                 }
             }
@@ -59,7 +63,7 @@ impl<'a> Map<'a> {
                 for i in 0..here {
                     let y = DoubleDouble::sum(value[i], error[i]);
                     images[(eight * 8 + i) * rank + a] = y.high;
-                    sums[i] = sums[i].add(y.square());
+                    sums[i] = sums[i] + y.square();
                 }
             }
             for i in 0..here {

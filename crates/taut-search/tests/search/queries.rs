@@ -6,8 +6,8 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
 use taut_certify::Items;
-use taut_enclose::{Error, Neighbor, QueryOptions, RowPair, SphereSearch, SphereSearchOptions};
 use taut_points::{Distribution, InputError, Points, generate};
+use taut_search::{Error, Neighbor, QueryOptions, RowPair, SphereSearch, SphereSearchOptions};
 
 const QUERY: QueryOptions<'static> =
     QueryOptions { threads: None, monitor: taut_points::Monitor::silent() };

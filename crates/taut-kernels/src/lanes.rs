@@ -52,6 +52,11 @@ pub(super) trait Lanes: Copy {
     /// # Safety
     /// See [`zero`](Self::zero).
     unsafe fn multiply_add(self, factor: Self, sum: Self) -> Self;
+    /// sum + a·b, rounded as by [`multiply_add`](Self::multiply_add).
+    ///
+    /// # Safety
+    /// See [`zero`](Self::zero).
+    unsafe fn multiply_add_one(a: f64, b: f64, sum: f64) -> f64;
     /// Writes the eight values to `to`.
     ///
     /// # Safety

@@ -105,7 +105,7 @@ pub struct Diameter {
 /// The rows are copied: 8·d + 4 bytes each, and about a fifth of that for boxes and balls.
 ///
 /// ```
-/// use taut_enclose::{QueryOptions, SphereSearch, SphereSearchOptions};
+/// use taut_search::{QueryOptions, SphereSearch, SphereSearchOptions};
 ///
 /// let points = taut_points::Points::new(&[0.0, 0.0, 2.0, 0.0, 2.0, 0.0, 1.0, 5.0], 2)?;
 /// let search = SphereSearch::new(&points, &SphereSearchOptions::default())?;

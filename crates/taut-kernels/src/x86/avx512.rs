@@ -4,7 +4,39 @@ use std::arch::x86_64::*;
 
 use taut_points::{Scalar, ScalarKind};
 
-use crate::kernel::lanes::Lanes;
+use crate::lanes::Lanes;
+
+// Macros, as closures do not have the features of the function around them, and are then not always inlined: the
+// instructions in them become calls.
+
+/// Sums of neighboring lanes, those of a and b in turn.
+macro_rules! pair {
+    ($a:expr, $b:expr) => {
+        _mm512_add_pd(_mm512_unpacklo_pd($a.0, $b.0), _mm512_unpackhi_pd($a.0, $b.0))
+    };
+}
+
+/// The even quarters of both operands.
+macro_rules! even {
+    ($a:expr, $b:expr) => {
+        _mm512_shuffle_f64x2::<0b10_00_10_00>($a, $b)
+    };
+}
+
+/// The odd quarters of both operands.
+macro_rules! odd {
+    ($a:expr, $b:expr) => {
+        _mm512_shuffle_f64x2::<0b11_01_11_01>($a, $b)
+    };
+}
+
+/// Sums of neighboring quarters, those of a and b in turn.
+macro_rules! quarters {
+    ($a:expr, $b:expr) => {{
+        let (a, b) = ($a, $b);
+        _mm512_add_pd(even!(a, b), odd!(a, b))
+    }};
+}
 
 #[derive(Clone, Copy)]
 pub(super) struct Avx512(__m512d);
@@ -67,20 +99,10 @@ impl Lanes for Avx512 {
     unsafe fn sum_each(rows: [Self; 8]) -> [f64; 8] {
         // SAFETY: see above.
         unsafe {
-            let pair = |a: Self, b: Self| {
-                _mm512_add_pd(_mm512_unpacklo_pd(a.0, b.0), _mm512_unpackhi_pd(a.0, b.0))
-            };
-            // Even and odd quarters of both operands.
-            let quarters = |a, b| {
-                _mm512_add_pd(
-                    _mm512_shuffle_f64x2::<0b10_00_10_00>(a, b),
-                    _mm512_shuffle_f64x2::<0b11_01_11_01>(a, b),
-                )
-            };
-            let low = quarters(pair(rows[0], rows[1]), pair(rows[2], rows[3]));
-            let high = quarters(pair(rows[4], rows[5]), pair(rows[6], rows[7]));
+            let low = quarters!(pair!(rows[0], rows[1]), pair!(rows[2], rows[3]));
+            let high = quarters!(pair!(rows[4], rows[5]), pair!(rows[6], rows[7]));
             let mut sums = [0.0; 8];
-            _mm512_storeu_pd(sums.as_mut_ptr(), quarters(low, high));
+            _mm512_storeu_pd(sums.as_mut_ptr(), quarters!(low, high));
             sums
         }
     }
@@ -95,6 +117,11 @@ impl Lanes for Avx512 {
     unsafe fn multiply_add(self, factor: Self, sum: Self) -> Self {
         // SAFETY: see above.
         Avx512(unsafe { _mm512_fmadd_pd(self.0, factor.0, sum.0) })
+    }
+
+    #[inline(always)]
+    unsafe fn multiply_add_one(a: f64, b: f64, sum: f64) -> f64 {
+        a.mul_add(b, sum)
     }
 
     #[inline(always)]
@@ -133,18 +160,22 @@ impl Lanes for Avx512 {
     unsafe fn transpose(rows: [Self; 8]) -> [Self; 8] {
         // SAFETY: see above.
         unsafe {
-            let even = |a: __m512d, b| _mm512_shuffle_f64x2::<0b10_00_10_00>(a, b);
-            let odd = |a: __m512d, b| _mm512_shuffle_f64x2::<0b11_01_11_01>(a, b);
             // Of the even lanes of each row, or of the odd: lanes 0, 2, 4, 6 of all eight rows.
-            let four = |pairs: [__m512d; 4]| {
-                let (a, b) = (even(pairs[0], pairs[1]), even(pairs[2], pairs[3]));
-                let (c, d) = (odd(pairs[0], pairs[1]), odd(pairs[2], pairs[3]));
-                [even(a, b), even(c, d), odd(a, b), odd(c, d)]
-            };
-            let low = |i: usize| _mm512_unpacklo_pd(rows[2 * i].0, rows[2 * i + 1].0);
-            let high = |i: usize| _mm512_unpackhi_pd(rows[2 * i].0, rows[2 * i + 1].0);
-            let of_even = four([low(0), low(1), low(2), low(3)]);
-            let of_odd = four([high(0), high(1), high(2), high(3)]);
+            macro_rules! four {
+                ($unpack:ident) => {{
+                    let pairs = [
+                        $unpack(rows[0].0, rows[1].0),
+                        $unpack(rows[2].0, rows[3].0),
+                        $unpack(rows[4].0, rows[5].0),
+                        $unpack(rows[6].0, rows[7].0),
+                    ];
+                    let (a, b) = (even!(pairs[0], pairs[1]), even!(pairs[2], pairs[3]));
+                    let (c, d) = (odd!(pairs[0], pairs[1]), odd!(pairs[2], pairs[3]));
+                    [even!(a, b), even!(c, d), odd!(a, b), odd!(c, d)]
+                }};
+            }
+            let of_even = four!(_mm512_unpacklo_pd);
+            let of_odd = four!(_mm512_unpackhi_pd);
             [
                 Avx512(of_even[0]),
                 Avx512(of_odd[0]),

@@ -5,18 +5,20 @@
 //! *Guarantee.* The relative error of a squared distance is below (d + 8)·2⁻¹⁰⁰: nothing, beside the 2⁻⁵³ of what
 //! is printed.
 
+use std::ops::{Add, Div, Mul, Sub};
+
 #[cfg(target_arch = "x86_64")]
 use taut_points::{InstructionSet, instruction_set};
 
-use super::Center;
+use crate::Center;
 
 /// An unevaluated sum `high + low` with |low| ≤ ulp(high)/2.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct DoubleDouble {
+pub struct DoubleDouble {
     /// The nearest `f64`.
-    pub(crate) high: f64,
+    pub high: f64,
     /// The part that it leaves out.
-    pub(crate) low: f64,
+    pub low: f64,
 }
 
 /// a + b = sum + error exactly (Knuth).
@@ -36,67 +38,84 @@ fn two_product(a: f64, b: f64) -> (f64, f64) {
 
 impl DoubleDouble {
     /// Zero.
-    pub(crate) const ZERO: DoubleDouble = DoubleDouble { high: 0.0, low: 0.0 };
+    pub const ZERO: DoubleDouble = DoubleDouble { high: 0.0, low: 0.0 };
 
     /// a + b, exactly.
     #[inline(always)]
-    pub(crate) fn sum(a: f64, b: f64) -> Self {
+    pub fn sum(a: f64, b: f64) -> Self {
         let (high, low) = two_sum(a, b);
         DoubleDouble { high, low }
     }
 
     /// a·b, exactly.
     #[inline(always)]
-    pub(crate) fn product(a: f64, b: f64) -> Self {
+    pub fn product(a: f64, b: f64) -> Self {
         let (high, low) = two_product(a, b);
         DoubleDouble { high, low }
     }
 
+    /// self².
     #[inline(always)]
-    pub(crate) fn add(self, other: Self) -> Self {
+    pub fn square(self) -> Self {
+        self * self
+    }
+
+    /// √self, one Newton step from the root of the high part; 0 for what is not positive.
+    pub fn sqrt(self) -> Self {
+        if self.high <= 0.0 {
+            return Self::ZERO;
+        }
+        let root = self.high.sqrt();
+        Self::sum(root, (self - Self::product(root, root)).high / (2.0 * root))
+    }
+
+    /// The smallest `f64` that is not below this.
+    pub fn round_up(self) -> f64 {
+        if self.low > 0.0 { self.high.next_up() } else { self.high }
+    }
+}
+
+impl Add for DoubleDouble {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
         let (s, e) = two_sum(self.high, other.high);
         let (t, f) = two_sum(self.low, other.low);
         let (s, e) = two_sum(s, e + t);
         Self::sum(s, e + f)
     }
+}
+
+impl Sub for DoubleDouble {
+    type Output = Self;
 
     #[inline(always)]
-    pub(crate) fn sub(self, other: Self) -> Self {
-        self.add(DoubleDouble { high: -other.high, low: -other.low })
+    fn sub(self, other: Self) -> Self {
+        self + DoubleDouble { high: -other.high, low: -other.low }
     }
+}
+
+impl Mul for DoubleDouble {
+    type Output = Self;
 
     #[inline(always)]
-    pub(crate) fn mul(self, other: Self) -> Self {
+    fn mul(self, other: Self) -> Self {
         let (p, e) = two_product(self.high, other.high);
         Self::sum(p, e + (self.high * other.low + self.low * other.high))
     }
+}
 
-    #[inline(always)]
-    pub(crate) fn square(self) -> Self {
-        self.mul(self)
-    }
+/// The divisor must not be 0.
+impl Div for DoubleDouble {
+    type Output = Self;
 
-    /// self / other; other must not be 0.
-    pub(crate) fn div(self, other: Self) -> Self {
+    fn div(self, other: Self) -> Self {
         let first = self.high / other.high;
-        let rest = self.sub(other.mul(first.into()));
+        let rest = self - other * first.into();
         let second = rest.high / other.high;
-        let rest = rest.sub(other.mul(second.into()));
-        Self::sum(first, second).add((rest.high / other.high).into())
-    }
-
-    /// √self, one Newton step from the root of the high part; 0 for what is not positive.
-    pub(crate) fn sqrt(self) -> Self {
-        if self.high <= 0.0 {
-            return Self::ZERO;
-        }
-        let root = self.high.sqrt();
-        Self::sum(root, self.sub(Self::product(root, root)).high / (2.0 * root))
-    }
-
-    /// The smallest `f64` that is not below this.
-    pub(crate) fn round_up(self) -> f64 {
-        if self.low > 0.0 { self.high.next_up() } else { self.high }
+        let rest = rest - other * second.into();
+        Self::sum(first, second) + (rest.high / other.high).into()
     }
 }
 
@@ -117,24 +136,24 @@ impl PartialOrd for DoubleDouble {
 }
 
 /// Returns true if a number is not 0, but so small that the error of its square is no `f64` any more.
-pub(crate) fn vanishes(value: f64) -> bool {
+pub fn vanishes(value: f64) -> bool {
     value != 0.0 && value.abs() < 2f64.powi(-450)
 }
 
 /// x − c, coordinate by coordinate, each as an exact sum of three `f64`, times a power of two.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Difference {
+pub struct Difference {
     high: Vec<f64>,
     low: Vec<f64>,
     tail: Vec<f64>,
     /// True if scaling or squaring loses digits at the lower end of the range of `f64`. What is lost is far less than
     /// one unit of the last place of anything near 1.
-    pub(crate) vanishes: bool,
+    pub vanishes: bool,
 }
 
 impl Difference {
     /// (x − c)·scale. A scale below 1 belongs to points so far apart that differences would overflow: it comes first.
-    pub(crate) fn new(x: &[f64], center: &Center, scale: f64) -> Self {
+    pub fn new(x: &[f64], center: &Center, scale: f64) -> Self {
         let mut difference = Difference::default();
         let (before, after) = if scale < 1.0 { (scale, 1.0) } else { (1.0, scale) };
         for (j, (&x, &c)) in x.iter().zip(&center.high).enumerate() {
@@ -150,18 +169,19 @@ impl Difference {
         difference
     }
 
-    pub(crate) fn dim(&self) -> usize {
+    /// The number of coordinates.
+    pub fn dim(&self) -> usize {
         self.high.len()
     }
 
     /// Coordinate j in double-double.
     #[inline(always)]
-    pub(crate) fn coordinate(&self, j: usize) -> DoubleDouble {
-        DoubleDouble { high: self.high[j], low: self.low[j] }.add(self.tail[j].into())
+    pub fn coordinate(&self, j: usize) -> DoubleDouble {
+        DoubleDouble { high: self.high[j], low: self.low[j] } + self.tail[j].into()
     }
 
     /// The squared length in double-double.
-    pub(crate) fn squared(&self) -> DoubleDouble {
+    pub fn squared(&self) -> DoubleDouble {
         #[cfg(target_arch = "x86_64")]
         if instruction_set() >= InstructionSet::Avx2 {
             // SAFETY: the processor has both features.
@@ -176,7 +196,7 @@ impl Difference {
     /// Both squares are written out as sums of products, each product as two `f64` without error, and the sum of all
     /// is kept as an expansion whose last component has its sign (Shewchuk 1997, theorem 10). Exact unless it
     /// [`vanishes`](Self::vanishes).
-    pub(crate) fn is_within(&self, reach: f64, r: f64) -> bool {
+    pub fn is_within(&self, reach: f64, r: f64) -> bool {
         let mut expansion = Vec::new();
         let mut add_square = |terms: &[f64], sign: f64| {
             for (i, &a) in terms.iter().enumerate() {
@@ -211,11 +231,11 @@ fn squared(difference: &Difference) -> DoubleDouble {
     let whole = dim / 8 * 8;
     for j in (0..whole).step_by(8) {
         for (k, sum) in sums.iter_mut().enumerate() {
-            *sum = sum.add(difference.coordinate(j + k).square());
+            *sum = *sum + difference.coordinate(j + k).square();
         }
     }
     for j in whole..dim {
-        sums[j - whole] = sums[j - whole].add(difference.coordinate(j).square());
+        sums[j - whole] = sums[j - whole] + difference.coordinate(j).square();
     }
     sums.into_iter().fold(DoubleDouble::ZERO, DoubleDouble::add)
 }

@@ -1,8 +1,8 @@
 //! Queries where squares overflow or vanish, in the order of integers.
 
 use taut_certify::Items;
-use taut_enclose::{QueryOptions, SphereSearch, SphereSearchOptions};
 use taut_points::{Points, generate};
+use taut_search::{QueryOptions, SphereSearch, SphereSearchOptions};
 
 fn tree(values: &[f64], columns: usize, inputs: Items) -> SphereSearch {
     let options = SphereSearchOptions { inputs, ..Default::default() };

@@ -2,12 +2,16 @@
 //!
 //! Strict `f64` sums do not vectorize, and the baseline of x86-64 has no fused multiply-add, so the small dense
 //! algebra of the solvers goes through here: eight running sums, the same on every run.
+#![allow(unsafe_code)]
+
+use crate::lanes::Lanes;
+use crate::triangle::{Work, dispatch};
 
 /// Calls the body, which must be `#[inline(always)]` code, compiled for the best instruction set there is.
 macro_rules! dispatched {
     ($(#[$doc:meta])* $name:ident($($arg:ident: $type:ty),*) $(-> $result:ty)?, $body:ident) => {
         $(#[$doc])*
-        pub(crate) fn $name($($arg: $type),*) $(-> $result)? {
+        pub fn $name($($arg: $type),*) $(-> $result)? {
             #[cfg(target_arch = "x86_64")]
             {
                 #[target_feature(enable = "avx512f,fma")]
@@ -42,64 +46,95 @@ fn multiply_add<const FUSED: bool>(a: f64, b: f64, sum: f64) -> f64 {
     if FUSED { a.mul_add(b, sum) } else { sum + a * b }
 }
 
-dispatched! {
-    /// Σ aᵢbᵢ.
-    dot(a: &[f64], b: &[f64]) -> f64, dot_body
-}
-
-#[inline(always)]
-fn dot_body<const FUSED: bool>(a: &[f64], b: &[f64]) -> f64 {
-    let (a, a_rest) = a.as_chunks::<8>();
-    let (b, b_rest) = b.as_chunks::<8>();
-    let mut even = [0.0; 8];
-    let mut odd = [0.0; 8];
-    let (a_pairs, a_last) = a.as_chunks::<2>();
-    let (b_pairs, b_last) = b.as_chunks::<2>();
-    for (a, b) in a_pairs.iter().zip(b_pairs) {
-        for i in 0..8 {
-            even[i] = multiply_add::<FUSED>(a[0][i], b[0][i], even[i]);
-            odd[i] = multiply_add::<FUSED>(a[1][i], b[1][i], odd[i]);
-        }
-    }
-    for (a, b) in a_last.iter().zip(b_last) {
-        for i in 0..8 {
-            even[i] = multiply_add::<FUSED>(a[i], b[i], even[i]);
-        }
-    }
+/// Σ aᵢbᵢ.
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sum = 0.0;
-    for i in 0..8 {
-        sum += even[i] + odd[i];
-    }
-    for (&a, &b) in a_rest.iter().zip(b_rest) {
-        sum = multiply_add::<FUSED>(a, b, sum);
-    }
+    dispatch(Dot { a, b, sum: &mut sum });
     sum
 }
 
-dispatched! {
-    /// y ← y + a·x.
-    add_scaled(y: &mut [f64], a: f64, x: &[f64]), add_scaled_body
+struct Dot<'a> {
+    a: &'a [f64],
+    b: &'a [f64],
+    sum: &'a mut f64,
 }
 
-#[inline(always)]
-fn add_scaled_body<const FUSED: bool>(y: &mut [f64], a: f64, x: &[f64]) {
-    for (y, &x) in y.iter_mut().zip(x) {
-        *y = multiply_add::<FUSED>(a, x, *y);
+impl Work for Dot<'_> {
+    #[inline(always)]
+    unsafe fn run<L: Lanes>(self) {
+        let (a, a_rest) = self.a.as_chunks::<8>();
+        let (b, b_rest) = self.b.as_chunks::<8>();
+        let (mut even, mut odd) = ([0.0; 8], [0.0; 8]);
+        // SAFETY: features are the caller's promise; each chunk and each array holds eight values.
+        unsafe {
+            let (mut evens, mut odds) = (L::zero(), L::zero());
+            let ((a, a_last), (b, b_last)) = (a.as_chunks::<2>(), b.as_chunks::<2>());
+            for (a, b) in a.iter().zip(b) {
+                evens = L::load(a[0].as_ptr()).multiply_add(L::load(b[0].as_ptr()), evens);
+                odds = L::load(a[1].as_ptr()).multiply_add(L::load(b[1].as_ptr()), odds);
+            }
+            if let ([a], [b]) = (a_last, b_last) {
+                evens = L::load(a.as_ptr()).multiply_add(L::load(b.as_ptr()), evens);
+            }
+            evens.store(even.as_mut_ptr());
+            odds.store(odd.as_mut_ptr());
+        }
+        let mut sum = 0.0;
+        for i in 0..8 {
+            sum += even[i] + odd[i];
+        }
+        for (&a, &b) in a_rest.iter().zip(b_rest) {
+            // SAFETY: features are the caller's promise.
+            sum = unsafe { L::multiply_add_one(a, b, sum) };
+        }
+        *self.sum = sum;
     }
 }
 
-dispatched! {
-    /// y ← y + a₀x₀ + a₁x₁ + a₂x₂ + a₃x₃: one load and store of y for four terms.
-    add_four(y: &mut [f64], a: [f64; 4], x: [&[f64]; 4]), add_four_body
+/// y ← y + a·x.
+pub fn add_scaled(y: &mut [f64], a: f64, x: &[f64]) {
+    dispatch(AddTerms { y, a: [a], x: [x] });
 }
 
-#[inline(always)]
-fn add_four_body<const FUSED: bool>(y: &mut [f64], a: [f64; 4], x: [&[f64]; 4]) {
+/// y ← y + a₀x₀ + a₁x₁ + a₂x₂ + a₃x₃: one load and store of y for four terms.
+///
+/// # Panics
+/// If one of the x is shorter than y.
+pub fn add_four(y: &mut [f64], a: [f64; 4], x: [&[f64]; 4]) {
     let n = y.len();
-    let [x0, x1, x2, x3] = x.map(|x| &x[..n]);
-    for i in 0..n {
-        let sum = multiply_add::<FUSED>(a[1], x1[i], multiply_add::<FUSED>(a[0], x0[i], y[i]));
-        y[i] = multiply_add::<FUSED>(a[3], x3[i], multiply_add::<FUSED>(a[2], x2[i], sum));
+    let [x0, x1, x2, x3] = x;
+    dispatch(AddTerms { y, a, x: [&x0[..n], &x1[..n], &x2[..n], &x3[..n]] });
+}
+
+/// y ← y + Σ aₖxₖ, term by term, as far as the shortest reaches.
+struct AddTerms<'a, const K: usize> {
+    y: &'a mut [f64],
+    a: [f64; K],
+    x: [&'a [f64]; K],
+}
+
+impl<const K: usize> Work for AddTerms<'_, K> {
+    #[inline(always)]
+    unsafe fn run<L: Lanes>(self) {
+        let n = self.x.iter().fold(self.y.len(), |n, x| n.min(x.len()));
+        let (eights, rest) = self.y[..n].as_chunks_mut::<8>();
+        let whole = 8 * eights.len();
+        // SAFETY: features are the caller's promise; all have n values, of which eight from each i on.
+        unsafe {
+            for (number, y) in eights.iter_mut().enumerate() {
+                let mut sum = L::load(y.as_ptr());
+                for k in 0..K {
+                    let x = L::load(self.x[k].as_ptr().add(8 * number));
+                    sum = x.multiply_add(L::broadcast(self.a[k]), sum);
+                }
+                sum.store(y.as_mut_ptr());
+            }
+            for (i, y) in rest.iter_mut().enumerate() {
+                for k in 0..K {
+                    *y = L::multiply_add_one(self.a[k], self.x[k][whole + i], *y);
+                }
+            }
+        }
     }
 }
 
@@ -138,7 +173,7 @@ fn add_scaled_exactly_body<const FUSED: bool>(
 }
 
 /// Σ aᵢ·rowᵢ added to y, the rows taken from `row(i)`.
-pub(crate) fn add_combination<'r>(y: &mut [f64], a: &[f64], row: impl Fn(usize) -> &'r [f64]) {
+pub fn add_combination<'r>(y: &mut [f64], a: &[f64], row: impl Fn(usize) -> &'r [f64]) {
     let (fours, rest) = a.as_chunks::<4>();
     for (k, &a) in fours.iter().enumerate() {
         add_four(y, a, std::array::from_fn(|i| row(4 * k + i)));

@@ -79,11 +79,11 @@ fn a_row_does_not_depend_on_its_neighbors() {
 fn double_double_keeps_what_double_loses() {
     let tiny = 2f64.powi(-70);
     let sum = DoubleDouble::sum(1.0, tiny);
-    assert_eq!(sum.sub(1.0.into()).high, tiny);
-    let third = DoubleDouble::from(1.0).div(3.0.into());
-    assert!(third.mul(3.0.into()).sub(1.0.into()).high.abs() < 1e-31);
+    assert_eq!((sum - 1.0.into()).high, tiny);
+    let third = DoubleDouble::from(1.0) / 3.0.into();
+    assert!((third * 3.0.into() - 1.0.into()).high.abs() < 1e-31);
     let root = DoubleDouble::from(2.0).sqrt();
-    assert!(root.square().sub(2.0.into()).high.abs() < 1e-31);
+    assert!((root.square() - 2.0.into()).high.abs() < 1e-31);
     assert_eq!(sum.round_up(), 1f64.next_up());
     assert_eq!(DoubleDouble::from(1.0).round_up(), 1.0);
 }
@@ -113,11 +113,11 @@ fn image(matrix: &[f64], x: &[f64], center: &Center, shift: &[f64]) -> Vec<f64> 
     let dim = center.dim();
     let difference = |j: usize| {
         let low = center.low.get(j).copied().unwrap_or(0.0);
-        DoubleDouble::sum(x[j], -center.high[j]).sub(low.into())
+        DoubleDouble::sum(x[j], -center.high[j]) - low.into()
     };
     let row = |a: usize| {
         (0..=a).fold(DoubleDouble::from(-shift[a]), |sum, b| {
-            sum.add(difference(b).mul(matrix[a * dim + b].into()))
+            sum + difference(b) * matrix[a * dim + b].into()
         })
     };
     (0..dim).map(|a| row(a).high).collect()
@@ -314,4 +314,21 @@ fn lanes_move_values_alike_everywhere() {
             assert_eq!(found, wanted, "{set:?}");
         }
     }
+}
+
+/// Products of lengths that leave the range of `usize` are no lengths of slices.
+#[test]
+fn lengths_that_wrap_around_are_refused() {
+    let center = Center { high: vec![0.0], low: vec![] };
+    let stride = 1 << (usize::BITS - 1);
+    let refused =
+        |call: fn(&Center, usize)| std::panic::catch_unwind(|| call(&center, stride)).is_err();
+    assert!(refused(|center, stride| squared_distances::<f64>(&[], stride, center, &mut [0.0; 2])));
+    assert!(refused(|_, stride| {
+        triangle::moments(stride / 16 + 1, &[0.0; 32], &[1.0; 32]);
+    }));
+    assert!(refused(|_, _| {
+        let empty = Center { high: vec![], low: vec![] };
+        triangle::leverages::<f64>(&[], &[], &empty, &mut vec![], &mut []);
+    }));
 }

@@ -1,9 +1,10 @@
-//! Squared distances of many rows to one center: the loop in which every enclosing solver spends its time.
+//! The inner loops of the solvers of enclosing shapes. At this level: squared distances of many rows to one center, in
+//! which every one of them spends its time.
 //!
 //! *Problem.* For each row x of a block, |x − c|² in `f64`, from `f32` or `f64` coordinates, at the speed at which
 //! memory delivers them.
-//! *Idea.* Eight lanes of `f64` ([`Lanes`]), one file per instruction set, chosen at run time. Rows of up to
-//! [`EIGHT_ROWS_MAX`] coordinates are taken eight at a time, which shares the loads of the center and leaves one
+//! *Idea.* Eight lanes of `f64` (`Lanes`), one file per instruction set, chosen at run time. Rows of up to
+//! `EIGHT_ROWS_MAX` coordinates are taken eight at a time, which shares the loads of the center and leaves one
 //! transposing sum for eight rows; longer rows are taken one at a time with four accumulators.
 //! *Guarantee.* A row's value depends on the row and the center alone, not on its neighbors or on threads. Its
 //! relative error is at most [`relative_error`]. `f32` rows are widened first, so every pass is a certificate:
@@ -12,19 +13,20 @@
 //! A center that needs more than one `f64` per coordinate is subtracted in two terms, which costs one more load and
 //! subtraction, so it is only done where it matters.
 
-pub(crate) mod compensated;
+pub mod columns;
+pub mod compensated;
 mod exact;
-pub(crate) mod extremes;
+pub mod extremes;
 mod lanes;
 mod portable;
-pub(crate) mod triangle;
-pub(crate) mod vector;
+pub mod triangle;
+pub mod vector;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
-use taut_points::Scalar;
+use taut_points::{Scalar, ScalarKind};
 
-pub(crate) use exact::{Difference, DoubleDouble, vanishes};
+pub use exact::{Difference, DoubleDouble, vanishes};
 use lanes::{Lanes, eight_rows, one_row, one_short_row};
 
 /// Up to this many coordinates eight rows are taken together. Beyond, eight streams of memory are more than the
@@ -33,15 +35,16 @@ const EIGHT_ROWS_MAX: usize = 96;
 
 /// A center as `high`, or as `high + low` where one `f64` per coordinate is too coarse.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Center {
+pub struct Center {
     /// The coordinates, rounded.
-    pub(crate) high: Vec<f64>,
+    pub high: Vec<f64>,
     /// The part that rounding took away; empty stands for zeros.
-    pub(crate) low: Vec<f64>,
+    pub low: Vec<f64>,
 }
 
 impl Center {
-    pub(crate) fn dim(&self) -> usize {
+    /// The number of coordinates.
+    pub fn dim(&self) -> usize {
         self.high.len()
     }
 }
@@ -51,21 +54,36 @@ impl Center {
 /// In units of the rounding 2⁻⁵³: each lane sums at most d/8 squares in turn and eight lanes are summed in three steps;
 /// the two differences of a term count twice, its square once; the root, the radius and the square of a reach add five.
 /// That makes d/8 + 13; the rest is room for second-order terms.
-pub(crate) fn relative_error(dim: usize) -> f64 {
+pub fn relative_error(dim: usize) -> f64 {
     (dim.div_ceil(8) as f64 + 16.0) * (f64::EPSILON / 2.0)
 }
 
 /// Writes |x − c|² for each row of `values` to `out`.
 ///
 /// Rows are `stride` values long, of which the first `center.dim()` are coordinates; `out` has one place per row.
-pub(crate) fn squared_distances<T: Scalar>(
-    values: &[T],
-    stride: usize,
-    center: &Center,
-    out: &mut [f64],
-) {
+///
+/// # Panics
+/// If the lengths do not fit, or the center has no coordinates.
+pub fn squared_distances<T: Scalar>(values: &[T], stride: usize, center: &Center, out: &mut [f64]) {
+    match T::KIND {
+        ScalarKind::F32 => of_singles(bytemuck::cast_slice(values), stride, center, out),
+        ScalarKind::F64 => of_doubles(bytemuck::cast_slice(values), stride, center, out),
+    }
+}
+
+// Not generic, so that they are compiled with the options of this crate, and not with those of the one that calls them.
+
+fn of_singles(values: &[f32], stride: usize, center: &Center, out: &mut [f64]) {
+    of_rows(values, stride, center, out);
+}
+
+fn of_doubles(values: &[f64], stride: usize, center: &Center, out: &mut [f64]) {
+    of_rows(values, stride, center, out);
+}
+
+fn of_rows<T: Scalar>(values: &[T], stride: usize, center: &Center, out: &mut [f64]) {
     assert!(center.dim() <= stride && center.dim() > 0);
-    assert_eq!(values.len(), stride * out.len());
+    assert_eq!(Some(values.len()), stride.checked_mul(out.len()));
     assert!(center.low.is_empty() || center.low.len() == center.dim());
     #[cfg(target_arch = "x86_64")]
     if x86::squared_distances(values, stride, center, out) {

@@ -8,13 +8,13 @@
 //! *Trap.* The center is subtracted first: T(x − c), never Tx − Tc, which loses all digits far from the origin.
 #![allow(unsafe_code)]
 
-use taut_points::Scalar;
+use taut_points::{Scalar, ScalarKind};
 
 use super::lanes::Lanes;
 use super::{Center, portable};
 
 /// Points of one block: coordinate j of point i stands at 32·j + i.
-pub(crate) const POINTS: usize = 32;
+pub const POINTS: usize = 32;
 /// One coordinate of a block takes this many registers.
 const REGISTERS: usize = POINTS / 8;
 
@@ -23,11 +23,11 @@ const PREFETCH_BYTES: usize = 8192;
 
 /// A lower triangular matrix by rows, d × d, of which nothing above the diagonal is read, and a shift.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Triangle<'a> {
+pub struct Triangle<'a> {
     /// T.
-    pub(crate) matrix: &'a [f64],
+    pub matrix: &'a [f64],
     /// t.
-    pub(crate) shift: &'a [f64],
+    pub shift: &'a [f64],
 }
 
 impl Triangle<'_> {
@@ -36,25 +36,41 @@ impl Triangle<'_> {
     }
 }
 
+/// Tests whether two factors, whatever their size, have this product.
+fn is_product(product: usize, a: usize, b: usize) -> bool {
+    a.checked_mul(b) == Some(product)
+}
+
 /// z = Tx − t for the points of a block, and |z|² of each.
-pub(crate) fn images(triangle: Triangle<'_>, x: &[f64], z: &mut [f64], out: &mut [f64; POINTS]) {
+///
+/// # Panics
+/// If the lengths do not fit.
+pub fn images(triangle: Triangle<'_>, x: &[f64], z: &mut [f64], out: &mut [f64; POINTS]) {
     let dim = triangle.dim();
-    assert!(triangle.matrix.len() == dim * dim && x.len() == dim * POINTS && z.len() == x.len());
+    assert!(is_product(triangle.matrix.len(), dim, dim));
+    assert!(is_product(x.len(), dim, POINTS) && z.len() == x.len());
     let z = z.as_mut_ptr();
     dispatch(Images { triangle, x: x.as_ptr(), z, out });
 }
 
 /// x·(Tx − t) for each point of a block.
-pub(crate) fn forms(triangle: Triangle<'_>, x: &[f64], out: &mut [f64; POINTS]) {
+///
+/// # Panics
+/// If the lengths do not fit.
+pub fn forms(triangle: Triangle<'_>, x: &[f64], out: &mut [f64; POINTS]) {
     let dim = triangle.dim();
-    assert!(triangle.matrix.len() == dim * dim && x.len() == dim * POINTS);
+    assert!(is_product(triangle.matrix.len(), dim, dim) && is_product(x.len(), dim, POINTS));
     dispatch(Forms { triangle, x: x.as_ptr(), out });
 }
 
 /// Σ wxx′, Σ wx and Σ w over the points of many blocks, the lower triangle with the diagonal, (d + 1) × (d + 1) by rows:
 /// the points are taken to have a last coordinate 1. `weights` has one entry per point, 0 for those that fill a block.
-pub(crate) fn moments(dim: usize, x: &[f64], weights: &[f64]) -> Vec<f64> {
-    assert!(x.len() == dim * weights.len() && weights.len().is_multiple_of(POINTS));
+///
+/// # Panics
+/// If the lengths do not fit, or there are no coordinates.
+pub fn moments(dim: usize, x: &[f64], weights: &[f64]) -> Vec<f64> {
+    assert!(dim > 0 && weights.len().is_multiple_of(POINTS));
+    assert!(is_product(x.len(), dim, weights.len()));
     let m = dim + 1;
     // Eight partial sums for each entry.
     let mut sums = vec![0.0; 8 * m * (m + 1) / 2];
@@ -73,7 +89,45 @@ pub(crate) fn moments(dim: usize, x: &[f64], weights: &[f64]) -> Vec<f64> {
 ///
 /// The relative error is of the order of d·2⁻⁵³ times |T||x − c| over |T(x − c)|: large when T has to undo a strong
 /// correlation of coordinates.
-pub(crate) fn leverages<T: Scalar>(
+///
+/// # Panics
+/// If the lengths do not fit, or there are no coordinates.
+pub fn leverages<T: Scalar>(
+    values: &[T],
+    matrix: &[f64],
+    center: &Center,
+    scratch: &mut Vec<f64>,
+    out: &mut [f64],
+) {
+    match T::KIND {
+        ScalarKind::F32 => of_singles(bytemuck::cast_slice(values), matrix, center, scratch, out),
+        ScalarKind::F64 => of_doubles(bytemuck::cast_slice(values), matrix, center, scratch, out),
+    }
+}
+
+// Not generic, so that they are compiled with the options of this crate, and not with those of the one that calls them.
+
+fn of_singles(
+    values: &[f32],
+    matrix: &[f64],
+    center: &Center,
+    scratch: &mut Vec<f64>,
+    out: &mut [f64],
+) {
+    of_rows(values, matrix, center, scratch, out);
+}
+
+fn of_doubles(
+    values: &[f64],
+    matrix: &[f64],
+    center: &Center,
+    scratch: &mut Vec<f64>,
+    out: &mut [f64],
+) {
+    of_rows(values, matrix, center, scratch, out);
+}
+
+fn of_rows<T: Scalar>(
     values: &[T],
     matrix: &[f64],
     center: &Center,
@@ -81,7 +135,8 @@ pub(crate) fn leverages<T: Scalar>(
     out: &mut [f64],
 ) {
     let dim = center.dim();
-    assert!(matrix.len() == dim * dim && values.len() == dim * out.len());
+    assert!(dim > 0 && is_product(matrix.len(), dim, dim));
+    assert!(is_product(values.len(), dim, out.len()));
     assert!(center.low.is_empty() || center.low.len() == dim);
     scratch.clear();
     // The second half is the shift, which is 0 here.
@@ -90,7 +145,10 @@ pub(crate) fn leverages<T: Scalar>(
 }
 
 /// Bit i of entry k of `bits` says whether value 32k + i is above `bound`.
-pub(crate) fn above(values: &[f64], bound: f64, bits: &mut [u32]) {
+///
+/// # Panics
+/// If there are more or fewer entries than that.
+pub fn above(values: &[f64], bound: f64, bits: &mut [u32]) {
     assert!(bits.len() == values.len().div_ceil(POINTS));
     dispatch(Above { values, bound, bits });
 }
@@ -102,7 +160,8 @@ pub(super) trait Work {
     unsafe fn run<L: Lanes>(self);
 }
 
-fn dispatch(work: impl Work) {
+/// Does the work with the best registers there are.
+pub(super) fn dispatch(work: impl Work) {
     #[cfg(target_arch = "x86_64")]
     let Some(work) = super::x86::run(work) else { return };
     // SAFETY: the portable lanes need no feature of the processor.
@@ -276,51 +335,79 @@ unsafe fn block<L: Lanes, const STORE: bool, const FORM: bool>(
     let (matrix, shift) = (triangle.matrix.as_ptr(), triangle.shift.as_ptr());
     // SAFETY: rows a < dim of T and of the block; columns b ≤ a.
     unsafe {
-        let row = |b: usize| -> [L; REGISTERS] { wide(x.add(b * POINTS)) };
-        let start = |a: usize| [L::broadcast(-*shift.add(a)); REGISTERS];
+        // Macros, as closures are not always inlined where they are called more than once.
+        macro_rules! row {
+            ($b:expr) => {
+                wide::<L>(x.add($b * POINTS))
+            };
+        }
+        macro_rules! start {
+            ($a:expr) => {
+                [L::broadcast(-*shift.add($a)); REGISTERS]
+            };
+        }
         let mut sums = [L::zero(); REGISTERS];
-        let mut finish = |a: usize, values: [L; REGISTERS]| {
-            let with = if FORM { row(a) } else { values };
-            for i in 0..REGISTERS {
-                sums[i] = values[i].multiply_add(with[i], sums[i]);
-                if STORE {
-                    values[i].store(z.add(a * POINTS + 8 * i));
+        macro_rules! finish {
+            ($a:expr, $values:expr) => {{
+                let (a, values): (usize, [L; REGISTERS]) = ($a, $values);
+                let with = if FORM { row!(a) } else { values };
+                for i in 0..REGISTERS {
+                    sums[i] = values[i].multiply_add(with[i], sums[i]);
+                    if STORE {
+                        values[i].store(z.add(a * POINTS + 8 * i));
+                    }
                 }
-            }
-        };
+            }};
+        }
         let mut a = 0;
         while a + 1 < dim {
             let (upper, lower) = (matrix.add(a * dim), matrix.add((a + 1) * dim));
-            let (mut first, mut second) = (start(a), start(a + 1));
+            let (mut first, mut second) = (start!(a), start!(a + 1));
             for b in 0..=a {
-                let x = row(b);
+                let x = row!(b);
                 let (t, s) = (L::broadcast(*upper.add(b)), L::broadcast(*lower.add(b)));
                 for i in 0..REGISTERS {
                     first[i] = x[i].multiply_add(t, first[i]);
                     second[i] = x[i].multiply_add(s, second[i]);
                 }
             }
-            let (x, s) = (row(a + 1), L::broadcast(*lower.add(a + 1)));
+            let (x, s) = (row!(a + 1), L::broadcast(*lower.add(a + 1)));
             for i in 0..REGISTERS {
                 second[i] = x[i].multiply_add(s, second[i]);
             }
-            finish(a, first);
-            finish(a + 1, second);
+            finish!(a, first);
+            finish!(a + 1, second);
             a += 2;
         }
         if a < dim {
             let upper = matrix.add(a * dim);
-            let mut first = start(a);
+            let mut first = start!(a);
             for b in 0..=a {
-                let (x, t) = (row(b), L::broadcast(*upper.add(b)));
+                let (x, t) = (row!(b), L::broadcast(*upper.add(b)));
                 for i in 0..REGISTERS {
                     first[i] = x[i].multiply_add(t, first[i]);
                 }
             }
-            finish(a, first);
+            finish!(a, first);
         }
         for (i, sum) in sums.into_iter().enumerate() {
             sum.store(out.as_mut_ptr().add(8 * i));
+        }
+    }
+}
+
+/// Coordinate j of some points less that of the center.
+///
+/// # Safety
+/// The processor has the features of `L`.
+#[inline(always)]
+unsafe fn less<L: Lanes>(column: L, center: &Center, j: usize) -> L {
+    // SAFETY: passed on.
+    unsafe {
+        let once = column.sub(L::broadcast(center.high[j]));
+        match center.low.get(j) {
+            Some(&low) => once.sub(L::broadcast(low)),
+            None => once,
         }
     }
 }
@@ -341,24 +428,14 @@ unsafe fn arrange<L: Lanes, T: Scalar>(values: &[T], center: &Center, x: &mut [f
         // SAFETY: features are the caller's promise.
         unsafe { L::prefetch(ahead.wrapping_add(line)) };
     }
-    let less = |column: L, j: usize| {
-        // SAFETY: features are the caller's promise; both terms of the center have dim > j coordinates.
-        unsafe {
-            let once = column.sub(L::broadcast(center.high[j]));
-            match center.low.get(j) {
-                Some(&low) => once.sub(L::broadcast(low)),
-                None => once,
-            }
-        }
-    };
     if dim == 2 && rows == POINTS {
         for group in 0..REGISTERS {
             // SAFETY: `values` holds 64 values, of which these are 16; there is room for as many at `x`.
             unsafe {
                 let from = values.as_ptr().add(16 * group);
                 let (first, second) = L::split(L::load(from), L::load(from.add(8)));
-                less(first, 0).store(x.add(8 * group));
-                less(second, 1).store(x.add(POINTS + 8 * group));
+                less(first, center, 0).store(x.add(8 * group));
+                less(second, center, 1).store(x.add(POINTS + 8 * group));
             }
         }
         return;
@@ -382,7 +459,7 @@ unsafe fn arrange<L: Lanes, T: Scalar>(values: &[T], center: &Center, x: &mut [f
                 }
                 let columns = L::transpose(eight);
                 for k in 0..count {
-                    less(columns[k], j + k).store(x.add((j + k) * POINTS + 8 * group));
+                    less(columns[k], center, j + k).store(x.add((j + k) * POINTS + 8 * group));
                 }
             }
         }
