@@ -105,8 +105,7 @@ pub fn leverages<T: Scalar>(
     }
 }
 
-// Not generic, so that they are compiled with the options of this crate, and not with those of the one that calls them.
-
+/// Rows in single precision, widened some hundred at a time: one copy of the code serves both.
 fn of_singles(
     values: &[f32],
     matrix: &[f64],
@@ -114,21 +113,20 @@ fn of_singles(
     scratch: &mut Vec<f64>,
     out: &mut [f64],
 ) {
-    of_rows(values, matrix, center, scratch, out);
+    let dim = center.dim();
+    assert!(dim > 0 && is_product(values.len(), dim, out.len()));
+    let mut wide = vec![];
+    let blocks = values.chunks(dim * 8 * POINTS).zip(out.chunks_mut(8 * POINTS));
+    for (values, out) in blocks {
+        wide.clear();
+        wide.extend(values.iter().map(|&value| f64::from(value)));
+        of_doubles(&wide, matrix, center, scratch, out);
+    }
 }
 
+/// Not generic, so that it is compiled with the options of this crate, and not with those of the one that calls it.
 fn of_doubles(
     values: &[f64],
-    matrix: &[f64],
-    center: &Center,
-    scratch: &mut Vec<f64>,
-    out: &mut [f64],
-) {
-    of_rows(values, matrix, center, scratch, out);
-}
-
-fn of_rows<T: Scalar>(
-    values: &[T],
     matrix: &[f64],
     center: &Center,
     scratch: &mut Vec<f64>,
@@ -270,8 +268,8 @@ impl Work for Above<'_> {
     }
 }
 
-pub(super) struct Leverages<'a, T> {
-    pub(super) values: &'a [T],
+pub(super) struct Leverages<'a> {
+    pub(super) values: &'a [f64],
     pub(super) matrix: &'a [f64],
     pub(super) center: &'a Center,
     /// A block and, behind it, a shift of zeros.
@@ -279,7 +277,7 @@ pub(super) struct Leverages<'a, T> {
     pub(super) out: &'a mut [f64],
 }
 
-impl<T: Scalar> Work for Leverages<'_, T> {
+impl Work for Leverages<'_> {
     #[inline(always)]
     unsafe fn run<L: Lanes>(self) {
         let dim = self.center.dim();
@@ -291,7 +289,7 @@ impl<T: Scalar> Work for Leverages<'_, T> {
         for (values, out) in values.chunks_exact(dim * POINTS).zip(blocks) {
             // SAFETY: features are the caller's promise; `x` has room for a block, and `values` is one.
             unsafe {
-                arrange::<L, T>(values, self.center, x);
+                arrange::<L>(values, self.center, x);
                 block::<L, false, false>(triangle, x.as_ptr(), none, out);
             }
         }
@@ -299,7 +297,7 @@ impl<T: Scalar> Work for Leverages<'_, T> {
             let mut sums = [0.0; POINTS];
             // SAFETY: as above; `last` holds a row for each place of `rest`, which is not empty.
             unsafe {
-                arrange::<L, T>(last, self.center, x);
+                arrange::<L>(last, self.center, x);
                 block::<L, false, false>(triangle, x.as_ptr(), none, &mut sums);
             }
             rest.copy_from_slice(&sums[..rest.len()]);
@@ -418,7 +416,7 @@ unsafe fn less<L: Lanes>(column: L, center: &Center, j: usize) -> L {
 /// The processor has the features of `L`; `values` holds between 1 and [`POINTS`] rows of `center.dim()` values, and
 /// `x` has room for [`POINTS`].
 #[inline(always)]
-unsafe fn arrange<L: Lanes, T: Scalar>(values: &[T], center: &Center, x: &mut [f64]) {
+unsafe fn arrange<L: Lanes>(values: &[f64], center: &Center, x: &mut [f64]) {
     let dim = center.dim();
     let rows = values.len() / dim;
     debug_assert!((1..=POINTS).contains(&rows) && x.len() >= dim * POINTS);
