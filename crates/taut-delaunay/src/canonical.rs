@@ -23,12 +23,24 @@ pub(crate) fn arrangement<const V: usize>(vertices: &[u32; V]) -> [u8; V] {
         *key = u64::from(v) << 8 | i as u64;
     }
     let mut odd = false;
-    for i in 1..V {
-        for j in (1..=i).rev() {
-            let (a, b) = (keys[j - 1], keys[j]);
-            odd ^= a > b;
-            (keys[j - 1], keys[j]) = (a.min(b), a.max(b));
-        }
+    // Written out: the loops of an insertion sort are not unrolled by every compiler.
+    let mut exchange = |j: usize| {
+        let (a, b) = (keys[j - 1], keys[j]);
+        odd ^= a > b;
+        (keys[j - 1], keys[j]) = (a.min(b), a.max(b));
+    };
+    const { assert!(V <= 4) }
+    if V > 1 {
+        exchange(1);
+    }
+    if V > 2 {
+        exchange(2);
+        exchange(1);
+    }
+    if V > 3 {
+        exchange(3);
+        exchange(2);
+        exchange(1);
     }
     let (a, b) = (keys[V - 2], keys[V - 1]);
     (keys[V - 2], keys[V - 1]) = if odd { (b, a) } else { (a, b) };
@@ -116,14 +128,19 @@ pub(crate) fn renumbered<const V: usize>(slots: &Slots<V>, sites: usize) -> Vec<
     let renumber = |old: u32| {
         let (slot, facet) = decode(old);
         let arranged = arrangement(&slots[slot as usize].vertices);
-        let place = arranged.iter().position(|&from| usize::from(from) == facet);
-        code(places[slot as usize], place.expect("an arrangement has each place") as u32)
+        // An arrangement has each place.
+        let mut place = 0;
+        for k in 1..V {
+            place = if usize::from(arranged[k]) == facet { k as u32 } else { place };
+        }
+        code(places[slot as usize], place)
     };
     let simplex = |&slot: &u32| {
         let Simplex { vertices, neighbors } = slots[slot as usize];
         let arranged = arrangement(&vertices);
         let mut simplex = Simplex { vertices, neighbors };
-        for (place, from) in arranged.into_iter().map(usize::from).enumerate() {
+        for place in 0..V {
+            let from = usize::from(arranged[place]);
             simplex.vertices[place] = vertices[from];
             simplex.neighbors[place] = renumber(neighbors[from]);
         }
