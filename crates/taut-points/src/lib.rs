@@ -46,7 +46,7 @@ pub use error::{Error, InputError, ReadError};
 pub use generate::{Distribution, GeneratedSource, generate, generate_into};
 pub use hash::{BlockHash, HashFormError, PointsHash, hash_block, hash_points};
 pub use monitor::{Cancelled, Monitor};
-pub use ordered::OrderBy;
+pub use ordered::{OrderBy, bring_to_places};
 pub use parts::{
     BlockRuns, ByteReader, ByteWriter, Elsewhere, PartsError, check_kernels, check_part,
 };

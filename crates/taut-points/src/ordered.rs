@@ -49,17 +49,33 @@ impl<T> OrderBy<T> for [T] {
             }
             return;
         }
-        let mut order = numbers_in_order(self.len(), &|a, b| compare(&self[a], &self[b]));
-        // Each cycle of the permutation is followed once; a place that has its item is then a cycle of its own.
-        for start in 0..self.len() {
-            let mut place = start;
-            while order[place] != start {
-                let from = std::mem::replace(&mut order[place], place);
-                self.swap(place, from);
-                place = from;
-            }
-            order[place] = place;
+        let order = numbers_in_order(self.len(), &|a, b| compare(&self[a], &self[b]));
+        bring_to_places(self, order);
+    }
+}
+
+/// Brings item `order[i]` to place i, for all i, in O(n) and without further memory.
+///
+/// ```
+/// let mut items = ["b", "c", "a"];
+/// taut_points::bring_to_places(&mut items, vec![2, 0, 1]);
+/// assert_eq!(items, ["a", "b", "c"]);
+/// ```
+///
+/// # Panics
+/// If `order` has another length than `items`, or a number that is none of an item. If it lists an item twice, the items end
+/// in some order.
+pub fn bring_to_places<T>(items: &mut [T], mut order: Vec<usize>) {
+    assert_eq!(items.len(), order.len());
+    // Each cycle of the permutation is followed once; a place that has its item is then a cycle of its own.
+    for start in 0..items.len() {
+        let mut place = start;
+        while order[place] != start && order[place] != place {
+            let from = std::mem::replace(&mut order[place], place);
+            items.swap(place, from);
+            place = from;
         }
+        order[place] = place;
     }
 }
 

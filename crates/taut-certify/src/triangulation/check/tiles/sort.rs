@@ -10,6 +10,7 @@ use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
+use taut_points::bring_to_places;
 use taut_points::parallel::ParallelSlice;
 
 use super::TilesError;
@@ -28,17 +29,8 @@ fn sort<const W: usize>(records: &mut [[u64; W]]) {
     if W <= NARROW_WORDS_MAX {
         return records.par_sort_unstable();
     }
-    let mut order = order(records.as_flattened(), W);
-    // Each cycle of the permutation is followed once; a place that has its record is then a cycle of its own.
-    for start in 0..records.len() {
-        let mut place = start;
-        while order[place] != start {
-            let from = std::mem::replace(&mut order[place], place);
-            records.swap(place, from);
-            place = from;
-        }
-        order[place] = place;
-    }
+    let order = order(records.as_flattened(), W);
+    bring_to_places(records, order);
 }
 
 /// The numbers of the records, `width` words each, in ascending order of the records.
