@@ -4,8 +4,10 @@
 //! of `f32` points too, so a certificate of one file holds for the other.
 
 #[cfg(feature = "arrow")]
-mod columnar;
+mod arrow;
 mod npy;
+#[cfg(feature = "arrow")]
+pub(crate) mod parquet;
 mod table;
 mod text;
 
@@ -60,9 +62,9 @@ pub fn write_points(
         Format::Npy => npy::write(&points, &mut out)?,
         Format::Raw => npy::write_values(&points, &mut out)?,
         #[cfg(feature = "arrow")]
-        Format::Parquet => columnar::write_parquet(&points, &mut out)?,
+        Format::Parquet => parquet::write(&points, &mut out)?,
         #[cfg(feature = "arrow")]
-        Format::Arrow => columnar::write_arrow(&points, &mut out)?,
+        Format::Arrow => arrow::write(&points, &mut out)?,
         _ => return Err(Error::not_writable(&shown, format, Content::Points)),
     }
     out.finish()?.commit()
@@ -75,6 +77,12 @@ pub(crate) struct Points<'a> {
 }
 
 impl Points<'_> {
+    /// What formats with a schema call a coordinate.
+    #[cfg(feature = "arrow")]
+    pub(crate) fn column_name(&self, j: usize) -> String {
+        self.columns.get(j).cloned().unwrap_or_else(|| format!("x{j}"))
+    }
+
     /// Calls `write` for each block in order.
     pub(crate) fn blocks(
         &self,

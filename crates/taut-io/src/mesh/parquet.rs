@@ -1,14 +1,9 @@
 //! Apache Parquet: a column of ids for each vertex of a simplex, and nothing of the points.
 
-use std::sync::Arc;
-
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Int32Type, Int64Type, UInt32Type, UInt64Type};
-use arrow_array::{Array, ArrayRef, RecordBatch, UInt32Array};
-use arrow_schema::{DataType, Field, Schema};
-use parquet::arrow::ArrowWriter;
-use parquet::basic::Compression;
-use parquet::errors::ParquetError;
+use arrow_array::{Array, ArrayRef};
+use arrow_schema::DataType;
 use parquet::file::properties::WriterProperties;
 use parquet::file::reader::ChunkReader;
 
@@ -17,29 +12,37 @@ use super::writing::Job;
 use crate::input::{self, Medium};
 use crate::read::{Seekable, first_line, quiet, thrift};
 use crate::write::OutputFile;
+use crate::write::parquet::{ColumnKind, ParquetFile, Values};
 use crate::{Error, FilePlace, Format, ReadOptions};
 
+/// Simplices in a row group, and in a batch that is read.
+const ROWS: usize = 1 << 20;
+
 pub(super) fn write(job: &Job<'_>, out: &mut OutputFile<'_>) -> Result<(), Error> {
-    let (path, failure, width) = (out.path, out.failure, job.mesh.width);
-    let failed = |source: ParquetError| failure(path, source.into());
-    let field = |i| Field::new(format!("v{i}"), DataType::UInt32, false);
-    let schema = Arc::new(Schema::new((0..width).map(field).collect::<Vec<_>>()));
+    let width = job.mesh.width;
+    let columns = (0..width).map(|i| (format!("v{i}"), ColumnKind::U32)).collect();
     // Ids hardly repeat within a page, so a dictionary would only be tried and given up.
-    let properties = WriterProperties::builder()
-        .set_compression(Compression::SNAPPY)
-        .set_dictionary_enabled(false)
-        .build();
-    let mut writer =
-        ArrowWriter::try_new(&mut out.to, schema.clone(), Some(properties)).map_err(failed)?;
+    let properties = WriterProperties::builder().set_dictionary_enabled(false);
+    let mut file = ParquetFile::new(out, columns, properties)?;
+    let mut held: Vec<u32> = Vec::new();
+    let group = |file: &mut ParquetFile<'_, '_>, ids: &[u32]| {
+        file.group(|i| {
+            let column = ids.iter().skip(i).step_by(width);
+            Values::Whole32(column.map(|id| id.cast_signed()).collect())
+        })
+    };
     job.each_piece(|piece| {
-        let column = |i: usize| -> ArrayRef {
-            Arc::new(UInt32Array::from_iter_values(piece.chunks_exact(width).map(|row| row[i])))
-        };
-        let batch = RecordBatch::try_new(schema.clone(), (0..width).map(column).collect())
-            .expect("the columns fit the schema of the simplices");
-        writer.write(&batch).map_err(failed)
+        held.extend_from_slice(piece);
+        while held.len() >= ROWS * width {
+            group(&mut file, &held[..ROWS * width])?;
+            held.drain(..ROWS * width);
+        }
+        Ok(())
     })?;
-    writer.close().map(drop).map_err(failed)
+    if !held.is_empty() {
+        group(&mut file, &held)?;
+    }
+    file.finish()
 }
 
 pub(super) fn read(mesh: &mut MeshBuilder<'_>, medium: Medium) -> Result<(), Error> {
@@ -61,27 +64,24 @@ fn read_chunks<R: ChunkReader + 'static>(
     chunks: R,
 ) -> Result<(), Error> {
     let at = FilePlace::File;
-    let builder = thrift::open(chunks).map_err(|e| mesh.damaged(at, first_line(&e)))?;
-    let names: Vec<&str> = builder.schema().fields().iter().map(|f| f.name().as_str()).collect();
-    let width = names.len();
+    let table = thrift::open(chunks).map_err(|e| mesh.damaged(at, first_line(&e)))?;
+    let fields = table.schema().fields();
+    let width = fields.len();
     if !(1..=4).contains(&width)
-        || names.iter().enumerate().any(|(i, name)| *name != format!("v{i}"))
+        || fields.iter().enumerate().any(|(i, field)| *field.name() != format!("v{i}"))
     {
         return Err(mesh.unsupported(at, "its columns are not v0, v1, … up to v3"));
     }
-    let batches = builder.build().map_err(|e| mesh.damaged(at, first_line(&e)))?;
+    let other = "its columns are not whole numbers of 32 or 64 bits, or some are missing";
+    let held: Vec<usize> = (0..width).collect();
+    let batches = table.batches(&held, ROWS).ok_or_else(|| mesh.unsupported(at, other))?;
     let mut row = 0;
     let mut simplex = vec![0; width];
     for batch in batches {
         let batch =
             batch.map_err(|e| mesh.damaged(FilePlace::Element("row", row), first_line(&e)))?;
-        let columns =
-            batch.columns().iter().map(ids).collect::<Option<Vec<_>>>().ok_or_else(|| {
-                mesh.unsupported(
-                    at,
-                    "its columns are not whole numbers of 32 or 64 bits, or some are missing",
-                )
-            })?;
+        let columns = batch.columns().iter().map(ids).collect::<Option<Vec<_>>>();
+        let columns = columns.ok_or_else(|| mesh.unsupported(at, other))?;
         for i in 0..batch.num_rows() {
             for (id, column) in simplex.iter_mut().zip(&columns) {
                 *id = column[i];

@@ -11,12 +11,11 @@ mod format;
 mod walk;
 
 use bytes::Bytes;
-use parquet::arrow::arrow_reader::{
-    ArrowReaderMetadata, ArrowReaderOptions, ParquetRecordBatchReaderBuilder,
-};
 use parquet::errors::ParquetError;
+use parquet::file::metadata::ParquetMetaDataReader;
 use parquet::file::reader::ChunkReader;
 
+use super::parquet::Table;
 use format::{FILE_META_DATA, PAGE_HEADER};
 use walk::{StructureError, walk};
 
@@ -26,12 +25,10 @@ const FIRST_WINDOW: u64 = 1 << 10;
 const HEADER_MAX: u64 = 16 << 20;
 
 /// Opens a file for the decoder, if that is sure to come to an end with its structures.
-pub(crate) fn open<R: ChunkReader + 'static>(
-    chunks: R,
-) -> Result<ParquetRecordBatchReaderBuilder<R>, ParquetError> {
+pub(crate) fn open<R: ChunkReader + 'static>(chunks: R) -> Result<Table<R>, ParquetError> {
     check_footer(&chunks)?;
-    let metadata = ArrowReaderMetadata::load(&chunks, ArrowReaderOptions::default())?;
-    for column in metadata.metadata().row_groups().iter().flat_map(|group| group.columns()) {
+    let metadata = ParquetMetaDataReader::new().parse_and_finish(&chunks)?;
+    for column in metadata.row_groups().iter().flat_map(|group| group.columns()) {
         let start = column.dictionary_page_offset().unwrap_or(column.data_page_offset());
         // The decoder refuses sizes that are negative or beyond the file.
         if let (Ok(start), Ok(length)) =
@@ -40,7 +37,7 @@ pub(crate) fn open<R: ChunkReader + 'static>(
             check_pages(&chunks, start, start.saturating_add(length))?;
         }
     }
-    Ok(ParquetRecordBatchReaderBuilder::new_with_metadata(chunks, metadata))
+    Ok(Table::new(chunks, metadata))
 }
 
 fn check_footer(chunks: &impl ChunkReader) -> Result<(), ParquetError> {

@@ -10,8 +10,12 @@ use std::sync::Arc;
 use arrow_array::{ArrayRef, Float64Array, Int64Array, RecordBatch, StringArray};
 #[cfg(feature = "arrow")]
 use arrow_schema::{DataType, Field, Schema};
+#[cfg(feature = "arrow")]
+use parquet::file::properties::WriterProperties;
 
 use super::OutputFile;
+#[cfg(feature = "arrow")]
+use super::parquet::{ColumnKind, ParquetFile, Values};
 use super::text::name_to_text;
 use crate::create::AtomicFile;
 use crate::error::shown_path;
@@ -188,12 +192,22 @@ fn batch(table: &Table) -> RecordBatch {
 
 #[cfg(feature = "arrow")]
 fn parquet(table: &Table, out: &mut OutputFile<'_>) -> Result<(), Error> {
-    let (path, failure, batch) = (out.path, out.failure, batch(table));
-    let failed = |source: parquet::errors::ParquetError| failure(path, source.into());
-    let mut writer =
-        parquet::arrow::ArrowWriter::try_new(&mut out.to, batch.schema(), None).map_err(failed)?;
-    writer.write(&batch).map_err(failed)?;
-    writer.close().map(drop).map_err(failed)
+    let kind = |column: &Column| match column {
+        Column::Whole(_) => ColumnKind::I64,
+        Column::Real(_) => ColumnKind::F64,
+        Column::Text(_) => ColumnKind::Text,
+    };
+    let columns = table.columns.iter().map(|(name, column)| (name.clone(), kind(column)));
+    let mut file = ParquetFile::new(out, columns.collect(), WriterProperties::builder())?;
+    let texts = |values: &[String]| values.iter().map(|text| text.as_str().into()).collect();
+    file.group(|j| match &table.columns[j].1 {
+        Column::Whole(values) => {
+            Values::Whole64(values.iter().map(|&value| value as i64).collect())
+        }
+        Column::Real(values) => Values::F64(values.clone()),
+        Column::Text(values) => Values::Text(texts(values)),
+    })?;
+    file.finish()
 }
 
 #[cfg(feature = "arrow")]

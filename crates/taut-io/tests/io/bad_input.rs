@@ -386,7 +386,7 @@ mod tables {
         let batch = RecordBatch::try_from_iter(columns.iter().cloned()).unwrap();
         let mut bytes = Vec::new();
         let mut writer =
-            parquet::arrow::ArrowWriter::try_new(&mut bytes, batch.schema(), None).unwrap();
+            ::parquet::arrow::ArrowWriter::try_new(&mut bytes, batch.schema(), None).unwrap();
         writer.write(&batch).unwrap();
         writer.close().unwrap();
         bytes

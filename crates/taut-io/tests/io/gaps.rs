@@ -175,7 +175,7 @@ mod geometries {
         let sizes: ArrayRef = Arc::new(Float64Array::from(vec![7.0; geometry.len()]));
         let batch = RecordBatch::try_new(schema.clone(), vec![sizes, geometry]).unwrap();
         let mut bytes = vec![];
-        let mut writer = parquet::arrow::ArrowWriter::try_new(&mut bytes, schema, None).unwrap();
+        let mut writer = ::parquet::arrow::ArrowWriter::try_new(&mut bytes, schema, None).unwrap();
         writer.write(&batch).unwrap();
         writer.close().unwrap();
         bytes

@@ -18,6 +18,8 @@ mod geojson;
 mod labels;
 mod las;
 mod mesh;
+#[cfg(feature = "arrow")]
+mod parquet;
 mod parsers;
 mod polylines;
 mod round_trip;
