@@ -15,8 +15,11 @@ use crate::write::OutputFile;
 use crate::write::parquet::{ColumnKind, ParquetFile, Values};
 use crate::{Error, FilePlace, Format, ReadOptions};
 
-/// Simplices in a row group, and in a batch that is read.
+/// Simplices in a row group.
 const ROWS: usize = 1 << 20;
+
+/// Simplices in a batch that is read.
+const BATCH: usize = 1 << 16;
 
 pub(super) fn write(job: &Job<'_>, out: &mut OutputFile<'_>) -> Result<(), Error> {
     let width = job.mesh.width;
@@ -73,8 +76,14 @@ fn read_chunks<R: ChunkReader + 'static>(
         return Err(mesh.unsupported(at, "its columns are not v0, v1, … up to v3"));
     }
     let other = "its columns are not whole numbers of 32 or 64 bits, or some are missing";
+    let is_id = |kind: &DataType| {
+        matches!(kind, DataType::Int32 | DataType::Int64 | DataType::UInt32 | DataType::UInt64)
+    };
+    if !fields.iter().all(|field| is_id(field.data_type())) {
+        return Err(mesh.unsupported(at, other));
+    }
     let held: Vec<usize> = (0..width).collect();
-    let batches = table.batches(&held, ROWS).ok_or_else(|| mesh.unsupported(at, other))?;
+    let batches = table.batches(&held, BATCH).ok_or_else(|| mesh.unsupported(at, other))?;
     let mut row = 0;
     let mut simplex = vec![0; width];
     for batch in batches {

@@ -14,8 +14,8 @@ use crate::input::{Job, Medium};
 use crate::labels;
 use crate::{Columns, Error, FilePlace, Format};
 
-/// Rows of geometries in a batch: each may be large.
-const GEOMETRIES: usize = 1024;
+/// Rows of geometries in a batch: each may take megabytes, and a batch at most 2 GiB.
+const GEOMETRIES: usize = 64;
 
 pub(super) fn read(job: &Job<'_>, medium: Medium) -> Result<Decoded, Error> {
     guarded(job, || match medium.seekable(job)? {

@@ -1,4 +1,4 @@
-//! Parquet: a column for each coordinate, in row groups.
+//! Parquet: columns of points, of tables and of simplices, in row groups.
 //!
 //! *Idea.* Rows are gathered until they make a row group; then its columns are written one after the other.
 
@@ -233,7 +233,7 @@ pub(super) fn write(points: &Points<'_>, out: &mut OutputFile<'_>) -> Result<(),
         true => vec![("point".to_owned(), ColumnKind::Lists(scalar, dim))],
         false => (0..dim).map(|j| (points.column_name(j), kind(scalar))).collect(),
     };
-    // A dictionary for each of many columns takes far more memory than their values.
+    // Coordinates hardly repeat, and in many columns the tries for a dictionary take longer than the values.
     let properties = WriterProperties::builder().set_dictionary_enabled(!is_wide || is_list);
     let mut file = ParquetFile::new(out, columns, properties)?;
     match scalar {

@@ -23,6 +23,10 @@ use crate::format::format_to_write;
 use crate::words::{put_number, put_whole};
 use crate::{Content, Error, Format, NpyArray};
 
+/// Rows of a table in a row group of Parquet.
+#[cfg(feature = "arrow")]
+const ROW_GROUP: usize = 1 << 20;
+
 /// A table: columns of one length, each with a name.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
@@ -200,13 +204,16 @@ fn parquet(table: &Table, out: &mut OutputFile<'_>) -> Result<(), Error> {
     let columns = table.columns.iter().map(|(name, column)| (name.clone(), kind(column)));
     let mut file = ParquetFile::new(out, columns.collect(), WriterProperties::builder())?;
     let texts = |values: &[String]| values.iter().map(|text| text.as_str().into()).collect();
-    file.group(|j| match &table.columns[j].1 {
-        Column::Whole(values) => {
-            Values::Whole64(values.iter().map(|&value| value as i64).collect())
-        }
-        Column::Real(values) => Values::F64(values.clone()),
-        Column::Text(values) => Values::Text(texts(values)),
-    })?;
+    for first in (0..table.rows()).step_by(ROW_GROUP) {
+        let rows = first..table.rows().min(first + ROW_GROUP);
+        file.group(|j| match &table.columns[j].1 {
+            Column::Whole(values) => {
+                Values::Whole64(values[rows.clone()].iter().map(|&value| value as i64).collect())
+            }
+            Column::Real(values) => Values::F64(values[rows.clone()].to_vec()),
+            Column::Text(values) => Values::Text(texts(&values[rows.clone()])),
+        })?;
+    }
     file.finish()
 }
 

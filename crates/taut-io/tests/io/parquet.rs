@@ -13,11 +13,12 @@ use arrow_array::types::{
     UInt16Type, UInt32Type, UInt64Type,
 };
 use arrow_array::{
-    Array, ArrayRef, ArrowPrimitiveType, BooleanArray, Date32Array, Decimal128Array,
-    DictionaryArray, DurationSecondArray, Float64Array, Int64Array, PrimitiveArray, RecordBatch,
-    StringArray, StructArray, Time64MicrosecondArray, TimestampMillisecondArray,
+    Array, ArrayRef, ArrowPrimitiveType, BooleanArray, Date32Array, Date64Array, Decimal128Array,
+    DictionaryArray, DurationSecondArray, FixedSizeListArray, Float64Array, Int32Array, Int64Array,
+    PrimitiveArray, RecordBatch, StringArray, StructArray, Time32SecondArray,
+    Time64MicrosecondArray, TimestampMillisecondArray, TimestampSecondArray,
 };
-use arrow_schema::{DataType, Field, Schema};
+use arrow_schema::{DataType, Field, Schema, TimeUnit};
 use proptest::prelude::*;
 use taut_io::{Missing, ReadOptions, open_bytes, write_points};
 use taut_points::{Monitor, Points};
@@ -98,12 +99,22 @@ fn what_is_no_number_is_named() {
         nested.values().append_value([Some(1.0)]);
         nested.append(true);
     }
+    let class = |values: Vec<i64>| -> ArrayRef { Arc::new(Int64Array::from(values)) };
+    let classes = DictionaryArray::new(Int32Array::from(vec![1, 0]), class(vec![7, 9]));
+    let item = Arc::new(Field::new("item", DataType::Duration(TimeUnit::Second), true));
+    let durations = DurationSecondArray::from(vec![1, 2]);
+    let durations = FixedSizeListArray::new(item, 1, Arc::new(durations), None);
     let others: Vec<(ArrayRef, &str)> = vec![
         (Arc::new(BooleanArray::from(vec![true, false])), "Boolean"),
         (Arc::new(Date32Array::from(vec![1, 2])), "Date32"),
         (Arc::new(Time64MicrosecondArray::from(vec![1, 2])), "Time64"),
         (Arc::new(TimestampMillisecondArray::from(vec![1, 2])), "Timestamp"),
         (Arc::new(DurationSecondArray::from(vec![1, 2])), "Duration"),
+        (Arc::new(TimestampSecondArray::from(vec![1, 2])), "Timestamp"),
+        (Arc::new(Time32SecondArray::from(vec![1, 2])), "Time32"),
+        (Arc::new(Date64Array::from(vec![86_400_000, 172_800_000])), "Date64"),
+        (Arc::new(classes), "Dictionary"),
+        (Arc::new(durations), "Duration"),
         (Arc::new(Decimal128Array::from(vec![1, 2])), "Decimal128"),
         (Arc::new(StringArray::from(vec!["a", "b"])), "Utf8"),
         (Arc::new(structs), "Struct"),
@@ -168,6 +179,26 @@ fn wide_points_are_lists_of_one_length_to_other_programs() {
     assert_eq!(lists.values().as_primitive::<Float64Type>().values().to_vec(), coordinates);
 }
 
+#[test]
+fn rows_that_the_footer_does_not_count_are_not_lost() {
+    let x: ArrayRef = Arc::new(Int64Array::from(vec![7, 8, 9]));
+    let bytes = file(&[("x", x)], plain());
+    let at = bytes.len() - 8;
+    let length = u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap()) as usize;
+    let footer = at - length..at;
+    // Each 3 of the footer is a zigzag 6; those that count rows are among them.
+    let mut refused = 0;
+    for place in footer.filter(|&place| bytes[place] == 6) {
+        let mut bytes = bytes.clone();
+        bytes[place] = 4;
+        match open_bytes(bytes, "t.parquet", &ReadOptions::default()) {
+            Ok(found) => assert_eq!(values(&found), [7.0, 8.0, 9.0], "byte {place}"),
+            Err(error) => refused += usize::from(error.to_string().contains("more rows")),
+        }
+    }
+    assert!(refused > 0);
+}
+
 /// Settings under which files differ in pages, dictionaries and row groups.
 fn settings() -> impl Strategy<Value = WriterProperties> {
     let compression = prop::sample::select(vec![
@@ -215,8 +246,27 @@ proptest! {
     #[test]
     fn lists_are_those_that_were_written(
         rows in prop::collection::vec(prop::option::weighted(0.8, [-1e9..1e9, -1.0..1.0, -1.0..1.0]), 1..100),
+        odd in prop::option::weighted(0.3, (any::<prop::sample::Index>(), any::<bool>())),
         settings in settings(),
     ) {
+        // A list that is missing or empty is refused with its row, wherever pages and row groups end.
+        if let Some((at, is_missing)) = odd {
+            let at = at.index(rows.len());
+            let mut lists = ListBuilder::new(Float64Builder::new());
+            for (row, values) in rows.iter().enumerate() {
+                let values = values.unwrap_or([0.5; 3]).map(Some);
+                match row == at {
+                    true => lists.append_option((!is_missing).then(Vec::<Option<f64>>::new)),
+                    false => lists.append_value(values),
+                }
+            }
+            let bytes = file(&[("p", Arc::new(lists.finish()) as ArrayRef)], settings);
+            let found = message(open_bytes(bytes, "t.parquet", &ReadOptions::default()));
+            // Of the first row an empty list is the dimension of all, and the second is the one that differs.
+            let is_told = found.contains(&format!("row {}", at + 1)) || (at == 0 && !is_missing);
+            prop_assert!(is_told, "{}", found);
+            return Ok(());
+        }
         let mut lists = FixedSizeListBuilder::new(Float64Builder::new(), 3);
         for row in &rows {
             let row = row.unwrap_or([f64::NAN; 3]);

@@ -1,7 +1,9 @@
 //! The rows of a Parquet file, some at a time, as batches of arrow.
 //!
-//! *Idea.* The columns of a row group are decoded side by side, each so many whole rows on; values that are there come without gaps, and
-//! their levels say where the gaps are.
+//! *Idea.* The columns of a row group are decoded side by side, each by the same number of whole rows; values that are there come without
+//! gaps, and their levels say where the gaps are.
+//! *Trap.* A footer may count fewer rows than the pages hold. Each column has to end where its row group does; else points would be lost
+//! in silence.
 //! *Chosen.* The crate's own reader of batches decodes every type there is, by ten times the code.
 
 use std::sync::Arc;
@@ -56,7 +58,7 @@ impl<R: ChunkReader + 'static> Table<R> {
         usize::try_from(values / rows.max(1)).unwrap_or(usize::MAX).max(held.len()).max(1)
     }
 
-    /// The columns `held`, `rows` rows at a time; `None` if one of them is neither a number nor a list of numbers, a text or bytes.
+    /// The columns `held`, `rows` rows at a time; `None` if one of them is neither a number, a text or bytes nor a list of such.
     pub(crate) fn batches(self, held: &[usize], rows: usize) -> Option<Batches<R>> {
         let leaves = held.iter().map(|&column| self.leaves[column]).collect::<Option<Vec<_>>>()?;
         let schema = Arc::new(self.schema.project(held).ok()?);
@@ -98,6 +100,7 @@ pub(crate) struct Batches<R: ChunkReader> {
 impl<R: ChunkReader + 'static> Batches<R> {
     fn step(&mut self) -> Result<Option<RecordBatch>, ParquetError> {
         while self.left == 0 {
+            self.check_ends()?;
             let Some(group) = self.metadata.row_groups().get(self.group) else { return Ok(None) };
             self.left = usize::try_from(group.num_rows())
                 .map_err(|_| general("a row group has a negative number of rows"))?;
@@ -110,18 +113,37 @@ impl<R: ChunkReader + 'static> Batches<R> {
         }
         let rows = self.rows.min(self.left);
         self.left -= rows;
-        let mut arrays = Vec::with_capacity(self.columns.len());
-        for (i, (column, leaf)) in self.columns.iter_mut().zip(&self.leaves).enumerate() {
-            let field = self.schema.field(i);
-            let array = decode(column, *leaf, field.data_type(), rows)?;
+        let arrays = self.decode(rows)?;
+        for (array, field) in arrays.iter().zip(self.schema.fields()) {
             if array.len() != rows {
                 let name = field.name();
                 return Err(general(&format!("column `{name}` has fewer rows than its row group")));
             }
-            arrays.push(array);
         }
         let batch = RecordBatch::try_new(self.schema.clone(), arrays);
         batch.map(Some).map_err(|error| general(&error.to_string()))
+    }
+}
+
+impl<R: ChunkReader + 'static> Batches<R> {
+    /// The next `rows` rows of each column, or as many as it has.
+    fn decode(&mut self, rows: usize) -> Result<Vec<ArrayRef>, ParquetError> {
+        let columns = self.columns.iter_mut().zip(&self.leaves).zip(self.schema.fields());
+        columns
+            .map(|((column, leaf), field)| decode(column, *leaf, field.data_type(), rows))
+            .collect()
+    }
+
+    /// Refuses columns that go on behind the last row of the open row group.
+    fn check_ends(&mut self) -> Result<(), ParquetError> {
+        let beyond = self.decode(1)?;
+        match beyond.iter().zip(self.schema.fields()).find(|(array, _)| !array.is_empty()) {
+            None => Ok(()),
+            Some((_, field)) => {
+                let name = field.name();
+                Err(general(&format!("column `{name}` has more rows than its row group")))
+            }
+        }
     }
 }
 
@@ -200,7 +222,7 @@ fn decode(
     };
     match (leaf.list, kind) {
         (Some(list), DataType::LargeList(item)) => {
-            let (ends, present) = levels.lists(list);
+            let (ends, present) = levels.lists(list)?;
             let nulls = Some(NullBuffer::from(present)).filter(|nulls| nulls.null_count() > 0);
             let lists = LargeListArray::try_new(item.clone(), ends, array, nulls);
             Ok(Arc::new(lists.map_err(|error| general(&error.to_string()))?))
@@ -237,12 +259,21 @@ impl Levels {
         gap: T::T,
     ) -> Result<Vec<T::T>, ParquetError> {
         let mut values = Vec::new();
-        column.read_records(
-            rows,
-            (leaf.defined > 0).then_some(&mut self.defined),
-            leaf.list.is_some().then_some(&mut self.repeated),
-            &mut values,
-        )?;
+        let (mut left, mut is_idle) = (rows, false);
+        while left > 0 {
+            let (records, _, levels) = column.read_records(
+                left,
+                (leaf.defined > 0).then_some(&mut self.defined),
+                leaf.list.is_some().then_some(&mut self.repeated),
+                &mut values,
+            )?;
+            left -= records;
+            // A page without values gives nothing and is not yet the end.
+            if records == 0 && levels == 0 && std::mem::replace(&mut is_idle, true) {
+                break;
+            }
+            is_idle &= records == 0 && levels == 0;
+        }
         if self.is_there(leaf).all(|is_there| is_there) {
             return Ok(values);
         }
@@ -272,17 +303,19 @@ impl Levels {
     }
 
     /// Where each list ends among the items, and whether it is there.
-    fn lists(&self, list: ListLevels) -> (OffsetBuffer<i64>, Vec<bool>) {
+    fn lists(&self, list: ListLevels) -> Result<(OffsetBuffer<i64>, Vec<bool>), ParquetError> {
         let (mut lengths, mut present) = (Vec::new(), Vec::new());
         for (&defined, &repeated) in self.defined.iter().zip(&self.repeated) {
             if repeated == 0 {
                 lengths.push(0);
                 present.push(defined >= list.present);
             }
-            if let Some(length) = lengths.last_mut().filter(|_| defined >= list.item) {
-                *length += 1;
+            match lengths.last_mut() {
+                Some(length) if defined >= list.item => *length += 1,
+                _ if repeated == 0 => {}
+                _ => return Err(general("a list goes on without an item")),
             }
         }
-        (OffsetBuffer::from_lengths(lengths), present)
+        Ok((OffsetBuffer::from_lengths(lengths), present))
     }
 }

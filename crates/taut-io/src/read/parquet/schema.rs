@@ -41,24 +41,25 @@ pub(super) fn of(file: &FileMetaData) -> (Schema, Vec<Option<Leaf>>) {
     let texts = texts.filter_map(|text| Some((text.key.clone(), text.value.clone()?)));
     let mut texts: HashMap<String, String> = texts.collect();
     let hints = hints(&texts);
-    // Some writers keep all texts there.
+    // Some writers keep the texts of a file only within the schema of arrow.
     for (key, text) in hints.iter().flat_map(|hints| &hints.metadata) {
         texts.entry(key.clone()).or_insert_with(|| text.clone());
     }
     let (mut fields, mut leaves, mut first) = (Vec::new(), Vec::new(), 0);
-    for root in file.schema_descr().root_schema().get_fields() {
-        let (mut kind, leaf) = column(root, first);
+    let roots = file.schema_descr().root_schema().get_fields();
+    let hints = hints.filter(|hints| hints.fields().len() == roots.len());
+    for (i, root) in roots.iter().enumerate() {
+        let (kind, leaf) = column(root, first);
         let leaf = leaf.filter(|leaf| {
             let stored = file.schema_descr().column(leaf.number);
             stored.max_def_level() == leaf.defined
                 && stored.max_rep_level() == i16::from(leaf.list.is_some())
         });
-        if let Some(hint) = hints.as_ref().and_then(|hints| hints.field_with_name(root.name()).ok())
-            && matches!((hint.data_type(), &kind), (DataType::Duration(_), DataType::Int64))
-        {
-            // Parquet has no type for it, and its numbers are no coordinates.
-            kind = hint.data_type().clone();
-        }
+        let hint = hints.as_ref().map(|hints| hints.field(i));
+        let kind = match hint.filter(|hint| hint.name() == root.name()) {
+            Some(hint) => hinted(kind, hint.data_type()),
+            None => kind,
+        };
         fields.push(Field::new(root.name(), kind, true));
         leaves.push(leaf);
         first += count(root);
@@ -72,6 +73,38 @@ fn hints(texts: &HashMap<String, String>) -> Option<Schema> {
     let message = bytes.strip_prefix(&[0xff; 4]).and_then(|rest| rest.get(4..)).unwrap_or(&bytes);
     let message = arrow_ipc::root_as_message(message).ok()?;
     message.header_as_schema().map(arrow_ipc::convert::fb_to_schema)
+}
+
+/// The type of a column where the schema of arrow tells more than that of Parquet.
+///
+/// Parquet has no type for durations and for whole seconds, and arrow's numbers of a dictionary are names of classes: none of them are
+/// coordinates.
+fn hinted(kind: DataType, hint: &DataType) -> DataType {
+    match (&kind, hint) {
+        (
+            DataType::Int32 | DataType::Int64,
+            DataType::Timestamp(..)
+            | DataType::Time32(_)
+            | DataType::Time64(_)
+            | DataType::Date32
+            | DataType::Date64
+            | DataType::Duration(_),
+        ) => hint.clone(),
+        (_, DataType::Dictionary(_, class)) if kind.is_integer() || kind.is_floating() => {
+            match class.is_integer() || class.is_floating() {
+                true => hint.clone(),
+                false => hinted(kind, class),
+            }
+        }
+        (DataType::Binary, DataType::Utf8 | DataType::LargeUtf8 | DataType::Utf8View) => {
+            DataType::Utf8
+        }
+        (
+            DataType::LargeList(item),
+            DataType::List(hint) | DataType::LargeList(hint) | DataType::FixedSizeList(hint, _),
+        ) => list_of(hinted(item.data_type().clone(), hint.data_type())),
+        _ => kind,
+    }
 }
 
 /// The leaves of a column.
