@@ -12,11 +12,8 @@ use super::writing::Job;
 use crate::input::{self, Medium};
 use crate::read::{Seekable, first_line, quiet, thrift};
 use crate::write::OutputFile;
-use crate::write::parquet::{ColumnKind, ParquetFile, Values};
+use crate::write::parquet::{ColumnKind, GROUP_ROWS, ParquetFile, Values};
 use crate::{Error, FilePlace, Format, ReadOptions};
-
-/// Simplices in a row group.
-const ROWS: usize = 1 << 20;
 
 /// Simplices in a batch that is read.
 const BATCH: usize = 1 << 16;
@@ -36,9 +33,9 @@ pub(super) fn write(job: &Job<'_>, out: &mut OutputFile<'_>) -> Result<(), Error
     };
     job.each_piece(|piece| {
         held.extend_from_slice(piece);
-        while held.len() >= ROWS * width {
-            group(&mut file, &held[..ROWS * width])?;
-            held.drain(..ROWS * width);
+        while held.len() >= GROUP_ROWS * width {
+            group(&mut file, &held[..GROUP_ROWS * width])?;
+            held.drain(..GROUP_ROWS * width);
         }
         Ok(())
     })?;

@@ -2,7 +2,6 @@
 //!
 //! *Idea.* Rows are gathered until they make a row group; then its columns are written one after the other.
 
-use std::collections::HashMap;
 use std::sync::Arc;
 
 use arrow_ipc::writer::{DictionaryTracker, IpcDataGenerator, IpcWriteOptions};
@@ -10,8 +9,8 @@ use arrow_schema::{DataType, Field, Schema};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use parquet::basic::{Compression, ConvertedType, LogicalType, Repetition, Type as Physical};
-use parquet::column::writer::ColumnWriter;
-use parquet::data_type::ByteArray;
+use parquet::column::writer::{ColumnWriter, ColumnWriterImpl};
+use parquet::data_type::{ByteArray, DataType as Stored};
 use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
 use parquet::file::properties::{WriterProperties, WriterPropertiesBuilder};
@@ -27,6 +26,9 @@ use crate::create::AtomicFile;
 /// Bytes of points in a row group.
 const ROW_GROUP: usize = 64 << 20;
 
+/// Rows of a table, and simplices, in a row group.
+pub(crate) const GROUP_ROWS: usize = 1 << 20;
+
 /// Beyond this dimension points without names are one column of lists: readers keep buffers of some KiB for each column, whatever the
 /// number of rows.
 const COLUMNS_MAX: usize = 1000;
@@ -41,7 +43,7 @@ pub(crate) enum ColumnKind {
     U32,
     I64,
     Text,
-    /// Lists of so many numbers each.
+    /// Lists of so many numbers each; the only column then.
     Lists(ScalarKind, usize),
 }
 
@@ -77,10 +79,13 @@ impl<'a, 'b> ParquetFile<'a, 'b> {
             _ => None,
         });
         let lists: Vec<_> = lists.collect();
-        let is_list = lists.iter().any(Option::is_some);
+        let hint = match &columns[..] {
+            [(name, ColumnKind::Lists(scalar, length))] => arrow_schema(name, *scalar, *length),
+            _ => None,
+        };
         let properties = properties
             .set_compression(Compression::SNAPPY)
-            .set_key_value_metadata(is_list.then(|| vec![arrow_schema(&columns)]))
+            .set_key_value_metadata(hint.map(|hint| vec![hint]))
             .build();
         let begin = || {
             let fields = columns.iter().map(|(name, kind)| Ok(Arc::new(field(name, kind)?)));
@@ -93,7 +98,7 @@ impl<'a, 'b> ParquetFile<'a, 'b> {
     }
 
     /// Writes a row group; `values` gives each column by its number.
-    pub(crate) fn group(&mut self, values: impl Fn(usize) -> Values) -> Result<(), Error> {
+    pub(crate) fn group(&mut self, mut values: impl FnMut(usize) -> Values) -> Result<(), Error> {
         let lists = &self.lists;
         let mut write = || {
             let mut group = self.writer.next_row_group()?;
@@ -120,43 +125,39 @@ fn put(
     list: Option<usize>,
 ) -> Result<(), ParquetError> {
     match (column, values) {
-        (ColumnWriter::FloatColumnWriter(column), Values::F32(values)) => match list {
-            Some(length) => in_lists(values, length, |values, defined, repeated| {
-                column.write_batch(values, Some(defined), Some(repeated)).map(drop)
-            }),
-            None => column.write_batch(values, None, None).map(drop),
-        },
-        (ColumnWriter::DoubleColumnWriter(column), Values::F64(values)) => match list {
-            Some(length) => in_lists(values, length, |values, defined, repeated| {
-                column.write_batch(values, Some(defined), Some(repeated)).map(drop)
-            }),
-            None => column.write_batch(values, None, None).map(drop),
-        },
+        (ColumnWriter::FloatColumnWriter(column), Values::F32(values)) => {
+            put_all(column, values, list)
+        }
+        (ColumnWriter::DoubleColumnWriter(column), Values::F64(values)) => {
+            put_all(column, values, list)
+        }
         (ColumnWriter::Int32ColumnWriter(column), Values::Whole32(values)) => {
-            column.write_batch(values, None, None).map(drop)
+            put_all(column, values, list)
         }
         (ColumnWriter::Int64ColumnWriter(column), Values::Whole64(values)) => {
-            column.write_batch(values, None, None).map(drop)
+            put_all(column, values, list)
         }
         (ColumnWriter::ByteArrayColumnWriter(column), Values::Text(values)) => {
-            column.write_batch(values, None, None).map(drop)
+            put_all(column, values, list)
         }
         _ => unreachable!("the values of a column are of its kind"),
     }
 }
 
-/// Hands whole lists to `write`, some at a time, each value with its levels: it is there, and all but the first of a list go on with it.
-fn in_lists<T>(
-    values: &[T],
-    length: usize,
-    mut write: impl FnMut(&[T], &[i16], &[i16]) -> Result<(), ParquetError>,
+/// Writes values; those of lists some whole lists at a time, with their levels: each is there, and all but the first of a list go on with it.
+fn put_all<T: Stored>(
+    column: &mut ColumnWriterImpl<'_, T>,
+    values: &[T::T],
+    list: Option<usize>,
 ) -> Result<(), ParquetError> {
+    let Some(length) = list else { return column.write_batch(values, None, None).map(drop) };
     let piece = (LIST_PIECE / length).max(1) * length;
     let defined = vec![1; piece];
     let repeated: Vec<i16> = (0..piece).map(|i| i16::from(i % length > 0)).collect();
-    values
-        .chunks(piece)
-        .try_for_each(|values| write(values, &defined[..values.len()], &repeated[..values.len()]))
+    values.chunks(piece).try_for_each(|values| {
+        let (defined, repeated) = (&defined[..values.len()], &repeated[..values.len()]);
+        column.write_batch(values, Some(defined), Some(repeated)).map(drop)
+    })
 }
 
 /// A column in the schema of Parquet.
@@ -190,28 +191,16 @@ fn field(name: &str, kind: &ColumnKind) -> Result<Type, ParquetError> {
     }
 }
 
-/// The schema as readers of arrow look for it: Parquet itself does not know that all lists have one length.
-fn arrow_schema(columns: &[(String, ColumnKind)]) -> KeyValue {
-    let scalar = |scalar: &ScalarKind| match scalar {
+/// The schema of a column of lists as readers of arrow look for it: Parquet itself does not know that all lists have one length. None
+/// where arrow has no lists of that length.
+fn arrow_schema(name: &str, scalar: ScalarKind, length: usize) -> Option<KeyValue> {
+    let kind = match scalar {
         ScalarKind::F32 => DataType::Float32,
         ScalarKind::F64 => DataType::Float64,
     };
-    let kind = |kind: &ColumnKind| match kind {
-        ColumnKind::F32 => DataType::Float32,
-        ColumnKind::F64 => DataType::Float64,
-        ColumnKind::U32 => DataType::UInt32,
-        ColumnKind::I64 => DataType::Int64,
-        ColumnKind::Text => DataType::Utf8,
-        ColumnKind::Lists(of, length) => match i32::try_from(*length) {
-            Ok(length) => DataType::FixedSizeList(item(scalar(of)), length),
-            Err(_) => DataType::LargeList(item(scalar(of))),
-        },
-    };
-    fn item(kind: DataType) -> Arc<Field> {
-        Arc::new(Field::new("element", kind, false))
-    }
-    let fields = columns.iter().map(|(name, of)| Field::new(name, kind(of), false));
-    let schema = Schema::new_with_metadata(fields.collect::<Vec<_>>(), HashMap::new());
+    let item = Arc::new(Field::new("element", kind, false));
+    let lists = DataType::FixedSizeList(item, i32::try_from(length).ok()?);
+    let schema = Schema::new(vec![Field::new(name, lists, false)]);
     let message = IpcDataGenerator::default()
         .schema_to_bytes_with_dictionary_tracker(
             &schema,
@@ -219,9 +208,9 @@ fn arrow_schema(columns: &[(String, ColumnKind)]) -> KeyValue {
             &IpcWriteOptions::default(),
         )
         .ipc_message;
-    let length = u32::try_from(message.len()).unwrap_or(u32::MAX);
+    let length = u32::try_from(message.len()).ok()?;
     let bytes = [&[0xff; 4], &length.to_le_bytes()[..], &message].concat();
-    KeyValue::new("ARROW:schema".to_owned(), BASE64_STANDARD.encode(bytes))
+    Some(KeyValue::new("ARROW:schema".to_owned(), BASE64_STANDARD.encode(bytes)))
 }
 
 /// Writes points, each coordinate a column, or all of them one column of lists.
@@ -267,7 +256,7 @@ fn write_as<T: Scalar>(
     let mut held: Vec<T> = Vec::new();
     let group = |file: &mut ParquetFile<'_, '_>, held: &mut Vec<T>| {
         file.group(|j| match is_list {
-            true => make(held.clone()),
+            true => make(std::mem::take(held)),
             false => make(held.iter().skip(j).step_by(dim).copied().collect()),
         })?;
         held.clear();

@@ -15,17 +15,13 @@ use parquet::file::properties::WriterProperties;
 
 use super::OutputFile;
 #[cfg(feature = "arrow")]
-use super::parquet::{ColumnKind, ParquetFile, Values};
+use super::parquet::{ColumnKind, GROUP_ROWS, ParquetFile, Values};
 use super::text::name_to_text;
 use crate::create::AtomicFile;
 use crate::error::shown_path;
 use crate::format::format_to_write;
 use crate::words::{put_number, put_whole};
 use crate::{Content, Error, Format, NpyArray};
-
-/// Rows of a table in a row group of Parquet.
-#[cfg(feature = "arrow")]
-const ROW_GROUP: usize = 1 << 20;
 
 /// A table: columns of one length, each with a name.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -204,8 +200,8 @@ fn parquet(table: &Table, out: &mut OutputFile<'_>) -> Result<(), Error> {
     let columns = table.columns.iter().map(|(name, column)| (name.clone(), kind(column)));
     let mut file = ParquetFile::new(out, columns.collect(), WriterProperties::builder())?;
     let texts = |values: &[String]| values.iter().map(|text| text.as_str().into()).collect();
-    for first in (0..table.rows()).step_by(ROW_GROUP) {
-        let rows = first..table.rows().min(first + ROW_GROUP);
+    for first in (0..table.rows()).step_by(GROUP_ROWS) {
+        let rows = first..table.rows().min(first + GROUP_ROWS);
         file.group(|j| match &table.columns[j].1 {
             Column::Whole(values) => {
                 Values::Whole64(values[rows.clone()].iter().map(|&value| value as i64).collect())

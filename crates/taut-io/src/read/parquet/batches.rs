@@ -123,9 +123,7 @@ impl<R: ChunkReader + 'static> Batches<R> {
         let batch = RecordBatch::try_new(self.schema.clone(), arrays);
         batch.map(Some).map_err(|error| general(&error.to_string()))
     }
-}
 
-impl<R: ChunkReader + 'static> Batches<R> {
     /// The next `rows` rows of each column, or as many as it has.
     fn decode(&mut self, rows: usize) -> Result<Vec<ArrayRef>, ParquetError> {
         let columns = self.columns.iter_mut().zip(&self.leaves).zip(self.schema.fields());
@@ -259,8 +257,9 @@ impl Levels {
         gap: T::T,
     ) -> Result<Vec<T::T>, ParquetError> {
         let mut values = Vec::new();
-        let (mut left, mut is_idle) = (rows, false);
-        while left > 0 {
+        // A page without values gives nothing, too, and is not yet the end.
+        let (mut left, mut idle) = (rows, 0);
+        while left > 0 && idle < 2 {
             let (records, _, levels) = column.read_records(
                 left,
                 (leaf.defined > 0).then_some(&mut self.defined),
@@ -268,11 +267,7 @@ impl Levels {
                 &mut values,
             )?;
             left -= records;
-            // A page without values gives nothing and is not yet the end.
-            if records == 0 && levels == 0 && std::mem::replace(&mut is_idle, true) {
-                break;
-            }
-            is_idle &= records == 0 && levels == 0;
+            idle = if records == 0 && levels == 0 { idle + 1 } else { 0 };
         }
         if self.is_there(leaf).all(|is_there| is_there) {
             return Ok(values);
