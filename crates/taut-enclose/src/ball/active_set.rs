@@ -49,6 +49,7 @@ const REBUILD_AFTER: u32 = 400;
 /// Products beyond which the sweep over the Gram matrix is shared between threads.
 const PARALLEL_SWEEP: usize = 1 << 18;
 
+#[derive(Clone)]
 pub(super) struct ActiveSet {
     /// Positions in the working set.
     support: Vec<usize>,

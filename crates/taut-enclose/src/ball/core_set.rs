@@ -6,8 +6,9 @@
 //! to five passes are enough on ordinary data, and the last of them finds nothing outside: exact costs no more than ε.
 //! *Balls.* For fixed R, h(R) = min over c of maxᵢ |c − cᵢ|² + 2Rrᵢ − rᵢ² is a problem of points. With multipliers λ
 //! and r̄ = Σ λᵢrᵢ, R* ≥ r̄ + √(Σ λᵢ(|cᵢ − c|² − (rᵢ − r̄)²)): this is both the Newton step in R, which never overshoots
-//! because h is convex, and the certificate. Origin and radii are taken relative to the largest ball, without which
-//! a ball that touches it from inside costs half the digits.
+//! because h is convex, and the certificate. Steps end at rounding; one that it took beyond R* may find multipliers that
+//! prove nothing, and is taken back. Origin and radii are taken relative to the largest ball, without which a ball
+//! that touches it from inside costs half the digits.
 //! *Guarantee.* The lower bound grows with every pass that adds an item, so the method ends; it stops at
 //! R ≤ (1 + ε)·r, or when no item violates the ball beyond rounding.
 //! *Trap.* Thousands of near-copies of one far point fill a batch and teach nothing: when few of a batch enter the
@@ -150,17 +151,30 @@ pub(super) fn solve_working_set(
 ) -> Result<f64, Cancelled> {
     let offset = set.radius_offset();
     let mut relative = (radius - offset).max(0.0);
-    loop {
-        if offset > 0.0 {
-            active.set_radius(set, relative);
-        }
+    let proved = |active: &ActiveSet| lower_bound(set, active.support(), active.lambda()).max(0.0);
+    if offset == 0.0 {
+        // Nothing depends on R.
         active.maximize(set, monitor)?;
-        let bound = lower_bound(set, active.support(), active.lambda()).max(0.0);
-        // Newton steps grow until rounding; for points the first is the answer, as nothing depends on R.
-        if offset == 0.0 || bound <= relative + f64::EPSILON * (relative + offset) {
-            return Ok(bound.max(relative) + offset);
+        return Ok(proved(active).max(relative));
+    }
+    let mut before = None;
+    loop {
+        active.set_radius(set, relative);
+        active.maximize(set, monitor)?;
+        let bound = proved(active);
+        let rounding = f64::EPSILON * (relative + offset);
+        if bound > relative + rounding {
+            relative = bound;
+            before = Some(active.clone());
+            continue;
         }
-        relative = bound;
+        // What is lost below this is rounding, and the center of the last step is nearer than that before.
+        let lost = VIOLATION_TOLERANCE * (relative + offset);
+        match before {
+            Some(before) if bound < relative - lost => *active = before,
+            _ => {}
+        }
+        return Ok(bound.max(relative) + offset);
     }
 }
 

@@ -158,15 +158,19 @@ impl Whitener {
 }
 
 /// The factor of A + σ1 for the least σ tried that has one: 0, or 1e-15 times d and the largest entry, and upwards; and
-/// whether σ is not 0.
+/// whether σ is not 0. Where a pivot of A is no more than its rounding, luck decides whether A has a factor, and it gets none.
 fn shifted_cholesky(matrix: Vec<f64>, dim: usize, largest: f64) -> (Vec<f64>, bool) {
+    let rounding = 1e-15 * dim as f64;
     let mut shift = 0.0;
     loop {
         let mut lower = matrix.clone();
         (0..dim).for_each(|a| lower[a * dim + a] += shift);
-        if cholesky(&mut lower, dim) {
-            return (lower, shift > 0.0);
+        let shifted = shift > 0.0;
+        let found = cholesky(&mut lower, dim);
+        let is_told = |a: usize| lower[a * dim + a].powi(2) > rounding * matrix[a * dim + a];
+        if found && (shifted || (0..dim).all(is_told)) {
+            return (lower, shifted);
         }
-        shift = if shift == 0.0 { 1e-15 * dim as f64 * largest } else { shift * 30.0 };
+        shift = if shifted { shift * 30.0 } else { rounding * largest };
     }
 }

@@ -8,7 +8,11 @@ use taut_points::parallel::IntoParallel;
 use taut_points::{InstructionSet, instruction_set};
 
 use super::Shapes;
+use taut_kernels::vector::dot;
 use taut_kernels::{Center, DoubleDouble};
+
+/// What an operation in doubled precision is taken to be off by, relatively, by anyone who bounds it.
+const DOUBLED_ROUNDING: f64 = 16.0 * f64::EPSILON * f64::EPSILON;
 
 /// A linear map by rows, r × d, and the center it is taken from.
 #[derive(Clone, Copy)]
@@ -67,28 +71,54 @@ impl Map<'_> {
     /// P(p − c) for the point of an item that lies farthest in the direction a; the center where Sa = 0.
     pub(crate) fn touching(&self, shapes: &Shapes, i: usize, a: &[f64]) -> Vec<f64> {
         let mut offset = self.offset(shapes.center(i));
-        for (x, v) in offset.iter_mut().zip(step(shapes, i, a)) {
+        for (x, v) in offset.iter_mut().zip(Step::new(shapes, i, a).value) {
             *x = *x + v;
         }
         self.image(&offset)
     }
+
+    /// The length by which a checker may find that point elsewhere: of thin items much more than the rounding of the point.
+    pub(crate) fn touching_error(&self, shapes: &Shapes, i: usize, a: &[f64]) -> f64 {
+        let error = Step::new(shapes, i, a).error;
+        let of_row = |a: usize| self.row(a).iter().zip(&error).map(|(p, e)| (p * e).abs()).sum();
+        let errors: Vec<f64> = (0..self.rank()).map(of_row).collect();
+        dot(&errors, &errors).sqrt()
+    }
 }
 
-/// Sa/√(a′Sa), or 0 where Sa = 0.
-pub(crate) fn step(shapes: &Shapes, i: usize, a: &[f64]) -> Vec<DoubleDouble> {
-    let dim = shapes.dim();
-    let mut v = vec![DoubleDouble::ZERO; dim];
-    for (j, v) in v.iter_mut().enumerate() {
-        for (k, &ak) in a.iter().enumerate() {
-            *v = *v + shapes.entry(i, j, k) * ak.into();
+/// The way from the center of an item to the point of it that lies farthest in a direction.
+struct Step {
+    /// Sa/√(a′Sa), or 0 where Sa = 0.
+    value: Vec<DoubleDouble>,
+    /// What each coordinate may be off by.
+    error: Vec<f64>,
+}
+
+impl Step {
+    fn new(shapes: &Shapes, i: usize, a: &[f64]) -> Self {
+        let dim = shapes.dim();
+        let rounding = (dim + 8) as f64 * DOUBLED_ROUNDING;
+        let mut v = vec![DoubleDouble::ZERO; dim];
+        let mut sizes = vec![0.0; dim];
+        for (j, (v, size)) in v.iter_mut().zip(&mut sizes).enumerate() {
+            for (k, &ak) in a.iter().enumerate() {
+                let term = shapes.entry(i, j, k) * ak.into();
+                *v = *v + term;
+                *size += term.high.abs();
+            }
         }
+        let q = v.iter().zip(a).fold(DoubleDouble::ZERO, |sum, (v, &a)| sum + *v * a.into());
+        if q.high <= 0.0 {
+            return Step { value: vec![DoubleDouble::ZERO; dim], error: vec![0.0; dim] };
+        }
+        let root = q.sqrt();
+        let value: Vec<DoubleDouble> = v.iter().map(|&v| v / root).collect();
+        let q_error: f64 = sizes.iter().zip(a).map(|(s, a)| 3.0 * rounding * (s * a).abs()).sum();
+        let relative = q_error / q.high + 8.0 * DOUBLED_ROUNDING;
+        let each = sizes.iter().zip(&value);
+        let error = each.map(|(s, v)| rounding * s / root.high + relative * v.high.abs()).collect();
+        Step { value, error }
     }
-    let q = v.iter().zip(a).fold(DoubleDouble::ZERO, |sum, (v, &a)| sum + *v * a.into());
-    if q.high <= 0.0 {
-        return vec![DoubleDouble::ZERO; dim];
-    }
-    let root = q.sqrt();
-    v.iter().map(|&v| v / root).collect()
 }
 
 /// The same with the multiply-add as an instruction rather than a function call.

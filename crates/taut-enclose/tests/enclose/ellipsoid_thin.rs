@@ -99,10 +99,16 @@ fn items_of_low_rank_are_enclosed_with_proof() {
     }
 }
 
+/// Where rounding of F moved items out again after each scale, or a hull or a thin item left more open than was claimed.
+const ROUNDED: [u64; 20] = [
+    1157, 1282, 1932, 2030, 2695, 4667, 5357, 6860, 8967, 9044, 9477, 12427, 13440, 14490, 15372,
+    15907, 16172, 16242, 17094, 19362,
+];
+
 /// Needles, concentric items, thin ones, sizes apart by 1e10, now and then one a million away.
 #[test]
 fn thin_items_are_enclosed_with_proof() {
-    for seed in 0..400 {
+    for seed in (0..400).chain(ROUNDED) {
         let mut rng = Random::of(seed);
         let dim: usize = rng.below(1, 5);
         let count = rng.below(1, 25);

@@ -7,6 +7,7 @@ use taut_points::parallel::ParallelSlice;
 
 use super::base::Base;
 use super::rounds::Best;
+use super::tilt::Tilt;
 use crate::Error;
 use crate::ellipsoid::outcome::log_unit_ball;
 use crate::ellipsoid::proof::{LOGARITHM_ROUNDING, answer, lower_gap};
@@ -18,6 +19,8 @@ use crate::shapes::reach::farthest;
 
 /// Items that reach this near the border, relatively, are measured again with twice the digits.
 const BORDER_TOLERANCE: f64 = 1e-8;
+/// At most this many scales are tried.
+const SCALES_MAX: usize = 12;
 
 impl Base {
     /// From multipliers to an answer: containment is measured with F as it will be returned.
@@ -33,12 +36,19 @@ impl Base {
         let near: Vec<usize> = (0..shapes.len())
             .filter(|&i| best.squares[i] >= best.largest * (1.0 - BORDER_TOLERANCE))
             .collect();
-        // The error of a reach found from exact coordinates: eigenvalues, roots and sums.
-        let rounding = 16.0 * (rank + 4) as f64 * f64::EPSILON;
-        let mut scale = (1.0 - rounding) / best.largest.sqrt();
+        let hull = self.hull(shapes, &center);
+        let tilt = |factor: &[f64]| Tilt::new(factor, hull.as_ref());
+        let mut scale = 1.0 / best.largest.sqrt();
         let mut factor = self.factor(&best.matrix, scale);
+        // The error of a reach found from exact coordinates: eigenvalues, roots and sums.
+        let of_hull = tilt(&factor);
+        let map = Map { matrix: &factor, center: &center };
+        let beside = near.iter().map(|&i| of_hull.error(map, shapes, i)).fold(0.0, f64::max);
+        let rounding = 16.0 * (rank + 4) as f64 * f64::EPSILON + beside;
+        scale *= 1.0 - rounding;
+        factor = self.factor(&best.matrix, scale);
         let mut excess = 0.0;
-        for _ in 0..4 {
+        for attempt in 0..SCALES_MAX {
             let map = Map { matrix: &factor, center: &center };
             let squares: Vec<f64> = near
                 .par_iter()
@@ -50,7 +60,9 @@ impl Base {
             if excess == 0.0 {
                 break;
             }
-            scale *= (1.0 - 2.0 * rounding) / largest.sqrt();
+            // Rounding F anew may move items out again, by as much as it did: more is taken off each time.
+            let moved = if attempt == 0 { rounding } else { excess.max(rounding) };
+            scale /= (1.0 + f64::from(2u32 << attempt) * moved) * largest.sqrt();
             factor = self.factor(&best.matrix, scale);
         }
         let dim = shapes.dim();
@@ -67,8 +79,12 @@ impl Base {
             support.iter().flat_map(|(i, a, _)| map.touching(shapes, *i, a)).collect();
         let multipliers: Vec<f64> = support.iter().map(|entry| entry.2).collect();
         let lower = lower_gap(&images, &multipliers, rank);
-        let gap = (lower + rank as f64 * (excess + LOGARITHM_ROUNDING)).min(f64::MAX);
-        let hull = self.hull(shapes, &center);
+        let of_hull = tilt(&factor);
+        let error = |i: usize, direction: &[f64]| {
+            map.touching_error(shapes, i, direction) + of_hull.error(map, shapes, i)
+        };
+        let off = rank as f64 * covariance_error(&support, &images, rank, error);
+        let gap = (lower + rank as f64 * (excess + off + LOGARITHM_ROUNDING)).min(f64::MAX);
         let log_volume = match self.directions {
             None => log_unit_ball(rank) - (0..rank).map(|a| factor[a * dim + a].ln()).sum::<f64>(),
             Some(_) => {
@@ -93,6 +109,21 @@ impl Base {
         };
         Ok(Solution { answer: answer(&factor, center, log_volume, hull)?, certificate, trace })
     }
+}
+
+/// Σ uᵢeᵢ(2|yᵢ| + eᵢ)/Σu, what the covariance of the support is off by in norm, for points off by eᵢ.
+fn covariance_error(
+    support: &[(usize, Vec<f64>, f64)],
+    images: &[f64],
+    rank: usize,
+    error: impl Fn(usize, &[f64]) -> f64,
+) -> f64 {
+    let points = support.iter().zip(images.chunks_exact(rank.max(1)));
+    let errors = points.map(|((i, direction, u), y)| {
+        let error = error(*i, direction);
+        u * error * (2.0 * dot(y, y).sqrt() + error)
+    });
+    errors.sum::<f64>() / support.iter().map(|entry| entry.2).sum::<f64>()
 }
 
 /// The largest |y|² of an ellipsoid given by its matrix and center.

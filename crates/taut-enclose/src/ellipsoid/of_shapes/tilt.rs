@@ -1,0 +1,63 @@
+//! What the images of items in a hull lack of those of their projections to it.
+//!
+//! The claim about a flat set is about projections to its hull. The rows of F lean out of the hull by rounding, and items lie
+//! off it by what counts as flat: an image is that of the projection but for the product of the two. Where an axis inside the
+//! hull is short, F is large beside the others, and that product is more than the rounding of an image.
+
+use taut_certify::Hull;
+use taut_kernels::DoubleDouble;
+use taut_kernels::vector::dot;
+
+use crate::shapes::Shapes;
+use crate::shapes::frame::Map;
+
+pub(super) struct Tilt {
+    /// The root of Σ|(I − B′B)f|² over the rows f of F.
+    lean: f64,
+    distance: f64,
+    /// What of an offset or the square of a width may appear to lie off the hull, by anyone who measures it in `f64`.
+    rounding: f64,
+}
+
+impl Tilt {
+    pub(super) fn new(factor: &[f64], hull: Option<&Hull>) -> Self {
+        let Some(hull) = hull.filter(|hull| !hull.basis.is_empty()) else {
+            return Tilt { lean: 0.0, distance: 0.0, rounding: 0.0 };
+        };
+        let dim = hull.basis[0].len();
+        let leans: Vec<f64> =
+            factor.chunks_exact(dim).map(|row| off_hull(&hull.basis, row)).collect();
+        let rank = hull.basis.len() as f64;
+        let rounding = 16.0 * (dim + 4) as f64 * (rank + 1.0).sqrt() * f64::EPSILON;
+        Tilt { lean: dot(&leans, &leans).sqrt(), distance: hull.distance, rounding }
+    }
+
+    /// What the image of an item is off by at most.
+    pub(super) fn error(&self, map: Map<'_>, shapes: &Shapes, i: usize) -> f64 {
+        if self.lean == 0.0 {
+            return 0.0;
+        }
+        let center = &map.center.high;
+        let offset: f64 = shapes.center(i).iter().zip(center).map(|(m, c)| (m - c).abs()).sum();
+        let width: f64 = (0..center.len()).map(|j| shapes.entry(i, j, j).high.sqrt()).sum();
+        // Once for the offset of the point, once for the reach of the item.
+        let off =
+            2.0 * (self.distance + self.rounding * (offset + width) + self.rounding.sqrt() * width);
+        self.lean * off
+    }
+}
+
+/// |(I − B′B)f| of a row.
+fn off_hull(basis: &[Vec<f64>], row: &[f64]) -> f64 {
+    let mut rest: Vec<DoubleDouble> = row.iter().map(|&v| v.into()).collect();
+    for direction in basis {
+        let product = direction
+            .iter()
+            .zip(row)
+            .fold(DoubleDouble::ZERO, |sum, (&b, &f)| sum + DoubleDouble::product(b, f));
+        for (rest, &b) in rest.iter_mut().zip(direction) {
+            *rest = *rest - product * b.into();
+        }
+    }
+    rest.iter().map(|v| v.high * v.high).sum::<f64>().sqrt()
+}
