@@ -93,6 +93,11 @@ impl ActiveSet {
         &self.lambda
     }
 
+    /// Goes back to an earlier support; what it took to come here stays counted.
+    pub(super) fn undo_to(&mut self, earlier: Self) {
+        *self = ActiveSet { pivots: self.pivots, stalls: self.stalls, ..earlier };
+    }
+
     /// bᵢ = |cᵢ|² + 2Rrᵢ − rᵢ², with the difference of squares as a product so that near-tangent balls keep digits.
     fn b(&self, set: &WorkingSet, i: usize) -> f64 {
         let r = set.radius(i);

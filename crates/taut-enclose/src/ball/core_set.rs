@@ -6,8 +6,8 @@
 //! to five passes are enough on ordinary data, and the last of them finds nothing outside: exact costs no more than ε.
 //! *Balls.* For fixed R, h(R) = min over c of maxᵢ |c − cᵢ|² + 2Rrᵢ − rᵢ² is a problem of points. With multipliers λ
 //! and r̄ = Σ λᵢrᵢ, R* ≥ r̄ + √(Σ λᵢ(|cᵢ − c|² − (rᵢ − r̄)²)): this is both the Newton step in R, which never overshoots
-//! because h is convex, and the certificate. Steps end at rounding; one that it took beyond R* may find multipliers that
-//! prove nothing, and is taken back. Origin and radii are taken relative to the largest ball, without which a ball
+//! because h is convex, and the certificate. Rounding can carry a step beyond R*. Its multipliers may prove less than
+//! the previous ones; then it is undone. Origin and radii are taken relative to the largest ball, without which a ball
 //! that touches it from inside costs half the digits.
 //! *Guarantee.* The lower bound grows with every pass that adds an item, so the method ends; it stops at
 //! R ≤ (1 + ε)·r, or when no item violates the ball beyond rounding.
@@ -168,11 +168,12 @@ pub(super) fn solve_working_set(
             before = Some(active.clone());
             continue;
         }
-        // What is lost below this is rounding, and the center of the last step is nearer than that before.
+        // A loss below this is rounding, and the last center is the better one.
         let lost = VIOLATION_TOLERANCE * (relative + offset);
-        match before {
-            Some(before) if bound < relative - lost => *active = before,
-            _ => {}
+        if bound < relative - lost
+            && let Some(before) = before
+        {
+            active.undo_to(before);
         }
         return Ok(bound.max(relative) + offset);
     }

@@ -26,6 +26,8 @@ use crate::top::{Far, Top};
 const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
 /// The claimed gap may lack this of the proved one, for each dimension: the logarithms.
 pub(super) const LOGARITHM_ROUNDING: f64 = 2e-15;
+/// The part by which a checker may find a bound on errors larger than the solver does.
+const ERROR_MARGIN: f64 = 1e-4;
 /// At most this many scales are tried before a bound on the rounding of F takes the place of measuring.
 const SCALES_MAX: u32 = 8;
 /// At most this many points near the border are measured for each of them.
@@ -183,7 +185,7 @@ pub(super) fn settle(
         let (_, other_squares) = scaled.images(&others);
         let largest = squares.iter().chain(&other_squares).fold(0.0f64, |m, &v| m.max(v));
         if largest <= 1.0 || attempt == SCALES_MAX || !all_measured {
-            let gap = lower_gap(&images, &best.multipliers, map.rank());
+            let gap = lower_gap(&images, &best.multipliers, map.rank(), &[]);
             let gap = (gap + LOGARITHM_ROUNDING * map.rank() as f64).min(f64::MAX);
             return Ok(Settled { factor, scale, gap });
         }
@@ -242,8 +244,11 @@ pub(super) fn border_of_block(map: Map<'_>, near: f64, first: u64, rows: &[f64])
     top
 }
 
-/// −½ ln det(r·Σ) for the covariance Σ of weighted images, n × r.
-pub(super) fn lower_gap(images: &[f64], weights: &[f64], rank: usize) -> f64 {
+/// −½ ln det(r·Σ − sI) for the covariance Σ of weighted images, n × r, and what r·Σ is off by at most, s.
+///
+/// Images that are off by eᵢ move Σuᵢyᵢyᵢ′/Σu by no more than Σuᵢeᵢ(2|yᵢ| + eᵢ)/Σu in norm, and the square of the mean by no
+/// more again. No errors stand for none.
+pub(super) fn lower_gap(images: &[f64], weights: &[f64], rank: usize, errors: &[f64]) -> f64 {
     let total: f64 = weights.iter().sum();
     let mut mean = vec![0.0; rank];
     for (y, u) in images.chunks_exact(rank).zip(weights) {
@@ -259,6 +264,10 @@ pub(super) fn lower_gap(images: &[f64], weights: &[f64], rank: usize) -> f64 {
             row.iter_mut().zip(&z).for_each(|(s, z)| *s += factor * z);
         }
     }
+    let each = images.chunks_exact(rank.max(1)).zip(weights).zip(errors);
+    let off: f64 = each.map(|((y, u), e)| u / total * e * (2.0 * dot(y, y).sqrt() + e)).sum();
+    let shift = 2.0 * rank as f64 * off * (1.0 + ERROR_MARGIN);
+    (0..rank).for_each(|a| covariance[a * rank + a] -= shift);
     if !cholesky(&mut covariance, rank) {
         return f64::INFINITY;
     }

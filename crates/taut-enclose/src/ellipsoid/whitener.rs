@@ -17,6 +17,9 @@ use super::working_set::WorkingSet;
 
 /// It is left at that after this many turns: each takes off at least some ten digits of a condition number.
 const TURNS_MAX: usize = 40;
+/// A pivot below this part of its diagonal entry, for each dimension, may be what the sums over the points have rounded: then
+/// chance decides whether points in a hyperplane seem to span the space.
+const SIGNIFICANT_PIVOT: f64 = 16.0 * f64::EPSILON;
 
 /// The way in which a covariance became the identity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -158,19 +161,21 @@ impl Whitener {
 }
 
 /// The factor of A + σ1 for the least σ tried that has one: 0, or 1e-15 times d and the largest entry, and upwards; and
-/// whether σ is not 0. Where a pivot of A is no more than its rounding, luck decides whether A has a factor, and it gets none.
+/// whether σ is not 0. A itself has one only if its pivots are above [`SIGNIFICANT_PIVOT`].
 fn shifted_cholesky(matrix: Vec<f64>, dim: usize, largest: f64) -> (Vec<f64>, bool) {
-    let rounding = 1e-15 * dim as f64;
     let mut shift = 0.0;
     loop {
         let mut lower = matrix.clone();
         (0..dim).for_each(|a| lower[a * dim + a] += shift);
-        let shifted = shift > 0.0;
         let found = cholesky(&mut lower, dim);
-        let is_told = |a: usize| lower[a * dim + a].powi(2) > rounding * matrix[a * dim + a];
-        if found && (shifted || (0..dim).all(is_told)) {
+        let shifted = shift > 0.0;
+        let is_significant = |a: usize| {
+            let pivot = lower[a * dim + a].powi(2);
+            pivot > SIGNIFICANT_PIVOT * dim as f64 * matrix[a * dim + a]
+        };
+        if found && (shifted || (0..dim).all(is_significant)) {
             return (lower, shifted);
         }
-        shift = if shifted { shift * 30.0 } else { rounding * largest };
+        shift = if shifted { shift * 30.0 } else { 1e-15 * dim as f64 * largest };
     }
 }

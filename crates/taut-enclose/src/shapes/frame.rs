@@ -11,8 +11,11 @@ use super::Shapes;
 use taut_kernels::vector::dot;
 use taut_kernels::{Center, DoubleDouble};
 
-/// What an operation in doubled precision is taken to be off by, relatively, by anyone who bounds it.
+/// Relative rounding of one operation in doubled precision, as the checker takes it: a few times what it is.
 const DOUBLED_ROUNDING: f64 = 16.0 * f64::EPSILON * f64::EPSILON;
+
+/// Where a′Sa is not this much larger than its error, no point is known to touch, to the checker either.
+const KNOWN_RATIO: f64 = 1e6;
 
 /// A linear map by rows, r × d, and the center it is taken from.
 #[derive(Clone, Copy)]
@@ -68,7 +71,7 @@ impl Map<'_> {
         congruence(*self, shapes, i)
     }
 
-    /// P(p − c) for the point of an item that lies farthest in the direction a; the center where Sa = 0.
+    /// P(p − c) for the point of an item that lies farthest in the direction a; the center where no such point is known.
     pub(crate) fn touching(&self, shapes: &Shapes, i: usize, a: &[f64]) -> Vec<f64> {
         let mut offset = self.offset(shapes.center(i));
         for (x, v) in offset.iter_mut().zip(Step::new(shapes, i, a).value) {
@@ -79,19 +82,23 @@ impl Map<'_> {
 
     /// The length by which a checker may find that point elsewhere: of thin items much more than the rounding of the point.
     pub(crate) fn touching_error(&self, shapes: &Shapes, i: usize, a: &[f64]) -> f64 {
-        let error = Step::new(shapes, i, a).error;
-        let of_row = |a: usize| self.row(a).iter().zip(&error).map(|(p, e)| (p * e).abs()).sum();
+        let step = Step::new(shapes, i, a);
+        let of_row =
+            |a: usize| self.row(a).iter().zip(&step.errors).map(|(p, e)| (p * e).abs()).sum();
         let errors: Vec<f64> = (0..self.rank()).map(of_row).collect();
-        dot(&errors, &errors).sqrt()
+        let image = self.image(&step.value);
+        dot(&errors, &errors).sqrt() + step.relative * dot(&image, &image).sqrt()
     }
 }
 
 /// The way from the center of an item to the point of it that lies farthest in a direction.
 struct Step {
-    /// Sa/√(a′Sa), or 0 where Sa = 0.
+    /// Sa/√(a′Sa), or 0 where rounding hides a′Sa.
     value: Vec<DoubleDouble>,
-    /// What each coordinate may be off by.
-    error: Vec<f64>,
+    /// Bound on the error of each coordinate beside that.
+    errors: Vec<f64>,
+    /// Bound on the part by which all of it is longer or shorter: the error of a′Sa.
+    relative: f64,
 }
 
 impl Step {
@@ -108,16 +115,19 @@ impl Step {
             }
         }
         let q = v.iter().zip(a).fold(DoubleDouble::ZERO, |sum, (v, &a)| sum + *v * a.into());
-        if q.high <= 0.0 {
-            return Step { value: vec![DoubleDouble::ZERO; dim], error: vec![0.0; dim] };
+        let q_error: f64 = sizes.iter().zip(a).map(|(s, a)| 3.0 * rounding * (s * a).abs()).sum();
+        let is_known = q.high > KNOWN_RATIO * q_error && q.high.is_finite();
+        if !is_known {
+            let value = vec![DoubleDouble::ZERO; dim];
+            return Step { value, errors: vec![0.0; dim], relative: 0.0 };
         }
         let root = q.sqrt();
         let value: Vec<DoubleDouble> = v.iter().map(|&v| v / root).collect();
-        let q_error: f64 = sizes.iter().zip(a).map(|(s, a)| 3.0 * rounding * (s * a).abs()).sum();
-        let relative = q_error / q.high + 8.0 * DOUBLED_ROUNDING;
-        let each = sizes.iter().zip(&value);
-        let error = each.map(|(s, v)| rounding * s / root.high + relative * v.high.abs()).collect();
-        Step { value, error }
+        let error = |(s, v): (&f64, &DoubleDouble)| {
+            rounding * s / root.high + 8.0 * DOUBLED_ROUNDING * v.high.abs()
+        };
+        let errors = sizes.iter().zip(&value).map(error).collect();
+        Step { value, errors, relative: q_error / q.high }
     }
 }
 

@@ -137,6 +137,55 @@ fn thin_items_are_enclosed_with_proof() {
     }
 }
 
+/// Needles in one direction, nearly on one line: a shift of the line by rounding is more than they are apart.
+#[test]
+fn parallel_needles_are_enclosed_with_proof() {
+    for (seed, apart) in (0..20).flat_map(|seed| [1e-4, 1e-7, 1e-12].map(|apart| (seed, apart))) {
+        let mut rng = Random::of(seed);
+        let dim = rng.below(2, 6);
+        let along = normals(&mut rng, dim);
+        let mut values = vec![];
+        for _ in 0..rng.below(2, 16) {
+            let (half, place) = (0.5 + rng.part(), 3.0 * normal(&mut rng));
+            let off = normals(&mut rng, dim);
+            let center: Vec<f64> =
+                along.iter().zip(off).map(|(b, y)| place * b + apart * y).collect();
+            values.extend(item(&center, &[along.iter().map(|b| half * b).collect()]));
+        }
+        solved(&format!("{apart:e} apart, seed {seed}"), &values, dim + dim * (dim + 1) / 2);
+    }
+}
+
+/// Items of low rank in a hull, of which one axis is short.
+#[test]
+fn items_in_a_hull_are_enclosed_with_proof() {
+    for (seed, short) in (0..40).flat_map(|seed| [1.0, 1e-4, 1e-8, 1e-12].map(|s| (seed, s))) {
+        let mut rng = Random::of(seed);
+        let dim = rng.below(2, 6);
+        let rank = rng.below(1, dim);
+        let basis = normals(&mut rng, rank * dim);
+        let lift = |z: &[f64]| -> Vec<f64> {
+            let length = |k| if k + 1 == rank { short } else { 1.0 };
+            (0..dim)
+                .map(|j| (0..rank).map(|k| z[k] * basis[k * dim + j] * length(k)).sum())
+                .collect()
+        };
+        let mut values = vec![];
+        for _ in 0..rng.below(1, 20) {
+            let center = lift(&normals(&mut rng, rank).iter().map(|x| 3.0 * x).collect::<Vec<_>>());
+            let columns: Vec<Vec<f64>> =
+                (0..rng.below(0, rank + 1)).map(|_| lift(&normals(&mut rng, rank))).collect();
+            values.extend(item(&center, &columns));
+        }
+        let found = solved(
+            &format!("rank {rank} of {dim}, {short:e} short, seed {seed}"),
+            &values,
+            dim + dim * (dim + 1) / 2,
+        );
+        assert!(found.certificate.gap < 1e-5, "seed {seed}: gap {:e}", found.certificate.gap);
+    }
+}
+
 /// Rounded to `f32`, half of all segments have a negative determinant.
 #[test]
 fn segments_of_single_precision_are_no_less_semidefinite() {

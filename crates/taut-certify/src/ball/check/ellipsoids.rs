@@ -23,7 +23,7 @@ use crate::arithmetic::{DoubleDouble, Field, Ring, U};
 use crate::ellipsoid::check::enclosure::kind_of;
 use crate::ellipsoid::check::frame::Frame;
 use crate::ellipsoid::check::item::Item;
-use crate::ellipsoid::check::lower_bound::touching;
+use crate::ellipsoid::check::lower_bound::Touching;
 use crate::ellipsoid::check::reach;
 use crate::hashed_pass::{KeptRows, WantedRows, all_finite, hashed_pass};
 use crate::{CheckError, Ellipsoid, Items, Violation};
@@ -138,8 +138,9 @@ fn lower_bound(
     for ((&id, &lambda), direction) in each.zip(&certificate.directions) {
         monitor.check().map_err(ReadError::from)?;
         let item = Item::of(Items::Ellipsoids, frame.dim, support.row(id));
-        let (offset, errors) = touching(frame, &item, direction);
-        sums.add(lambda, &offset, errors.as_deref(), &square, frame);
+        let touching = Touching::of(frame, &item, direction);
+        let errors = touching.coordinate_errors();
+        sums.add(lambda, &touching.offset, errors.as_deref(), &square, frame);
     }
     Ok(sums.bound(ball.radius, radius.rounded())?)
 }

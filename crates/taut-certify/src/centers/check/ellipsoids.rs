@@ -25,7 +25,7 @@ use crate::ball::check::ellipsoids::{as_ellipsoid, excess};
 use crate::ellipsoid::check::enclosure::kind_of;
 use crate::ellipsoid::check::frame::Frame;
 use crate::ellipsoid::check::item::Item;
-use crate::ellipsoid::check::lower_bound::touching;
+use crate::ellipsoid::check::lower_bound::Touching;
 use crate::ellipsoid::check::reach;
 use crate::hashed_pass::{KeptRows, WantedRows, all_finite, hashed_pass};
 use crate::{CheckError, Items};
@@ -233,7 +233,9 @@ pub(super) fn core(
 
 /// A place near a point of an item, and a length that the two are not farther apart than, both in the unit of the frame.
 fn place(frame: &Frame<'_>, item: &Item<'_>, direction: &[f64]) -> (Vec<f64>, f64) {
-    let (offset, errors) = touching(frame, item, direction);
+    let touching = Touching::of(frame, item, direction);
+    let errors = touching.coordinate_errors();
+    let offset = touching.offset;
     let places: Vec<f64> = offset.iter().map(DoubleDouble::rounded).collect();
     let mut error = 0.0;
     for (j, (x, place)) in offset.iter().zip(&places).enumerate() {

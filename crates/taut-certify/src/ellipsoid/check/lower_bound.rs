@@ -39,67 +39,112 @@ pub(super) fn gap(
         monitor.check().map_err(ReadError::from)?;
         let item = Item::of(certificate.items, frame.dim, support.row(id));
         let direction = certificate.directions.get(position).map_or(&[][..], Vec::as_slice);
-        let (offset, errors) = touching(frame, &item, direction);
-        let sizes: Vec<f64> = offset.iter().map(|x| x.rounded().abs()).collect();
+        let touching = Touching::of(frame, &item, direction);
+        let sizes = sizes(&touching.offset);
         let widths: f64 = (0..frame.dim).map(|j| item.width(j, frame.scale)).sum();
-        let error = frame.image_error::<DoubleDouble>(&sizes, errors.as_deref())
+        let error = frame.image_error::<DoubleDouble>(&sizes, touching.errors.as_deref())
+            + touching.image_error_along(frame)
             + frame.width_error(widths);
-        sums.add(u, &frame.image(&offset), error);
+        sums.add(u, &frame.image(&touching.offset), error);
     }
     Ok(sums.gap())
 }
 
-/// A point of the item, less the center, times s; and what that may be off by.
+fn sizes(offset: &[DoubleDouble]) -> Vec<f64> {
+    offset.iter().map(|x| x.rounded().abs()).collect()
+}
+
+/// A point of an item.
 ///
 /// With v = Na and q = aᵀv, for the N = S + 2τD that the row stands for, it is the point m + v/√q that lies farthest in the
 /// direction a; or m where q is not known to be positive. As N is positive semidefinite, vvᵀ/q ⪯ N whatever a is.
-pub(crate) fn touching(
-    frame: &Frame<'_>,
-    item: &Item<'_>,
-    direction: &[f64],
-) -> (Vec<DoubleDouble>, Option<Vec<f64>>) {
-    let mut offset: Vec<DoubleDouble> = frame.offset(item.center());
-    let Some(scaled) = Scaled::of(item, frame.dim) else { return (offset, None) };
-    let a = scaled.direction(direction);
-    if a.iter().all(|&a| a == 0.0) {
-        return (offset, None);
-    }
-    let zero = DoubleDouble::of(0.0);
-    let n = a.len();
-    let rounding = (n + 8) as f64 * DoubleDouble::ROUNDOFF;
-    let mut errors = Vec::with_capacity(n);
-    let (mut v, mut q, mut q_error) = (Vec::with_capacity(n), zero, 0.0);
-    for (j, &aj) in a.iter().enumerate() {
-        let (mut sum, mut size) = (zero, 0.0);
-        for (k, &ak) in a.iter().enumerate() {
-            let term = scaled.entry(j, k).times(&DoubleDouble::of(ak));
-            sum = sum.plus(&term);
-            size += term.rounded().abs();
+///
+/// The error of q makes v/√q longer or shorter as a whole. It is kept apart from those of the coordinates, as F may make the
+/// coordinates of a thin item much larger than their sum: its part of the image is found from the image of v/√q.
+pub(crate) struct Touching {
+    /// The point, less the center, times s.
+    pub(crate) offset: Vec<DoubleDouble>,
+    /// v/√q times s; empty where the point is m.
+    step: Vec<DoubleDouble>,
+    /// What the coordinates may be off by beside what the step is; none where the point is m.
+    errors: Option<Vec<f64>>,
+    /// The part of the step that it may be longer or shorter by.
+    relative: f64,
+}
+
+impl Touching {
+    pub(crate) fn of(frame: &Frame<'_>, item: &Item<'_>, direction: &[f64]) -> Self {
+        let offset: Vec<DoubleDouble> = frame.offset(item.center());
+        let center = |offset| Touching { offset, step: vec![], errors: None, relative: 0.0 };
+        let Some(scaled) = Scaled::of(item, frame.dim) else { return center(offset) };
+        let a = scaled.direction(direction);
+        if a.iter().all(|&a| a == 0.0) {
+            return center(offset);
         }
-        let error = rounding * size + f64::MIN_POSITIVE;
-        q = q.plus(&sum.times(&DoubleDouble::of(aj)));
-        q_error += (2.0 * error + rounding * size) * aj.abs();
-        errors.push(error);
-        v.push(sum);
+        let zero = DoubleDouble::of(0.0);
+        let n = a.len();
+        let rounding = (n + 8) as f64 * DoubleDouble::ROUNDOFF;
+        let mut errors = Vec::with_capacity(n);
+        let (mut v, mut q, mut q_error) = (Vec::with_capacity(n), zero, 0.0);
+        for (j, &aj) in a.iter().enumerate() {
+            let (mut sum, mut size) = (zero, 0.0);
+            for (k, &ak) in a.iter().enumerate() {
+                let term = scaled.entry(j, k).times(&DoubleDouble::of(ak));
+                sum = sum.plus(&term);
+                size += term.rounded().abs();
+            }
+            let error = rounding * size + f64::MIN_POSITIVE;
+            q = q.plus(&sum.times(&DoubleDouble::of(aj)));
+            q_error += (2.0 * error + rounding * size) * aj.abs();
+            errors.push(error);
+            v.push(sum);
+        }
+        let is_known = q.rounded() > 1e6 * q_error && q.rounded().is_finite();
+        if !is_known {
+            return center(offset);
+        }
+        let root = q.root();
+        let mut found = Touching {
+            offset,
+            step: vec![zero; frame.dim],
+            errors: None,
+            relative: q_error / q.rounded() * (1.0 + 16.0 * U),
+        };
+        let mut all = vec![0.0; frame.dim];
+        for ((&j, &power), (v, error)) in
+            scaled.columns.iter().zip(&scaled.powers).zip(v.iter().zip(&errors))
+        {
+            let step = v.over(&root).scaled(power).scaled(frame.scale);
+            // The true v is divided by the true √q, which is larger or smaller by less than a millionth.
+            let error = error / root.rounded() * power * frame.scale * (1.0 + 1e-6);
+            let x = &mut found.offset[j];
+            *x = x.plus(&step);
+            let size = step.rounded().abs() + x.rounded().abs();
+            all[j] = (error + 8.0 * DoubleDouble::ROUNDOFF * size) * (1.0 + 16.0 * U);
+            found.step[j] = step;
+        }
+        found.errors = Some(all);
+        found
     }
-    let is_known = q.rounded() > 1e6 * q_error && q.rounded().is_finite();
-    if !is_known {
-        return (offset, None);
+
+    /// What each coordinate of the offset may be off by, beside a few roundings; none where the point is the center.
+    pub(crate) fn coordinate_errors(&self) -> Option<Vec<f64>> {
+        let along = |(error, step): (&f64, &DoubleDouble)| {
+            (error + self.relative * step.rounded().abs()) * (1.0 + 4.0 * U)
+        };
+        self.errors.as_ref().map(|errors| errors.iter().zip(&self.step).map(along).collect())
     }
-    let root = q.root();
-    let relative = q_error / q.rounded() + 8.0 * DoubleDouble::ROUNDOFF;
-    let mut all = vec![0.0; frame.dim];
-    for ((&j, &power), (v, error)) in
-        scaled.columns.iter().zip(&scaled.powers).zip(v.iter().zip(&errors))
-    {
-        let step = v.over(&root).scaled(power).scaled(frame.scale);
-        let error = error / root.rounded() * power * frame.scale;
-        let x = &mut offset[j];
-        *x = x.plus(&step);
-        all[j] = (error + relative * step.rounded().abs()) * (1.0 + 16.0 * U)
-            + 8.0 * DoubleDouble::ROUNDOFF * x.rounded().abs();
+
+    /// What the image of the point may be off by, in length, because the step is longer or shorter.
+    fn image_error_along(&self, frame: &Frame<'_>) -> f64 {
+        if self.step.is_empty() {
+            return 0.0;
+        }
+        let image: Vec<DoubleDouble> = frame.image(&self.step);
+        let length = image.iter().map(|y| y.rounded() * y.rounded()).sum::<f64>().sqrt();
+        let beside = frame.image_error::<DoubleDouble>(&sizes(&self.step), None);
+        self.relative * (length + beside) * (1.0 + (frame.rank + 16) as f64 * U)
     }
-    (offset, Some(all))
 }
 
 /// P⁻¹NP⁻¹ for powers of two P that bring the diagonal to [1, 4], without the rows and columns of zeros.
@@ -134,16 +179,24 @@ impl Scaled {
     }
 
     /// Pa, up to its length; nothing but another direction where a part of it underflows.
+    ///
+    /// Powers of two bring it to size 1: of a thin item, rounding the direction turns the point farthest in it by much more.
     fn direction(&self, direction: &[f64]) -> Vec<f64> {
-        let longest = direction.iter().fold(0.0f64, |m, v| m.max(v.abs()));
-        if longest == 0.0 {
+        let longest = |v: &[f64]| v.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+        let length = longest(direction);
+        if length == 0.0 {
             return vec![0.0; self.columns.len()];
         }
-        let widest = self.powers.iter().fold(0.0f64, |m, &v| m.max(v));
+        let size = power_of_two_below(length);
+        let widest = longest(&self.powers);
         let each = self.columns.iter().zip(&self.powers);
-        let a: Vec<f64> = each.map(|(&j, p)| direction[j] / longest * (p / widest)).collect();
-        let longest = a.iter().fold(0.0f64, |m, v| m.max(v.abs()));
-        if longest == 0.0 { a } else { a.iter().map(|v| v / longest).collect() }
+        let a: Vec<f64> = each.map(|(&j, p)| direction[j] / size * (p / widest)).collect();
+        let length = longest(&a);
+        if length == 0.0 {
+            return a;
+        }
+        let size = power_of_two_below(length);
+        a.iter().map(|v| v / size).collect()
     }
 }
 

@@ -19,6 +19,8 @@ use crate::shapes::reach::farthest;
 
 /// Items that reach this near the border, relatively, are measured again with twice the digits.
 const BORDER_TOLERANCE: f64 = 1e-8;
+/// So many items are all measured, as rounding may move a thin one far from where a pass found it.
+const MEASURED_ALL: usize = 256;
 /// At most this many scales are tried.
 const SCALES_MAX: usize = 12;
 
@@ -33,22 +35,22 @@ impl Base {
     ) -> Result<Solution<Ellipsoid>, Error> {
         let rank = self.rank;
         let center = self.back(&best.center);
-        let near: Vec<usize> = (0..shapes.len())
-            .filter(|&i| best.squares[i] >= best.largest * (1.0 - BORDER_TOLERANCE))
-            .collect();
+        let border = best.largest * (1.0 - BORDER_TOLERANCE);
+        let all = shapes.len() <= MEASURED_ALL;
+        let near: Vec<usize> =
+            (0..shapes.len()).filter(|&i| all || best.squares[i] >= border).collect();
         let hull = self.hull(shapes, &center);
-        let tilt = |factor: &[f64]| Tilt::new(factor, hull.as_ref());
         let mut scale = 1.0 / best.largest.sqrt();
         let mut factor = self.factor(&best.matrix, scale);
-        // The error of a reach found from exact coordinates: eigenvalues, roots and sums.
-        let of_hull = tilt(&factor);
         let map = Map { matrix: &factor, center: &center };
-        let beside = near.iter().map(|&i| of_hull.error(map, shapes, i)).fold(0.0, f64::max);
-        let rounding = 16.0 * (rank + 4) as f64 * f64::EPSILON + beside;
-        scale *= 1.0 - rounding;
-        factor = self.factor(&best.matrix, scale);
+        let tilt = Tilt::new(&factor, hull.as_ref());
+        let off_hull = near.iter().map(|&i| tilt.error(map, shapes, i)).fold(0.0, f64::max);
+        // The error of a reach found from exact coordinates: eigenvalues, roots and sums.
+        let rounding = 16.0 * (rank + 4) as f64 * f64::EPSILON + off_hull;
+        scale /= 1.0 + rounding;
         let mut excess = 0.0;
         for attempt in 0..SCALES_MAX {
+            factor = self.factor(&best.matrix, scale);
             let map = Map { matrix: &factor, center: &center };
             let squares: Vec<f64> = near
                 .par_iter()
@@ -60,10 +62,9 @@ impl Base {
             if excess == 0.0 {
                 break;
             }
-            // Rounding F anew may move items out again, by as much as it did: more is taken off each time.
-            let moved = if attempt == 0 { rounding } else { excess.max(rounding) };
-            scale /= (1.0 + f64::from(2u32 << attempt) * moved) * largest.sqrt();
-            factor = self.factor(&best.matrix, scale);
+            // Rounding the new F can push items out again by the same amount, so each attempt shrinks twice as much.
+            let pushed = if attempt == 0 { rounding } else { excess.max(rounding) };
+            scale /= (1.0 + f64::from(2u32 << attempt) * pushed) * largest.sqrt();
         }
         let dim = shapes.dim();
         let map = Map { matrix: &factor, center: &center };
@@ -78,13 +79,13 @@ impl Base {
         let images: Vec<f64> =
             support.iter().flat_map(|(i, a, _)| map.touching(shapes, *i, a)).collect();
         let multipliers: Vec<f64> = support.iter().map(|entry| entry.2).collect();
-        let lower = lower_gap(&images, &multipliers, rank);
-        let of_hull = tilt(&factor);
-        let error = |i: usize, direction: &[f64]| {
-            map.touching_error(shapes, i, direction) + of_hull.error(map, shapes, i)
-        };
-        let off = rank as f64 * covariance_error(&support, &images, rank, error);
-        let gap = (lower + rank as f64 * (excess + off + LOGARITHM_ROUNDING)).min(f64::MAX);
+        let tilt = Tilt::new(&factor, hull.as_ref());
+        let errors: Vec<f64> = support
+            .iter()
+            .map(|(i, a, _)| map.touching_error(shapes, *i, a) + tilt.error(map, shapes, *i))
+            .collect();
+        let lower = lower_gap(&images, &multipliers, rank, &errors);
+        let gap = (lower + rank as f64 * (excess + LOGARITHM_ROUNDING)).min(f64::MAX);
         let log_volume = match self.directions {
             None => log_unit_ball(rank) - (0..rank).map(|a| factor[a * dim + a].ln()).sum::<f64>(),
             Some(_) => {
@@ -109,21 +110,6 @@ impl Base {
         };
         Ok(Solution { answer: answer(&factor, center, log_volume, hull)?, certificate, trace })
     }
-}
-
-/// Σ uᵢeᵢ(2|yᵢ| + eᵢ)/Σu, what the covariance of the support is off by in norm, for points off by eᵢ.
-fn covariance_error(
-    support: &[(usize, Vec<f64>, f64)],
-    images: &[f64],
-    rank: usize,
-    error: impl Fn(usize, &[f64]) -> f64,
-) -> f64 {
-    let points = support.iter().zip(images.chunks_exact(rank.max(1)));
-    let errors = points.map(|((i, direction, u), y)| {
-        let error = error(*i, direction);
-        u * error * (2.0 * dot(y, y).sqrt() + error)
-    });
-    errors.sum::<f64>() / support.iter().map(|entry| entry.2).sum::<f64>()
 }
 
 /// The largest |y|² of an ellipsoid given by its matrix and center.

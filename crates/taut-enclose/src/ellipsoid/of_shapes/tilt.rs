@@ -1,8 +1,8 @@
-//! What the images of items in a hull lack of those of their projections to it.
+//! Bounds the difference between F(x − c) and the image of the projection of x to the hull of a flat set.
 //!
-//! The claim about a flat set is about projections to its hull. The rows of F lean out of the hull by rounding, and items lie
-//! off it by what counts as flat: an image is that of the projection but for the product of the two. Where an axis inside the
-//! hull is short, F is large beside the others, and that product is more than the rounding of an image.
+//! The claim about a flat set is about projections to its hull. Rounding makes the rows of F lean out of the hull, and items lie
+//! off it by what counts as flat: the difference is at most |F(I − B′B)| times the distance of x from the hull. Where an axis
+//! inside the hull is short, F has large entries, and this is more than the rounding of an image.
 
 use taut_certify::Hull;
 use taut_kernels::DoubleDouble;
@@ -14,8 +14,9 @@ use crate::shapes::frame::Map;
 pub(super) struct Tilt {
     /// The root of Σ|(I − B′B)f|² over the rows f of F.
     lean: f64,
+    /// The largest distance of an item from the hull.
     distance: f64,
-    /// What of an offset or the square of a width may appear to lie off the hull, by anyone who measures it in `f64`.
+    /// The part of an offset, or of the square of a width, that rounding can show as distance from the hull; that of the checker.
     rounding: f64,
 }
 
@@ -32,14 +33,14 @@ impl Tilt {
         Tilt { lean: dot(&leans, &leans).sqrt(), distance: hull.distance, rounding }
     }
 
-    /// What the image of an item is off by at most.
+    /// Bounds the difference for the points of an item.
     pub(super) fn error(&self, map: Map<'_>, shapes: &Shapes, i: usize) -> f64 {
         if self.lean == 0.0 {
             return 0.0;
         }
         let center = &map.center.high;
         let offset: f64 = shapes.center(i).iter().zip(center).map(|(m, c)| (m - c).abs()).sum();
-        let width: f64 = (0..center.len()).map(|j| shapes.entry(i, j, j).high.sqrt()).sum();
+        let width: f64 = (0..center.len()).map(|j| shapes.width(i, j)).sum();
         // Once for the offset of the point, once for the reach of the item.
         let off =
             2.0 * (self.distance + self.rounding * (offset + width) + self.rounding.sqrt() * width);
