@@ -4,7 +4,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Arg, ArgAction, Command, CommandFactory};
 
@@ -159,6 +159,9 @@ fn table() -> String {
 #[test]
 fn the_table_in_the_documentation_is_that_of_the_declarations() {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../docs/command-line.md");
+    if !path.parent().is_some_and(Path::is_dir) {
+        return println!("skipped: this package comes without the pages");
+    }
     let page = std::fs::read_to_string(&path).expect("the page is there");
     let (before, rest) = page.split_once(MARKS[0]).expect("the table has a begin");
     let (found, after) = rest.split_once(MARKS[1]).expect("the table has an end");
