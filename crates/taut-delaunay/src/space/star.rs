@@ -20,7 +20,7 @@ use super::row;
 const TABLE_MAX: usize = 256;
 
 /// No edge: an empty slot of the hash table.
-const EMPTY: u32 = u32::MAX;
+const EMPTY: u64 = u64::MAX;
 
 /// The lists to number and to pair simplices, kept between insertions.
 pub(super) struct Star {
@@ -30,8 +30,10 @@ pub(super) struct Star {
     corners: Vec<[u16; 3]>,
     /// Codes of the facets of new simplices, at row · stride + column of the directed edge.
     table: Vec<u32>,
-    /// Or by a hash of the edge, when the table would be too large: `3 · facet + edge`.
-    edges: Vec<u32>,
+    /// The edges in their places by hash, when the table would be too large: both vertices, the smaller one first.
+    edges: Vec<u64>,
+    /// The code of the facet of a new simplex at each of them; those at empty places are not read.
+    codes: Vec<u32>,
 }
 
 impl Star {
@@ -41,6 +43,7 @@ impl Star {
             corners: vec![[0; 3]; TABLE_MAX],
             table: Vec::new(),
             edges: Vec::new(),
+            codes: Vec::new(),
         }
     }
 
@@ -112,35 +115,33 @@ impl Star {
     ) {
         /// Multiplicative hashing with the golden ratio of 2⁶⁴; the high bits are the mixed ones.
         const HASH_FACTOR: u64 = 0x9e37_79b9_7f4a_7c15;
-        let edge = |name: u32| {
-            let (facet, i) = (&facets[name as usize / 3], name as usize % 3);
-            (facet.vertices[(i + 1) % 3], facet.vertices[(i + 2) % 3])
-        };
         for (facet, &slot) in facets.iter().zip(slots) {
             place(simplices, facet, slot, q, [facet.outside, 0, 0, 0]);
         }
         let size = (3 * facets.len()).next_power_of_two();
+        let shift = u64::BITS - size.trailing_zeros();
         self.edges.clear();
         self.edges.resize(size, EMPTY);
-        for name in 0..3 * facets.len() as u32 {
-            let (from, to) = edge(name);
-            let key = u64::from(from.min(to)) << 32 | u64::from(from.max(to));
-            let mut at = (key.wrapping_mul(HASH_FACTOR) >> (64 - size.trailing_zeros())) as usize;
-            loop {
-                let other = self.edges[at];
-                if other == EMPTY {
-                    self.edges[at] = name;
-                    break;
+        self.codes.resize(size.max(self.codes.len()), 0);
+        let (edges, codes) = (&mut self.edges[..size], &mut self.codes[..size]);
+        for (facet, &slot) in facets.iter().zip(slots) {
+            let [a, b, c] = facet.vertices;
+            // Edge i lies opposite corner i, which is vertex i + 1 of the simplex.
+            for (i, [u, v]) in [(1, [b, c]), (2, [c, a]), (3, [a, b])] {
+                let edge = u64::from(u.min(v)) << 32 | u64::from(u.max(v));
+                let mut at = (edge.wrapping_mul(HASH_FACTOR) >> shift) as usize;
+                while edges[at] != edge && edges[at] != EMPTY {
+                    at = (at + 1) & (size - 1);
                 }
-                if edge(other) == (to, from) {
-                    // Edge i lies opposite corner i, which is vertex i + 1 of the simplex.
-                    let (mine, its) = (slots[name as usize / 3], slots[other as usize / 3]);
-                    let (i, j) = (name % 3 + 1, other % 3 + 1);
-                    simplices[mine as usize].set_neighbor(i as usize, code(its, j));
-                    simplices[its as usize].set_neighbor(j as usize, code(mine, i));
-                    break;
+                let mine = code(slot, i);
+                if edges[at] == EMPTY {
+                    (edges[at], codes[at]) = (edge, mine);
+                } else {
+                    let its = codes[at];
+                    let (other, j) = decode(its);
+                    simplices[slot as usize].set_neighbor(i as usize, its);
+                    simplices[other as usize].set_neighbor(j, mine);
                 }
-                at = (at + 1) & (size - 1);
             }
         }
     }
