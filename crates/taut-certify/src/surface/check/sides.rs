@@ -11,6 +11,7 @@
 use std::cmp::Ordering;
 
 use taut_points::OrderBy;
+use taut_points::parallel::IntoParallel;
 
 use super::super::{Surface, SurfaceDoubt, SurfaceViolation};
 use super::crossing::Faces;
@@ -19,6 +20,11 @@ use super::places::side;
 use super::topology::Shape;
 use crate::arithmetic::{Compensated, DoubleDouble, Integer, Ring, parts};
 use crate::triangulation::{Geometry, Signs, Tetrahedra, turn};
+
+/// Triangles whose terms of a volume are held at once.
+const BLOCK: usize = 1 << 16;
+/// Triangles that one task handles.
+const TASK: usize = 1 << 12;
 
 /// Checks that each row said to be interior is inside the closed components, not on them.
 pub(super) fn interior(
@@ -129,20 +135,29 @@ fn volumes(shape: &Shape, faces: &Faces<'_>) -> Vec<Ordering> {
     let components = &shape.topology.components;
     let origin = |component: u32| {
         let first = components[component as usize].first_triangle;
-        faces.face(first).corners[0]
+        faces.places.corners(faces.triangles[first as usize])[0]
+    };
+    let (triangles, places) = (faces.triangles, faces.places);
+    let count = triangles.len();
+    // The determinant of a triangle, and the largest size of a number in it.
+    let term = |triangle: usize| {
+        let o = origin(shape.component[triangle]);
+        let corners = places.corners(triangles[triangle]);
+        let edges = corners.map(|p| [0, 1, 2].map(|k| DoubleDouble::difference(p[k], o[k])));
+        let largest = edges.iter().flatten().fold(0.0, |most: f64, x| most.max(x.high.abs()));
+        (Tetrahedra::orientation::<DoubleDouble>(&edges), largest)
     };
     let mut sums = vec![(Compensated::default(), 0.0f64); components.len()];
-    for (triangle, &component) in (0u32..).zip(&shape.component) {
-        let o = origin(component);
-        let edges = faces
-            .face(triangle)
-            .corners
-            .map(|p| [0, 1, 2].map(|k| DoubleDouble::difference(p[k], o[k])));
-        let value: DoubleDouble = Tetrahedra::orientation(&edges);
-        let (sum, largest) = &mut sums[component as usize];
-        *largest = edges.iter().flatten().fold(*largest, |largest, x| largest.max(x.high.abs()));
-        sum.add(value.high);
-        sum.add_small(value.low, value.low.abs());
+    // All threads wait for the corners, which lie anywhere; the sums, which are formed in order, are a small part of the work.
+    for first in (0..count).step_by(BLOCK) {
+        let block = first..count.min(first + BLOCK);
+        let terms: Vec<_> = block.clone().into_par_iter().with_min_len(TASK).map(term).collect();
+        for (component, (value, size)) in shape.component[block].iter().zip(terms) {
+            let (sum, largest) = &mut sums[*component as usize];
+            *largest = largest.max(size);
+            sum.add(value.high);
+            sum.add_small(value.low, value.low.abs());
+        }
     }
     let is_bounded = faces.places.signs.is_filtered;
     let sign = |(component, (sum, largest)): (usize, &(Compensated, f64))| {
