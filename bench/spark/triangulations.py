@@ -17,16 +17,22 @@ MEMORY_MAX = 1 << 30
 SHARE_MAX = 0.05
 SAMPLE_INTERVAL = 0.1
 
-# Small executors: the heap is about the least that Spark takes, and little beside it grows.
+# Small executors: the heap may grow to about the least that Spark takes, gives back what it does not need, and little beside it grows.
+# malloc, whose thresholds do not rise, gives back what a task has freed.
 OPTIONS = {
     "spark.master": "local-cluster[2,1,480]",
     "spark.executor.memory": "480m",
-    "spark.executor.extraJavaOptions": "-XX:+UseSerialGC -XX:MaxDirectMemorySize=96m -XX:ReservedCodeCacheSize=64m",
+    "spark.executor.extraJavaOptions": (
+        "-XX:+UseSerialGC -Xms128m -Xmn48m -XX:MinHeapFreeRatio=5 -XX:MaxHeapFreeRatio=15 "
+        "-XX:MaxDirectMemorySize=64m -XX:ReservedCodeCacheSize=48m"
+    ),
     "spark.executorEnv.MALLOC_ARENA_MAX": "2",
+    "spark.executorEnv.MALLOC_MMAP_THRESHOLD_": "131072",
+    "spark.executorEnv.MALLOC_TRIM_THRESHOLD_": "131072",
     "spark.network.io.preferDirectBufs": "false",
     "spark.shuffle.io.preferDirectBufs": "false",
     "spark.reducer.maxSizeInFlight": "16m",
-    "spark.python.worker.memory": "128m",
+    "spark.python.worker.memory": "64m",
 }
 
 
