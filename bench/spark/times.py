@@ -53,8 +53,8 @@ def last_query(points: Any) -> tuple[bytes, int]:
 
 
 def first_job(context: Context) -> float:
-    """The session stands once both executors have handed rows of a small table to Python and taken them back, without taut: until then
-    Spark loads what every job needs. What was written before is on the disk by then."""
+    """The session stands when executors have handed rows of a small table to Python and taken them back, without taut. Spark loads on that
+    occasion what every job needs, which is no part of what is measured after it. What was written before goes to the disk first."""
     small = taut.generate("normal", 1000, 10, seed=2)
     table = context.session.read.parquet(context.stored(small, "small")).repartition(4)
     columns = ", ".join(f"{name} double" for name in columns_of(small))
@@ -70,7 +70,7 @@ def run(context: Context) -> Iterator[Line]:
     plain = context.session.read.parquet(context.stored(rows, "plain"))
     shuffled = context.session.read.parquet(context.stored(rows[order], "shuffled", order))
     wanted = taut.ball(rows).to_json()
-    yield Line("the first job of the session, by Spark alone", f"{first_job(context):.1f} s")
+    yield Line("the first job of executors over rows, by Spark alone, before the rest", f"{first_job(context):.1f} s")
     before = seconds()
     made, writing = timed(lambda: taut.spark.Points(plain, columns))
     with made as points:

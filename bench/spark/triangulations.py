@@ -17,8 +17,8 @@ MEMORY_MAX = 1 << 30
 SHARE_MAX = 0.05
 SAMPLE_INTERVAL = 0.1
 
-# Small executors: the heap may grow to about the least that Spark takes, gives back what it does not need, and little beside it grows.
-# malloc, whose thresholds do not rise, gives back what a task has freed.
+# Small executors. The largest heap is about the least that Spark takes; it begins smaller and gives back what it does not need. Little
+# beside it grows. The thresholds of malloc do not rise, so it gives back what a task has freed.
 OPTIONS = {
     "spark.master": "local-cluster[2,1,480]",
     "spark.executor.memory": "480m",

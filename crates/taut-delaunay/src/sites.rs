@@ -70,8 +70,8 @@ impl Scale {
     }
 }
 
-/// Row `i` as an array. The values are cut to a length that the compiler knows: otherwise the loop is a call of `memcpy`, 8 % of a
-/// triangulation of the plane.
+/// Row `i` as an array. The values are cut to a length that the compiler knows: otherwise the loop is a call of `memcpy`, 8 % of the
+/// time of a triangulation of the plane.
 #[inline(always)]
 pub(crate) fn row<T: Scalar, const D: usize>(points: &Points<'_, T>, i: usize) -> [f64; D] {
     let values = &points.row(i)[..D];

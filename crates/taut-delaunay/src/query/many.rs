@@ -16,7 +16,7 @@ use std::ops::Range;
 
 use taut_oblivious::hilbert_order;
 use taut_points::parallel::ParallelSlice;
-use taut_points::{Monitor, Points};
+use taut_points::{InputError, Monitor, Points};
 
 use super::locator::{Directory, Locator};
 use crate::geometry::{InPlane, InSpace};
@@ -76,6 +76,17 @@ impl<const D: usize, const V: usize> TriangulationIndex<D, V> {
         self.triangulation.locator_by(&self.directory)
     }
 
+    /// Refuses points of another dimension.
+    fn check_dim(points: &Points<'_, f64>) -> Result<(), Error> {
+        let dim = points.dim();
+        let expected = if D == 2 {
+            "2, as the triangulation is one of the plane"
+        } else {
+            "3, as the triangulation is one of space"
+        };
+        if dim == D { Ok(()) } else { Err(InputError::Dimension { dim, expected }.into()) }
+    }
+
     /// The answers of runs of questions along a Hilbert curve, in the order of the questions.
     fn along_curve<T: Clone + Default + Send, S>(
         &self,
@@ -84,6 +95,7 @@ impl<const D: usize, const V: usize> TriangulationIndex<D, V> {
         start: impl Fn() -> S + Sync,
         answer: impl Fn(&mut S, [f64; D]) -> T + Sync,
     ) -> Result<Vec<T>, Error> {
+        Self::check_dim(points)?;
         let at = |i: usize| row::<f64, D>(points, i);
         let order = hilbert_order(points.len(), at);
         let runs = order
@@ -104,7 +116,7 @@ impl<const D: usize, const V: usize> TriangulationIndex<D, V> {
     /// The row nearest to each point, as [`Locator::nearest`]; [`NOWHERE`] where there is none.
     ///
     /// # Errors
-    /// [`Error::Input`] when the monitor stops the work.
+    /// [`Error::Input`] for points of another dimension, and when the monitor stops the work.
     pub fn nearest(
         &self,
         points: &Points<'_, f64>,
@@ -128,7 +140,7 @@ macro_rules! many {
             /// not finite, and everywhere if the sites do not span all dimensions.
             ///
             /// # Errors
-            /// [`Error::Input`] when the monitor stops the work.
+            /// [`Error::Input`] for points of another dimension, and when the monitor stops the work.
             pub fn locate(
                 &self,
                 points: &Points<'_, f64>,
@@ -141,7 +153,7 @@ macro_rules! many {
             /// [`natural_coordinates`](Locator::natural_coordinates).
             ///
             /// # Errors
-            /// [`Error::Input`] when the monitor stops the work.
+            /// [`Error::Input`] for points of another dimension, and when the monitor stops the work.
             pub fn natural_coordinates(
                 &self,
                 points: &Points<'_, f64>,
@@ -169,7 +181,8 @@ macro_rules! many {
             /// Of equal rows the value of the first counts.
             ///
             /// # Errors
-            /// [`Error::OtherPoints`] if there are not as many values as rows, [`Error::Input`] when the monitor stops the work.
+            /// [`Error::OtherPoints`] if there are not as many values as rows, [`Error::Input`] for points of another dimension, and
+            /// when the monitor stops the work.
             pub fn interpolate(
                 &self,
                 values: &[f64],

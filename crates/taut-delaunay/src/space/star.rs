@@ -19,7 +19,7 @@ use super::row;
 /// Largest number of facets for which the table of edges is used.
 const TABLE_MAX: usize = 256;
 
-/// No edge: an empty slot of the hash table.
+/// The key of an empty slot of the hash table; an edge has two different vertices.
 const EMPTY: u64 = u64::MAX;
 
 /// The lists to number and to pair simplices, kept between insertions.
@@ -30,9 +30,10 @@ pub(super) struct Star {
     corners: Vec<[u16; 3]>,
     /// Codes of the facets of new simplices, at row · stride + column of the directed edge.
     table: Vec<u32>,
-    /// The edges in their places by hash, when the table would be too large: both vertices, the smaller one first.
+    /// Keys of a hash table of edges, when the square table would be too large: both vertices, the smaller one first.
     edges: Vec<u64>,
-    /// The code of the facet of a new simplex at each of them; those at empty places are not read.
+    /// For each key the code of the facet of the new simplex that was there first. Twelve bytes a slot with the key: of n sites around one
+    /// cavity some 100 n bytes.
     codes: Vec<u32>,
 }
 

@@ -148,7 +148,8 @@ fn volumes(shape: &Shape, faces: &Faces<'_>) -> Vec<Ordering> {
         (Tetrahedra::orientation::<DoubleDouble>(&edges), largest)
     };
     let mut sums = vec![(Compensated::default(), 0.0f64); components.len()];
-    // All threads wait for the corners, which lie anywhere; the sums, which are formed in order, are a small part of the work.
+    // To read the corners, which lie anywhere, takes most of the time, so all threads form the terms. One thread adds them in their order:
+    // the same bits for any number of threads.
     for first in (0..count).step_by(BLOCK) {
         let block = first..count.min(first + BLOCK);
         let terms: Vec<_> = block.clone().into_par_iter().with_min_len(TASK).map(term).collect();

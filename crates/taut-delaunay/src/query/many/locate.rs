@@ -225,6 +225,7 @@ impl<const D: usize, const V: usize> TriangulationIndex<D, V> {
         points: &Points<'_, f64>,
         monitor: &Monitor<'_>,
     ) -> Result<Vec<u32>, Error> {
+        Self::check_dim(points)?;
         if self.count == 0 {
             return Ok(vec![NOWHERE; points.len()]);
         }

@@ -1,10 +1,10 @@
 use std::collections::BTreeSet;
 
-use taut_points::{Monitor, Points};
+use taut_points::{InputError, Monitor, Points};
 
 use super::{NOWHERE, TriangulationIndex};
 use crate::numbers::numbers;
-use crate::{DelaunayOptions, Location, Plane, Space};
+use crate::{DelaunayOptions, Error, Location, Plane, Space};
 
 fn plane(values: &[f64]) -> TriangulationIndex<2, 3> {
     let points = Points::new(values, 2).expect("whole rows");
@@ -46,6 +46,30 @@ fn many_answers_are_those_of_single_questions() {
     for (q, simplex) in queries.rows().zip(found) {
         assert_eq!(simplex, single!(index, [q[0], q[1], q[2]]));
     }
+}
+
+#[test]
+fn points_of_another_dimension_are_refused() {
+    let (index, silent) = (plane(&numbers(40, 1)), Monitor::silent());
+    let values = vec![0.0; index.triangulation().site_count()];
+    for dim in [1, 3] {
+        let numbers = numbers(30_000, 2);
+        let points = Points::new(&numbers, dim).expect("whole rows");
+        let refused = |result: Option<Error>| {
+            let is_refused = |error| match error {
+                Error::Input(InputError::Dimension { dim: found, .. }) => found == dim,
+                _ => false,
+            };
+            assert!(result.is_some_and(is_refused), "{dim}");
+        };
+        refused(index.locate(&points, &silent).err());
+        refused(index.nearest(&points, &silent).err());
+        refused(index.natural_coordinates(&points, &silent).err());
+        refused(index.interpolate(&values, &points, &silent).err());
+    }
+    let points = Points::new(&[0.0, 0.0], 2).expect("whole rows");
+    assert!(space(&numbers(60, 1)).locate(&points, &silent).is_err());
+    assert!(plane(&[]).locate(&Points::new(&[0.0], 1).expect("whole rows"), &silent).is_err());
 }
 
 /// Points along a curve, which are answered as they come, and the same points shuffled, which are sorted.
