@@ -24,7 +24,8 @@ else:
     readings[:: count // 20] += [40, 0, 0]
     table = pandas.DataFrame(readings, columns=["x", "y", "z"])
     table["sensor"] = [f"sensor {at:07}" for at in np.random.default_rng(0).permutation(count)]
-    spark.createDataFrame(table).write.parquet(path)
+    # With gzip, as the library for snappy, the default, does not load where the libraries of musl are installed beside those of glibc.
+    spark.createDataFrame(table).write.parquet(path, compression="gzip")
 df = spark.read.parquet(path)
 columns = [name for name in df.columns if name != "sensor"]
 
