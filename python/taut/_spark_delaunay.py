@@ -153,7 +153,7 @@ def triangulate_leaf(group: tuple[int, Any], whole: bytes, levels: int) -> Node 
 def there(found: Node | None) -> Node:
     """Refuses a node that was there when the points were triangulated, and is not now that it is made again."""
     if found is None:
-        raise RuntimeError("files of the workers were lost since the points were triangulated: triangulate them again")
+        raise RuntimeError("a task did not find its file: call points.delaunay() again")
     return found
 
 

@@ -9,14 +9,18 @@ one, or the worker with the file was busy for too long. It says so, and the driv
 needs it fails, and no one works on part of the rows.
 *Trap.* Spark makes a lost partition again without a word, and a DataFrame with `rand()` or a limit then has other rows. Each record
 has a hash of its rows, which is compared with the first one before they are used.
+*Trap.* A DataFrame over files may be used once the points are closed, and a task may outlive its job. So closing leaves a mark in the
+folder of each executor that Spark removes, and a task that finds the mark writes nothing.
 *Trap.* This module travels to the workers by value, so that they need not have taut installed: it imports taut within functions.
 """
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import os
 import shutil
+import socket
 import sys
 import tempfile
 from collections.abc import Iterator
@@ -27,6 +31,9 @@ ARCHIVE = "taut_wheel"
 
 # The driver merges the answers of up to this many partitions. Where there are more, workers merge some of them first.
 MERGED_BY_DRIVER_MAX = 64
+
+# What is said to those who use points that are closed.
+CLOSED = "the points are closed"
 
 # Integers beyond this are not all numbers of float64.
 EXACT_INTEGER_MAX = 2**53
@@ -100,10 +107,29 @@ def import_taut() -> Any:
     return taut
 
 
+def local_folder() -> str:
+    """The folder that this executor has for itself, which Spark removes at its end."""
+    return os.environ.get("SPARK_LOCAL_DIRS", "").split(",")[0] or tempfile.gettempdir()
+
+
 def folder(scratch: str | None, token: str) -> str:
-    """The folder of the worker for the files of one point set: among those that Spark removes at the end of the executor."""
-    local = scratch or os.environ.get("SPARK_LOCAL_DIRS", "").split(",")[0] or tempfile.gettempdir()
-    return os.path.join(local, f"taut-{token}")
+    """The folder of the worker for the files of one point set."""
+    return os.path.join(scratch or local_folder(), f"taut-{token}")
+
+
+def closed_mark(token: str) -> str:
+    """The file that is there once a point set is closed."""
+    return os.path.join(local_folder(), f"taut-{token}.closed")
+
+
+def make_folder(place: tuple[str | None, str]) -> None:
+    """Makes the folder of a point set, unless that is closed."""
+    # Other users of the machine do not read the files.
+    os.makedirs(folder(*place), mode=0o700, exist_ok=True)
+    # Only now, as whoever leaves the mark after this removes the folder too.
+    if os.path.exists(closed_mark(place[1])):
+        shutil.rmtree(folder(*place), ignore_errors=True)
+        raise ValueError(CLOSED)
 
 
 class Refused(Exception):
@@ -121,11 +147,15 @@ def write_partition(
     partition = context.partitionId()
     path = os.path.join(folder(*place), f"{partition}-{context.taskAttemptId()}.rows")
     try:
+        make_folder(place)
         rows, digest = _write(batches, columns, id_column, dtype, path, partition)
         record = (partition, rows, path, digest, "")
     except Refused as refused:
         _remove_files(path)
         record = (partition, 0, "", "", str(refused))
+    except OSError as error:
+        _remove_files(path)
+        raise OSError(f"files cannot be written to {folder(*place)} on {socket.gethostname()}: {error}") from error
     except BaseException:
         _remove_files(path)
         raise
@@ -140,8 +170,6 @@ def _write(
     import numpy as np
     import pyarrow
 
-    # Other users of the machine do not read them.
-    os.makedirs(os.path.dirname(path), mode=0o700, exist_ok=True)
     digest, names = hashlib.blake2b(digest_size=16), (hashlib.blake2b(), hashlib.blake2b())
     rows, last_id, writer = 0, None, None
     with open(path, "wb") as file:
@@ -353,7 +381,7 @@ def outliers(
     taut = import_taut()
     for record in elements:
         if not is_here(record, layout):
-            raise RuntimeError("files of the workers were lost since the ellipsoid was found: find it again")
+            raise RuntimeError("a task did not find its file: call points.robust_ellipsoid() again")
         if not record[1]:
             continue
         names, start = ids(record), layout.starts[record[0]]
@@ -365,11 +393,22 @@ def outliers(
                 yield name, border * float(norms[at])
 
 
-def remove(elements: Iterator[Record], place: tuple[str | None, str]) -> Iterator[int]:
-    """Removes the folder with the files of partitions, with those of lost and repeated tasks."""
-    for partition, *_ in elements:
-        shutil.rmtree(folder(*place), ignore_errors=True)
-        yield partition
+def sweep(elements: Iterator[int], place: tuple[str | None, str], kept: frozenset[str] | None) -> Iterator[str]:
+    """Removes the files of this executor other than those to be kept; where that is None, for good. Yields which executor it is.
+
+    Several tasks may do so at once.
+    """
+    path = folder(*place)
+    if kept is None:
+        with open(closed_mark(place[1]), "w"):
+            pass
+        shutil.rmtree(path, ignore_errors=True)
+    elif os.path.isdir(path):
+        for name in os.listdir(path):
+            if name.removesuffix(".ids") not in kept:
+                with contextlib.suppress(FileNotFoundError):
+                    os.remove(os.path.join(path, name))
+    yield local_folder()
 
 
 def _remove_files(path: str) -> None:

@@ -16,6 +16,8 @@ import contextlib
 import functools
 import itertools
 import logging
+import os
+import time
 import uuid
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any, Literal, NamedTuple, Self, TypeVar
@@ -44,6 +46,12 @@ NUMBERS = {"byte": False, "short": False, "integer": False, "long": False, "floa
 # (spark.locality.wait); from the third time on they are made again.
 ATTEMPTS_MAX = 6
 LOST = "files of the workers were lost again and again: give a folder that they keep as scratch"
+
+# Files are removed by so many tasks for each executor, so that each executor gets some, and by so many jobs at so many seconds from each
+# other: one whose cores are all taken, as by tasks that are being killed, is reached by none at first.
+SWEEPERS_PER_EXECUTOR = 2
+SWEEPS_MAX = 20
+SWEEP_PAUSE = 0.25
 
 # Types of ids: those whose values are equal in Arrow when they are equal in Spark, which NaN is not.
 IDS = ("byte", "short", "integer", "long", "string", "date", "timestamp", "timestamp_ntz", "decimal", "binary")
@@ -108,6 +116,7 @@ class Points:
         self._session = df.sparkSession
         self._kept: list[Any] = []
         self._edges: Any = None
+        self._is_closed = False
         dtype = _dtype(df, self._columns, id)
         self._id_type = "bigint" if id is None else df.schema[id].dataType.simpleString()
         coordinates = [df[_quoted(name)].alias(f"taut_{at}") for at, name in enumerate(self._columns)]
@@ -119,22 +128,33 @@ class Points:
             picked = picked.repartitionByRange(count, "taut_id").sortWithinPartitions("taut_id")
         _register_tasks()
         place = self._place = (scratch, uuid.uuid4().hex)
+        self._tag = f"taut-{place[1]}"
         names, write_partition = self._columns, tasks.write_partition
 
         def write(batches: Iterator[Any]) -> Iterator[Any]:
             return write_partition(batches, names, id, dtype, place)
 
         schema = "partition int, rows long, path string, digest string, error string"
-        # The DataFrame of records is planned once: made again, a partition holds the same rows.
-        self._records = picked.mapInArrow(write, schema).rdd.map(tuple).persist(_level())
+        self._records: Any = None
         try:
-            self._layout = self._layout_of(dtype)
-            self._parts = self._with_edges()
+            with self._tagged():
+                # The DataFrame of records is planned once: made again, a partition holds the same rows.
+                self._records = picked.mapInArrow(write, schema).rdd.map(tuple).persist(_level())
+                self._layout = self._layout_of(dtype)
+                self._parts = self._with_edges()
         except BaseException:
-            # It may fail for the same reason, which is the one to raise.
-            with contextlib.suppress(Exception):
-                self.close()
+            self.close()
             raise
+
+    @contextlib.contextmanager
+    def _tagged(self) -> Iterator[None]:
+        """Jobs that closing cancels: after Ctrl-C, Spark goes on with them where the driver waited for their end."""
+        context = self._session.sparkContext
+        context.addJobTag(self._tag)
+        try:
+            yield
+        finally:
+            context.removeJobTag(self._tag)
 
     def _layout_of(self, dtype: str) -> tasks.Layout:
         """Writes the files."""
@@ -167,12 +187,15 @@ class Points:
     def _tried(self, attempt: Callable[[], T | None]) -> T:
         """Returns the result of an attempt, which is None where files are missing: then of the next one."""
         for number in range(ATTEMPTS_MAX):
-            if number == 1:
-                log.warning("a task did not find its file: the pass is made again")
-                self._parts = self._with_edges()
-            elif number > 1:
-                self._rebuild()
-            found = attempt()
+            if self._is_closed:
+                raise ValueError(tasks.CLOSED)
+            with self._tagged():
+                if number == 1:
+                    log.warning("a task did not find its file: the pass is made again")
+                    self._parts = self._with_edges()
+                elif number > 1:
+                    self._rebuild()
+                found = attempt()
             if found is not None:
                 return found
         raise RuntimeError(LOST)
@@ -182,13 +205,39 @@ class Points:
         log.warning("files of a worker are lost: they are made again")
         self._records.unpersist(blocking=True)
         self._records.persist(_level())
-        for record in self._records.collect():
-            partition, count, _, digest, _ = record
+        records = self._records.collect()
+        for partition, count, _, digest, _ in records:
             if (count, digest) != self._layout.digests[partition]:
                 raise RuntimeError(
                     f"partition {partition} has other rows when the DataFrame is read again: persist or store it first"
                 )
+        # Those that were still there would else stay until the end.
+        self._sweep(frozenset(os.path.basename(path) for _, _, path, *_ in records))
         self._parts = self._with_edges()
+
+    def _sweep(self, kept: frozenset[str] | None) -> None:
+        """Removes the files of the workers other than those to be kept, all of them for good where that is None.
+
+        It is a job that has nothing to do with the rows, which would be read again where their records are missing. It raises no error, so
+        that the one for which the points are closed is seen.
+        """
+        work = functools.partial(tasks.sweep, place=self._place, kept=kept)
+        reached: set[str] = set()
+        try:
+            context = self._session.sparkContext
+            if kept is None:
+                context.cancelJobsWithTag(self._tag)
+            for number in range(SWEEPS_MAX):
+                time.sleep(SWEEP_PAUSE if number else 0)
+                # The driver is listed as well, and in local mode is the only one.
+                executors = max(1, context._jsc.sc().getExecutorMemoryStatus().size() - 1)
+                count = executors * SWEEPERS_PER_EXECUTOR
+                reached.update(context.parallelize(range(count), count).mapPartitions(work).collect())
+                if len(reached) >= executors:
+                    return
+            log.warning("%d of %d executors were not reached: their files may be left", executors - len(reached), executors)
+        except Exception as error:
+            log.warning("files of the workers may be left: %s", error)
 
     def _ask(self, kind: str, data: bytes) -> bytes:
         """One pass: the merged answer of all parts."""
@@ -433,13 +482,19 @@ class Points:
         return [names[row] for row in wanted]
 
     def close(self) -> None:
-        """Removes the files of the workers."""
-        for rdd in self._kept:
-            rdd.unpersist()
-        if self._edges is not None:
-            self._edges.unpersist()
-        self._records.mapPartitions(functools.partial(tasks.remove, place=self._place)).count()
-        self._records.unpersist()
+        """Removes the files of the workers. The points, and DataFrames that were not collected yet, are of no use afterwards."""
+        if self._is_closed:
+            return
+        self._is_closed = True
+        try:
+            self._sweep(None)
+        except KeyboardInterrupt:
+            # Whoever presses Ctrl-C twice does not want the files.
+            self._sweep(None)
+            raise
+        finally:
+            for rdd in (*self._kept, self._edges, self._records):
+                _unpersist(rdd)
 
     def __enter__(self) -> Self:
         return self
@@ -579,6 +634,12 @@ def _level() -> Any:
     from pyspark import StorageLevel
 
     return StorageLevel.MEMORY_AND_DISK
+
+
+def _unpersist(rdd: Any) -> None:
+    """Drops what is kept, if there is any; after the end of the session nothing is."""
+    if rdd is not None and rdd.context._jsc is not None:
+        rdd.unpersist()
 
 
 @functools.cache

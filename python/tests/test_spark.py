@@ -146,7 +146,7 @@ def test_no_leaf_lacks_points_of_a_missing_file(tmp_path):
     assert all(delaunay.triangulate_leaf(group, whole, levels) for group in groups.items())
     os.remove(records[1][2])
     assert not any(delaunay.triangulate_leaf(group, whole, levels) for group in dealt(deal, records).items())
-    with pytest.raises(RuntimeError, match="triangulate them again"):
+    with pytest.raises(RuntimeError, match=r"call points.delaunay\(\) again"):
         delaunay.climb(None, 1)
     with pytest.raises(ValueError, match=r"node 3 has \d+ points, and \d+ came"):
         delaunay.triangulate_leaf((0, groups[0][:2]), whole, levels)
@@ -158,7 +158,8 @@ def test_the_hash_of_a_partition_is_of_its_ids_as_well(tmp_path):
 
     def write(names, cut):
         batch = pyarrow.RecordBatch.from_arrays([pyarrow.array(names), pyarrow.array([0.5, 1.5, 2.5])], names=["id", "x"])
-        path = tmp_path / "points" / "0-0.rows"
+        tasks.make_folder((str(tmp_path), "points"))
+        path = tmp_path / "taut-points" / "0-0.rows"
         rows, digest = tasks._write(iter([batch[:cut], batch[cut:]]), ["x"], "id", "float64", str(path), 0)
         assert rows == 3
         assert path.parent.stat().st_mode & 0o777 == 0o700
@@ -219,14 +220,15 @@ def test_ellipsoids_and_centers(spark):
         taut.spark.ellipsoid(df, columns, id="key")
 
 
-def test_robust_ellipsoids_and_other_centers(spark):
+def test_robust_ellipsoids_and_other_centers(spark, tmp_path):
     import taut.spark
+    from pyspark.errors import PythonException
 
     rows = taut.generate("normal", 40_000, 3, seed=2)
     rows[::4] += 30
     order = np.random.default_rng(0).permutation(len(rows))
     df, columns = frame(spark, rows[order], [f"{at:09}" for at in order])
-    with taut.spark.Points(df, columns, id="key", partitions=3) as points:
+    with taut.spark.Points(df, columns, id="key", partitions=3, scratch=str(tmp_path)) as points:
         fit, outliers = points.robust_ellipsoid()
         wanted = taut.robust_ellipsoid(rows)
         assert fit.kept == wanted.certificate.kept
@@ -246,6 +248,14 @@ def test_robust_ellipsoids_and_other_centers(spark):
         exact = points.centers(3, method="tree", epsilon=1e-4)
         assert points.verify(exact) == exact.check(rows)
         assert exact.certificate.gap <= 1e-4
+        for path in tmp_path.rglob("*.rows"):
+            path.unlink()
+        with pytest.raises(PythonException, match=r"did not find its file: call points.robust_ellipsoid\(\) again"):
+            outliers.count()
+    # Nothing is made again once the points are closed.
+    with pytest.raises(PythonException, match="the points are closed"):
+        outliers.count()
+    assert not list(tmp_path.iterdir())
     assert taut.spark.robust_ellipsoid(df, columns, id="key").ellipsoid == fit.ellipsoid
 
 
@@ -446,7 +456,13 @@ def test_files_that_are_lost(spark, tmp_path, monkeypatch):
         for path in tmp_path.rglob("*.ids"):
             path.unlink()
         assert points.ids(found.certificate.support) == found.certificate.support.tolist()
+        # Files made again take the place of those that were still there.
+        assert len(list(tmp_path.rglob("*.rows"))) == len(list(tmp_path.rglob("*.ids"))) == 4
     assert not list(tmp_path.iterdir())
+    for ask in (points.ball, points.robust_ellipsoid, points.delaunay, lambda: points.centers(2), lambda: points.ids([0])):
+        with pytest.raises(ValueError, match="the points are closed"):
+            ask()
+    points.close()
     # Tasks that miss their files by chance: nothing is made again.
     with taut.spark.Points(df, columns, id="key", scratch=str(tmp_path)) as points:
         again, hidden = points._with_edges, list(tmp_path.rglob("*.rows"))
@@ -479,6 +495,40 @@ def executors():
     for _ in range(5):
         children |= {int(pid) for pid, parent, _ in lines if int(parent) in children}
     return [int(pid) for pid, _, args in lines if int(pid) in children and "CoarseGrainedExecutorBackend" in args]
+
+
+def test_closing_reads_no_rows_again(spark, tmp_path):
+    import taut.spark
+
+    begun, scratch = tmp_path / "begun", tmp_path / "scratch"
+    for folder in (begun, scratch):
+        folder.mkdir()
+
+    def source(seconds):
+        def read(batches):
+            (begun / f"{os.getpid()}-{time.time_ns()}").touch()
+            time.sleep(seconds)
+            yield from batches
+
+        return spark.range(0, 32, 1, 16).mapInPandas(read, "id long")
+
+    def interrupt():
+        while len(list(begun.iterdir())) < 3:
+            time.sleep(0.01)
+        os.kill(os.getpid(), signal.SIGINT)
+
+    thread = threading.Thread(target=interrupt, daemon=True)
+    thread.start()
+    with pytest.raises(KeyboardInterrupt):
+        taut.spark.Points(source(0.7), ["id"], scratch=str(scratch))
+    assert len(list(begun.iterdir())) < 8
+    assert not list(scratch.iterdir())
+    points = taut.spark.Points(source(0), ["id"], scratch=str(scratch))
+    read = len(list(begun.iterdir()))
+    os.kill(executors()[0], signal.SIGKILL)
+    points.close()
+    assert len(list(begun.iterdir())) == read
+    assert not list(scratch.iterdir())
 
 
 def killed_in_pass(points, caplog, number, delay):
