@@ -10,6 +10,7 @@ Like `_spark_tasks` this module travels to the workers by value.
 
 from __future__ import annotations
 
+import contextlib
 import functools
 from collections.abc import Iterator
 from typing import Any, NamedTuple
@@ -31,10 +32,14 @@ Node = tuple[int, bytes, Any, bytes, Any, Any, tuple[int, int, int, str]]
 
 
 class Triangulation(NamedTuple):
-    """A triangulation whose simplices are rows of a DataFrame, there as long as the points are open."""
+    """A triangulation whose simplices are rows of a DataFrame, there as long as the points are open.
+
+    It is computed when it is used, and fails if a task does not find its file then: call `Points.delaunay` again.
+    """
 
     simplices: Any
-    """A DataFrame with the columns a, b and c: the ids of the vertices, or row numbers where points have no ids. Counter-clockwise."""
+    """A DataFrame with the columns a, b and c: the ids of the vertices, or row numbers where points have no ids. Counter-clockwise.
+    Of points on a line a simplex is a segment, whose c is null; of one point it is that point, and b is null as well."""
     total: int
     """The number of simplices."""
     hull: int
@@ -256,22 +261,23 @@ def triangulate(
     kept: list[Any] = []
     found: list[Any] = []
     passed_up = 0
-    while True:
-        kept.append(level.persist(StorageLevel.MEMORY_AND_DISK))
-        of_level = level.map(counts).collect()
-        if None in of_level:
-            for rdd in kept:
-                rdd.unpersist()
-            return None
-        found += of_level
-        if len(kept) == 1:
-            passed_up = sum(up for *_, up in of_level)
-        if levels == 0:
-            break
-        step = min(levels, LEVELS_AT_ONCE)
-        levels -= step
-        fronts = level.map(functools.partial(climb, levels=step)).groupByKey(1 << levels)
-        level = fronts.map(functools.partial(triangulate_fronts, whole=whole))
+    with contextlib.ExitStack() as undo:
+        while True:
+            kept.append(level.persist(StorageLevel.MEMORY_AND_DISK))
+            undo.callback(level.unpersist)
+            of_level = level.map(counts).collect()
+            if None in of_level:
+                return None
+            found += of_level
+            if len(kept) == 1:
+                passed_up = sum(up for *_, up in of_level)
+            if levels == 0:
+                break
+            step = min(levels, LEVELS_AT_ONCE)
+            levels -= step
+            fronts = level.map(functools.partial(climb, levels=step)).groupByKey(1 << levels)
+            level = fronts.map(functools.partial(triangulate_fronts, whole=whole))
+        undo.pop_all()
     tiles = session.createDataFrame(records.context.union(kept).map(as_row), "tile binary, ids binary")
     frame = tiles.mapInArrow(simplices, f"a {id_type}, b {id_type}, c {id_type}")
     total, hull, duplicates = (sum(numbers) for numbers in list(zip(*found))[:3])

@@ -175,7 +175,7 @@ def _write(
     with open(path, "wb") as file:
         for batch in batches:
             if id_column is not None:
-                ids = batch.column(0)
+                ids = _large(batch.column(0))
                 _check_ids(ids, id_column, last_id, partition, rows)
                 if len(ids):
                     last_id = ids[len(ids) - 1].as_py()
@@ -198,29 +198,43 @@ def _write(
     return rows, digest.hexdigest()
 
 
+def _large(ids: Any) -> Any:
+    """Ids whose characters, of a partition together, may be more than 2 GiB."""
+    import pyarrow
+
+    for small, large in ((pyarrow.string(), pyarrow.large_string()), (pyarrow.binary(), pyarrow.large_binary())):
+        if ids.type == small:
+            return ids.cast(large)
+    return ids
+
+
 def _id_bytes(ids: Any) -> tuple[Any, Any]:
     """The lengths of ids, if they are of several, and their bytes: those of several batches after each other are those of one."""
     import numpy as np
-    import pyarrow
 
     _, *buffers = ids.buffers()
     if len(buffers) == 1:
         width = ids.type.bit_width // 8
         return b"", memoryview(buffers[0])[ids.offset * width : (ids.offset + len(ids)) * width]
-    is_large = pyarrow.types.is_large_string(ids.type) or pyarrow.types.is_large_binary(ids.type)
-    places = np.frombuffer(buffers[0], np.int64 if is_large else np.int32)[ids.offset : ids.offset + len(ids) + 1]
+    places = np.frombuffer(buffers[0], np.int64)[ids.offset : ids.offset + len(ids) + 1]
     # Without characters there may be no buffer of them.
     data = memoryview(buffers[1] or b"")[places[0] : places[-1]] if len(places) else b""
-    return np.diff(places).astype(np.int64).data, data
+    return np.diff(places).data, data
 
 
 def _check_ids(ids: Any, name: str, last: Any, partition: int, rows: int) -> None:
     """Refuses ids that are null or occur twice: they come in order, and equal ones in one partition."""
+    import pyarrow
     import pyarrow.compute as pc
 
     if ids.null_count:
         at = pc.index(pc.is_null(ids), True).as_py()
         raise Refused(f"column {name!r}, the id, is null in row {rows + at} of partition {partition}: ids name rows")
+    try:
+        ids.validate(full=True)
+    except pyarrow.ArrowInvalid:
+        at = next(at for at, value in enumerate(ids) if not _is_text(value))
+        raise Refused(f"column {name!r}, the id, is not UTF-8 in row {rows + at} of partition {partition}") from None
     if len(ids) and last is not None and ids[0].as_py() == last:
         raise Refused(f"column {name!r}, the id, has {last!r} twice (partition {partition}): ids name rows")
     if len(ids) > 1:
@@ -230,6 +244,14 @@ def _check_ids(ids: Any, name: str, last: Any, partition: int, rows: int) -> Non
             raise Refused(
                 f"column {name!r}, the id, has {ids[at].as_py()!r} twice (partition {partition}): ids name rows"
             )
+
+
+def _is_text(value: Any) -> bool:
+    try:
+        value.as_py()
+    except UnicodeDecodeError:
+        return False
+    return True
 
 
 def _numbers(batch: Any, column_at: int, name: str, id_column: str | None, partition: int, rows: int) -> Any:

@@ -60,15 +60,22 @@ def verify(
     >>> taut.verify(text, [[0, 0], [2, 0], [1, 1]]).upper
     1.0
     """
+    verdict: AnyVerdict = as_solution(solution).check(
+        points, radii, shapes=shapes, offsets=offsets, weights=weights, groups=groups
+    )
+    return verdict
+
+
+def as_solution(solution: Solution[Any] | str) -> Solution[Any]:
+    """The solution of which this is the JSON, or which it is."""
     if isinstance(solution, str):
         if not solution.lstrip().startswith("{"):
             raise ValueError(
                 f"expected a Solution or its JSON text, not {solution[:80]!r}: if this names a file, read it first"
             )
-        solution = Solution.from_json(solution)
-    elif not isinstance(solution, Solution):
-        raise TypeError(f"expected a Solution or its JSON text as str, not {type(solution).__name__}")
-    verdict: AnyVerdict = solution.check(
-        points, radii, shapes=shapes, offsets=offsets, weights=weights, groups=groups
-    )
-    return verdict
+        return Solution.from_json(solution)
+    if not isinstance(solution, Solution):
+        kind = type(solution).__name__
+        more = ": no certificate comes with it" if kind == "RobustFit" else ""
+        raise TypeError(f"expected a Solution or its JSON text as str, not {kind}{more}")
+    return solution

@@ -16,8 +16,9 @@ from typing import Any, Literal
 import numpy as np
 
 from . import passes
-from ._arrays import as_rows
+from ._arrays import Rows, as_rows
 from ._solution import Solution
+from ._verify import as_solution
 
 __all__ = ["Points"]
 
@@ -29,18 +30,26 @@ class Points:
     ----------
     client : distributed.Client
         The client of the cluster.
-    parts : sequence of Delayed, or a Dask array
+    parts : sequence of Delayed, or a Dask array or DataFrame
         Each makes an array of shape (m, d), or a DataFrame of numbers; of any m, none as well.
     """
 
     def __init__(self, client: Any, parts: Any) -> None:
         self._client = client
         if hasattr(parts, "rechunk"):
-            parts = parts.rechunk({1: -1}).to_delayed().ravel().tolist()
-        arrays = [client.submit(as_rows, part, pure=False) for part in client.compute(list(parts))]
+            if parts.ndim != 2:
+                raise ValueError(f"the array has shape {parts.shape}: expected (n, d)")
+            parts = parts.rechunk({1: -1}).to_delayed().ravel()
+        elif hasattr(parts, "to_delayed"):
+            parts = parts.to_delayed()
+        futures = enumerate(client.compute(list(parts)))
+        arrays = [client.submit(_rows_of_part, part, number, pure=False) for number, part in futures]
         shapes = client.gather([client.submit(np.shape, array, pure=False) for array in arrays])
         ends = list(itertools.accumulate((count for count, _ in shapes), initial=0))
-        columns = shapes[0][1] if shapes else 0
+        columns = next((width for count, width in shapes if count), 0)
+        for number, (count, width) in enumerate(shapes):
+            if count and width != columns:
+                raise ValueError(f"part {number} has rows of {width} numbers, those before have {columns}")
         self.shape = (ends[-1], columns)
         step = passes.rows_of_block(columns)
         # The first row of each part that is whole blocks, and what it is cut from.
@@ -114,32 +123,40 @@ class Points:
         method : {"stream", "farthest-first", "tree"}, default "stream"
             The way to find them, as in `taut.spark.Points.centers`.
         **options
-            As in `taut.passes.Solver.k_centers`, for the other methods.
+            As in `taut.passes.Solver.k_centers`: epsilon and max_nodes by "tree", threads not by "stream".
 
         Returns
         -------
         Solution
         """
+        options = passes.options_of_centers(method, discrete=discrete or None, **options)
         if method != "stream":
-            solver = passes.Solver.k_centers(*self.shape, k, method=method, discrete=discrete, **options)
-            return passes.solve(solver, self._ask)
+            return passes.solve(passes.Solver.k_centers(*self.shape, k, method=method, **options), self._ask)
         cover: Any = passes.StreamingCenters.new(self.shape[1], k)
         for _, rows in self._parts:
             cover = self._client.submit(passes.StreamingCenters.add, cover, rows, pure=False)
         return passes.solve(passes.Solver.centers(self._client.gather(cover), discrete=discrete), self._ask)
 
-    def verify(self, solution: Solution[Any]) -> Any:
+    def verify(self, solution: Solution[Any] | str) -> Any:
         """Check an answer over the points, in one pass.
 
         Parameters
         ----------
-        solution : Solution
-            The answer with its certificate.
+        solution : Solution or str
+            The answer with its certificate, or their JSON.
 
         Returns
         -------
         Verdict
         """
+        solution = as_solution(solution)
         check, total = passes.check_part, self.shape[0]
         tasks = [self._client.submit(check, solution, rows, first, total, pure=False) for first, rows in self._parts]
         return passes.check_parts(solution, self._client.gather(tasks))
+
+
+def _rows_of_part(part: Any, number: int) -> Rows:
+    try:
+        return as_rows(part)
+    except (TypeError, ValueError) as error:
+        raise type(error)(f"part {number}: {error}") from None

@@ -43,6 +43,24 @@ __all__ = [
 
 Found = TypeVar("Found", covariant=True)
 
+# The options that the methods of `centers` take where rows lie in parts.
+OPTIONS_OF_CENTERS = {
+    "stream": {"discrete"},
+    "farthest-first": {"discrete", "threads"},
+    "tree": {"epsilon", "max_nodes", "threads"},
+}
+
+
+def options_of_centers(method: str, methods: Iterable[str] = OPTIONS_OF_CENTERS, **given: Any) -> dict[str, Any]:
+    """The options that are given, and not None. Those that the method does not take are refused, and so are other methods."""
+    if method not in methods:
+        raise ValueError(f"option `method` is {method}: expected {' or '.join(methods)}")
+    options = {name: value for name, value in given.items() if value is not None}
+    for name, value in options.items():
+        if name not in OPTIONS_OF_CENTERS[method]:
+            raise ValueError(f"option `{name}` is {value}: the method {method} does not take it")
+    return options
+
 
 def rows_of_block(columns: int) -> int:
     """Rows of a block: parts begin at multiples of it.
@@ -282,6 +300,7 @@ class Solver:
         -------
         Solver
         """
+        options_of_centers(method, ("tree", "farthest-first"), discrete=discrete or None)
         return cls(_native.PassSolver.k_centers(rows, columns, k, method, epsilon, discrete, max_nodes, threads))
 
     def query(self) -> Query | None:

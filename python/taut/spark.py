@@ -16,6 +16,7 @@ import contextlib
 import functools
 import itertools
 import logging
+import operator
 import os
 import time
 import uuid
@@ -28,6 +29,7 @@ from . import _native, _spark_delaunay as delaunay, _spark_tasks as tasks, _spar
 from ._ball import BallMethod
 from ._solution import Solution
 from ._spark_delaunay import Triangulation
+from ._verify import as_solution
 from .passes import RobustFit
 
 __all__ = [
@@ -70,7 +72,8 @@ class RobustRows(NamedTuple):
     """The ellipsoid, center and scatter, and how they were found."""
     outliers: Any
     """A DataFrame with the columns id, the ids of the rows outside of the ellipsoid or their numbers where they have none, and
-    distance, the Mahalanobis distance; there as long as the points are open."""
+    distance, the Mahalanobis distance; there as long as the points are open. It is computed when it is used, and fails if a task does not
+    find its file then: call `Points.robust_ellipsoid` again."""
 
 
 def ship(spark: Any, wheel: str) -> None:
@@ -101,16 +104,25 @@ class Points:
         its order, so that answers do not depend on the order and the partitions of the DataFrame. Without it rows are taken as they
         come.
     partitions : int, optional
-        Partitions to sort by id into; by default as many as the DataFrame has.
+        Partitions to sort by id into, only with `id`; by default as many as the DataFrame has. To count those, Spark may make the
+        shuffles of the DataFrame.
     scratch : str, optional
-        A folder of each worker for its files; by default that of Spark, which Spark removes. The files of a node that is lost stay
-        there.
+        A folder of each worker for its files, as an absolute path; by default that of Spark, which Spark removes. The files of a node
+        that is lost stay there.
     """
 
     def __init__(
         self, df: Any, columns: Sequence[str], *, id: str | None = None, partitions: int | None = None,
         scratch: str | None = None,
     ) -> None:
+        if isinstance(columns, str):
+            raise TypeError(f"columns is {columns!r}: expected a sequence of names")
+        if partitions is not None and id is None:
+            raise ValueError("partitions are given without id: rows as they come stay in the partitions of the DataFrame")
+        if partitions is not None and partitions < 1:
+            raise ValueError(f"partitions is {partitions}: expected at least 1")
+        if scratch is not None and not os.path.isabs(scratch):
+            raise ValueError(f"scratch is {scratch!r}: expected an absolute path, as each worker has its own working folder")
         self._columns = list(columns)
         self._id = id
         self._session = df.sparkSession
@@ -118,7 +130,8 @@ class Points:
         self._edges: Any = None
         self._is_closed = False
         dtype = _dtype(df, self._columns, id)
-        self._id_type = "bigint" if id is None else df.schema[id].dataType.simpleString()
+        self._id_kind: Any = None if id is None else df.schema[id].dataType
+        self._id_type = "bigint" if self._id_kind is None else self._id_kind.simpleString()
         coordinates = [df[_quoted(name)].alias(f"taut_{at}") for at, name in enumerate(self._columns)]
         if id is None:
             picked = df.select(*coordinates)
@@ -154,7 +167,9 @@ class Points:
         try:
             yield
         finally:
-            context.removeJobTag(self._tag)
+            # An error that ended the jobs may have ended the session, too.
+            with contextlib.suppress(Exception):
+                context.removeJobTag(self._tag)
 
     def _layout_of(self, dtype: str) -> tasks.Layout:
         """Writes the files."""
@@ -225,6 +240,8 @@ class Points:
         reached: set[str] = set()
         try:
             context = self._session.sparkContext
+            if context._jsc is None:
+                raise RuntimeError("the session has ended")
             if kept is None:
                 context.cancelJobsWithTag(self._tag)
             for number in range(SWEEPS_MAX):
@@ -356,7 +373,7 @@ class Points:
 
     def centers(
         self, k: int, *, method: Literal["stream", "farthest-first", "tree"] = "stream", discrete: bool = False,
-        epsilon: float = 0.01, max_nodes: int = 10_000_000, threads: int | None = None,
+        epsilon: float | None = None, max_nodes: int | None = None, threads: int | None = None,
     ) -> Solution[Any]:
         """k centers of the points.
 
@@ -373,8 +390,10 @@ class Points:
             The way to find them.
         discrete : bool, default False
             As in `taut.centers`; not by "tree".
-        epsilon, max_nodes, threads
-            As in `taut.centers`, for "tree"; threads are those of the driver.
+        epsilon, max_nodes
+            As in `taut.centers`; only by "tree".
+        threads
+            Those of the driver; not by "stream".
 
         Returns
         -------
@@ -382,11 +401,11 @@ class Points:
             Its row numbers have ids: `ids`.
         """
         rows, columns = self.shape
+        options = passes.options_of_centers(
+            method, discrete=discrete or None, epsilon=epsilon, max_nodes=max_nodes, threads=threads
+        )
         if method != "stream":
-            solver = passes.Solver.k_centers(
-                rows, columns, k, method=method, epsilon=epsilon, discrete=discrete, max_nodes=max_nodes, threads=threads
-            )
-            return self._solve(solver)
+            return self._solve(passes.Solver.k_centers(rows, columns, k, method=method, **options))
         data = passes.StreamingCenters.new(columns, k).data
         log.info("pass 1 over %d rows, by partition: begins", rows)
         for partition in sorted(self._layout.digests):
@@ -446,8 +465,7 @@ class Points:
         Violation
             When the answer or its certificate is wrong for these points.
         """
-        if isinstance(solution, str):
-            solution = Solution.from_json(solution)
+        solution = as_solution(solution)
         # Faults that need no row are raised here, and not within a worker.
         passes.check_part(solution, np.empty((0, self.shape[1]), self._layout.dtype), 0, self.shape[0])
         data = self._ask("verify", solution.to_json().encode())
@@ -464,11 +482,11 @@ class Points:
         Returns
         -------
         list
-            Values of the id column, in the order of `rows`.
+            Values of the id column as rows of Spark have them, in the order of `rows`.
         """
         if self._id is None:
             raise ValueError("the points have no ids: name the column of ids when the points are made")
-        wanted = [int(row) for row in rows]
+        wanted = [_row_number(row) for row in rows]
         for row in wanted:
             if not 0 <= row < self.shape[0]:
                 raise ValueError(f"there is no row {row}: rows are numbered from 0 to {self.shape[0] - 1}")
@@ -478,8 +496,9 @@ class Points:
             pairs = self._records.mapPartitions(work).collect()
             return None if None in pairs else dict(pairs)
 
-        names = self._tried(attempt)
-        return [names[row] for row in wanted]
+        names, kind = self._tried(attempt), self._id_kind
+        # Arrow has times with a zone; rows of Spark have those of the driver, without one.
+        return [kind.fromInternal(kind.toInternal(names[row])) for row in wanted]
 
     def close(self) -> None:
         """Removes the files of the workers. The points, and DataFrames that were not collected yet, are of no use afterwards."""
@@ -493,8 +512,10 @@ class Points:
             self._sweep(None)
             raise
         finally:
-            for rdd in (*self._kept, self._edges, self._records):
-                _unpersist(rdd)
+            for rdd in filter(None, (*self._kept, self._edges, self._records)):
+                # Nothing is kept once the session has ended.
+                with contextlib.suppress(Exception):
+                    rdd.unpersist()
 
     def __enter__(self) -> Self:
         return self
@@ -614,6 +635,11 @@ def _dtype(df: Any, columns: list[str], id_column: str | None) -> str:
     for name in [*columns, *([] if id_column is None else [id_column])]:
         if name not in types:
             raise ValueError(f"the DataFrame has no column {name!r}: it has {', '.join(map(repr, types))}")
+        # By default Spark takes these for one name.
+        fold = str if df.sparkSession.conf.get("spark.sql.caseSensitive") == "true" else str.lower
+        same = [other for other in df.columns if fold(other) == fold(name)]
+        if len(same) > 1:
+            raise ValueError(f"column {name!r} is not the only one of that name: the DataFrame has {', '.join(map(repr, same))}")
     for name in columns:
         if types[name] not in NUMBERS:
             raise ValueError(f"column {name!r} is of type {types[name]}: expected {', '.join(NUMBERS)}")
@@ -622,6 +648,12 @@ def _dtype(df: Any, columns: list[str], id_column: str | None) -> str:
     if id_column is not None and getattr(df.schema[id_column].dataType, "collation", BINARY) != BINARY:
         raise ValueError(f"column {id_column!r}, the id, is collated: expected the collation {BINARY}")
     return "float32" if all(NUMBERS[types[name]] for name in columns) else "float64"
+
+
+def _row_number(row: Any) -> int:
+    if isinstance(row, bool):
+        raise TypeError(f"{row} is no row number")
+    return operator.index(row)
 
 
 def _quoted(name: str) -> str:
@@ -634,12 +666,6 @@ def _level() -> Any:
     from pyspark import StorageLevel
 
     return StorageLevel.MEMORY_AND_DISK
-
-
-def _unpersist(rdd: Any) -> None:
-    """Drops what is kept, if there is any; after the end of the session nothing is."""
-    if rdd is not None and rdd.context._jsc is not None:
-        rdd.unpersist()
 
 
 @functools.cache

@@ -11,6 +11,9 @@ pytestmark = pytest.mark.filterwarnings("ignore")
 
 def test_parts_of_any_length():
     import dask
+    import dask.array as da
+    import dask.dataframe as dd
+    import pandas
 
     import taut.dask
 
@@ -24,7 +27,7 @@ def test_parts_of_any_length():
                 points = taut.dask.Points(client, parts)
                 found = points.ball()
                 assert found.to_json() == wanted.to_json()
-                assert points.verify(found) == wanted.check(rows)
+                assert points.verify(found.to_json()) == wanted.check(rows)
             # The last points, of seven parts.
             for found, wanted in (
                 (points.ellipsoid(), taut.ellipsoid(rows)),
@@ -39,5 +42,23 @@ def test_parts_of_any_length():
             fit = points.robust_ellipsoid()
             # Of these rows very many are equally far, of which other ones are kept.
             assert fit.objective <= taut.robust_ellipsoid(rows).certificate.objective + 0.01
+            with pytest.raises(ValueError, match="option `epsilon` is 0.5: the method stream does not take it"):
+                points.centers(5, epsilon=0.5)
+            with pytest.raises(TypeError, match="not RobustFit: no certificate comes with it"):
+                points.verify(fit)
             with pytest.raises(ValueError, match="is nan|NaN"):
                 taut.dask.Points(client, [dask.delayed(np.full)((10, 2), np.nan)]).ball()
+            ones = dask.delayed(np.ones)
+            # Without rows there is no width to be wrong.
+            assert taut.dask.Points(client, [ones((0, 0)), ones((2, 3)), ones((0, 2))]).shape == (2, 3)
+            with pytest.raises(ValueError, match="part 2 has rows of 2 numbers, those before have 3"):
+                taut.dask.Points(client, [ones((0, 2)), ones((5, 3)), ones((4, 2))])
+            with pytest.raises(ValueError, match=r"part 1: points have shape \(5,\): expected \(n, d\)"):
+                taut.dask.Points(client, [ones((5, 3)), ones(5)])
+            with pytest.raises(ValueError, match=r"the array has shape \(5,\): expected \(n, d\)"):
+                taut.dask.Points(client, da.ones(5))
+            few = rows[:100]
+            wanted = taut.ball(few)
+            assert taut.dask.Points(client, da.from_array(few, chunks=(30, 2))).ball() == wanted
+            table = dd.from_pandas(pandas.DataFrame(few, columns=list("xyz")), npartitions=3)
+            assert taut.dask.Points(client, table).ball() == wanted

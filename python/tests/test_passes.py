@@ -112,7 +112,7 @@ def test_centers_to_a_gap_are_found_over_a_core_set():
     assert verdict == found.check(rows)
     assert verdict.gap <= 1e-3
     assert found.answer.radius <= taut.centers(rows, 3, epsilon=1e-3).answer.radius * (1 + 1e-3)
-    with pytest.raises(ValueError, match="free for a search over a core-set"):
+    with pytest.raises(ValueError, match="option `discrete` is True: the method tree does not take it"):
         passes.Solver.k_centers(10, 2, 2, discrete=True)
     with pytest.raises(ValueError, match="tree or farthest-first"):
         passes.Solver.k_centers(10, 2, 2, method="stream")
@@ -222,6 +222,8 @@ def test_refusals():
         passes.Query(b"taut 0.0.0 query\n").run(rows, 0)
     with pytest.raises(ValueError, match="epsilon"):
         passes.Solver.ball(10, 2, epsilon=2)
+    with pytest.raises(ValueError, match="option `method` is thesis: expected tree or farthest-first"):
+        passes.Solver.k_centers(10, 2, 3, method="thesis")
     robust = taut.robust_ellipsoid(rows[:1000])
     with pytest.raises(ValueError, match="kind robust-ellipsoid are not verified in parts"):
         passes.check_part(robust, rows[:1000], 0, 1000)

@@ -163,6 +163,9 @@ def test_the_hash_of_a_partition_is_of_its_ids_as_well(tmp_path):
         rows, digest = tasks._write(iter([batch[:cut], batch[cut:]]), ["x"], "id", "float64", str(path), 0)
         assert rows == 3
         assert path.parent.stat().st_mode & 0o777 == 0o700
+        # Those of a partition may be of more than 2 GiB together.
+        kind = tasks.ids((0, rows, str(path), digest, "")).type
+        assert kind not in (pyarrow.string(), pyarrow.binary())
         return digest
 
     day, cent = datetime.date(2026, 11, 26), decimal.Decimal("0.01")
@@ -203,6 +206,14 @@ def test_ellipsoids_and_centers(spark):
         ):
             assert found.to_json() == wanted.to_json()
             assert points.verify(found.to_json()) == wanted.check(rows)
+        for options, problem in (
+            ({"epsilon": 0.5}, "option `epsilon` is 0.5: the method stream does not take it"),
+            ({"max_nodes": 9, "method": "farthest-first"}, "option `max_nodes` is 9: the method farthest-first does not"),
+            ({"discrete": True, "method": "tree"}, "option `discrete` is True: the method tree does not take it"),
+            ({"method": "thesis"}, "option `method` is thesis: expected stream or farthest-first or tree"),
+        ):
+            with pytest.raises(ValueError, match=problem):
+                points.centers(6, **options)
         # Faults that need no row are those of memory, too.
         forged = json.loads(points.ball().to_json())
         forged["certificate"]["multipliers"][0] = -1.0
@@ -245,6 +256,8 @@ def test_robust_ellipsoids_and_other_centers(spark, tmp_path):
         memory = taut.centers(rows, 4, method="farthest-first")
         assert (traversal.answer, traversal.certificate) == (memory.answer, memory.certificate)
         assert points.verify(traversal) == memory.check(rows)
+        with pytest.raises(TypeError, match="not RobustFit: no certificate comes with it"):
+            points.verify(fit)
         exact = points.centers(3, method="tree", epsilon=1e-4)
         assert points.verify(exact) == exact.check(rows)
         assert exact.certificate.gap <= 1e-4
@@ -323,7 +336,7 @@ def test_halves_of_edges_that_tiles_share_are_joined(tmp_path):
 
 
 @pytest.mark.parametrize("distribution", ["grid", *[pytest.param(more, marks=LONG) for more in ("uniform", "clusters")]])
-def test_triangulations(spark, distribution):
+def test_triangulations(spark, distribution, monkeypatch):
     import taut.spark
 
     rows = taut.generate(distribution, 20_000, 2, seed=2)
@@ -343,6 +356,13 @@ def test_triangulations(spark, distribution):
         assert len(table) == found.total
         with pytest.raises(ValueError, match="at least 1"):
             points.delaunay(leaf_points=0)
+        # Nothing stays in memory of one that does not end.
+        kept = spark.sparkContext._jsc.getPersistentRDDs
+        before = kept().size()
+        monkeypatch.setattr(taut.spark.delaunay, "counts", lambda found: 1 // 0)
+        with pytest.raises(Exception, match="ZeroDivisionError"):
+            points.delaunay(leaf_points=10**6)
+        assert kept().size() == before
     df, columns = frame(spark, rows)
     with taut.spark.Points(df, [*columns, columns[0]]) as points:
         with pytest.raises(ValueError, match="have 3 coordinates"):
@@ -380,6 +400,7 @@ def test_the_recipe_runs(spark, monkeypatch, capsys):
 
 def test_bad_input(spark, tmp_path):
     import taut.spark
+    from pyspark.errors import PythonException
 
     rows = taut.generate("normal", 1000, 2, seed=2)
     df, columns = frame(spark, rows, np.arange(1000))
@@ -411,7 +432,27 @@ def test_bad_input(spark, tmp_path):
         ball(far, ["x0"], id="key")
     with pytest.raises(ValueError, match="'name', the id, is of type double"):
         ball(df.selectExpr("*", "double(key) as name"), columns, id="name")
+    odd = df.selectExpr("x0", "x1", "if(key = 700, string(unhex('FF')), string(key)) as key")
+    with pytest.raises(ValueError, match=r"'key', the id, is not UTF-8 in row \d+ of partition \d"):
+        ball(odd, columns, id="key")
+    with pytest.raises(ValueError, match="column 'x0' is not the only one of that name: the DataFrame has 'x0', 'X0'"):
+        ball(df.selectExpr("*", "x1 as X0"), columns)
+    with pytest.raises(TypeError, match="columns is 'x0': expected a sequence of names"):
+        ball(df, "x0")
+    with pytest.raises(ValueError, match="partitions are given without id"):
+        ball(df, columns, partitions=2)
+    with pytest.raises(ValueError, match="partitions is 0: expected at least 1"):
+        ball(df, columns, id="key", partitions=0)
+    for scratch in ("points", "~/points"):
+        with pytest.raises(ValueError, match=f"scratch is '{scratch}': expected an absolute path"):
+            taut.spark.Points(df, columns, scratch=scratch)
+    taken = tmp_path / "taken"
+    taken.touch()
+    with pytest.raises(PythonException, match=f"files cannot be written to {taken}/taut-[0-9a-f]+ on .*: .* Not a directory"):
+        taut.spark.Points(df, columns, scratch=str(taken))
+    taken.unlink()
     # Nothing is left behind.
+    odd = df.selectExpr("x0", "x1", "if(key = 700, null, key) as key")
     with pytest.raises(ValueError, match="is null"):
         taut.spark.Points(odd, columns, id="key", scratch=str(tmp_path))
     assert not list(tmp_path.iterdir())
@@ -435,6 +476,12 @@ def test_empty_partitions_and_names_with_dots(spark, monkeypatch):
         for row in (-1, 5):
             with pytest.raises(ValueError, match=f"no row {row}: rows are numbered from 0 to 4"):
                 points.ids([row])
+        for row in (1.0, True, "1"):
+            with pytest.raises(TypeError):
+                points.ids([row])
+    hours = df.selectExpr("`a.b`", "timestamp_seconds(3600 * `the.key` + 0.25) as hour").coalesce(1)
+    with taut.spark.Points(hours, ["a.b"], id="hour") as points:
+        assert points.ids(range(5)) == [row.hour for row in hours.orderBy("hour").collect()]
 
 
 def test_files_that_are_lost(spark, tmp_path, monkeypatch):
