@@ -422,7 +422,8 @@ def sweep(elements: Iterator[int], place: tuple[str | None, str], kept: frozense
     """
     path = folder(*place)
     if kept is None:
-        with open(closed_mark(place[1]), "w"):
+        # The disk may be full.
+        with contextlib.suppress(OSError), open(closed_mark(place[1]), "w"):
             pass
         shutil.rmtree(path, ignore_errors=True)
     elif os.path.isdir(path):

@@ -36,17 +36,18 @@ class Points:
 
     def __init__(self, client: Any, parts: Any) -> None:
         self._client = client
-        if hasattr(parts, "rechunk"):
+        # A Delayed seems to have any attribute, but its type does not.
+        if hasattr(type(parts), "rechunk"):
             if parts.ndim != 2:
                 raise ValueError(f"the array has shape {parts.shape}: expected (n, d)")
             parts = parts.rechunk({1: -1}).to_delayed().ravel()
-        elif hasattr(parts, "to_delayed"):
+        elif hasattr(type(parts), "to_delayed"):
             parts = parts.to_delayed()
         futures = enumerate(client.compute(list(parts)))
         arrays = [client.submit(_rows_of_part, part, number, pure=False) for number, part in futures]
         shapes = client.gather([client.submit(np.shape, array, pure=False) for array in arrays])
         ends = list(itertools.accumulate((count for count, _ in shapes), initial=0))
-        columns = next((width for count, width in shapes if count), 0)
+        columns = next((width for count, width in shapes if count), shapes[0][1] if shapes else 0)
         for number, (count, width) in enumerate(shapes):
             if count and width != columns:
                 raise ValueError(f"part {number} has rows of {width} numbers, those before have {columns}")

@@ -233,8 +233,8 @@ class Points:
     def _sweep(self, kept: frozenset[str] | None) -> None:
         """Removes the files of the workers other than those to be kept, all of them for good where that is None.
 
-        It is a job that has nothing to do with the rows, which would be read again where their records are missing. It raises no error, so
-        that the one for which the points are closed is seen.
+        It is a job that has nothing to do with the rows, which would be read again where their records are missing. It raises no error of
+        its own, which would hide the one that ended the work.
         """
         work = functools.partial(tasks.sweep, place=self._place, kept=kept)
         reached: set[str] = set()
@@ -501,7 +501,7 @@ class Points:
         return [kind.fromInternal(kind.toInternal(names[row])) for row in wanted]
 
     def close(self) -> None:
-        """Removes the files of the workers. The points, and DataFrames that were not collected yet, are of no use afterwards."""
+        """Removes the files of the workers, as far as they can be reached. Afterwards neither the points nor DataFrames of them are of use."""
         if self._is_closed:
             return
         self._is_closed = True

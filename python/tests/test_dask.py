@@ -55,6 +55,8 @@ def test_parts_of_any_length():
                 taut.dask.Points(client, [ones((0, 2)), ones((5, 3)), ones((4, 2))])
             with pytest.raises(ValueError, match=r"part 1: points have shape \(5,\): expected \(n, d\)"):
                 taut.dask.Points(client, [ones((5, 3)), ones(5)])
+            with pytest.raises(TypeError, match="Delayed objects of unspecified length are not iterable"):
+                taut.dask.Points(client, ones((5, 3)))
             with pytest.raises(ValueError, match=r"the array has shape \(5,\): expected \(n, d\)"):
                 taut.dask.Points(client, da.ones(5))
             few = rows[:100]
