@@ -18,13 +18,13 @@ SHARE_MAX = 0.05
 SAMPLE_INTERVAL = 0.1
 
 # Small executors. The largest heap is about the least that Spark takes; it begins smaller and gives back what it does not need. Little
-# beside it grows. The thresholds of malloc do not rise, so it gives back what a task has freed.
+# beside it grows: one compiler is enough for what it does. The thresholds of malloc do not rise, so it gives back what a task has freed.
 OPTIONS = {
     "spark.master": "local-cluster[2,1,480]",
     "spark.executor.memory": "480m",
     "spark.executor.extraJavaOptions": (
         "-XX:+UseSerialGC -Xms128m -Xmn48m -XX:MinHeapFreeRatio=5 -XX:MaxHeapFreeRatio=15 "
-        "-XX:MaxDirectMemorySize=64m -XX:ReservedCodeCacheSize=48m"
+        "-XX:MaxDirectMemorySize=64m -XX:TieredStopAtLevel=1 -XX:ReservedCodeCacheSize=32m -Xss512k"
     ),
     "spark.executorEnv.MALLOC_ARENA_MAX": "2",
     "spark.executorEnv.MALLOC_MMAP_THRESHOLD_": "131072",

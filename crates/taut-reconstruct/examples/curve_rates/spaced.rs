@@ -13,6 +13,10 @@ use super::solve;
 /// The share of draws that must be right at the distances that are asked for.
 const RIGHT_SHARE_MIN: f64 = 0.9;
 
+/// Points on the denser of two circles, and how much denser it is than the other one.
+const CIRCLES: [(f64, f64); 6] =
+    [(500.0, 1.0), (500.0, 4.0), (1500.0, 1.0), (1500.0, 4.0), (2000.0, 4.0), (6000.0, 4.0)];
+
 /// Distances in half-widths.
 const CIRCLES_APART: [f64; 7] = [3.0, 3.5, 4.0, 5.0, 6.0, 8.0, 10.0];
 const FOLDS_APART: [f64; 5] = [4.0, 5.0, 6.0, 8.0, 10.0];
@@ -41,19 +45,17 @@ fn drawn(
 pub(crate) fn concentric(seeds: Range<u64>) -> Vec<Draw> {
     let mut draws = vec![];
     for (noise, name) in [(Noise::Uniform, "uniform"), (Noise::Normal, "normal")] {
-        for per in [500.0, 1500.0] {
-            for ratio in [1.0, 4.0] {
-                for r in CIRCLES_APART {
-                    let least = match (per, ratio) {
-                        (1500.0, _) => 3.0,
-                        (_, 4.0) => 5.0,
-                        _ => 4.0,
-                    };
-                    let class = format!("{name}, {per} on the denser, {ratio}:1, {r} apart");
-                    draws.extend(drawn(&class, &seeds, r >= least, |seed| {
-                        bands::concentric(seed, per, ratio, r, noise)
-                    }));
-                }
+        for (per, ratio) in CIRCLES {
+            for r in CIRCLES_APART {
+                let least = match (per, ratio) {
+                    (2000.0, _) | (500.0, 4.0) => 5.0,
+                    (500.0, _) => 4.0,
+                    _ => 3.0,
+                };
+                let class = format!("{name}, {per} on the denser, {ratio}:1, {r} apart");
+                draws.extend(drawn(&class, &seeds, r >= least, |seed| {
+                    bands::concentric(seed, per, ratio, r, noise)
+                }));
             }
         }
     }

@@ -28,6 +28,14 @@ pub(super) struct Chain {
 }
 
 impl Chain {
+    /// The chain, a closed one counterclockwise.
+    pub(super) fn counterclockwise(mut self) -> Self {
+        if self.closed && area(&self.seeds) < 0.0 {
+            self.reverse();
+        }
+        self
+    }
+
     /// The other way around; a closed one from the same seed on.
     fn reverse(&mut self) {
         self.seeds.reverse();

@@ -12,7 +12,9 @@
 //! for what error can be reached.
 
 mod corners;
+mod ends;
 mod kinks;
+mod layers;
 mod link;
 mod local;
 mod minimax;
@@ -32,12 +34,9 @@ use super::answer::Outcome;
 use super::cloud::Cloud;
 use super::index::Index;
 use crate::Error;
-use noise::Noise;
-use parameters::{
-    BAND_DEVIATIONS, EDGE_DEVIATIONS_MAX, NODES_PER_SEED, NOISE_RATIO_MIN, NOISE_SEEDS,
-    OUTLIER_SHARE_MAX, POINT_DEVIATIONS_MAX,
-};
-use spline::{Spline, assign};
+use layers::Layer;
+use parameters::{BAND_DEVIATIONS, NOISE_RATIO_MIN, OUTLIER_SHARE_MAX};
+use spline::Spline;
 
 type Point = [f64; 2];
 
@@ -79,44 +78,15 @@ fn fit_within(
     mutual_share: f64,
     monitor: &Monitor<'_>,
 ) -> Result<Fitted, Error> {
-    let found = seeds::seeds(points, index, monitor)?;
-    let mut splines: Vec<Spline> =
-        link::chains(&found, ends).into_iter().map(Spline::through).collect();
-    assign(&mut splines, points, POINT_DEVIATIONS_MAX);
-    monitor.check()?;
-    let mut straightened = 0;
-    let mut refined = |splines: &[Spline], parts: usize, noise: &Noise, is_last: bool| {
-        let one = |s: &Spline| {
-            let mut nodes = regress::regress(s, parts, noise);
-            if is_last {
-                let found = corners::corners(s);
-                corners::insert(&mut nodes, s, &found);
-            }
-            straightened += kinks::straighten(&mut nodes, s.closed);
-            Spline::new(nodes, s.closed, NOISE_SEEDS * NODES_PER_SEED)
-        };
-        splines.iter().map(one).collect::<Vec<Spline>>()
-    };
-    splines = refined(&splines, NODES_PER_SEED, &Noise::UNKNOWN, false);
-    assign(&mut splines, points, POINT_DEVIATIONS_MAX);
-    monitor.check()?;
-    // Of a spline without noise, distances are those of polylines.
-    let noisy = || splines.iter().filter(|s| noisiness(std::slice::from_ref(s)) > NOISE_RATIO_MIN);
-    let noise = Noise::of(noisy(), POINT_DEVIATIONS_MAX);
-    splines = refined(&splines, 1, &noise, true);
-    let outliers = assign(
-        &mut splines,
-        points,
-        noise.edge.map_or(POINT_DEVIATIONS_MAX, |edge| EDGE_DEVIATIONS_MAX * edge),
-    );
-    monitor.check()?;
+    let Layer { splines, noise, outliers, seeds, straightened } =
+        layers::layers(points, index, ends, monitor)?;
     let deviation = typical(&splines, |_| 1.0);
     let noisiness = noisiness(&splines);
     let is_noise = residuals::are_noise(&splines, points.len(), noisiness, mutual_share);
     let is_apart = noisiness > NOISE_RATIO_MIN;
     let (curves, crossed) = output::curves(&splines, frame, ends, monitor)?;
     let counters = [
-        ("seeds", found.len()),
+        ("seeds", seeds),
         ("nodes", splines.iter().map(|s| s.nodes.len()).sum()),
         ("corners", splines.iter().map(Spline::corners).sum()),
         ("nodes_straightened", straightened),

@@ -135,6 +135,31 @@ pub(super) const END_DISTANCE_MAX: f64 = 4.0;
 /// Fewest seeds of a chain. Chosen.
 pub(super) const CHAIN_SEEDS_MIN: usize = 3;
 
+// Loose ends.
+
+/// Length of a step from a loose end on. Unit: standard deviations of the noise. Chosen.
+pub(super) const STEP_DEVIATIONS: f64 = 1.5;
+/// Length of the windows there, from their centers to their ends. Same unit. Chosen: half of what seeds need.
+pub(super) const TRACK_WINDOW_DEVIATIONS: f64 = 4.0;
+/// Fewest points of such a window. Chosen.
+pub(super) const TRACK_POINTS_MIN: usize = 8;
+/// Cosine of the largest angle between a window and what was predicted: 45°. Chosen.
+pub(super) const STEP_TURN_COS_MIN: f64 = 0.7;
+/// Most steps from one end to another. Chosen; it bounds the work.
+pub(super) const STEPS_MAX: usize = 64;
+/// Most seeds of an end that are left out: at a bend the last ones are askew. Chosen.
+pub(super) const TRACK_SEEDS_DROPPED: usize = 3;
+
+// Layers.
+
+/// Most searches, each among the points that the curves before have left. Chosen; it bounds the work.
+pub(super) const LAYERS_MAX: usize = 3;
+/// Fewest points that are searched again. Chosen: a loop of fewer is not told from outliers.
+pub(super) const LAYER_POINTS_MIN: usize = 24;
+/// Largest share of the nodes of a curve found so that are within the bands of those before. No unit. Measured: without it one in ten
+/// circles among outliers gets a second curve along its own edge.
+pub(super) const BESIDE_SHARE_MAX: f64 = 0.1;
+
 // Splines and their nodes.
 
 /// Nodes of each seed. Chosen.

@@ -64,16 +64,35 @@ impl Seed {
     }
 
     /// The place of a point in the frame of the seed: along the tangent, and to its left.
-    fn local(&self, at: Point) -> Point {
+    pub(super) fn local(&self, at: Point) -> Point {
         let ([x, y], [tx, ty]) = ([at[0] - self.at[0], at[1] - self.at[1]], self.tangent);
         [x * tx + y * ty, y * tx - x * ty]
     }
 
     /// The direction of its parabola where it is next to a point, no farther along than its window goes.
-    fn direction_beside(&self, at: Point) -> Point {
+    pub(super) fn direction_beside(&self, at: Point) -> Point {
         let slope = 2.0 * self.bend * self.local(at)[0].clamp(-self.reach, self.reach);
         let ([tx, ty], norm) = (self.tangent, slope.hypot(1.0));
         [(tx - slope * ty) / norm, (ty + slope * tx) / norm]
+    }
+
+    /// The seed some length on along its parabola.
+    pub(super) fn ahead(&self, length: f64) -> Self {
+        let slope = 2.0 * self.bend * length;
+        let norm = slope.hypot(1.0);
+        let [tx, ty] = self.tangent;
+        let at = [self.at[0] + length * tx, self.at[1] + length * ty];
+        Self { at, ..*self }.turned(self.bend * length * length, [1.0 / norm, slope / norm])
+    }
+
+    /// The seed moved to its left, its tangent turned to a direction of its frame.
+    pub(super) fn turned(&self, left: f64, [along, across]: Point) -> Self {
+        let [tx, ty] = self.tangent;
+        Self {
+            at: [self.at[0] - left * ty, self.at[1] + left * tx],
+            tangent: [along * tx - across * ty, along * ty + across * tx],
+            ..*self
+        }
     }
 
     /// Whether a place is on its strand, as far as its parabola can tell: beyond the window it goes on straight.
