@@ -69,6 +69,20 @@ pub enum CurveDoubt {
         /// Length of the gap over the mean of those beside it.
         times: f64,
     },
+    /// A stretch has far fewer rows than those beside it.
+    #[error(
+        "{rows} rows lie along a stretch of curve {curve}, after vertex {vertex}, where {expected:.0} would if it were sampled as what is beside it"
+    )]
+    Vacant {
+        /// Curve, from 0.
+        curve: usize,
+        /// The vertex before the stretch begins, from 0.
+        vertex: usize,
+        /// Rows within it.
+        rows: usize,
+        /// How many there would be.
+        expected: f64,
+    },
     /// Noise is too large beside the features of the curve.
     #[error(
         "row {row} lies {ratio:.3} of the feature size off curve {curve}; at most {most} would do"

@@ -7,7 +7,7 @@ use taut_points::{Cancelled, Monitor};
 use super::super::{CurveComponent, CurveDoubt};
 use super::band::{Foot, Placed, next_to, of_vertices};
 use super::edges::Edges;
-use super::{features, outliers, sampling, swell};
+use super::{features, outliers, sampling, swell, vacancy};
 
 /// ε, the most that half a gap may be of φ, where vertices are rows. NN-Crust's theorem asks for 1/3 of the local feature size, which
 /// is at most φ.
@@ -128,15 +128,17 @@ pub(super) fn judge(
             doubts.split = doubts.split.or_else(|| sampling::split(curve, &samples));
             doubts.winding = doubts.winding.or_else(|| sampling::winding(curve, &samples));
             let length = features.along[features.size.len()];
+            doubts.vacancy = doubts.vacancy.or_else(|| vacancy::vacancy(curve, &samples, length));
             doubts.swell = doubts.swell.or_else(|| swell::swell(curve, &samples, length));
         }
         gaps.extend(sampling::lengths(&samples, &features));
     }
-    let Doubts { corner, sparse, wide_gap, noisy, split, winding, swell } = doubts;
+    let Doubts { corner, sparse, wide_gap, vacancy, noisy, split, winding, swell } = doubts;
     let doubt = corner
         .or(sparse)
         .or(noisy)
         .or(wide_gap)
+        .or(vacancy)
         .or(winding)
         .or(split)
         .or(swell)
@@ -150,6 +152,7 @@ struct Doubts {
     corner: Option<CurveDoubt>,
     sparse: Option<CurveDoubt>,
     wide_gap: Option<CurveDoubt>,
+    vacancy: Option<CurveDoubt>,
     noisy: Option<CurveDoubt>,
     split: Option<CurveDoubt>,
     winding: Option<CurveDoubt>,

@@ -68,7 +68,7 @@ pub(super) fn valley(numbers: &[f64]) -> Valley {
 
 /// −ln of the most that chance would make of so few of all numbers in the first of two intervals, if they were as dense there as in the
 /// second (Chernoff's bound for binomial distributions).
-fn evidence(counts: [f64; 2], widths: [f64; 2]) -> f64 {
+pub(super) fn evidence(counts: [f64; 2], widths: [f64; 2]) -> f64 {
     let (all, width) = (counts[0] + counts[1], widths[0] + widths[1]);
     let expected = widths.map(|part| all * part / width);
     if counts[0] >= expected[0] {
