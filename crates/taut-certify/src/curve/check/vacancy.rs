@@ -53,26 +53,25 @@ pub(super) fn vacancy(curve: usize, samples: &[Sample], length: f64) -> Option<C
 mod tests {
     use super::*;
 
-    /// Rows a unit apart around a curve, those of a stretch left out but for some.
-    fn rows(gone: std::ops::Range<usize>, kept: usize) -> Vec<Sample> {
+    /// Rows a unit apart around a curve of 400, those of a stretch left out but for some.
+    fn rows(start: usize, length: usize, kept: usize) -> Vec<Sample> {
         let at = |k: usize| Sample { along: k as f64 + 0.3, vertex: k, offset: 0.0, row: k };
-        (0..400)
-            .filter(|k| !gone.contains(k) || k % 7 == 0 && (k - gone.start) / 7 < kept)
-            .map(at)
-            .collect()
+        let within = |k: usize| (k + 400 - start) % 400;
+        let is_kept = |k: usize| within(k) % 7 == 0 && within(k) / 7 < kept;
+        (0..400).filter(|&k| within(k) >= length || is_kept(k)).map(at).collect()
     }
 
     #[test]
     fn few_rows_in_a_long_stretch_are_told_and_even_ones_are_not() {
-        assert_eq!(vacancy(0, &rows(0..0, 0), 400.0), None);
+        assert_eq!(vacancy(0, &rows(0, 0, 0), 400.0), None);
         for start in [100, 385] {
-            let found = vacancy(0, &rows(start..start + 35, 4), 400.0);
+            let found = vacancy(0, &rows(start, 35, 4), 400.0);
             let Some(CurveDoubt::Vacant { rows, expected, .. }) = found else {
                 panic!("{start}: {found:?}")
             };
             assert!(rows <= 5 && expected > 20.0, "{rows} {expected}");
         }
-        assert_eq!(vacancy(0, &rows(100..104, 0), 400.0), None);
-        assert_eq!(vacancy(0, &rows(0..398, 0), 400.0), None);
+        assert_eq!(vacancy(0, &rows(100, 4, 0), 400.0), None);
+        assert_eq!(vacancy(0, &rows(0, 398, 0), 400.0), None);
     }
 }
