@@ -3,22 +3,25 @@
 //! *Problem.* No window is flat where a curve bends within a few widths of its band, nor where it runs close between two other strands:
 //! there are no seeds, and chains end that the points go on from.
 //! *Idea.* From an end, windows of half the length that seeds need go on along the curve, each in the frame that the one before predicts, so
-//! they need not find out which way the band runs. They see points of no chain and those next to loose ends. Where they arrive at
+//! they need not find out which way the band runs. They see the points that no chain has within its
+//! band, and those next to loose ends. Where they arrive at
 //! another loose end, against its direction, both are joined by what was found on the way; an end that arrives nowhere stays as it was.
-//! *Guarantee.* Chains only grow together: what was joined stays joined, and the result turns and scales with the points.
+//! *Guarantee.* No chain is cut: at an end that is joined at most [`TRACK_SEEDS_DROPPED`] seeds are left out, and the result turns and scales
+//! with the points. At most [`STEPS_MAX`] windows for each end and each number of seeds left out.
 //! *Reference.* A principal curve tracked from a start, as by Kégl and Krzyżak 2002 in their thinning of strokes, here between two ends.
 
 use taut_oblivious::hilbert_order;
-use taut_points::OrderBy;
+use taut_points::{Monitor, OrderBy};
 
 use super::link::Chain;
 use super::local::cholesky;
 use super::parameters::{
     ALONG_COS_MIN, BAND_DEVIATIONS, STEP_DEVIATIONS, STEP_TURN_COS_MIN, STEPS_MAX,
-    TRACK_POINTS_MIN, TRACK_SEEDS_DROPPED, TRACK_WINDOW_DEVIATIONS,
+    TRACK_POINTS_AHEAD_MIN, TRACK_POINTS_MIN, TRACK_SEEDS_DROPPED, TRACK_WINDOW_DEVIATIONS,
 };
 use super::seeds::Seed;
 use super::spline::Spline;
+use crate::Error;
 use crate::curve::index::Index;
 
 type Point = [f64; 2];
@@ -38,6 +41,7 @@ struct End {
 impl End {
     fn of(chains: &[Chain], chain: usize, is_last: bool, dropped: usize) -> Option<Self> {
         let seeds = &chains[chain].seeds;
+        // One seed stays at least on either side, whatever the other end leaves out.
         if 2 * dropped + 2 > seeds.len() {
             return None;
         }
@@ -68,10 +72,11 @@ pub(super) fn joined(
     splines: &[Spline],
     points: &[Point],
     index: &Index<'_>,
-) -> Option<Vec<Chain>> {
+    monitor: &Monitor<'_>,
+) -> Result<Option<Vec<Chain>>, Error> {
     let loose: Vec<usize> = (0..chains.len()).filter(|&c| !chains[c].closed).collect();
     if loose.is_empty() {
-        return None;
+        return Ok(None);
     }
     let is_taken = taken(splines, points.len());
     let ends = |dropped: usize| {
@@ -88,6 +93,7 @@ pub(super) fn joined(
         Track { points, index, is_taken: &is_taken, targets: &targets, order: &order, places };
     let mut joins: Vec<Join> = Vec::new();
     for &chain in &loose {
+        monitor.check()?;
         for is_last in [false, true] {
             let found = (0..=TRACK_SEEDS_DROPPED)
                 .filter_map(|dropped| End::of(chains, chain, is_last, dropped))
@@ -105,10 +111,10 @@ pub(super) fn joined(
         }
         is_free
     });
-    (!joins.is_empty()).then(|| connected(chains, &joins))
+    Ok((!joins.is_empty()).then(|| connected(chains, &joins)))
 }
 
-/// Whether a point is on a chain and not next to a loose end.
+/// Tells of each point whether it is within the band of a chain and not next to a loose end.
 fn taken(splines: &[Spline], count: usize) -> Vec<bool> {
     let mut is_taken = vec![false; count];
     for spline in splines {
@@ -180,7 +186,7 @@ impl Track<'_> {
             }
         });
         let ahead = local.iter().filter(|p| p[0] > 0.0).count();
-        if local.len() < TRACK_POINTS_MIN || 4 * ahead < TRACK_POINTS_MIN {
+        if local.len() < TRACK_POINTS_MIN || ahead < TRACK_POINTS_AHEAD_MIN {
             return None;
         }
         local.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
@@ -195,7 +201,7 @@ impl Track<'_> {
     }
 }
 
-/// Whether an end lies ahead of a place, within a length, and comes the other way on the same strand.
+/// Tells whether an end lies ahead of a place, within a length, and comes the other way on the same strand.
 fn is_ahead(seed: &Seed, end: &Seed, length: f64) -> bool {
     let [u, v] = seed.local(end.at);
     let off = v - seed.bend * u * u;

@@ -1,8 +1,9 @@
 //! Curves in layers: those that hide others are found first, then the others among the points that are left.
 //!
 //! *Problem.* A window around a sparse curve beside a dense one holds more points of that than of its own, and its seeds are lost.
-//! *Idea.* Where closed curves are found and beside them loose ends or points off all curves, the points of the closed ones are taken away,
-//! and the others are searched again alone. What is found so stays if it has fewer loose ends, or leaves fewer points.
+//! *Idea.* Where closed curves are found and beside them open ones or points off all curves, the points of the closed ones are taken away,
+//! and the others are searched again alone. What is found so takes the place of the open curves if it has no more of them and fewer points
+//! are left off all curves, or as many and fewer curves are open.
 //! *Guarantee.* A function of the points that turns and scales with them; at most [`LAYERS_MAX`] searches.
 
 use taut_points::Monitor;
@@ -27,9 +28,9 @@ pub(super) struct Layer {
     pub(super) noise: Noise,
     /// The points that are on no curve, ascending.
     pub(super) outliers: Vec<u32>,
-    /// Seeds of the curves.
+    /// Seeds of all searches.
     pub(super) seeds: usize,
-    /// Nodes that were put straight.
+    /// Nodes that were put straight, in all rounds.
     pub(super) straightened: usize,
 }
 
@@ -66,7 +67,7 @@ impl Layer {
         let mut splines = through(&chains);
         monitor.check()?;
         if joining == Ends::Auto
-            && let Some(chains) = ends::joined(&chains, &splines, points, index)
+            && let Some(chains) = ends::joined(&chains, &splines, points, index, monitor)?
         {
             splines = through(&chains);
             monitor.check()?;
@@ -138,10 +139,10 @@ impl Layer {
         }
         let below = Self::of(&left, &Index::new(&left), ends, monitor)?;
         let mut kept: Vec<Spline> = self.splines.iter().filter(|s| s.closed).cloned().collect();
-        let found: Vec<Spline> =
-            below.splines.into_iter().filter(|s| is_apart(s, &mut kept)).collect();
+        let found = apart(below.splines, &mut kept);
+        monitor.check()?;
         let loose_below = found.iter().filter(is_open).count();
-        // Outliers show curves by chance, beside which most of them are left.
+        // Curves that chance shows among outliers hold few of them.
         if loose_below > loose || 2 * below.outliers.len() > left.len() {
             return Ok(None);
         }
@@ -158,9 +159,18 @@ impl Layer {
     }
 }
 
-/// Whether a spline runs beside others and not within their bands: what a band has left of its points shows curves along it.
-fn is_apart(spline: &Spline, others: &mut [Spline]) -> bool {
-    let places: Vec<Point> = spline.nodes.iter().map(|node| node.at).collect();
-    let apart = assign(others, &places, BAND_DEVIATIONS).len();
-    (places.len() - apart) as f64 <= BESIDE_SHARE_MAX * places.len() as f64
+/// The splines that run beside others and not within their bands: what a band has left of its points shows curves along it.
+fn apart(splines: Vec<Spline>, others: &mut [Spline]) -> Vec<Spline> {
+    let nodes =
+        || splines.iter().enumerate().flat_map(|(k, s)| s.nodes.iter().map(move |n| (k, n)));
+    let places: Vec<Point> = nodes().map(|(_, node)| node.at).collect();
+    let owner: Vec<usize> = nodes().map(|(k, _)| k).collect();
+    let mut far = vec![0; splines.len()];
+    for place in assign(others, &places, BAND_DEVIATIONS) {
+        far[owner[place as usize]] += 1;
+    }
+    let is_apart = |s: &Spline, far: usize| {
+        (s.nodes.len() - far) as f64 <= BESIDE_SHARE_MAX * s.nodes.len() as f64
+    };
+    splines.into_iter().zip(far).filter(|(s, far)| is_apart(s, *far)).map(|(s, _)| s).collect()
 }

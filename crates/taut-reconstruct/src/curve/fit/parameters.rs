@@ -143,6 +143,8 @@ pub(super) const STEP_DEVIATIONS: f64 = 1.5;
 pub(super) const TRACK_WINDOW_DEVIATIONS: f64 = 4.0;
 /// Fewest points of such a window. Chosen.
 pub(super) const TRACK_POINTS_MIN: usize = 8;
+/// Fewest of them ahead of its center: where there are none, the curve ends. Chosen.
+pub(super) const TRACK_POINTS_AHEAD_MIN: usize = 2;
 /// Cosine of the largest angle between a window and what was predicted: 45°. Chosen.
 pub(super) const STEP_TURN_COS_MIN: f64 = 0.7;
 /// Most steps from one end to another. Chosen; it bounds the work.
