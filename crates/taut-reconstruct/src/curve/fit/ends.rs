@@ -3,9 +3,9 @@
 //! *Problem.* No window is flat where a curve bends within a few widths of its band, nor where it runs close between two other strands:
 //! there are no seeds, and chains end that the points go on from.
 //! *Idea.* From an end, windows of half the length that seeds need go on along the curve, each in the frame that the one before predicts, so
-//! they need not find out which way the band runs. They see the points that no chain has within its
-//! band, and those next to loose ends. Where they arrive at
-//! another loose end, against its direction, both are joined by what was found on the way; an end that arrives nowhere stays as it was.
+//! they need not find out which way the band runs. They see the points that no chain has within its band, and those next to
+//! loose ends. Where they arrive at another loose end, against its direction, both are joined by what was found on the way; an end that
+//! arrives nowhere stays as it was.
 //! *Guarantee.* No chain is cut: at an end that is joined at most [`TRACK_SEEDS_DROPPED`] seeds are left out, and the result turns and scales
 //! with the points. At most [`STEPS_MAX`] windows for each end and each number of seeds left out.
 //! *Reference.* A principal curve tracked from a start, as by Kégl and Krzyżak 2002 in their thinning of strokes, here between two ends.
@@ -14,7 +14,7 @@ use taut_oblivious::hilbert_order;
 use taut_points::{Monitor, OrderBy};
 
 use super::link::Chain;
-use super::local::cholesky;
+use super::local::least_squares;
 use super::parameters::{
     ALONG_COS_MIN, BAND_DEVIATIONS, STEP_DEVIATIONS, STEP_TURN_COS_MIN, STEPS_MAX,
     TRACK_POINTS_AHEAD_MIN, TRACK_POINTS_MIN, TRACK_SEEDS_DROPPED, TRACK_WINDOW_DEVIATIONS,
@@ -190,7 +190,7 @@ impl Track<'_> {
             return None;
         }
         local.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-        let [a, b, c] = parabola(&local, half)?;
+        let ([a, b, c], _) = least_squares(&local, |_| true)?;
         let norm = b.hypot(1.0);
         let turned = predicted.turned(a, [1.0 / norm, b / norm]);
         let along =
@@ -208,25 +208,6 @@ fn is_ahead(seed: &Seed, end: &Seed, length: f64) -> bool {
     let [x, y] = seed.direction_beside(end.at);
     let against = x * end.tangent[0] + y * end.tangent[1];
     u > 0.0 && u <= length && off.abs() <= seed.deviation && against <= -ALONG_COS_MIN
-}
-
-/// The parabola of least squares through points of a frame.
-fn parabola(points: &[Point], half: f64) -> Option<[f64; 3]> {
-    let (mut powers, mut moments) = ([0.0; 5], [0.0; 3]);
-    for &[u, v] in points {
-        let u = u / half;
-        let mut power = 1.0;
-        for k in 0..5 {
-            powers[k] += power;
-            if k < 3 {
-                moments[k] += power * v;
-            }
-            power *= u;
-        }
-    }
-    let [s0, s1, s2, s3, s4] = powers;
-    let [a, b, c] = cholesky([[s0, s1, s2], [s1, s2, s3], [s2, s3, s4]], moments)?;
-    Some([a, b / half, c / (half * half)])
 }
 
 /// The chains with joins made.

@@ -156,7 +156,10 @@ fn main_direction(origin: Point, points: impl Iterator<Item = Point> + Clone) ->
 }
 
 /// The parabola of least squares through the points that count, and how many those are; none where the points do not determine it.
-fn least_squares(points: &[Point], counts: impl Fn(Point) -> bool) -> Option<([f64; 3], usize)> {
+pub(super) fn least_squares(
+    points: &[Point],
+    counts: impl Fn(Point) -> bool,
+) -> Option<([f64; 3], usize)> {
     let reach = points.iter().fold(0.0, |most: f64, p| most.max(p[0].abs()));
     if reach == 0.0 {
         return None;
