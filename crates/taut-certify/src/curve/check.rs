@@ -22,6 +22,7 @@ mod run;
 mod sampling;
 mod signs;
 mod simple;
+mod strands;
 mod structure;
 mod swell;
 mod tangent;

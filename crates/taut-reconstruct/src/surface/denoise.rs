@@ -78,7 +78,8 @@ pub(super) fn denoise(
     let points = at(&moved, &linked);
     let mut noise = levels(&points, options.neighbors, monitor)?;
     let counts: Vec<u32> = noise.iter().map(|level| level.neighbors).collect();
-    let is_off = off_sheets(&points, &counts)?;
+    let deviations: Vec<f64> = noise.iter().map(|level| level.deviation).collect();
+    let is_off = off_sheets(&points, &counts, &deviations)?;
     linked.iter().zip(&is_off).for_each(|(&k, &is_off)| is_outlier[k as usize] = is_off);
     let mut stays = is_off.iter().map(|is_off| !is_off);
     noise.retain(|_| stays.next() == Some(true));

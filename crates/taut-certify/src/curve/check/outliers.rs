@@ -27,13 +27,13 @@ const NEAR_LEAST: f64 = 0.75;
 /// Parts of the outliers that chance puts as near to their next, and −ln of how seldom it may put as many more: neighbors that name each other
 /// count twice, so it is half of that.
 const NEXT_SHARES: [f64; 3] = [0.1, 0.2, 0.4];
-const NEXT_RARITY: f64 = 14.0;
+const NEXT_RARITY: f64 = 10.0;
 
 /// In circles around outliers, in which chance puts so many others, those that there are are counted.
 const EXPECTED: [f64; 7] = [0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0];
 
 /// −ln of how seldom chance may fill any of these circles so. With 16 a loop of 30 rows among 85 outliers is not noticed.
-const FILL_RARITY: f64 = 8.0;
+const FILL_RARITY: f64 = 6.5;
 
 /// Fewest and most outliers far from all curves that are too few to tell from the samples of a small curve: more show how they are spread.
 const HANDFUL: std::ops::Range<usize> = 4..24;
@@ -41,7 +41,9 @@ const HANDFUL: std::ops::Range<usize> = 4..24;
 /// Outliers nearer to the curve than this times what nine of ten rows are off it are counted along it, and −ln of how seldom chance may
 /// gather as many in one stretch.
 const NEAR_BAND_RATIO: f64 = 6.0;
-const NEAR_RARITY: f64 = 8.0;
+const NEAR_RARITY: f64 = 6.0;
+/// Numbers of outliers in a stretch that are tried grow by one of this many parts, from [`OUTLIERS_MIN`] / 2 on.
+const COUNT_STEPS: usize = 4;
 
 /// Half the width of the band along an arc of outliers, over what nine of ten rows are off their curve: the noise of uniform bands has its
 /// edge at 10/9 of that.
@@ -133,7 +135,7 @@ fn near_one_stretch(edges: &Edges, placed: &Placed, usual: f64) -> Option<CurveD
     let (many, length) = (near.len(), ways[edges.ends.len()]);
     let most = (many as f64).ln() + NEAR_RARITY;
     let mut count = OUTLIERS_MIN / 2;
-    while count < many {
+    while count <= many {
         for k in 0..many {
             let (last, wraps) = ((k + count - 1) % many, (k + count - 1) / many);
             let stretch = near[last].0 - near[k].0 + length * wraps as f64;
@@ -144,7 +146,7 @@ fn near_one_stretch(edges: &Edges, placed: &Placed, usual: f64) -> Option<CurveD
                 return Some(CurveDoubt::Gathered { row, rows, near: expected / found });
             }
         }
-        count *= 2;
+        count += count / COUNT_STEPS;
     }
     None
 }

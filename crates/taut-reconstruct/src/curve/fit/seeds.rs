@@ -29,7 +29,7 @@ use super::parameters::{
     SPLIT_SLAB_DEVIATIONS_MAX, SPLITS_MAX, SURE_POINTS_MIN, VAIN_POINTS_RATIO_MAX, WIDTH_RATIO_MIN,
     WINDOW_RATIO_MAX,
 };
-use super::split::{SPLIT_POINTS_MIN, split};
+use super::split::{SPLIT_POINTS_MIN, evidence_min, split};
 use crate::Error;
 use crate::curve::index::{Index, distance2};
 
@@ -255,6 +255,8 @@ struct Search<'a> {
     residuals: Vec<f64>,
     /// Points of the largest windows where none was flat.
     vain: usize,
+    /// The least evidence for two strands in a window.
+    evidence_min: f64,
 }
 
 impl<'a> Search<'a> {
@@ -272,6 +274,7 @@ impl<'a> Search<'a> {
             along: Vec::new(),
             residuals: Vec::new(),
             vain: 0,
+            evidence_min: evidence_min(points.len()),
         }
     }
 
@@ -370,7 +373,7 @@ impl<'a> Search<'a> {
             self.residuals.clear();
             self.residuals.extend(self.window.local.iter().map(|&p| parabola.residual(p)));
             self.residuals.sort_unstable_by(f64::total_cmp);
-            let Some(middle) = split(&self.residuals) else { break };
+            let Some(middle) = split(&self.residuals, self.evidence_min) else { break };
             let is_above = parabola.residual(parabola.local(at)) > middle;
             let mut local = self.window.local.iter();
             self.ids.retain(|_| {
