@@ -12,15 +12,16 @@
 //! *Choice.* The item that fits in the fewest clusters; of equals, the one that makes them grow most. Items that fit in none
 //! need an empty cluster each, if no two of them fit in one: a clique.
 
+mod conflicts;
+mod proving;
+
 use std::sync::Arc;
 
 use super::avoiding_ball::AvoidingBall;
 use super::cloud::Cloud;
-use super::conflict::Levels;
 use super::depth_first::{Place, State};
 use super::items::{ItemSet, Position, Shape, distance};
 use super::links::{Home, Links, cluster_of};
-use super::proof_tree::{ProofLog, Proving, Step};
 use super::small_ball::{Ball, Workspace};
 
 /// Cliques are sought from every item that fits nowhere if there are at most so many, else from the first so many.
@@ -550,110 +551,6 @@ impl<P: Position> Clusters<P> {
         }
     }
 
-    /// The levels of decisions on which the dead end that the last call of `examine` found rests.
-    pub(super) fn conflict(&mut self) -> Levels {
-        let mut levels = Levels::default();
-        if let Some(at) = self.held_out {
-            self.add_cluster(at, &mut levels);
-            self.avoided.iter().for_each(|&item| levels.insert(self.levels[item as usize]));
-            return levels;
-        }
-        if self.conflicting.is_empty() {
-            let too_large = self.clusters.iter().find(|c| c.ball.radius >= self.threshold);
-            for &item in too_large.iter().flat_map(|cluster| &cluster.ball.support) {
-                levels.insert(self.levels[item as usize]);
-            }
-        }
-        let conflicting = std::mem::take(&mut self.conflicting);
-        for &item in &conflicting {
-            self.add_conflicts(item, &[], &mut levels);
-        }
-        self.conflicting = conflicting;
-        self.add_left_out(&mut levels);
-        levels
-    }
-
-    /// Adds the levels of all members of a cluster.
-    fn add_cluster(&self, at: usize, levels: &mut Levels) {
-        self.clusters[at].members.iter().for_each(|&m| levels.insert(self.levels[m as usize]));
-    }
-
-    /// The levels of all decisions.
-    pub(super) fn everything(&self) -> Levels {
-        let mut levels = Levels::default();
-        let members = self.clusters.iter().flat_map(|cluster| &cluster.members);
-        members.for_each(|&item| levels.insert(self.levels[item as usize]));
-        self.add_left_out(&mut levels);
-        levels
-    }
-
-    /// Adds the levels on which it rests that an item, or its group, fits in none of the clusters but perhaps those of a list.
-    pub(super) fn add_conflicts(&mut self, item: u32, but: &[usize], levels: &mut Levels) {
-        let clusters = 0..self.clusters.len();
-        match self.home(item) {
-            Some(home) => {
-                levels.insert(home.level);
-                if let Some(at) = home.cluster.filter(|at| !but.contains(at)) {
-                    self.add_conflict(item, at, levels);
-                }
-            }
-            None => {
-                clusters.filter(|at| !but.contains(at)).for_each(|at| match self.misfit(item, at) {
-                    Some(misfit) => self.add_conflict(misfit, at, levels),
-                    None => self.add_cluster(at, levels),
-                })
-            }
-        }
-    }
-
-    /// An item of the group of this one that does not fit into a cluster, if that is known; itself where it stands for itself.
-    fn misfit(&self, item: u32, cluster: usize) -> Option<u32> {
-        let Some(links) = &self.links else { return Some(item) };
-        let Cluster { feasible, asked, .. } = &self.clusters[cluster];
-        links.linked(item).iter().copied().filter(|&other| (other as usize) < *asked).find(
-            |other| {
-                let found = feasible.binary_search_by_key(other, |candidate| candidate.item);
-                found.map_or(true, |at| feasible[at].radius >= self.threshold)
-            },
-        )
-    }
-
-    /// Adds the levels of members of a cluster with which an item fits in no ball: of one, if there is such a one, and of those the
-    /// one that was put there first; else of the support of a ball.
-    fn add_conflict(&mut self, item: u32, at: usize, levels: &mut Levels) {
-        let (items, cluster) = (&self.items, &self.clusters[at]);
-        let far = cluster
-            .members
-            .iter()
-            .filter(|&&m| items.pair_radius(m as usize, item as usize) >= self.threshold)
-            .map(|&member| self.levels[member as usize])
-            .min();
-        if let Some(level) = far {
-            levels.insert(level);
-            return;
-        }
-        let mut ball = cluster.ball.clone();
-        ball.grow(items, &cluster.members, item, self.threshold, &mut self.work);
-        if ball.radius < self.threshold {
-            // The items left out are in the way, or were when it was asked.
-            self.add_cluster(at, levels);
-            self.add_left_out(levels);
-            return;
-        }
-        for &member in ball.support.iter().filter(|&&member| member != item) {
-            levels.insert(self.levels[member as usize]);
-        }
-    }
-
-    /// Adds the levels at which items were left out, as without these more could be.
-    pub(super) fn add_left_out(&self, levels: &mut Levels) {
-        for (is_out, &level) in self.left_out.iter().zip(&self.levels) {
-            if *is_out {
-                levels.insert(level);
-            }
-        }
-    }
-
     /// Where an item may go, by growing radius; empty clusters and outliers last.
     pub(super) fn places(&self, item: u32) -> Vec<(f64, Place)> {
         let mut places: Vec<(f64, Place)> = vec![];
@@ -721,48 +618,6 @@ impl<P: Position> State for Clusters<P> {
                 self.lists.push(std::mem::replace(&mut cluster.feasible, feasible));
             }
         }
-    }
-}
-
-impl<P: Position> Proving for Clusters<P> {
-    fn step(&mut self) -> Step {
-        match (self.examine(true), self.held_out) {
-            (NodeState::Branch(item), _) => Step::Branch(vec![item]),
-            (_, Some(cluster)) => Step::HeldOut(cluster),
-            (NodeState::StreamingReport | NodeState::Stuck, None) => Step::Open,
-        }
-    }
-
-    fn open_places(&mut self, item: u32, bounds: &mut ProofLog) -> Vec<Place> {
-        let mut places = vec![];
-        let mut child = |radius: f64, refuted_by: &dyn Fn() -> f64, place| {
-            if radius >= self.threshold {
-                bounds.lower = bounds.lower.min(refuted_by());
-            } else {
-                bounds.open = bounds.open.max(radius);
-                places.push(place);
-            }
-        };
-        let home = self.links.as_ref().and_then(|links| links.home(item));
-        for (at, cluster) in self.clusters.iter().enumerate() {
-            if home.is_some_and(|home| home.cluster != Some(at)) {
-                continue;
-            }
-            let mut ball = cluster.ball.clone();
-            ball.grow(&self.items, &cluster.members, item, f64::INFINITY, &mut self.work);
-            child(ball.radius, &|| ball.lower_bound(&self.items), Place::Into(at));
-        }
-        if home.is_some() {
-            return places;
-        }
-        if self.clusters.len() < self.k {
-            let alone = self.items.radius(item as usize);
-            child(alone, &|| alone, Place::Open);
-        }
-        if self.outliers_left > 0 {
-            places.push(Place::LeaveOut);
-        }
-        places
     }
 }
 

@@ -249,6 +249,10 @@ impl Replay<'_> {
         let place = |&item: &usize| [self.set[item][0], self.set[item][1]];
         let members: Vec<[f64; 2]> = self.clusters[cluster].iter().map(place).collect();
         let left_out: Vec<[f64; 2]> = self.out.iter().map(place).collect();
+        // A ball holds what it holds strictly, and so its copies.
+        if left_out.iter().any(|out| members.contains(out)) {
+            return None;
+        }
         let all: Vec<[f64; 2]> = members.iter().chain(&left_out).copied().collect();
         let distance = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
         let is_center = |c: &[f64; 2]| {
