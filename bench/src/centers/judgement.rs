@@ -31,6 +31,7 @@ pub(super) fn judge(found: &Solution<Centers>, source: &dyn PointSource) -> Judg
         proof: match found.certificate.proof {
             LowerBound::Separated => "apart",
             LowerBound::Branches { .. } => "branches",
+            LowerBound::Avoiding { .. } => "branches, some refuted by points left out",
         },
         seconds: start.elapsed().as_secs_f64(),
     }

@@ -76,6 +76,28 @@ pub enum LowerBound {
         /// to the ball of that item alone; where that is among the outliers, so is this one, and it has no node.
         items: Vec<u32>,
     },
+    /// Branches as in [`Self::Branches`], of points in the plane with free centers and without groups, some of whose nodes are refuted
+    /// by the items left out above them.
+    ///
+    /// Balls that hold all but z items may all have one radius, as near to the bound as wanted, and an item is among the outliers only
+    /// where none of them holds it. So a node is refuted, too, when each ball of this radius that holds the items of some cluster holds an
+    /// item that is among the outliers there. The checker grants 1e-6 in the angles by which it finds such balls.
+    Avoiding {
+        /// As in [`Self::Branches`].
+        items: Vec<u32>,
+        /// The nodes that are refuted in this way, in preorder: none of them has a branch.
+        held_out: Vec<HeldOut>,
+    },
+}
+
+/// A node of [`LowerBound::Avoiding`] in which each ball that holds a cluster holds an item that is among the outliers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct HeldOut {
+    /// The number of branches before the node in preorder.
+    pub at: u64,
+    /// The cluster, by the order in which they got their first item, from 0.
+    pub cluster: u32,
 }
 
 /// A [`LowerBound`] as it is read: of a variant without braces, serde would not refuse unknown fields. Files of earlier
@@ -89,6 +111,10 @@ enum LowerBoundFields {
     Branches {
         items: Vec<u32>,
     },
+    Avoiding {
+        items: Vec<u32>,
+        held_out: Vec<HeldOut>,
+    },
 }
 
 impl TryFrom<LowerBoundFields> for LowerBound {
@@ -98,6 +124,9 @@ impl TryFrom<LowerBoundFields> for LowerBound {
         match written {
             LowerBoundFields::Separated {} => Ok(LowerBound::Separated),
             LowerBoundFields::Branches { items } => Ok(LowerBound::Branches { items }),
+            LowerBoundFields::Avoiding { items, held_out } => {
+                Ok(LowerBound::Avoiding { items, held_out })
+            }
             LowerBoundFields::Search {} => Err(
                 "the proof of these centers is \"search\", which an earlier version of taut wrote and \
                  which is no longer verified: solve again to get a proof that lists its branches",

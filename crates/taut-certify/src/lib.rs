@@ -96,7 +96,7 @@ pub use bodies::{
     BodiesCertificate, BodiesVerdict, BodiesViolation, BodyProof, ConvexBody, InscribedBodies,
 };
 pub use centers::{
-    Centers, CentersCertificate, CentersVerdict, CentersViolation, LowerBound, Placement,
+    Centers, CentersCertificate, CentersVerdict, CentersViolation, HeldOut, LowerBound, Placement,
 };
 pub use circle::{CircleCertificate, CircleVerdict, CircleViolation, InscribedCircle};
 pub use convex::{ConvexCertificate, ConvexPolygon, ConvexVerdict, ConvexViolation};

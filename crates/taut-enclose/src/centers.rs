@@ -5,6 +5,7 @@
 //! centers as they are returned.
 
 mod answer;
+mod avoiding_ball;
 mod cloud;
 mod clusters;
 mod conflict;

@@ -57,7 +57,7 @@ impl Summary for Centers {
                 None => "no two of which fit in one ball".to_owned(),
                 Some(_) => "no two of whose groups fit in one ball".to_owned(),
             },
-            LowerBound::Branches { ref items } => {
+            LowerBound::Branches { ref items } | LowerBound::Avoiding { ref items, .. } => {
                 format!("with {} of a search", counted_branches(items.len() as u64))
             }
         };

@@ -86,8 +86,8 @@ class CentersCertificate(Record):
     directions : ndarray of shape (m, d) or (0, 0)
         For ellipsoids {m + v : v v.T <= S}, directions a that name points of theirs, m + S a / sqrt(a S a). Read-only.
     proof : str
-        ``"apart"`` (no two of the core-set fit in one ball) or ``"branches"`` (the checker replays the branches of a
-        search).
+        ``"apart"`` (no two of the core-set fit in one ball), ``"branches"`` (the checker replays the branches of a
+        search) or ``"avoiding"`` (branches, some of them refuted by points that are left out).
     points_hash : str
         Hash of the rows this was made for, 16 hexadecimal digits.
     """

@@ -14,6 +14,7 @@
 //! *Tolerances.* The balls have none. The gap claimed may differ from that of the two bounds as quotients differ by
 //! rounding. An assignment may name any of centers that are equally near but for rounding.
 
+mod avoiding;
 mod center_tree;
 mod core;
 mod distance;
@@ -42,7 +43,9 @@ use self::oracle::Oracle;
 use self::replay::Log;
 use self::rows::Places;
 use self::structure::Reading;
-use super::{Centers, CentersCertificate, CentersVerdict, CentersViolation, LowerBound, Placement};
+use super::{
+    Centers, CentersCertificate, CentersVerdict, CentersViolation, HeldOut, LowerBound, Placement,
+};
 use crate::CheckError;
 use crate::hashed_pass::KeptRows;
 
@@ -189,20 +192,36 @@ fn prove(
         }
         LowerBound::Branches { items } => {
             limited("branches")?;
-            // More balls than fit in memory are as good as any number.
-            let k = usize::try_from(certificate.k).unwrap_or(usize::MAX);
-            let (groups, undo_bytes) = (core.groups(), replay::UNDO_BYTES_MAX);
-            let log = Log { k, outliers, items, groups, undo_bytes };
-            match certificate.placement {
-                Placement::Free => {
-                    let pairs = Pairs::of(core, &mut meter)?;
-                    log.replay(&mut Free::of(core, &pairs), &mut meter)?;
-                }
-                Placement::Rows => log.replay(&mut &places()?, &mut meter)?,
-            }
-            Ok(items.len() as u64)
+            replay_log(core, certificate, items, &[], places, &mut meter)
+        }
+        LowerBound::Avoiding { items, held_out } => {
+            limited("branches")?;
+            replay_log(core, certificate, items, held_out, places, &mut meter)
         }
     }
+}
+
+/// Replays a log; returns the number of its branches.
+fn replay_log(
+    core: &Core,
+    certificate: &CentersCertificate,
+    items: &[u32],
+    held_out: &[HeldOut],
+    places: &dyn Fn() -> Result<Places, CheckError>,
+    meter: &mut Meter<'_>,
+) -> Result<u64, CheckError> {
+    // More balls than fit in memory are as good as any number.
+    let k = usize::try_from(certificate.k).unwrap_or(usize::MAX);
+    let (groups, undo_bytes) = (core.groups(), replay::UNDO_BYTES_MAX);
+    let log = Log { k, outliers: certificate.outliers, items, held_out, groups, undo_bytes };
+    match certificate.placement {
+        Placement::Free => {
+            let pairs = Pairs::of(core, meter)?;
+            log.replay(&mut Free::of(core, &pairs), meter)?;
+        }
+        Placement::Rows => log.replay(&mut &places()?, meter)?,
+    }
+    Ok(items.len() as u64)
 }
 
 /// The first items of the first two groups that are not shown to be apart: no ball of a radius less than the bound holds the

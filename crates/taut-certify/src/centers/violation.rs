@@ -218,6 +218,16 @@ pub enum CentersViolation {
         /// Branches there are.
         branches: usize,
     },
+    /// A node of the log is not refuted by the items left out.
+    #[error("after {at} branches, cluster {cluster} is said to hold an item left out, {problem}")]
+    HeldOut {
+        /// Branches before the node.
+        at: u64,
+        /// The cluster.
+        cluster: u32,
+        /// The reason for the refusal.
+        problem: &'static str,
+    },
     /// To go back in the log of branches takes too much memory.
     #[error("to come back from {branches} branches of the log takes more than {most} bytes")]
     Kept {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use common::centers::{Best, Case, Task, best, everything, log, members};
 use common::numbers;
-use taut_certify::{CheckError, Items, LowerBound, Placement};
+use taut_certify::{CheckError, HeldOut, Items, LowerBound, Placement};
 use taut_points::PointsHash;
 
 use crate::common;
@@ -378,6 +378,34 @@ fn every_damaged_certificate_is_refused() {
         println!("{kind:>28}: {found:?}");
     }
     assert!(count >= 1000);
+}
+
+/// The same where nodes are said to be refuted by the items left out.
+#[test]
+fn logs_of_random_numbers_that_leave_out_prove_nothing_untrue() {
+    let task = Task::points(&numbers(18, 78), 2);
+    let radii = task.radii();
+    let mut state = 9u64;
+    let mut next = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963);
+        state >> 40
+    };
+    for round in 0..20_000 {
+        let (k, z) = (1 + round % 2, 1 + round % 3);
+        let found = best(&radii, (1 << 9) - 1, k, z);
+        let items: Vec<u32> = (0..next() % 30).map(|_| (next() % 9) as u32).collect();
+        let mut at = 0;
+        let ends = 0..next() % 30;
+        let held_out = ends.map(|_| {
+            at += next() % 2;
+            HeldOut { at, cluster: (next() % (1 + k as u64)) as u32 }
+        });
+        let proof = LowerBound::Avoiding { items, held_out: held_out.collect() };
+        let lower = found.radius * (1.0 + 1e-5);
+        let case =
+            Case::of("random log", &task, &found, (k, z), (2.0, lower), (everything(&task), proof));
+        assert!(case.check().is_err(), "{case:?}");
+    }
 }
 
 /// Any log whatever ends, without panic, and proves nothing that is not true.

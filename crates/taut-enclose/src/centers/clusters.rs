@@ -7,17 +7,21 @@
 //! is pruned: it is infeasible for the cluster and for any larger one. For the others the ball is made.
 //! *Groups.* Items of one group go where the first of them was put ([`super::links`]). Before that, a group fits into a cluster if each
 //! of its items does.
+//! *Points left out* lie in no ball. In the plane an item is also infeasible where each ball with it would hold one of these
+//! ([`super::avoiding_ball`]), and a cluster each of whose balls does so is a dead end.
 //! *Choice.* The item that fits in the fewest clusters; of equals, the one that makes them grow most. Items that fit in none
 //! need an empty cluster each, if no two of them fit in one: a clique.
 
+mod conflicts;
+mod proving;
+
 use std::sync::Arc;
 
+use super::avoiding_ball::AvoidingBall;
 use super::cloud::Cloud;
-use super::conflict::Levels;
 use super::depth_first::{Place, State};
 use super::items::{ItemSet, Position, Shape, distance};
 use super::links::{Home, Links, cluster_of};
-use super::proof_tree::{ProofLog, Proving};
 use super::small_ball::{Ball, Workspace};
 
 /// Cliques are sought from every item that fits nowhere if there are at most so many, else from the first so many.
@@ -53,12 +57,34 @@ struct Fit {
     rise: f64,
 }
 
+impl Fit {
+    /// Counts a cluster of one radius, and another with the item.
+    #[inline(always)]
+    fn count(&mut self, with: f64, without: f64, threshold: f64) {
+        if with <= without {
+            self.is_covered = true;
+        } else if with < threshold {
+            self.places += 1;
+            self.rise += with - without;
+        }
+    }
+}
+
 /// The data to take a step back.
 #[derive(Clone)]
 pub(super) enum Undo<P> {
-    Into { cluster: usize, ball: Ball<P>, feasible: Vec<FeasibleItem>, asked: usize },
+    Into {
+        cluster: usize,
+        ball: Ball<P>,
+        feasible: Vec<FeasibleItem>,
+        asked: usize,
+    },
     Open,
-    LeaveOut { item: u32 },
+    /// With the feasible items of each cluster and how many were asked.
+    LeaveOut {
+        item: u32,
+        before: Vec<(Vec<FeasibleItem>, usize)>,
+    },
 }
 
 /// The next step at a state.
@@ -85,6 +111,11 @@ pub(super) struct Clusters<P> {
     /// The number of further items that may be left out.
     outliers_left: u64,
     left_out: Vec<bool>,
+    /// The items left out, in the order of decisions, where balls can be asked to avoid them; else none.
+    avoided: Vec<u32>,
+    /// A cluster each of whose balls holds an item left out, in a dead end.
+    held_out: Option<usize>,
+    avoiding: AvoidingBall,
     /// The level at which each item was put where it is.
     levels: Vec<u32>,
     pub(super) work: Workspace<P>,
@@ -119,6 +150,9 @@ impl<P: Position> Clusters<P> {
             k,
             outliers_left,
             left_out,
+            avoided: vec![],
+            held_out: None,
+            avoiding: AvoidingBall::default(),
             levels,
             work,
             unplaced: vec![],
@@ -174,7 +208,14 @@ impl<P: Position> Clusters<P> {
             Place::LeaveOut => {
                 self.left_out[item as usize] = true;
                 self.outliers_left -= 1;
-                Undo::LeaveOut { item }
+                let mut before = vec![];
+                if self.links.is_none() && AvoidingBall::applies(&self.items) {
+                    self.avoided.push(item);
+                    let all = self.clusters.iter();
+                    before.extend(all.map(|cluster| (cluster.feasible.clone(), cluster.asked)));
+                    (0..self.clusters.len()).for_each(|at| self.avoid_left_out(at));
+                }
+                Undo::LeaveOut { item, before }
             }
             Place::Into(at) => {
                 let (items, work) = (&self.items, &mut self.work);
@@ -193,9 +234,41 @@ impl<P: Position> Clusters<P> {
                     }
                 }
                 cluster.feasible = feasible;
-                Undo::Into { cluster: at, ball, feasible: old, asked: cluster.asked }
+                let asked = cluster.asked;
+                self.avoid_left_out(at);
+                Undo::Into { cluster: at, ball, feasible: old, asked }
             }
         }
+    }
+
+    /// Drops the feasible items of a cluster with which each of its balls holds an item left out.
+    fn avoid_left_out(&mut self, at: usize) {
+        let Clusters { items, clusters, avoided, avoiding, threshold, .. } = self;
+        if avoided.is_empty() {
+            return;
+        }
+        let Cluster { members, feasible, ball, .. } = &mut clusters[at];
+        feasible.retain(|candidate| {
+            // One inside the ball of the others changes nothing that is asked of centers but by rounding, mostly.
+            if candidate.radius <= ball.radius {
+                return true;
+            }
+            let with = members.iter().copied().chain([candidate.item]);
+            avoiding.set(items, with, avoided, *threshold);
+            avoiding.may_exist(*threshold)
+        });
+    }
+
+    /// A cluster each of whose balls holds an item left out.
+    fn find_held_out(&mut self) -> Option<usize> {
+        let Clusters { items, clusters, avoided, avoiding, threshold, .. } = self;
+        if avoided.is_empty() {
+            return None;
+        }
+        clusters.iter().position(|cluster| {
+            avoiding.set(items, cluster.members.iter().copied(), avoided, *threshold);
+            !avoiding.may_exist(*threshold)
+        })
     }
 
     /// Asks each cluster of the items that the core-set has won.
@@ -221,6 +294,16 @@ impl<P: Position> Clusters<P> {
     fn update_fits(&mut self) {
         self.fits.clear();
         self.fits.resize(self.items.len(), Fit::default());
+        if self.links.is_none() {
+            let (fits, threshold) = (&mut self.fits[..], self.threshold);
+            for cluster in &self.clusters {
+                let radius = cluster.ball.radius;
+                for candidate in &cluster.feasible {
+                    fits[candidate.item as usize].count(candidate.radius, radius, threshold);
+                }
+            }
+            return;
+        }
         for (at, cluster) in self.clusters.iter().enumerate() {
             let radius = cluster.ball.radius;
             for candidate in &cluster.feasible {
@@ -229,13 +312,7 @@ impl<P: Position> Clusters<P> {
                 {
                     continue;
                 }
-                let fit = &mut self.fits[candidate.item as usize];
-                if candidate.radius <= radius {
-                    fit.is_covered = true;
-                } else if candidate.radius < self.threshold {
-                    fit.places += 1;
-                    fit.rise += candidate.radius - radius;
-                }
+                self.fits[candidate.item as usize].count(candidate.radius, radius, self.threshold);
             }
         }
         self.update_group_fits();
@@ -303,6 +380,15 @@ impl<P: Position> Clusters<P> {
         Some(grouping.farthest_in(&cloud.items, group as usize, center, f64::INFINITY).0)
     }
 
+    /// The first item from this on that may be in no ball. Most items are inside one, and nothing else is asked of them.
+    fn next_uncovered(&self, from: usize) -> Option<usize> {
+        if self.links.is_some() {
+            return (from < self.items.len()).then_some(from);
+        }
+        let rest = self.fits[from..].iter();
+        rest.enumerate().find(|(_, fit)| !fit.is_covered).map(|(step, _)| from + step)
+    }
+
     /// Returns true if it is decided that an item is in no cluster.
     fn is_left_out(&self, item: u32) -> bool {
         self.left_out[item as usize] || self.home(item).is_some_and(|home| home.cluster.is_none())
@@ -316,7 +402,12 @@ impl<P: Position> Clusters<P> {
     /// Returns what is to be done next. With `chains` dead ends are not reported at once but left to be branched on, as a proof must show them.
     pub(super) fn examine(&mut self, chains: bool) -> NodeState {
         self.conflicting.clear();
+        self.held_out = None;
         if self.is_too_large() {
+            return NodeState::Stuck;
+        }
+        self.held_out = self.find_held_out();
+        if self.held_out.is_some() {
             return NodeState::Stuck;
         }
         self.ask_new_items();
@@ -324,7 +415,9 @@ impl<P: Position> Clusters<P> {
         let capacity = self.empty() + self.outliers_left as usize;
         self.unplaced.clear();
         let mut best: Option<(u32, f64, u32)> = None;
-        for item in 0..self.items.len() {
+        let mut next = 0;
+        while let Some(item) = self.next_uncovered(next) {
+            next = item + 1;
             if self.is_left_out(item as u32) {
                 continue;
             }
@@ -458,97 +551,6 @@ impl<P: Position> Clusters<P> {
         }
     }
 
-    /// The levels of decisions on which the dead end that the last call of `examine` found rests.
-    pub(super) fn conflict(&mut self) -> Levels {
-        let mut levels = Levels::default();
-        if self.conflicting.is_empty() {
-            let too_large = self.clusters.iter().find(|c| c.ball.radius >= self.threshold);
-            for &item in too_large.iter().flat_map(|cluster| &cluster.ball.support) {
-                levels.insert(self.levels[item as usize]);
-            }
-        }
-        let conflicting = std::mem::take(&mut self.conflicting);
-        for &item in &conflicting {
-            self.add_conflicts(item, &[], &mut levels);
-        }
-        self.conflicting = conflicting;
-        self.add_left_out(&mut levels);
-        levels
-    }
-
-    /// The levels of all decisions.
-    pub(super) fn everything(&self) -> Levels {
-        let mut levels = Levels::default();
-        let members = self.clusters.iter().flat_map(|cluster| &cluster.members);
-        members.for_each(|&item| levels.insert(self.levels[item as usize]));
-        self.add_left_out(&mut levels);
-        levels
-    }
-
-    /// Adds the levels on which it rests that an item, or its group, fits in none of the clusters but perhaps those of a list.
-    pub(super) fn add_conflicts(&mut self, item: u32, but: &[usize], levels: &mut Levels) {
-        let clusters = 0..self.clusters.len();
-        match self.home(item) {
-            Some(home) => {
-                levels.insert(home.level);
-                if let Some(at) = home.cluster.filter(|at| !but.contains(at)) {
-                    self.add_conflict(item, at, levels);
-                }
-            }
-            None => {
-                clusters.filter(|at| !but.contains(at)).for_each(|at| match self.misfit(item, at) {
-                    Some(misfit) => self.add_conflict(misfit, at, levels),
-                    None => {
-                        let members = &self.clusters[at].members;
-                        members.iter().for_each(|&m| levels.insert(self.levels[m as usize]));
-                    }
-                })
-            }
-        }
-    }
-
-    /// An item of the group of this one that does not fit into a cluster, if that is known; itself where it stands for itself.
-    fn misfit(&self, item: u32, cluster: usize) -> Option<u32> {
-        let Some(links) = &self.links else { return Some(item) };
-        let Cluster { feasible, asked, .. } = &self.clusters[cluster];
-        links.linked(item).iter().copied().filter(|&other| (other as usize) < *asked).find(
-            |other| {
-                let found = feasible.binary_search_by_key(other, |candidate| candidate.item);
-                found.map_or(true, |at| feasible[at].radius >= self.threshold)
-            },
-        )
-    }
-
-    /// Adds the levels of members of a cluster with which an item fits in no ball: of one, if there is such a one, and of those the
-    /// one that was put there first; else of the support of a ball.
-    fn add_conflict(&mut self, item: u32, cluster: usize, levels: &mut Levels) {
-        let (items, cluster) = (&self.items, &self.clusters[cluster]);
-        let far = cluster
-            .members
-            .iter()
-            .filter(|&&m| items.pair_radius(m as usize, item as usize) >= self.threshold)
-            .map(|&member| self.levels[member as usize])
-            .min();
-        if let Some(level) = far {
-            levels.insert(level);
-            return;
-        }
-        let mut ball = cluster.ball.clone();
-        ball.grow(items, &cluster.members, item, self.threshold, &mut self.work);
-        for &member in ball.support.iter().filter(|&&member| member != item) {
-            levels.insert(self.levels[member as usize]);
-        }
-    }
-
-    /// Adds the levels at which items were left out, as without these more could be.
-    pub(super) fn add_left_out(&self, levels: &mut Levels) {
-        for (is_out, &level) in self.left_out.iter().zip(&self.levels) {
-            if *is_out {
-                levels.insert(level);
-            }
-        }
-    }
-
     /// Where an item may go, by growing radius; empty clusters and outliers last.
     pub(super) fn places(&self, item: u32) -> Vec<(f64, Place)> {
         let mut places: Vec<(f64, Place)> = vec![];
@@ -597,9 +599,16 @@ impl<P: Position> State for Clusters<P> {
                 let cluster = self.clusters.pop().expect("it was opened");
                 self.lists.push(cluster.feasible);
             }
-            Undo::LeaveOut { item } => {
+            Undo::LeaveOut { item, before } => {
                 self.left_out[item as usize] = false;
                 self.outliers_left += 1;
+                if self.avoided.last() == Some(&item) {
+                    self.avoided.pop();
+                }
+                for (cluster, (feasible, asked)) in self.clusters.iter_mut().zip(before) {
+                    cluster.asked = asked;
+                    self.lists.push(std::mem::replace(&mut cluster.feasible, feasible));
+                }
             }
             Undo::Into { cluster, ball, feasible, asked } => {
                 let cluster = &mut self.clusters[cluster];
@@ -609,47 +618,6 @@ impl<P: Position> State for Clusters<P> {
                 self.lists.push(std::mem::replace(&mut cluster.feasible, feasible));
             }
         }
-    }
-}
-
-impl<P: Position> Proving for Clusters<P> {
-    fn chain(&mut self) -> Vec<u32> {
-        match self.examine(true) {
-            NodeState::Branch(item) => vec![item],
-            NodeState::StreamingReport | NodeState::Stuck => vec![],
-        }
-    }
-
-    fn open_places(&mut self, item: u32, bounds: &mut ProofLog) -> Vec<Place> {
-        let mut places = vec![];
-        let mut child = |radius: f64, refuted_by: &dyn Fn() -> f64, place| {
-            if radius >= self.threshold {
-                bounds.lower = bounds.lower.min(refuted_by());
-            } else {
-                bounds.open = bounds.open.max(radius);
-                places.push(place);
-            }
-        };
-        let home = self.links.as_ref().and_then(|links| links.home(item));
-        for (at, cluster) in self.clusters.iter().enumerate() {
-            if home.is_some_and(|home| home.cluster != Some(at)) {
-                continue;
-            }
-            let mut ball = cluster.ball.clone();
-            ball.grow(&self.items, &cluster.members, item, f64::INFINITY, &mut self.work);
-            child(ball.radius, &|| ball.lower_bound(&self.items), Place::Into(at));
-        }
-        if home.is_some() {
-            return places;
-        }
-        if self.clusters.len() < self.k {
-            let alone = self.items.radius(item as usize);
-            child(alone, &|| alone, Place::Open);
-        }
-        if self.outliers_left > 0 {
-            places.push(Place::LeaveOut);
-        }
-        places
     }
 }
 

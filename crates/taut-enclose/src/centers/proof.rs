@@ -116,11 +116,15 @@ impl Proof {
         let margin = REFUTED_MARGIN * rounding;
         for _ in 0..ROUNDS_MAX {
             let core_set = best.as_ref().map_or(core_set, |(core_set, _)| core_set);
-            let log = match ProofTree::new(root(core_set, threshold), budget, monitor).log()? {
+            let mut log = match ProofTree::new(root(core_set, threshold), budget, monitor).log()? {
                 Ok(log) => log,
                 Err(why) if best.is_none() => return Ok(Err(why)),
                 Err(_) => break,
             };
+            if !log.held_out.is_empty() {
+                // Larger balls may avoid what all smaller ones hold.
+                log.lower = log.lower.min(threshold);
+            }
             if log.open > log.lower * (1.0 - margin) {
                 // A child that is open here may be refuted there: both have to be on the same side of the bound.
                 threshold = log.open * (1.0 - margin);
@@ -147,7 +151,11 @@ impl Proof {
         }
         let nodes = log.items.len() as u64;
         let lower = log.lower * (1.0 - rounding);
-        let kind = LowerBound::Branches { items: log.items };
+        let ProofLog { items, held_out, .. } = log;
+        let kind = match held_out.is_empty() {
+            true => LowerBound::Branches { items },
+            false => LowerBound::Avoiding { items, held_out },
+        };
         Ok(Ok(Proof { lower, core_set, kind, nodes }))
     }
 }

@@ -15,6 +15,7 @@
 //! the support holds for balls, too (Fischer and Gärtner, SoCG 2003), where Welzl's recursion does not.
 
 mod active_set;
+mod low_dimension;
 mod spheres;
 #[cfg(test)]
 mod tests;

@@ -242,7 +242,9 @@ fn logs_are_followed() {
         let values: Vec<f64> = generate(Distribution::Uniform, n, 2, 5).unwrap();
         let options = CentersOptions { outliers: z, ..fine() };
         let found = found(&values, 2, 9, &options);
-        let LowerBound::Branches { items } = &found.certificate.proof else {
+        let (LowerBound::Branches { items } | LowerBound::Avoiding { items, .. }) =
+            &found.certificate.proof
+        else {
             panic!("no log for {n} points: {:?}", found.certificate.proof)
         };
         assert!(items.len() > 3, "{} nodes", items.len());

@@ -1,7 +1,7 @@
 //! The best points to leave out, up to five, against all circles through two and three points.
 
 use circles::{brute_force, one_without};
-use taut_certify::{Centers, Solution, Stop};
+use taut_certify::{Centers, HeldOut, LowerBound, Solution, Stop};
 use taut_enclose::{CentersOptions, centers};
 use taut_points::{Distribution, Points, generate};
 
@@ -92,5 +92,84 @@ fn two_thousand_points_and_two_circles() {
                 before = found.answer.radius;
             }
         }
+    }
+}
+
+/// Solutions whose logs have nodes that items left out refute, with their points.
+fn avoiding() -> Vec<(Vec<f64>, Solution<Centers>)> {
+    let sets = [sets(60, 7), sets(300, 8)].concat().into_iter();
+    let all = sets.map(|(_, values)| (solved(&values, 3, 4, 1e-6), values));
+    let all: Vec<_> = all
+        .filter(|(found, _)| matches!(found.certificate.proof, LowerBound::Avoiding { .. }))
+        .map(|(found, values)| (values, found))
+        .collect();
+    assert!(all.len() >= 4, "{} logs", all.len());
+    all
+}
+
+/// Returns true if the checker confirms an answer.
+fn is_confirmed(values: &[f64], found: &Solution<Centers>) -> bool {
+    found.check(&Points::new(values, 2).unwrap()).is_ok()
+}
+
+/// An independent judge follows the logs, too.
+#[test]
+fn what_items_left_out_refute_is_judged_again() {
+    for (values, found) in avoiding() {
+        let options = CentersOptions { outliers: 4, ..Default::default() };
+        crate::centers::judge(&values, 2, 3, &options, &found).unwrap();
+    }
+}
+
+/// A bound above the least radius has no proof, wherever a log says that a cluster holds what is left out.
+#[test]
+fn forged_logs_prove_no_larger_bound() {
+    for (values, found) in avoiding() {
+        let LowerBound::Avoiding { items, held_out } = &found.certificate.proof else { continue };
+        let mut forged = found.clone();
+        // Half a percent more is proved of nothing that was found to a gap of 1e-6.
+        let radius = found.answer.radius * 1.005;
+        (forged.answer.radius, forged.answer.lower_bound) = (radius, radius);
+        forged.certificate.gap = 0.0;
+        assert!(!is_confirmed(&values, &forged));
+        for at in (1..=items.len()).step_by(items.len().div_ceil(60)) {
+            for cluster in 0..3 {
+                let mut ends: Vec<HeldOut> =
+                    held_out.iter().copied().filter(|end| end.at < at as u64).collect();
+                ends.extend([HeldOut { at: at as u64, cluster }; 20]);
+                forged.certificate.proof =
+                    LowerBound::Avoiding { items: items[..at].to_vec(), held_out: ends };
+                assert!(!is_confirmed(&values, &forged), "{at}, {cluster}");
+            }
+        }
+    }
+}
+
+/// A log without its ends, with one more, or with clusters that are not there is refused.
+#[test]
+fn damaged_ends_are_refused() {
+    for (values, found) in avoiding() {
+        let LowerBound::Avoiding { items, held_out } = &found.certificate.proof else { continue };
+        let with = |items: &[u32], held_out: Vec<HeldOut>| {
+            let mut damaged = found.clone();
+            damaged.certificate.proof = LowerBound::Avoiding { items: items.to_vec(), held_out };
+            is_confirmed(&values, &damaged)
+        };
+        assert!(with(items, held_out.clone()));
+        assert!(!with(items, vec![]));
+        let end = HeldOut { at: items.len() as u64, cluster: 0 };
+        assert!(!with(items, [&held_out[..], &[end, end]].concat()));
+        assert!(!with(&items[..items.len() - 1], held_out.clone()));
+        for at in (0..held_out.len()).step_by(held_out.len().div_ceil(20)) {
+            let mut changed = held_out.clone();
+            changed[at].cluster = 3;
+            assert!(!with(items, changed));
+            let mut changed = held_out.clone();
+            changed[at].at = u64::MAX;
+            assert!(!with(items, changed));
+        }
+        let mut damaged = found.clone();
+        damaged.certificate.proof = LowerBound::Branches { items: items.clone() };
+        assert!(!is_confirmed(&values, &damaged));
     }
 }

@@ -78,13 +78,18 @@ impl Search {
                 vec![],
                 "More points than balls, no two of which fit in one: nothing has to be searched.",
             ),
-            LowerBound::Branches { items } => match cases(&table, &core_set, items, k, bound)? {
-                None => (vec![], "The branches of this proof are too near the bound to be shown."),
-                Some(cases) if cases.len() == CASES_MAX => {
-                    (cases, "The proof goes on; its first cases are shown.")
+            // Nothing is left out here, so no branch is refuted by what is.
+            LowerBound::Branches { items } | LowerBound::Avoiding { items, .. } => {
+                match cases(&table, &core_set, items, k, bound)? {
+                    None => {
+                        (vec![], "The branches of this proof are too near the bound to be shown.")
+                    }
+                    Some(cases) if cases.len() == CASES_MAX => {
+                        (cases, "The proof goes on; its first cases are shown.")
+                    }
+                    Some(cases) => (cases, "All cases are refuted."),
                 }
-                Some(cases) => (cases, "All cases are refuted."),
-            },
+            }
         };
         let mut frame = Frame::of(&table);
         let (centers, radius) = (found.answer.centers, found.answer.radius);

@@ -77,6 +77,11 @@ impl Core {
         self
     }
 
+    /// Returns true if the items are points of the plane, each for itself.
+    pub(super) fn is_plain_plane(&self) -> bool {
+        matches!(self.kind, Kind::Points) && self.dim == 2 && !self.is_grouped
+    }
+
     /// Returns true if items are in groups.
     pub(super) fn is_grouped(&self) -> bool {
         self.is_grouped

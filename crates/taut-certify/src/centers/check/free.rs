@@ -17,6 +17,7 @@
 
 use taut_points::Cancelled;
 
+use super::avoiding;
 use super::core::{Core, Pairs};
 use super::meter::Meter;
 use super::oracle::Oracle;
@@ -143,6 +144,15 @@ impl Oracle for Free<'_> {
         if let Some(fit) = before {
             cluster.fit = fit;
         }
+    }
+
+    fn is_held_out(
+        &self,
+        cluster: &Cluster,
+        left_out: &[usize],
+        meter: &mut Meter<'_>,
+    ) -> Result<bool, Cancelled> {
+        avoiding::is_held_out(self.core, &cluster.members, left_out, meter)
     }
 
     fn undo_bytes(before: &Option<Fit>) -> usize {

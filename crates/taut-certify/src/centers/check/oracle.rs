@@ -31,6 +31,14 @@ pub(super) trait Oracle {
     /// Takes the item out that the cluster got last.
     fn undo(&self, cluster: &mut Self::Cluster, undo: Self::Undo);
 
+    /// Returns true if it is proved that each ball of a radius just below ρ that holds the cluster holds one of the items left out.
+    fn is_held_out(
+        &self,
+        cluster: &Self::Cluster,
+        left_out: &[usize],
+        meter: &mut Meter<'_>,
+    ) -> Result<bool, Cancelled>;
+
     /// The bytes that are kept to undo.
     fn undo_bytes(undo: &Self::Undo) -> usize;
 }

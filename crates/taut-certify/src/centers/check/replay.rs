@@ -3,12 +3,13 @@
 //! *Idea.* Each branch gives an item to each cluster in turn, to a new one if there may be more, and to those left out. A
 //! case whose cluster no ball holds is refuted there and then; of every other the log says how it goes on. Items of one group go
 //! where the first of them is: those after it have one case.
+//! A node can also be refuted by the items left out above it, where the log says by which cluster ([`Oracle::is_held_out`]).
 //! *Guarantee.* All cases are gone through, or the log is refused. No recursion: the depth is what the log makes it.
 //! *Cost.* For each branch, a test for each cluster, and the item added to each cluster that takes it. An item that the deepest
 //! center of its cluster has room for leaves nothing to be kept, another the center and the multipliers before it: a number
 //! for each coordinate and two for each multiplier, of which there are at most d + 1. [`UNDO_BYTES_MAX`] bytes are granted.
 
-use super::super::CentersViolation;
+use super::super::{CentersViolation, HeldOut};
 use super::core::{clear, is_set, set};
 use super::meter::Meter;
 use super::oracle::Oracle;
@@ -56,6 +57,8 @@ pub(super) struct Log<'a> {
     pub(super) outliers: u64,
     /// The item of each branch, in preorder.
     pub(super) items: &'a [u32],
+    /// The nodes that items left out refute, in preorder.
+    pub(super) held_out: &'a [HeldOut],
     /// For each item of the core-set the number of its group.
     pub(super) groups: &'a [usize],
     /// At most this many bytes are kept to undo cases.
@@ -69,10 +72,11 @@ impl Log<'_> {
         oracle: &mut R,
         meter: &mut Meter<'_>,
     ) -> Result<(), CheckError> {
-        let Log { k, outliers, items: log, groups, undo_bytes: most } = *self;
+        let Log { k, outliers, items: log, held_out, groups, undo_bytes: most } = *self;
         let mut clusters: Vec<R::Cluster> = vec![];
         let mut given = vec![0; oracle.len().div_ceil(64)];
-        let mut left = outliers;
+        let mut left_out = vec![];
+        let mut held_out = held_out.iter().peekable();
         // Groups are numbered from 0, and there are no more than items.
         let mut homes = vec![Home::Nowhere; oracle.len()];
         let mut entries = log.iter().copied().enumerate();
@@ -88,7 +92,7 @@ impl Log<'_> {
                     oracle.undo(&mut clusters[number], undo);
                 }
                 Undo::Opened => drop(clusters.pop()),
-                Undo::LeftOut => left += 1,
+                Undo::LeftOut => drop(left_out.pop()),
             }
             let (item, home) = (branch.item, &mut homes[groups[branch.item]]);
             let case = match branch.only {
@@ -110,9 +114,9 @@ impl Log<'_> {
                     clusters.push(cluster);
                     Undo::Opened
                 })
-            } else if case <= clusters.len() + 1 && left > 0 {
+            } else if case <= clusters.len() + 1 && (left_out.len() as u64) < outliers {
                 branch.next = clusters.len() + 2;
-                left -= 1;
+                left_out.push(item);
                 Some(Undo::LeftOut)
             } else {
                 clear(&mut given, item);
@@ -130,9 +134,27 @@ impl Log<'_> {
                 if undo_bytes > most {
                     return Err(CentersViolation::Kept { branches: open.len(), most }.into());
                 }
+                let used = log.len() - entries.len();
+                if let Some(&end) = held_out.next_if(|end| end.at == used as u64) {
+                    let refuse = |problem| {
+                        let HeldOut { at, cluster } = end;
+                        Err(CheckError::from(CentersViolation::HeldOut { at, cluster, problem }))
+                    };
+                    match clusters.get(end.cluster as usize) {
+                        None => return refuse("but there is no such cluster"),
+                        Some(cluster) if oracle.is_held_out(cluster, &left_out, meter)? => continue,
+                        Some(_) => {
+                            return refuse("which is not so or cannot be told from rounding");
+                        }
+                    }
+                }
                 let entry = taken(&mut entries, &mut given, oracle.len(), log)?;
                 open.push(entry.to_branch(groups, &homes)?);
             }
+        }
+        if let Some(&HeldOut { at, cluster }) = held_out.next() {
+            let problem = "where no node is open";
+            return Err(CentersViolation::HeldOut { at, cluster, problem }.into());
         }
         match entries.next() {
             Some((used, _)) => {
@@ -218,7 +240,8 @@ mod tests {
         let pairs = Pairs::of(&core, &mut meter).unwrap();
         let log: Vec<u32> = (0..rows as u32).collect();
         let groups: Vec<usize> = (0..rows).collect();
-        let log = Log { k: 2, outliers: 0, items: &log, groups: &groups, undo_bytes: most };
+        let (items, held_out, groups) = (&log[..], &[][..], &groups[..]);
+        let log = Log { k: 2, outliers: 0, items, held_out, groups, undo_bytes: most };
         match log.replay(&mut Free::of(&core, &pairs), &mut meter) {
             Err(CheckError::Rejected(Violation::Centers(violation))) => violation,
             other => panic!("{other:?}"),

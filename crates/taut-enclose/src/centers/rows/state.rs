@@ -11,7 +11,7 @@ use std::sync::Arc;
 use super::core_set::{CoreSet, Words, size};
 use crate::centers::depth_first::{self, Place};
 use crate::centers::links::{Links, cluster_of};
-use crate::centers::proof_tree::{ProofLog, Proving};
+use crate::centers::proof_tree::{ProofLog, Proving, Step};
 
 /// At the root, sets of items apart are sought from this many starts, divided by |X|: from every item while X is small.
 const ROOT_TESTS: usize = 1 << 16;
@@ -331,13 +331,15 @@ impl depth_first::State for State<'_> {
 }
 
 impl Proving for State<'_> {
-    fn chain(&mut self) -> Vec<u32> {
+    fn step(&mut self) -> Step {
         match self.examine() {
-            NodeState::StreamingReport => vec![],
-            NodeState::Branch(item) => vec![item as u32],
+            NodeState::StreamingReport => Step::Open,
+            NodeState::Branch(item) => Step::Branch(vec![item as u32]),
             // What is left of a group when one of its items is decided is looked at again.
-            NodeState::Dead(items) if self.links.is_some() => vec![items[0] as u32],
-            NodeState::Dead(items) => items.into_iter().map(|item| item as u32).collect(),
+            NodeState::Dead(items) if self.links.is_some() => Step::Branch(vec![items[0] as u32]),
+            NodeState::Dead(items) => {
+                Step::Branch(items.into_iter().map(|item| item as u32).collect())
+            }
         }
     }
 

@@ -3,8 +3,8 @@
 //! *Through m + 1 items:* with eᵢ = pᵢ − p₀ and t = R², or R − r₀ for balls, 2eᵢ′(c − p₀) is linear in t, which a QR
 //! factorization of the eᵢ turns into c = p₀ + Q(y₀ + t·y₁); what is left is one equation in t, of degree two.
 
-use super::Ball;
 use super::active_set::ActiveSet;
+use super::{Ball, low_dimension};
 use crate::centers::items::{ItemSet, Position, Shape, distance};
 
 /// Edges whose part across the others is a smaller part of them than this span no ball of their own.
@@ -53,6 +53,18 @@ impl<P: Position> Workspace<P> {
         more: u32,
         limit: f64,
     ) -> f64 {
+        let quick = match P::width(items.dim()) {
+            2 if items.shape() == Shape::Points => {
+                low_dimension::radius_with::<2, P>(items, ball, members, more, limit)
+            }
+            3 if items.shape() == Shape::Points => {
+                low_dimension::radius_with::<3, P>(items, ball, members, more, limit)
+            }
+            _ => None,
+        };
+        if let Some(radius) = quick {
+            return radius;
+        }
         let mut trial = std::mem::replace(
             &mut self.trial,
             Ball { center: P::zeros(0), radius: 0.0, support: vec![], shares: vec![] },

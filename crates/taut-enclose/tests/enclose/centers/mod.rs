@@ -2,7 +2,7 @@
 //! judge that measures every row and replays every proof with code of its own.
 #![allow(dead_code, unreachable_pub)] // each test binary uses a part
 
-use taut_certify::{Centers, Items, LowerBound, Solution};
+use taut_certify::{Centers, HeldOut, Items, LowerBound, Solution};
 use taut_enclose::CentersOptions;
 
 /// Returns how far a row reaches from a center.
@@ -178,6 +178,9 @@ pub fn judge(
         bound: answer.lower_bound * (1.0 - 1e-9),
         clusters: vec![],
         left: options.outliers,
+        out: vec![],
+        held_out: vec![],
+        read: 0,
         given: vec![false; certificate.core_set.len()],
     };
     match &certificate.proof {
@@ -195,11 +198,16 @@ pub fn judge(
             }
         }
         LowerBound::Branches { items } => {
-            let mut log = items.iter();
-            replay.follow(&mut log)?;
-            if log.next().is_some() {
-                return Err("the log goes on".into());
+            replay.follow(items)?;
+            replay.is_at_end(items)?;
+        }
+        LowerBound::Avoiding { items: log, held_out } => {
+            if items != Items::Points || weights || dim != 2 {
+                return Err("items left out refute only points of the plane".into());
             }
+            replay.held_out = held_out.iter().rev().copied().collect();
+            replay.follow(log)?;
+            replay.is_at_end(log)?;
         }
     }
     Ok(())
@@ -214,6 +222,11 @@ struct Replay<'a> {
     bound: f64,
     clusters: Vec<Vec<usize>>,
     left: u64,
+    out: Vec<usize>,
+    /// The last one first.
+    held_out: Vec<HeldOut>,
+    /// Branches so far.
+    read: usize,
     given: Vec<bool>,
 }
 
@@ -223,9 +236,49 @@ impl Replay<'_> {
         smallest(&rows, self.dim, self.items, self.weights) >= self.bound
     }
 
+    fn is_at_end(&self, log: &[u32]) -> Result<(), String> {
+        match self.read == log.len() && self.held_out.is_empty() {
+            true => Ok(()),
+            false => Err("the log goes on".into()),
+        }
+    }
+
+    /// A center of a ball of the bound's radius that holds a cluster and nothing that is left out, clearly: if there is one, there is
+    /// one where two circles about the points meet.
+    fn is_avoidable(&self, cluster: usize) -> Option<[f64; 2]> {
+        let place = |&item: &usize| [self.set[item][0], self.set[item][1]];
+        let members: Vec<[f64; 2]> = self.clusters[cluster].iter().map(place).collect();
+        let left_out: Vec<[f64; 2]> = self.out.iter().map(place).collect();
+        // A ball holds what it holds strictly, and so its copies.
+        if left_out.iter().any(|out| members.contains(out)) {
+            return None;
+        }
+        let all: Vec<[f64; 2]> = members.iter().chain(&left_out).copied().collect();
+        let distance = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
+        let is_center = |c: &[f64; 2]| {
+            members.iter().all(|&m| distance(m, *c) <= self.bound * (1.0 + 1e-12))
+                && left_out.iter().all(|&x| distance(x, *c) >= self.bound * (1.0 - 1e-12))
+        };
+        let pairs = all.iter().flat_map(|&a| all.iter().map(move |&b| (a, b)));
+        let mut meets = pairs.filter_map(|(a, b)| {
+            let apart = distance(a, b);
+            let across = (self.bound * self.bound - apart * apart / 4.0).sqrt() / apart;
+            let (x, y) = (across * (b[1] - a[1]), across * (a[0] - b[0]));
+            across.is_finite().then_some([(a[0] + b[0]) / 2.0 + x, (a[1] + b[1]) / 2.0 + y])
+        });
+        meets.find(is_center)
+    }
+
     /// Follows the log: the items of the nodes in preorder, each given to all places that do not refute it.
-    fn follow<'l>(&mut self, log: &mut impl Iterator<Item = &'l u32>) -> Result<(), String> {
-        let item = *log.next().ok_or("the log ends early")? as usize;
+    fn follow(&mut self, log: &[u32]) -> Result<(), String> {
+        if let Some(end) = self.held_out.pop_if(|end| end.at == self.read as u64) {
+            return match self.is_avoidable(end.cluster as usize) {
+                Some(center) => Err(format!("{center:?} avoids all that is left out")),
+                None => Ok(()),
+            };
+        }
+        let item = *log.get(self.read).ok_or("the log ends early")? as usize;
+        self.read += 1;
         if std::mem::replace(&mut self.given[item], true) {
             return Err(format!("{item} is given already"));
         }
@@ -245,7 +298,9 @@ impl Replay<'_> {
         }
         if self.left > 0 {
             self.left -= 1;
+            self.out.push(item);
             self.follow(log)?;
+            self.out.pop();
             self.left += 1;
         }
         self.given[item] = false;

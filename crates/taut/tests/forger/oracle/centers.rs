@@ -189,7 +189,9 @@ fn form(
                 .all(|(&row, place)| row < n && exact(place) == position(row as usize))
     };
     let nodes = match (&certificate.proof, answer.lower_bound > 0.0) {
-        (LowerBound::Branches { items }, true) => verdict.branches == items.len() as u64,
+        (LowerBound::Branches { items } | LowerBound::Avoiding { items, .. }, true) => {
+            verdict.branches == items.len() as u64
+        }
         _ => verdict.branches == 0,
     };
     let form = [

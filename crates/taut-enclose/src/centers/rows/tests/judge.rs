@@ -132,6 +132,7 @@ impl<'a> Replay<'a> {
                     assert!((0..a).all(|b| !self.is_feasible(&[a, b])));
                 }
             }
+            LowerBound::Avoiding { .. } => panic!("centers at rows are not asked to avoid"),
             LowerBound::Branches { items } => {
                 self.node(items, &mut vec![], &mut vec![]);
                 assert_eq!(self.read, items.len(), "branches left over");

@@ -1,0 +1,233 @@
+//! The radius of the smallest ball of points and one more, in the plane and in space, where the ball without that is known.
+//!
+//! *Idea.* The new point lies on the border of the new ball, with at most d points of the old support: two are a diameter, more have one
+//! smallest sphere through them. Of these spheres the smallest that holds the old support is its ball with the new point. A point
+//! that this leaves outside is the next one to enter.
+//! *Use.* A search asks for this radius far more often than for anything else, and mostly needs neither center nor multipliers.
+//! *Trap.* Points that are nearly dependent, and rounds that rounding brings to no end, are left to the general method.
+
+use super::super::items::{ItemSet, Position};
+use super::{Ball, REACH_TOLERANCE};
+
+/// More points than this do not enter one after the other, but by rounding.
+const ROUNDS_MAX: usize = 16;
+/// A triangle or tetrahedron whose size is a smaller part of that of the box of its edges is flat.
+const SIZE_MIN: f64 = 1e-9;
+
+/// Squares of edges whose products of three neither vanish nor overflow.
+const SQUARES: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
+
+/// A sphere, and the points that determine it.
+#[derive(Clone, Copy)]
+struct Sphere<const D: usize> {
+    center: [f64; D],
+    radius: f64,
+    support: [[f64; D]; 4],
+    count: usize,
+}
+
+/// Points of the plane or of space.
+pub(super) trait Through: Copy {
+    /// From the first of three or more points to the center of the smallest sphere through them; `None` where they are flat.
+    fn to_center(edges: &[Self]) -> Option<Self>;
+}
+
+/// Returns the radius of the smallest ball of `members`, whose ball is given, and one point more; infinite where it is at least
+/// `limit`, `None` where the point is inside already or rounding is in the way.
+pub(super) fn radius_with<const D: usize, P: Position>(
+    items: &ItemSet<P>,
+    ball: &Ball<P>,
+    members: &[u32],
+    more: u32,
+    limit: f64,
+) -> Option<f64>
+where
+    [f64; D]: Through,
+{
+    let place = |item: u32| -> [f64; D] {
+        let at = items.at(item as usize);
+        std::array::from_fn(|axis| at[axis])
+    };
+    let center: [f64; D] = std::array::from_fn(|axis| ball.center.as_ref()[axis]);
+    let is_inside = square(place(more), center) <= reach2(ball.radius);
+    if is_inside || ball.support.len() > D + 1 {
+        return None;
+    }
+    let mut support = [[0.0; D]; 4];
+    support.iter_mut().zip(&ball.support).for_each(|(to, &item)| *to = place(item));
+    let (mut count, mut entering, mut before) = (ball.support.len(), place(more), ball.radius);
+    for _ in 0..ROUNDS_MAX {
+        let sphere = entered(&support[..count], entering)?;
+        if sphere.radius >= limit {
+            return Some(f64::INFINITY);
+        }
+        if sphere.radius <= before * (1.0 + REACH_TOLERANCE) {
+            return None;
+        }
+        let mut most = reach2(sphere.radius);
+        let mut farthest = None;
+        for &item in members.iter().chain(&[more]) {
+            let reach = square(place(item), sphere.center);
+            if reach > most {
+                (farthest, most) = (Some(place(item)), reach);
+            }
+        }
+        match farthest {
+            None => return Some(sphere.radius),
+            Some(place) => entering = place,
+        }
+        (support, count, before) = (sphere.support, sphere.count, sphere.radius);
+    }
+    None
+}
+
+/// The smallest sphere that holds a support and a point outside of its ball.
+fn entered<const D: usize>(support: &[[f64; D]], p: [f64; D]) -> Option<Sphere<D>>
+where
+    [f64; D]: Through,
+{
+    let holds_all =
+        |center: [f64; D], radius| support.iter().all(|&a| square(a, center) <= reach2(radius));
+    for &a in support {
+        let center = std::array::from_fn(|axis| 0.5 * (a[axis] + p[axis]));
+        let radius = 0.5 * square(a, p).sqrt();
+        if holds_all(center, radius) {
+            return Some(Sphere { center, radius, support: [p, a, p, p], count: 2 });
+        }
+    }
+    let mut best: Option<Sphere<D>> = None;
+    for subset in (0..1usize << support.len()).filter(|s| (2..=D as u32).contains(&s.count_ones()))
+    {
+        let (mut through, mut edges, mut count) = ([p; 4], [[0.0; D]; 3], 0);
+        for (at, a) in support.iter().enumerate() {
+            if subset >> at & 1 == 1 {
+                through[count + 1] = *a;
+                edges[count] = std::array::from_fn(|axis| a[axis] - p[axis]);
+                count += 1;
+            }
+        }
+        if edges[..count].iter().any(|&edge| !SQUARES.contains(&square(edge, [0.0; D]))) {
+            return None;
+        }
+        let to_center = <[f64; D]>::to_center(&edges[..count])?;
+        let radius = square(to_center, [0.0; D]).sqrt();
+        let center = std::array::from_fn(|axis| p[axis] + to_center[axis]);
+        if best.is_none_or(|best| radius < best.radius) && holds_all(center, radius) {
+            best = Some(Sphere { center, radius, support: through, count: count + 1 });
+        }
+    }
+    best
+}
+
+impl Through for [f64; 2] {
+    fn to_center(edges: &[Self]) -> Option<Self> {
+        let &[u, v] = edges else { return None };
+        let (uu, vv) = (square(u, [0.0; 2]), square(v, [0.0; 2]));
+        let area = u[0] * v[1] - u[1] * v[0];
+        // Also where numbers are none.
+        let is_clear = area.abs() > SIZE_MIN * (uu * vv).sqrt();
+        is_clear
+            .then(|| [0.5 * (v[1] * uu - u[1] * vv) / area, 0.5 * (u[0] * vv - v[0] * uu) / area])
+    }
+}
+
+impl Through for [f64; 3] {
+    fn to_center(edges: &[Self]) -> Option<Self> {
+        let [u, v] = [edges[0], edges[1]];
+        let [uu, vv] = [u, v].map(|edge| square(edge, [0.0; 3]));
+        let normal = cross(u, v);
+        let nn = square(normal, [0.0; 3]);
+        let (sum, size, is_clear) = match edges {
+            [_, _] => {
+                let (a, b) = (cross(normal, u), cross(v, normal));
+                let sum = std::array::from_fn(|axis| vv * a[axis] + uu * b[axis]);
+                (sum, nn, nn > SIZE_MIN * SIZE_MIN * uu * vv)
+            }
+            _ => {
+                let w = edges[2];
+                let ww = square(w, [0.0; 3]);
+                let (a, b) = (cross(v, w), cross(w, u));
+                let sum =
+                    std::array::from_fn(|axis| uu * a[axis] + vv * b[axis] + ww * normal[axis]);
+                let size = normal[0] * w[0] + normal[1] * w[1] + normal[2] * w[2];
+                (sum, size, size.abs() > SIZE_MIN * (uu * vv * ww).sqrt())
+            }
+        };
+        is_clear.then(|| sum.map(|x: f64| 0.5 * x / size))
+    }
+}
+
+fn cross(u: [f64; 3], v: [f64; 3]) -> [f64; 3] {
+    [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+}
+
+/// The square of what a radius reaches, rounding included.
+#[inline(always)]
+fn reach2(radius: f64) -> f64 {
+    let reach = radius * (1.0 + REACH_TOLERANCE);
+    reach * reach
+}
+
+/// |a − b|².
+#[inline(always)]
+fn square<const D: usize>(a: [f64; D], b: [f64; D]) -> f64 {
+    let mut sum = 0.0;
+    for axis in 0..D {
+        sum += (a[axis] - b[axis]) * (a[axis] - b[axis]);
+    }
+    sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::items::Shape;
+    use super::super::Workspace;
+    use super::*;
+
+    /// Counts the sets for which the general method is left to do the work; all others have its radius.
+    fn left_to_others<const D: usize>(grid: bool) -> (usize, usize)
+    where
+        [f64; D]: Through + Position,
+    {
+        let mut state = 5u64;
+        let mut draw = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695);
+            let value = (state >> 33) as f64 / 2f64.powi(31);
+            if grid { (value * 4.0).floor() } else { value }
+        };
+        let (mut left, mut all) = (0, 0);
+        for round in 0..2000 {
+            let mut items = ItemSet::<[f64; D]>::new(Shape::Points, D);
+            let count = 3 + round % 10;
+            (0..count).for_each(|_| items.push(&[(); D].map(|()| draw()), 0.0));
+            let members: Vec<u32> = (0..count as u32 - 1).collect();
+            let (more, mut work) = (count as u32 - 1, Workspace::new(D));
+            let ball = Ball::of_all(&items, &members, &mut work);
+            if ball.holds(&items, more) {
+                assert_eq!(radius_with::<D, _>(&items, &ball, &members, more, 9.0), None);
+                continue;
+            }
+            let mut grown = ball.clone();
+            grown.grow(&items, &members, more, f64::INFINITY, &mut work);
+            all += 1;
+            match radius_with::<D, _>(&items, &ball, &members, more, f64::INFINITY) {
+                Some(radius) => assert!((radius / grown.radius - 1.0).abs() < 1e-12, "{radius}"),
+                None => left += 1,
+            }
+            let limit = 0.999 * grown.radius;
+            let limited = radius_with::<D, _>(&items, &ball, &members, more, limit);
+            assert!(limited.is_none_or(|radius| radius == f64::INFINITY));
+        }
+        (left, all)
+    }
+
+    #[test]
+    fn radii_are_those_of_the_general_method() {
+        for (left, all) in [left_to_others::<2>(false), left_to_others::<3>(false)] {
+            assert!(all > 500 && left * 100 < all, "{left} of {all}");
+        }
+        for (left, all) in [left_to_others::<2>(true), left_to_others::<3>(true)] {
+            assert!(all > 500 && left < all, "{left} of {all}");
+        }
+    }
+}
