@@ -9,6 +9,8 @@ mod badoiu_clarkson;
 mod conic;
 mod core_set;
 mod factor;
+mod interior;
+mod interior_rounds;
 mod of_shapes;
 mod options;
 mod outcome;
