@@ -91,8 +91,8 @@ impl ActiveSet {
         active
     }
 
-    /// The support is the first d + 1 items, without those that depend on others, at its stationary point from these
-    /// multipliers; `earlier` has counted what it took to come here.
+    /// The support is the first d + 1 items that do not depend on others, at its stationary point from these multipliers;
+    /// `earlier` has counted what it took to come here.
     pub(super) fn resting_on(
         set: &WorkingSet,
         reach2: f64,
@@ -101,9 +101,9 @@ impl ActiveSet {
     ) -> Self {
         let mut active = ActiveSet::new(set, reach2);
         (active.pivots, active.stalls) = (earlier.pivots, earlier.stalls);
-        active.support = (0..set.len().min(set.dim() + 1)).collect();
-        active.lambda = lambda[..active.support.len()].to_vec();
-        active.rebuild(set);
+        active.support = (0..set.len()).collect();
+        active.lambda = lambda.to_vec();
+        active.rebuild_with(set, DEPENDENT_RATIO);
         active.settle(set);
         active
     }
@@ -433,10 +433,18 @@ impl ActiveSet {
 
     /// The factor of the support, afresh. An item that has come to depend on those before it is dropped.
     fn rebuild(&mut self, set: &WorkingSet) {
+        self.rebuild_with(set, f64::EPSILON * f64::EPSILON);
+    }
+
+    /// The same for a part of the squared length below which the squared distance to those before it is dependence.
+    fn rebuild_with(&mut self, set: &WorkingSet, dependent_ratio: f64) {
         self.factor.clear();
         let (support, lambda) =
             (std::mem::take(&mut self.support), std::mem::take(&mut self.lambda));
         for (i, l) in support.into_iter().zip(lambda) {
+            if self.support.len() > set.dim() {
+                break;
+            }
             let a: Vec<f64> =
                 self.support.iter().map(|&k| set.gram_row(i)[k] + self.sigma).collect();
             let mut z = self.factor.forward(&a);
@@ -447,7 +455,7 @@ impl ActiveSet {
                 distance2 = self.distance_from_coordinates(set, i, &mut y);
                 z = self.factor.times(&y);
             }
-            if distance2 > f64::EPSILON * f64::EPSILON * length2 {
+            if distance2 > dependent_ratio * length2 {
                 self.factor.append(&z, distance2.sqrt(), self.b(set, i) / 2.0);
                 self.support.push(i);
                 self.lambda.push(l);

@@ -22,6 +22,9 @@ use crate::ellipsoid::factor::Factor;
 const STEP_FRACTION: f64 = 0.99;
 /// A shorter step gains nothing: rounding has taken the last digit.
 const STEP_LEAST: f64 = 1e-6;
+/// Level and lower bound may differ by this part of the squared radius for rounding alone, while the products of slacks and
+/// multipliers, which are updated and not worked out anew, go on falling.
+const ROUNDING_GAP: f64 = 2e-14;
 /// At most this many steps are taken from one start.
 const STEPS_MAX: usize = 40;
 /// A start leaves all slacks at least this part of what the farthest new point exceeds the level by.
@@ -160,8 +163,8 @@ impl InteriorPoint {
             - dot(&combination, &combination) / (total * total)
     }
 
-    /// Steps until level and lower bound differ by no more than `gap` (in units of the squared radius), or rounding
-    /// or [`STEPS_MAX`] ends it.
+    /// Steps until Σ sᵢλᵢ is no more than `gap` (in units of the squared radius), and level and lower bound differ by
+    /// no more, or by no more than rounding; or until rounding or [`STEPS_MAX`] ends it.
     pub(super) fn follow(
         &mut self,
         rows: &Rows,
@@ -170,8 +173,9 @@ impl InteriorPoint {
     ) -> Result<(), Cancelled> {
         for _ in 0..STEPS_MAX {
             monitor.check()?;
+            let proved_gap = gap.max(ROUNDING_GAP * self.radius2());
             if dot(&self.slacks, &self.multipliers) <= gap
-                && self.radius2() - self.lower_bound(rows) <= gap
+                && self.radius2() - self.lower_bound(rows) <= proved_gap
             {
                 return Ok(());
             }
@@ -278,4 +282,112 @@ fn nth_largest(values: &[f64], n: usize) -> f64 {
 fn longest(values: &[f64], direction: &[f64], fraction: f64) -> f64 {
     let bound = |(v, d): (&f64, &f64)| if *d < 0.0 { -fraction * v / d } else { 1.0 };
     values.iter().zip(direction).map(bound).fold(1.0, f64::min)
+}
+
+#[cfg(test)]
+mod tests {
+    use taut_points::{Distribution, generate};
+
+    use super::*;
+
+    /// Rows relative to the mean of all, as those of a working set are to that of a sample.
+    fn rows_of(values: &[f64], dim: usize) -> Rows {
+        let mut mean = vec![0.0; dim];
+        let count = (values.len() / dim) as f64;
+        for row in values.chunks_exact(dim) {
+            mean.iter_mut().zip(row).for_each(|(m, x)| *m += x / count);
+        }
+        let mut rows = Rows::new(dim);
+        for row in values.chunks_exact(dim) {
+            rows.push(row.iter().zip(&mean).map(|(x, m)| x - m));
+        }
+        rows
+    }
+
+    /// Follows the path from the center of the first point to the end; returns the point there.
+    fn end_of_path(rows: &Rows) -> InteriorPoint {
+        let mut point = InteriorPoint::new(rows, rows.row(0).to_vec(), -rows.norms2[0]);
+        point.follow(rows, 1e-15, &Monitor::silent()).unwrap();
+        point
+    }
+
+    #[test]
+    fn the_path_ends_at_the_optimum() {
+        for (k, distribution) in [
+            Distribution::Normal,
+            Distribution::Uniform,
+            Distribution::CubeVertices,
+            Distribution::Sphere,
+            Distribution::Shell { thickness: 1e-8 },
+            Distribution::Clusters { count: 3, spread: 0.0 },
+        ]
+        .into_iter()
+        .enumerate()
+        {
+            for (n, dim) in [(9, 1), (30, 2), (300, 7), (600, 70)] {
+                let values: Vec<f64> = generate(distribution, n, dim, 8200 + k as u64).unwrap();
+                let rows = rows_of(&values, dim);
+                let point = end_of_path(&rows);
+                let (upper, lower) = (point.radius2(), point.lower_bound(&rows));
+                // Any multipliers prove a lower bound; the center is held to hold all rows.
+                let mut x = point.center().to_vec();
+                x.push(0.0);
+                let far = rows.norms2.iter().zip(rows.times(&x)).map(|(b, product)| b - product);
+                let reached = far.fold(f64::NEG_INFINITY, f64::max) + dot(&x, &x);
+                assert!(reached <= upper * (1.0 + 1e-14), "{distribution}, {n} × {dim}");
+                assert!(lower <= reached * (1.0 + 1e-14), "{distribution}, {n} × {dim}");
+                let gap = upper / lower - 1.0;
+                assert!(gap < 1e-11, "{distribution}, {n} × {dim}: {gap:e}");
+                assert!(point.steps <= STEPS_MAX as u64);
+            }
+        }
+    }
+
+    #[test]
+    fn the_ball_of_a_simplex_is_known() {
+        for dim in [2, 10, 100] {
+            let values: Vec<f64> = generate(Distribution::Simplex, dim + 1, dim, 1).unwrap();
+            let point = end_of_path(&rows_of(&values, dim));
+            let wanted = dim as f64 / (2.0 * (dim as f64 + 1.0));
+            assert!((point.radius2() / wanted - 1.0).abs() < 1e-12, "{dim}");
+            let even = 1.0 / (dim as f64 + 1.0);
+            assert!(point.multipliers().iter().all(|l| (l - even).abs() < 1e-9), "{dim}");
+        }
+    }
+
+    #[test]
+    fn rows_that_come_later_are_inside_after_a_start() {
+        let (n, dim) = (500, 20);
+        let values: Vec<f64> = generate(Distribution::Normal, n, dim, 8300).unwrap();
+        let all = rows_of(&values, dim);
+        let mut rows = Rows::new(dim);
+        (0..n / 2).for_each(|i| rows.push(all.row(i).iter().copied()));
+        let mut point = end_of_path(&rows);
+        let before = point.radius2();
+        (n / 2..n).for_each(|i| rows.push(all.row(i).iter().copied()));
+        point.start(&rows);
+        assert!(point.excess() > 0.0 && point.slacks.iter().all(|s| *s > 0.0));
+        point.follow(&rows, 1e-15, &Monitor::silent()).unwrap();
+        let afresh = end_of_path(&rows).radius2();
+        assert!(afresh > before && (point.radius2() / afresh - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn sums_do_not_depend_on_tiles() {
+        let (n, dim) = (3 * TILE_ROWS + 5, TILE_COLUMNS + 3);
+        let values: Vec<f64> = generate(Distribution::Normal, n, dim, 8400).unwrap();
+        let rows = rows_of(&values, dim);
+        let weights: Vec<f64> = (0..n).map(|i| 1.0 + (i % 7) as f64).collect();
+        let p = dim + 1;
+        let normal = rows.normal(&weights);
+        let entry = |i: usize, a: usize| if a < dim { 2.0 * rows.row(i)[a] } else { 1.0 };
+        for (a, b) in [(0, 0), (0, dim), (5, 66), (64, 65), (dim, dim)] {
+            let own = if a == b && a < dim { 2.0 } else { 0.0 };
+            let sum: f64 = (0..n).map(|i| weights[i] * entry(i, a) * entry(i, b)).sum();
+            assert!((normal[a * p + b] - sum - own).abs() < 1e-9 * sum.abs().max(1.0), "{a}, {b}");
+        }
+        let combination = rows.combination(&weights);
+        let sum: f64 = (0..n).map(|i| weights[i] * rows.row(i)[3]).sum();
+        assert!((combination[3] - sum).abs() < 1e-9);
+    }
 }

@@ -31,11 +31,16 @@ use crate::item_reader::{ItemReader, Query};
 const BATCH: usize = 512;
 /// A round ends at this part of what the farthest new point exceeded the ball by.
 const ROUND_GAP_RATIO: f64 = 0.1;
-/// The last round ends at this gap, relative to the squared radius: rounding leaves little more.
-const LAST_GAP: f64 = 2e-14;
+/// The last round ends at this sum of products, relative to the squared radius. It is below rounding, as only then the
+/// multipliers of the support stand out: at 2e-14 the active set took ten times the steps that were left.
+const LAST_GAP: f64 = 1e-16;
 /// The rounds end when a pass finds fewer points outside than this part of the dimension: each of them costs the active set
 /// about ten steps.
 const FEW_RATIO: f64 = 0.05;
+/// Multipliers of this part of their sum may be those of the support, of which there are more than d + 1 where points have copies.
+const WEIGHT_LEAST: f64 = 1e-9;
+/// At most so many times d + 1 points are looked at for the support.
+const CANDIDATES_MAX: usize = 4;
 /// Points beside the support that the active set is handed, as a part of the dimension: those with the largest multipliers.
 const SPARE_RATIO: f64 = 0.25;
 
@@ -62,7 +67,7 @@ pub(super) fn solve(
         let radius2 = point.radius2();
         let center = set.center_at(point.center(), radius2.sqrt());
         let above = radius2 * (1.0 - 4.0 * relative_error(dim)).max(0.0);
-        let query = Query { center: &center, above, keep: 2 * BATCH, by_face_above: None };
+        let query = Query { center: &center, above, keep: BATCH + 64, by_face_above: None };
         let found = reader.farthest(query)?;
         let lower = point.lower_bound(&rows).max(0.0).sqrt();
         let upper = found.farthest.reach2.sqrt();
@@ -90,7 +95,10 @@ pub(super) fn solve(
     order.order_by(&|&a: &usize, &b: &usize| {
         multipliers[b].total_cmp(&multipliers[a]).then(a.cmp(&b))
     });
-    order.truncate(dim + 1 + (SPARE_RATIO * dim as f64) as usize);
+    let least = WEIGHT_LEAST * multipliers.iter().sum::<f64>();
+    let weighty = order.partition_point(|&i| multipliers[i] >= least);
+    let spare = dim + 1 + (SPARE_RATIO * dim as f64) as usize;
+    order.truncate(weighty.min(CANDIDATES_MAX * (dim + 1)).max(spare));
     let mut fewer = WorkingSet::new(set.origin().to_vec(), 0.0);
     let chosen: Vec<u64> = order.iter().map(|&i| ids[i]).collect();
     fewer.add(&chosen, &reader.rows(&chosen)?, false);
