@@ -14,6 +14,8 @@
 //! *Trap.* Thousands of near-copies of one far point fill a batch and teach nothing: when few of a batch enter the
 //! support, the next pass takes at most two per face of the cube around the center. Doing so always would cost twice
 //! the passes on cube vertices. When most of a batch enters, the support is large, and the batch is doubled.
+//! *Hard input.* Near a sphere an active set takes thousands of steps. When it drops too many items within one pass, an
+//! interior-point method looks for a better support ([`super::interior_rounds`]), once, and for points only.
 //! *Measured.* Starting from a sample, dropping points that provably stay inside, and caching distances were each
 //! tried and each cost more than they saved: so few points are ever scanned again that nothing is left to save.
 
