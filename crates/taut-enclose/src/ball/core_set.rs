@@ -37,7 +37,7 @@ const BATCH_MAX: usize = 1024;
 pub(super) const ROUNDING: f64 = 10.0 * VIOLATION_TOLERANCE;
 /// The active set gives way to an interior-point method when half the dimension, but at least so many items, leave the
 /// support within one pass. Measured: points on a sphere and vertices of a cube, d = 100 to 1500, come to a third of the
-/// dimension; a sphere with noise of 1e-8 comes to four times the dimension and more.
+/// dimension; a sphere with noise of 1e-8 comes to one and a half times the dimension when the support is first full.
 const DELETIONS_LEAST: usize = 64;
 /// Smallest batch of which the share that entered the support says anything.
 const TELLING_BATCH: usize = 16;
