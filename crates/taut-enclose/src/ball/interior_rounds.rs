@@ -60,6 +60,9 @@ pub(super) fn solve(
     let (radius2, norm2) = active.level(set);
     let center = set.combination(active.support(), active.lambda());
     let mut point = InteriorPoint::new(&rows, center, radius2 - norm2);
+    let proved =
+        |set: &WorkingSet, active: &ActiveSet| lower_bound(set, active.support(), active.lambda());
+    let mut lower = proved(set, active);
     // The pass that proves the answer has to be left.
     while reader.passes() + 1 < options.max_passes {
         let gap = ROUND_GAP_RATIO * point.excess();
@@ -69,7 +72,8 @@ pub(super) fn solve(
         let above = radius2 * (1.0 - 4.0 * relative_error(dim)).max(0.0);
         let query = Query { center: &center, above, keep: BATCH + 64, by_face_above: None };
         let found = reader.farthest(query)?;
-        let lower = point.lower_bound(&rows).max(0.0).sqrt();
+        // A round that ends far from the optimum proves less than was known.
+        lower = lower.max(point.lower_bound(&rows).max(0.0).sqrt());
         let upper = found.farthest.reach2.sqrt();
         outcome.bounds(PassBounds { lower, upper, working_set: rows.len() as u64 });
         let violating = radius2 * (1.0 + VIOLATION_TOLERANCE);
@@ -104,7 +108,5 @@ pub(super) fn solve(
     fewer.add(&chosen, &reader.rows(&chosen)?, false);
     let lambda: Vec<f64> = order.iter().map(|&i| multipliers[i]).collect();
     let better = ActiveSet::resting_on(&fewer, point.radius2(), &lambda, active);
-    let proved =
-        |set: &WorkingSet, active: &ActiveSet| lower_bound(set, active.support(), active.lambda());
     Ok((proved(&fewer, &better) > proved(set, active)).then_some((fewer, better)))
 }
