@@ -100,12 +100,12 @@ pub(crate) const AREA: Area<Run> = Area {
         runs("shell-300", |run, out| points::run(run, out, NOISE, 10_000, 300))
             .peers(FGK)
             .about("A sphere with noise of 1e-8, 10⁴ × 300: the hardest family.")
-            .must(&[GAP_GOAL, CONVERGED, SECONDS.at_most(10.0)])
-            .aim(&[SECONDS.at_most(1.0)]),
+            .must(&[GAP_GOAL, CONVERGED, SECONDS.at_most(0.5)])
+            .aim(&[SECONDS.at_most(0.2)]),
         runs("shell-500", |run, out| points::run(run, out, NOISE, 10_000, 500))
             .about("A sphere with noise of 1e-8, 10⁴ × 500.")
-            .must(&[GAP_GOAL, CONVERGED, SECONDS.at_most(10.0)])
-            .aim(&[SECONDS.at_most(1.0)]),
+            .must(&[GAP_GOAL, CONVERGED, SECONDS.at_most(1.5)])
+            .aim(&[SECONDS.at_most(0.6)]),
         runs("large", points::run_largest)
             .about(
                 "The size of the largest instance of the thesis (chapter 2), here normal: 10⁵ × 1500 \

@@ -9,6 +9,8 @@ mod badoiu_clarkson;
 mod conic;
 mod core_set;
 mod factor;
+mod interior;
+mod interior_rounds;
 mod of_shapes;
 mod options;
 mod outcome;
@@ -41,8 +43,8 @@ pub(crate) use proof::reach_up;
 /// [`BallMethod::CoreSet`]. The answer is the same, bit by bit, for every medium the rows come from.
 ///
 /// *Cost* of the default method: a few passes of O(nd) (three to five on ordinary data, more on cospherical points),
-/// beside O(k²d) for a core-set of k points and O(k²) for each of its steps; in memory, O(k² + kd) and one block for each
-/// thread. For ellipsoids O(nd³) once and a dozen passes of O(nd²), with n·d² numbers in memory.
+/// beside O(k²d) for a core-set of k points and O(k²) for each of its steps, and near a sphere about 40 steps of O(kd²);
+/// in memory, O(k² + kd) and one block for each thread. For ellipsoids O(nd³) once and a dozen passes of O(nd²), with n·d² numbers in memory.
 ///
 /// *Source.* Dual active set on a core-set; see the head of the method's module for the papers.
 ///

@@ -6,7 +6,7 @@
 mod batch;
 mod counters;
 pub(crate) mod dense;
-mod factor;
+pub(crate) mod factor;
 mod first_order;
 mod flat;
 mod initial;

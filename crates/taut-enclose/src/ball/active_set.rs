@@ -60,6 +60,10 @@ pub(super) struct ActiveSet {
     /// R of the balls' problem, relative to the radius offset; irrelevant for points.
     radius: f64,
     deletions: u32,
+    /// Deletions in one search for the optimum after which it ends early; none by default.
+    patience: Option<u32>,
+    /// The last search ended early.
+    gave_up: bool,
     /// Items taken to the support so far.
     pub(super) pivots: u64,
     /// Times the factor was rebuilt because the value stood still.
@@ -78,11 +82,39 @@ impl ActiveSet {
             sigma: least.max(largest_norm2(set)),
             radius: 0.0,
             deletions: 0,
+            patience: None,
+            gave_up: false,
             pivots: 0,
             stalls: 0,
         };
         active.rebuild(set);
         active
+    }
+
+    /// The support is the first d + 1 items that do not depend on others, at its stationary point from these multipliers;
+    /// `earlier` has counted what it took to come here.
+    pub(super) fn resting_on(
+        set: &WorkingSet,
+        reach2: f64,
+        lambda: &[f64],
+        earlier: &Self,
+    ) -> Self {
+        let mut active = ActiveSet::new(set, reach2);
+        (active.pivots, active.stalls) = (earlier.pivots, earlier.stalls);
+        active.support = (0..set.len()).collect();
+        active.lambda = lambda.to_vec();
+        active.rebuild_with(set, DEPENDENT_RATIO);
+        active.settle(set);
+        active
+    }
+
+    /// Lets [`Self::maximize`] end early, after so many deletions in one call.
+    pub(super) fn give_up_after(&mut self, deletions: Option<u32>) {
+        self.patience = deletions;
+    }
+
+    pub(super) fn gave_up(&self) -> bool {
+        self.gave_up
     }
 
     pub(super) fn support(&self) -> &[usize] {
@@ -136,8 +168,14 @@ impl ActiveSet {
         let mut vain = vec![0; set.len()];
         let mut rebuilt = false;
         let mut attempts = 0;
+        let last = self.patience.map(|patience| self.deletions.saturating_add(patience));
+        self.gave_up = false;
         loop {
             monitor.check()?;
+            if last.is_some_and(|last| self.deletions > last) {
+                self.gave_up = true;
+                return Ok(());
+            }
             let f = self.values(set);
             let value = dot(&self.lambda, &self.support.iter().map(|&i| f[i]).collect::<Vec<_>>());
             if self.level_out(set, &f, value, &mut attempts) {
@@ -225,7 +263,7 @@ impl ActiveSet {
 
     /// The common value of f on the support at its stationary point, and |c|²; from (As)ᵢ = bᵢ/2 + ν both follow
     /// without a look at the Gram matrix.
-    fn level(&self, set: &WorkingSet) -> (f64, f64) {
+    pub(super) fn level(&self, set: &WorkingSet) -> (f64, f64) {
         let nu = self.factor.multiplier();
         let half: f64 =
             self.support.iter().zip(&self.lambda).map(|(&i, l)| l * self.b(set, i)).sum::<f64>()
@@ -395,10 +433,18 @@ impl ActiveSet {
 
     /// The factor of the support, afresh. An item that has come to depend on those before it is dropped.
     fn rebuild(&mut self, set: &WorkingSet) {
+        self.rebuild_with(set, f64::EPSILON * f64::EPSILON);
+    }
+
+    /// The same for a part of the squared length below which the squared distance to those before it is dependence.
+    fn rebuild_with(&mut self, set: &WorkingSet, dependent_ratio: f64) {
         self.factor.clear();
         let (support, lambda) =
             (std::mem::take(&mut self.support), std::mem::take(&mut self.lambda));
         for (i, l) in support.into_iter().zip(lambda) {
+            if self.support.len() > set.dim() {
+                break;
+            }
             let a: Vec<f64> =
                 self.support.iter().map(|&k| set.gram_row(i)[k] + self.sigma).collect();
             let mut z = self.factor.forward(&a);
@@ -409,7 +455,7 @@ impl ActiveSet {
                 distance2 = self.distance_from_coordinates(set, i, &mut y);
                 z = self.factor.times(&y);
             }
-            if distance2 > f64::EPSILON * f64::EPSILON * length2 {
+            if distance2 > dependent_ratio * length2 {
                 self.factor.append(&z, distance2.sqrt(), self.b(set, i) / 2.0);
                 self.support.push(i);
                 self.lambda.push(l);

@@ -56,6 +56,10 @@ impl WorkingSet {
         self.dim
     }
 
+    pub(super) fn origin(&self) -> &[f64] {
+        &self.origin
+    }
+
     pub(super) fn radius_offset(&self) -> f64 {
         self.radius_offset
     }
@@ -112,18 +116,13 @@ impl WorkingSet {
         let terms: Vec<DoubleDouble> = (self.origin.iter().zip(sums.into_iter().zip(errors)))
             .map(|(&origin, (sum, error))| DoubleDouble::sum(sum, error) / total + origin.into())
             .collect();
-        let high: Vec<f64> = terms.iter().map(|term| term.high).collect();
-        let largest = high.iter().fold(0.0f64, |m, c| m.max(c.abs()));
-        if radius == 0.0 || largest > FAR_OFF * radius {
-            return Center { high, low: terms.iter().map(|term| term.low).collect() };
-        }
-        // A coordinate near 0 would keep digits far below the rounding of the others, and of all distances: a center
-        // that should be 0 would be 1e-17 and cost the radius an ulp.
-        let grid = 2f64.powi(radius.log2().floor() as i32 - 53);
-        Center {
-            high: high.into_iter().map(|c| (c / grid).round() * grid + 0.0).collect(),
-            low: vec![],
-        }
+        as_center(&terms, radius)
+    }
+
+    /// The center at this offset from the origin.
+    pub(super) fn center_at(&self, offset: &[f64], radius: f64) -> Center {
+        let terms = self.origin.iter().zip(offset).map(|(&o, &c)| DoubleDouble::sum(o, c));
+        as_center(&terms.collect::<Vec<_>>(), radius)
     }
 
     /// Adds items that are not in the set yet. `rows` holds for each its coordinates, and its radius if `with_radius`.
@@ -186,6 +185,22 @@ impl WorkingSet {
                 }
             }
         }
+    }
+}
+
+/// One term for each coordinate, or two where rounding to one would cost more than about 1e-15 of the radius.
+fn as_center(terms: &[DoubleDouble], radius: f64) -> Center {
+    let high: Vec<f64> = terms.iter().map(|term| term.high).collect();
+    let largest = high.iter().fold(0.0f64, |m, c| m.max(c.abs()));
+    if radius == 0.0 || largest > FAR_OFF * radius {
+        return Center { high, low: terms.iter().map(|term| term.low).collect() };
+    }
+    // A coordinate near 0 would keep digits far below the rounding of the others, and of all distances: a center
+    // that should be 0 would be 1e-17 and cost the radius an ulp.
+    let grid = 2f64.powi(radius.log2().floor() as i32 - 53);
+    Center {
+        high: high.into_iter().map(|c| (c / grid).round() * grid + 0.0).collect(),
+        low: vec![],
     }
 }
 

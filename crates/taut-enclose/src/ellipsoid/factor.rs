@@ -12,7 +12,7 @@ use faer::{MatMut, Par};
 use taut_kernels::vector::{add_scaled, dot, rotate};
 
 #[derive(Clone, Debug, Default)]
-pub(super) struct Factor {
+pub(crate) struct Factor {
     size: usize,
     /// Row i begins at i·stride; its entries from the diagonal on are used.
     rows: Vec<f64>,
@@ -28,7 +28,7 @@ impl Factor {
 
     /// Factors H, s × s and symmetric, of which only the upper triangle is read; false when a pivot falls below
     /// `least` times its diagonal entry.
-    pub(super) fn of(h: Vec<f64>, b: &[f64], least: f64) -> Option<Factor> {
+    pub(crate) fn of(h: Vec<f64>, b: &[f64], least: f64) -> Option<Factor> {
         let size = b.len();
         let diagonal: Vec<f64> = (0..size).map(|i| h[i * size + i]).collect();
         let mut rows = h;
@@ -56,7 +56,7 @@ impl Factor {
     }
 
     /// z with R′z = a.
-    pub(super) fn forward(&self, a: &[f64]) -> Vec<f64> {
+    pub(crate) fn forward(&self, a: &[f64]) -> Vec<f64> {
         let mut z = a.to_vec();
         for i in 0..self.size {
             let row = self.row(i);
@@ -68,7 +68,7 @@ impl Factor {
     }
 
     /// y with Ry = z.
-    pub(super) fn back(&self, mut z: Vec<f64>) -> Vec<f64> {
+    pub(crate) fn back(&self, mut z: Vec<f64>) -> Vec<f64> {
         for i in (0..self.size).rev() {
             let row = self.row(i);
             z[i] = (z[i] - dot(&row[1..], &z[i + 1..])) / row[0];
@@ -77,7 +77,7 @@ impl Factor {
     }
 
     /// v with Hv = b.
-    pub(super) fn solution(&self) -> Vec<f64> {
+    pub(crate) fn solution(&self) -> Vec<f64> {
         self.back(self.right.clone())
     }
 

@@ -7,6 +7,7 @@ mod ball_degenerate;
 mod ball_of_balls;
 mod ball_of_ellipsoids;
 mod ball_properties;
+mod ball_shells;
 mod ball_sources;
 mod ball_thesis;
 mod centers;
