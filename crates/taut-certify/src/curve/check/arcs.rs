@@ -29,7 +29,7 @@ const WINDOWS: [usize; 4] = [16, 32, 64, 128];
 const CIRCLES: usize = 192;
 
 /// −ln of how seldom chance may put as many outliers into the band of any circle.
-const ARC_RARITY: f64 = 5.0;
+const ARC_RARITY: f64 = 3.5;
 
 /// Bands with a larger share of the window tell nothing.
 const SHARE_MAX: f64 = 0.5;

@@ -10,8 +10,8 @@ use super::valley::valley;
 /// A gap is compared with this many gaps on either side.
 const NEIGHBOR_GAPS: usize = 32;
 
-/// −ln of how seldom chance may leave a gap as long: of honest curves one in four hundred has such a gap.
-const GAP_RARITY: f64 = 6.0;
+/// −ln of how seldom chance may leave a gap as long: of honest curves one in two hundred has such a gap.
+const GAP_RARITY: f64 = 5.25;
 
 /// Rows across whose offsets bands are sought: short windows follow the curve, long ones find thin gaps. The last is all rows.
 const WINDOWS: [usize; 5] = [64, 128, 512, 2048, usize::MAX];

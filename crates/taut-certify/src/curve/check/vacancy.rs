@@ -18,8 +18,8 @@ const ROWS_MAX: usize = 12;
 /// Rows on either side that it is compared with.
 const ROWS_BESIDE: usize = 32;
 
-/// The most evidence that honest draws give, but for about one in a hundred.
-const EVIDENCE_MAX: f64 = 2.0;
+/// The most evidence that honest draws give, but for two in a hundred.
+const EVIDENCE_MAX: f64 = 1.25;
 
 /// The stretch for which there is most evidence that it is sampled less densely than what is beside it, if there is enough.
 pub(super) fn vacancy(curve: usize, samples: &[Sample], length: f64) -> Option<CurveDoubt> {
