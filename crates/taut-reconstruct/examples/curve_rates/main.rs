@@ -1,11 +1,13 @@
 //! Prints rates of curve reconstruction over drawn inputs of every class, beside what is asked of each.
 //!
-//! `cargo run --release -p taut-reconstruct --example curve_rates -- [SECTION]... [--full] [--save FILE] [--baseline FILE]`
+//! `cargo run --release -p taut-reconstruct --example curve_rates -- [SECTION]... [OPTION]...`; options are `--full`,
+//! `--held-back SEED`, `--save FILE` and `--baseline FILE`.
 //!
 //! Sections: `smooth`, `borders`, `noisy`, `certificates`, `concentric`, `folds`; all of them if none is named. Each class is drawn from two
 //! halves of fixed seeds: the tuning half, from 0 on, on which thresholds may be chosen, and the held-back half, from [`HELD_BACK`] on, which
-//! no choice looks at. The usual size takes minutes, `--full` is the size of the claims. `--save` writes a line for each draw; another
-//! build compares itself with such a file draw by draw (`--baseline`) and prints what it lost and gained.
+//! no choice looks at, or from another seed beyond, that was never drawn (`--held-back`). The usual size takes minutes, `--full` is the size of
+//! the claims. `--save` writes a line for each draw; another build compares itself with such a file draw by draw (`--baseline`) and prints what
+//! it lost and gained.
 
 #[path = "../../tests/reconstruct/curve_scenes/mod.rs"]
 mod curve_scenes;
@@ -44,7 +46,7 @@ const SECTIONS: [Section; 6] = [
     Section { name: "noisy", draws: [20, 100], draw: noisy::draw, print: record::print },
     Section {
         name: "certificates",
-        draws: [12, 280],
+        draws: [12, 620],
         draw: certificates::draw,
         print: certificates::print,
     },
@@ -73,6 +75,7 @@ fn solve(values: &[f64], method: CurveMethod) -> Solution<Curve> {
 struct Options {
     sections: Vec<String>,
     is_full: bool,
+    held_back: Option<u64>,
     save: Option<String>,
     baseline: Option<String>,
 }
@@ -81,11 +84,17 @@ impl Options {
     fn parse(mut words: impl Iterator<Item = String>) -> Result<Self, Box<dyn Error>> {
         let mut options = Self::default();
         while let Some(word) = words.next() {
-            let mut file = || words.next().ok_or(format!("{word} needs a file"));
             match word.as_str() {
                 "--full" => options.is_full = true,
-                "--save" => options.save = Some(file()?),
-                "--baseline" => options.baseline = Some(file()?),
+                "--held-back" => {
+                    let seed: u64 = words.next().ok_or("--held-back needs a seed")?.parse()?;
+                    options.held_back = Some(seed).filter(|&seed| seed >= HELD_BACK);
+                    options.held_back.ok_or(format!("held-back seeds are {HELD_BACK} or more"))?;
+                }
+                "--save" => options.save = Some(words.next().ok_or("--save needs a file")?),
+                "--baseline" => {
+                    options.baseline = Some(words.next().ok_or("--baseline needs a file")?);
+                }
                 name if SECTIONS.iter().any(|section| section.name == name) => {
                     options.sections.push(word);
                 }
@@ -111,7 +120,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         let count = section.draws[usize::from(options.is_full)];
         println!("\n{}: {count} seeds of each half", section.name);
         let mut draws = (section.draw)(0..count);
-        draws.extend((section.draw)(HELD_BACK..HELD_BACK + count));
+        let held_back = options.held_back.unwrap_or(HELD_BACK);
+        draws.extend((section.draw)(held_back..held_back + count));
         (section.print)(&draws);
         if let Some(before) = &before {
             baseline::compare(before, section.name, &draws);
