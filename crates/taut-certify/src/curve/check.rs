@@ -14,6 +14,7 @@
 
 mod arcs;
 mod band;
+mod bands;
 mod edges;
 pub(super) mod evidence;
 mod features;
@@ -22,7 +23,6 @@ mod run;
 mod sampling;
 mod signs;
 mod simple;
-mod strands;
 mod structure;
 mod swell;
 mod tangent;

@@ -7,7 +7,7 @@ use taut_points::{Cancelled, Monitor};
 use super::super::{CurveComponent, CurveDoubt};
 use super::band::{Foot, Placed, next_to, of_vertices};
 use super::edges::Edges;
-use super::{features, outliers, sampling, strands, swell, vacancy};
+use super::{bands, features, outliers, sampling, swell, vacancy};
 
 /// ε, the most that half a gap may be of φ, where vertices are rows. NN-Crust's theorem asks for 1/3 of the local feature size, which
 /// is at most φ.
@@ -125,8 +125,9 @@ pub(super) fn judge(
         doubts.wide_gap =
             doubts.wide_gap.or_else(|| sampling::wide_gap(curve, &samples, &features));
         if !placed.is_exact {
-            let split =
-                || sampling::split(curve, &samples).or_else(|| strands::strands(curve, &samples));
+            let split = || {
+                sampling::split(curve, &samples).or_else(|| bands::several_bands(curve, &samples))
+            };
             doubts.split = doubts.split.or_else(split);
             doubts.winding = doubts.winding.or_else(|| sampling::winding(curve, &samples));
             let length = features.along[features.size.len()];
