@@ -200,6 +200,7 @@ ELSEWHERE = {
 NOWHERE = (
     "certificate.placement",  # `discrete` in Python
     "certificate.proof.items",
+    "certificate.proof.held_out",
     "certificate.tour.potentials",
     "certificate.unweighted",
     "certificate.enclosure.",

@@ -91,9 +91,9 @@ pub(super) fn judge(
     for foot in &placed.inliers {
         feet[edges.name(foot.edge).0].push(*foot);
     }
-    let (least, sampling_most) = match placed.is_exact {
-        true => (CURVE_ROWS_MIN, SAMPLING_MOST),
-        false => (NOISY_CURVE_ROWS_MIN, NOISY_SAMPLING_MOST),
+    let (least, sampling_most, gap_rarity) = match placed.is_exact {
+        true => (CURVE_ROWS_MIN, SAMPLING_MOST, sampling::GAP_RARITY),
+        false => (NOISY_CURVE_ROWS_MIN, NOISY_SAMPLING_MOST, sampling::NOISY_GAP_RARITY),
     };
     let few = feet.iter().position(|feet| feet.len() < least);
     if let Some(curve) = few {
@@ -123,7 +123,7 @@ pub(super) fn judge(
         }
         noise_ratio = noise_ratio.max(worst.value);
         doubts.wide_gap =
-            doubts.wide_gap.or_else(|| sampling::wide_gap(curve, &samples, &features));
+            doubts.wide_gap.or_else(|| sampling::wide_gap(curve, &samples, &features, gap_rarity));
         if !placed.is_exact {
             let split = || {
                 sampling::split(curve, &samples).or_else(|| bands::several_bands(curve, &samples))

@@ -10,8 +10,10 @@ use super::valley::valley;
 /// A gap is compared with this many gaps on either side.
 const NEIGHBOR_GAPS: usize = 32;
 
-/// −ln of how seldom chance may leave a gap as long: of honest curves one in two hundred has such a gap.
-const GAP_RARITY: f64 = 5.25;
+/// −ln of how seldom chance may leave a gap as long, where vertices are rows and where they are not: of honest curves one in four hundred
+/// and one in two hundred have such a gap.
+pub(super) const GAP_RARITY: f64 = 6.0;
+pub(super) const NOISY_GAP_RARITY: f64 = 5.25;
 
 /// Rows across whose offsets bands are sought: short windows follow the curve, long ones find thin gaps. The last is all rows.
 const WINDOWS: [usize; 5] = [64, 128, 512, 2048, usize::MAX];
@@ -115,9 +117,10 @@ pub(super) fn wide_gap(
     curve: usize,
     samples: &[Sample],
     features: &Features,
+    rarity_most: f64,
 ) -> Option<CurveDoubt> {
     let gaps: Vec<(f64, usize, usize)> = gaps(samples, features).collect();
-    let (count, mut worst) = (gaps.len(), (GAP_RARITY, None));
+    let (count, mut worst) = (gaps.len(), (rarity_most, None));
     let beside = NEIGHBOR_GAPS.min((count - 1) / 2);
     for (k, &(gap, vertex, _)) in gaps.iter().enumerate() {
         let near = || {
