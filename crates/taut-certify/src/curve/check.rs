@@ -5,7 +5,7 @@
 //! *Simplicity.* By exact signs over pairs of edges whose boxes meet: [`simple`].
 //! *Band.* The distance to the nearest edge, rounded up, or equality with a vertex where vertices are rows: [`band`].
 //! *Evidence.* φ, a feature size of the polylines themselves ([`features`]), the gaps between the places of rows and what lies
-//! across the band ([`sampling`]), stretches with few rows ([`vacancy`]), whether the band is wider and denser somewhere ([`swell`]), and
+//! across the band ([`sampling`], [`bands`]), stretches with few rows ([`vacancy`]), whether the band is wider and denser somewhere ([`swell`]), and
 //! whether outliers could be a curve ([`outliers`]).
 //! *Tours.* Held and Karp's bound from the potentials: [`tour`].
 //! *Tolerances.* Lists, rows, signs and the band have none. A figure of the evidence may be claimed to be less than found by 5 %

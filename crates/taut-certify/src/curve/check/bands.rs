@@ -12,8 +12,8 @@ use super::super::CurveDoubt;
 use super::sampling::Sample;
 use super::valley::{Valley, valley};
 
-/// A length of windows, and what they show at most on average where there is one band. Of 245 honest draws half had less than six tenths of
-/// these bounds, and none more than 0.97.
+/// A length of windows, and what they show at most on average where there is one band. Of 245 honest draws half had less than three quarters
+/// of these bounds, and none more than 0.97.
 struct Size {
     rows: usize,
     /// Evidence between offsets as they are.
@@ -89,7 +89,8 @@ fn valleys(rows: &[Sample]) -> [Valley; 2] {
 mod tests {
     use super::*;
 
-    /// Independent rows in bands of width ½, denser in their middle, some distance apart, that drift by so much from one end of the curve to the other.
+    /// Independent rows in bands of width ½, denser in their middle, some distance apart, that drift by so much from one end of the
+    /// curve to the other.
     fn rows(bands: u32, apart: f64, drift: f64) -> Vec<Sample> {
         let mut state = 5u64;
         let mut random = || {
