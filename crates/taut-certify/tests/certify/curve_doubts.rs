@@ -158,6 +158,31 @@ fn a_curve_among_the_outliers_is_noticed() {
     }
 }
 
+/// Rows beside the curve that fill a part of its length as evenly as others fill the whole: too sparse for a circle around one of them to
+/// show, or for a few in a row, but not for a stretch as long as that part.
+#[test]
+fn outliers_along_a_stretch_of_the_curve_are_noticed() {
+    let beside = |radius: f64, turn: f64, k: u64| {
+        let side = (random(7, 2 * k) - 0.5).signum();
+        at(radius + side * (0.025 + 0.025 * random(7, 2 * k + 1)), turn)
+    };
+    for (count, part) in [(40, 0.25), (36, 0.18), (60, 0.4)] {
+        let doubt = |radius: f64, part: f64| {
+            let mut rows = ring(1.0, 0.01, 2000, 3);
+            let anywhere = (0..380).map(|k| [0, 1].map(|i| 3.0 * random(8, 2 * k + i) - 1.5));
+            rows.extend(anywhere.filter(|p| (p[0].hypot(p[1]) - 1.0).abs() > 0.024));
+            let turn = |k: u64| 0.3 + part * k as f64 / count as f64;
+            rows.extend((0..count).map(|k| beside(radius, turn(k), k)));
+            judged(circle(1.0, 300), &rows, 0.01, 2000).unwrap().doubt
+        };
+        let along = doubt(1.0, part);
+        assert!(matches!(along, Some(CurveDoubt::Gathered { .. })), "{count} {part}: {along:?}");
+        let away = doubt(1.25, part);
+        assert!(!matches!(away, Some(CurveDoubt::Gathered { .. })), "{count} {part}: {away:?}");
+        assert_eq!(doubt(1.0, 1.0), None, "{count}, all around");
+    }
+}
+
 #[test]
 fn rows_within_the_band_are_no_outliers() {
     let rows = ring(1.0, 0.02, 10_000, 1);
