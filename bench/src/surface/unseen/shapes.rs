@@ -189,9 +189,11 @@ pub(super) fn shape(class: Class, thickness: f64, seed: u64) -> Result<Shape> {
         Class::Gyroid => {
             // Struts are a third of a period wide; where the ball cuts them, necks can be narrower. They are as wide as twice
             // the largest offset that changes nothing.
+            const TRIES: u64 = 40;
             let period = (2.0 * t / 0.35).clamp(0.8, 1.6);
             let mut best: Option<Shape> = None;
-            for _ in 0..8 {
+            for attempt in 0..TRIES {
+                let dice = &mut Dice::new(seed + 1_000_003 * attempt)?;
                 let off = [0; 3].map(|_| dice.real(0.0, period));
                 let gyroid = Field::Gyroid(period).at(off);
                 let field = Field::Meet(0.05, Box::new([gyroid, Field::Ball(1.1)]));
@@ -292,7 +294,8 @@ pub(super) fn shape(class: Class, thickness: f64, seed: u64) -> Result<Shape> {
         }
         Class::Pipes => {
             let pipes = dice.whole(2, 4);
-            let radius = dice.real(0.25, 0.32).max(1.1 * t);
+            // Bores are as wide as walls.
+            let radius = dice.real(0.25, 0.32).max(1.5 * t);
             let half = dice.real(0.6, 1.0);
             let pitch = 2.0 * radius + t;
             let pipe = |k: usize| {
