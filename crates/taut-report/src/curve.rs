@@ -166,7 +166,9 @@ fn judged(verdict: &CurveVerdict) -> Vec<Field> {
                 short_ratio(verdict.noise_ratio)
             ))
         }
-        Some(doubt) => Field::evidence("certified", "no").remark(doubt.to_string()),
+        Some(doubt) => {
+            Field::evidence("certified", "no").remark(format!("{doubt}; all counted from 0"))
+        }
     }];
     if let Some(proved) = verdict.tour_gap {
         let meaning = "length over its lower bound, less 1";

@@ -191,7 +191,8 @@ fn judge(count: usize, context: &Context, out: &mut Outcome) -> Result<()> {
             .collect();
         let found = each.into_par_iter().map(|(class, band)| -> Result<Vec<Trial>> {
             let seed = 10_000 * seed + 100 * class as u64 + band as u64;
-            let subject = Subject::of(Class::ALL[class], band, count, seed)?;
+            let subject = Subject::of(Class::ALL[class], band, count, seed)
+                .with_context(|| format!("{} {seed}", Class::ALL[class].1))?;
             Sampling::ALL.into_iter().map(|way| Trial::of(&subject, way, seed)).collect()
         });
         let found: Vec<Vec<Trial>> = context.pool()?.install(|| found.collect::<Result<_>>())?;

@@ -57,7 +57,7 @@ pub(super) struct Shape {
 }
 
 /// All shapes are within this distance of the origin.
-pub(super) const RADIUS_MAX: f64 = 1.8;
+pub(super) const RADIUS_MAX: f64 = 2.3;
 
 /// Numbers in [0, 1), one after the other.
 pub(super) struct Dice(std::vec::IntoIter<[f64; 1]>);
@@ -240,7 +240,7 @@ pub(super) fn shape(class: Class, thickness: f64, seed: u64) -> Result<Shape> {
                     one.about(0, turn).at(place)
                 };
                 let field = Field::Blend(0.05, (0..bodies).map(body).collect());
-                let at = |level: f64| counted(&field, level, RADIUS_MAX, 72);
+                let at = |level: f64| counted(&field, level, RADIUS_MAX, 92);
                 let (components, genus) = at(0.0);
                 let t = t.min(0.2);
                 if [-0.5 * t, 0.5 * t].iter().all(|&level| at(level) == (components, genus)) {
@@ -293,13 +293,16 @@ pub(super) fn shape(class: Class, thickness: f64, seed: u64) -> Result<Shape> {
             known(Field::Any(beams), 1, edges - nodes + 1)
         }
         Class::Pipes => {
-            let pipes = dice.whole(2, 4);
             // Bores are as wide as walls.
+            let (most, long) = if t > 0.34 { (2, 0.7) } else { (4, 1.0) };
+            let pipes = dice.whole(2, 4).min(most);
             let radius = dice.real(0.25, 0.32).max(1.5 * t);
-            let half = dice.real(0.6, 1.0);
+            let half = dice.real(0.6, long);
             let pitch = 2.0 * radius + t;
             let pipe = |k: usize| {
-                let off = [k & 1, k >> 1].map(|k| pitch * (k as f64 - 0.5));
+                let rows = (pipes - 1) >> 1;
+                let off = [(k & 1, 1), (k >> 1, rows)];
+                let off = off.map(|(k, last)| pitch * (k as f64 - 0.5 * last as f64));
                 let bore = Field::Drum(radius - t, 2.0);
                 Field::Cut(vec![Field::Drum(radius, half), bore]).at([off[0], off[1], 0.0])
             };

@@ -33,8 +33,8 @@ pub enum CurveDoubt {
         /// Fewest that would do.
         least: usize,
     },
-    /// A curve turns too sharply.
-    #[error("curve {curve} turns by {degrees:.0} degrees at vertex {vertex}")]
+    /// A curve turns too sharply: at a vertex if vertices are rows, else within a few bands of one.
+    #[error("curve {curve} turns by {degrees:.0} degrees around vertex {vertex}")]
     Corner {
         /// Curve, from 0.
         curve: usize,

@@ -380,7 +380,7 @@ fn every_damaged_certificate_is_refused() {
     assert!(count >= 1000);
 }
 
-/// The same where nodes are said to be refuted by the items left out.
+/// Logs that say of nodes that the items left out refute them.
 #[test]
 fn logs_of_random_numbers_that_leave_out_prove_nothing_untrue() {
     let task = Task::points(&numbers(18, 78), 2);

@@ -158,6 +158,25 @@ fn a_curve_among_the_outliers_is_noticed() {
     }
 }
 
+/// Outliers anywhere, and up to three more far off, for which the box around all is so large that others would be near each other in it; four
+/// are as far as a curve that was missed can be.
+#[test]
+fn few_outliers_far_away_change_nothing() {
+    let mut rows = ring(1.0, 0.01, 2000, 3);
+    let anywhere = (0..380).map(|k| [0, 1].map(|i| 3.0 * random(8, 2 * k + i) - 1.5));
+    rows.extend(anywhere.filter(|p| (p[0].hypot(p[1]) - 1.0).abs() > 0.024));
+    for far in [0.0, 10.0, 1e3, 1e20, 1e100] {
+        let doubt = |count: usize| {
+            let mut rows = rows.clone();
+            rows.extend((0..count).map(|k| at(far, 0.1 + 0.2 * k as f64)));
+            judged(circle(1.0, 300), &rows, 0.01, 2000).unwrap().doubt
+        };
+        (1..=3).for_each(|count| assert_eq!(doubt(count), None, "{far} {count}"));
+        let four = doubt(4);
+        assert_eq!(matches!(four, Some(CurveDoubt::Gathered { .. })), far > 1.0, "{far}: {four:?}");
+    }
+}
+
 /// Rows beside the curve that fill a part of its length as evenly as others fill the whole: too sparse for a circle around one of them to
 /// show, or for a few in a row, but not for a stretch as long as that part.
 #[test]

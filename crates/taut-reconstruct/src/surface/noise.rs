@@ -42,23 +42,23 @@ pub(super) fn levels(
     given: Option<usize>,
     monitor: &Monitor<'_>,
 ) -> Result<Vec<Level>, Error> {
-    if let Some(count) = given {
-        let of = |row: usize, near: &[Nearest]| level(points, row, near, &[count], true);
-        let found = of_neighbors(points, count, of)?;
-        return Ok(found.into_iter().map(Option::unwrap_or_default).collect());
-    }
+    let own = given.map(|count| [count]);
+    let rounds = match &own {
+        Some(count) => &[count.as_slice()][..],
+        None => &COUNTS,
+    };
     let mut found: Vec<Option<Level>> = vec![None; points.len()];
-    for (round, counts) in COUNTS.iter().enumerate() {
+    for (round, counts) in rounds.iter().enumerate() {
         monitor.check()?;
         let most = counts[counts.len() - 1];
-        let is_last = round + 1 == COUNTS.len();
+        let is_last = round + 1 == rounds.len();
         let open = |row: usize| if found[row].is_some() { 0 } else { most };
         let of = |row: usize, near: &[Nearest]| level(points, row, near, counts, is_last);
         let now = of_neighbors_by(points, open, of)?;
         found.iter_mut().zip(now).for_each(|(level, now)| *level = level.or(now));
     }
     let found: Vec<Level> = found.into_iter().map(Option::unwrap_or_default).collect();
-    // The same number for all points around, nearly, so that they are moved alike.
+    // The same number for all points around, nearly, so that they are moved alike; and deviations of single fits are rough.
     of_neighbors(points, COUNT_MIN, |row, near| {
         let around = || near.iter().map(|near| found[near.row as usize]);
         let mut counts: Vec<u32> = around().map(|level| level.neighbors).collect();

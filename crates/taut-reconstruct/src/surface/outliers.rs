@@ -7,7 +7,7 @@
 //! to each other as most points are, or lie along planes. Other components are kept if they are as near to such a component as its own
 //! points to each other. Of what is kept, points far from the sheet that the points around them fit are outliers, if they are alone there.
 //! *Guarantee.* A function of the points. O(n log n).
-//! *Trap.* An outlier within a third of a spacing of a sheet, or four deviations of its noise, is a point of the sheet; so are large clusters.
+//! *Trap.* An outlier within 0.3 spacings of a sheet, or four deviations of its noise, is a point of the sheet; so are large clusters.
 //! A fit's own estimate of noise is rough, and of a thousand points with noise, two lay beyond four of its deviations; with the median of
 //! the estimates around it, one in 10⁴.
 
@@ -219,5 +219,10 @@ mod tests {
             off_sheets(&points, &vec![24; points.len()], &vec![0.0; points.len()]).expect("finite");
         let out: Vec<usize> = (0..points.len()).filter(|&row| found[row]).collect();
         assert_eq!(out, [points.len() - 1]);
+        // Where points around are as far off as that, it is one of them.
+        let level = spacing;
+        let noisy = vec![level; points.len()];
+        let found = off_sheets(&points, &vec![24; points.len()], &noisy).expect("finite");
+        assert!(found.iter().all(|&is_off| !is_off));
     }
 }

@@ -4,16 +4,18 @@
 //! valley alone is beyond chance, and where the curve runs across the strands, the valley shifts within the window.
 //! *Idea.* In each of many short windows, offsets are sheared along the curve by several slopes, and the valley with most evidence is
 //! taken. Chance gives one band some evidence here and there; several strands give all windows more of it, so the mean tells.
-//! *Guarantee.* None: bounds are choices, calibrated on draws of known curves (the example `curve_rates` of `taut-reconstruct`): one in a hundred
-//! honest curves is doubted, more where noise is uniform and there are a few hundred rows.
+//! *Guarantee.* None: bounds are choices, calibrated on draws of known curves (the example `curve_rates` of `taut-reconstruct`). Few windows
+//! scatter more: of simulated bands of uniform noise with 128, 200, 300, 500 and 1000 rows 32, 25, 19, 8 and 0.8 of a hundred are doubted,
+//! of normal noise 4, 0.9, 0.2 and none. Bounds of 2.6 deviations of the mean doubt one in a hundred of any size, but let a spiral and a
+//! pair of rings pass in 4600 draws, beside three other wrong answers.
 //! O(n), and a bounded number of windows.
 
 use super::super::CurveDoubt;
 use super::sampling::Sample;
 use super::valley::{Valley, valley};
 
-/// A length of windows, and what they show at most on average where there is one band. Of 245 honest draws half had less than three quarters
-/// of these bounds, and none more than 0.97.
+/// A length of windows, and what they show at most on average where there is one band. Of 245 draws of `curve_rates` that are right and
+/// dense half had less than three quarters of these bounds, and none more than 0.97.
 struct Size {
     rows: usize,
     /// Evidence between offsets as they are.
@@ -29,7 +31,7 @@ const SIZES: [Size; 2] =
 const WINDOWS_MAX: usize = 512;
 
 /// How far offsets are sheared from one end of a window to the other, over the width of the band there.
-const SHEARS: [f64; 9] = [-1.0, -0.75, -0.5, -0.25, 0.0, 0.25, 0.5, 0.75, 1.0];
+const SHEARS: [f64; 8] = [-1.0, -0.75, -0.5, -0.25, 0.25, 0.5, 0.75, 1.0];
 
 /// One of so many offsets at either end does not count for the width of the band.
 const ROWS_PER_TAIL: usize = 32;
@@ -76,7 +78,7 @@ fn valleys(rows: &[Sample]) -> [Valley; 2] {
     let length = rows[rows.len() - 1].along - rows[0].along;
     let plain = valley(&offsets);
     let mut best = plain;
-    for shear in SHEARS.into_iter().filter(|&shear| shear != 0.0 && length > 0.0) {
+    for shear in SHEARS.into_iter().filter(|_| length > 0.0) {
         let found = valley(&sorted(shear * width / length));
         if found.evidence > best.evidence {
             best = found;

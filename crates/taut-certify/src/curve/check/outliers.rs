@@ -24,25 +24,28 @@ const LINK_RATIO: f64 = 1.5;
 const OUTLIERS_MIN: usize = 8;
 const NEAR_LEAST: f64 = 0.75;
 
-/// Parts of the outliers that chance puts as near to their next, and −ln of how seldom it may put as many more: neighbors that name each other
-/// count twice, so it is half of that.
+/// Parts of the outliers that chance puts as near to their next.
 const NEXT_SHARES: [f64; 3] = [0.1, 0.2, 0.4];
+/// −ln of how seldom chance may put as many more there: neighbors that name each other count twice, so it is half of this. Of a thousand
+/// simulated sets one is doubted.
 const NEXT_RARITY: f64 = 10.0;
 
 /// In circles around outliers, in which chance puts so many others, those that there are are counted.
 const EXPECTED: [f64; 7] = [0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0];
 
-/// −ln of how seldom chance may fill any of these circles so. With 16 a loop of 30 rows among 85 outliers is not noticed.
+/// −ln of how seldom chance may fill any of these circles so; chosen on the draws of the example
+/// `curve_rates` of `taut-reconstruct`.
 const FILL_RARITY: f64 = 6.5;
 
 /// Fewest and most outliers far from all curves that are too few to tell from the samples of a small curve: more show how they are spread.
 const HANDFUL: std::ops::Range<usize> = 4..24;
 
-/// Outliers nearer to the curve than this times what nine of ten rows are off it are counted along it, and −ln of how seldom chance may
-/// gather as many in one stretch.
+/// Outliers nearer to the curve than this times what nine of ten rows are off it are counted along it.
 const NEAR_BAND_RATIO: f64 = 6.0;
+/// −ln of how seldom chance may gather as many in one stretch: of 400 simulated curves at most one is doubted.
 const NEAR_RARITY: f64 = 6.0;
-/// Numbers of outliers in a stretch that are tried grow by one of this many parts, from [`OUTLIERS_MIN`] / 2 on.
+/// Each number of outliers in a stretch that is tried is greater than the one before by one of so many parts; the first is half of
+/// [`OUTLIERS_MIN`].
 const COUNT_STEPS: usize = 4;
 
 /// Half the width of the band along an arc of outliers, over what nine of ten rows are off their curve: the noise of uniform bands has its
@@ -86,14 +89,16 @@ pub(super) fn doubt(
         }
     }
     let room = Room::of(edges, placed, band);
+    let within: Vec<(usize, [f64; 2])> =
+        far.iter().copied().filter(|far| room.holds(far.1)).collect();
     // Outliers fall into the band as they do elsewhere, and stay outliers where it is narrower than where it is widest.
-    let chance = far.len() as f64 * room.inside / room.far;
+    let chance = within.len() as f64 * room.inside / room.far;
     let most = chance + 4.0 * chance.sqrt() + OUTLIERS_MIN.max(rows / ROWS_PER_NEAR_OUTLIER) as f64;
     if f64::from(inside) > most {
         return Some(CurveDoubt::Inside { outliers: u64::from(inside) });
     }
     // Those that chance puts there, as dense as farther off, four deviations more, and tails.
-    let expected = far.len() as f64 * room.beside / room.far;
+    let expected = within.len() as f64 * room.beside / room.far;
     let most =
         expected + 4.0 * expected.sqrt() + OUTLIERS_MIN.max(rows / ROWS_PER_TAIL_OUTLIER) as f64;
     if f64::from(beside) > most {
@@ -102,11 +107,11 @@ pub(super) fn doubt(
     if !placed.is_exact && HANDFUL.contains(&far.len()) {
         return Some(CurveDoubt::Handful { outliers: far.len() as u64 });
     }
-    let by_chance = (CHANCE_NEIGHBORS_MAX * room.far / (PI * far.len().max(1) as f64)).sqrt();
-    cluster(&far, link.min(by_chance)).or_else(|| gathered(&room, &far)).or_else(|| {
+    let by_chance = (CHANCE_NEIGHBORS_MAX * room.far / (PI * within.len().max(1) as f64)).sqrt();
+    cluster(&far, link.min(by_chance)).or_else(|| gathered(&room, &within)).or_else(|| {
         let usual = usual_offset(placed)?;
         near_one_stretch(edges, placed, usual)
-            .or_else(|| arcs::arc(&far, room.free, ARC_WIDTH_RATIO * usual))
+            .or_else(|| arcs::arc(&within, room.free, ARC_WIDTH_RATIO * usual))
     })
 }
 
@@ -118,7 +123,8 @@ fn usual_offset(placed: &Placed) -> Option<f64> {
         .then(|| *offsets.select_nth_unstable_by(at, f64::total_cmp).1)
 }
 
-/// Whether outliers near a curve gather in one stretch of it, as they do beside a strand that was left out.
+/// Whether outliers near a curve gather in one stretch of it, as they do beside a strand that was left out. Curves follow one another as
+/// one line: chance spreads outliers over all of it alike.
 fn near_one_stretch(edges: &Edges, placed: &Placed, usual: f64) -> Option<CurveDoubt> {
     let mut ways = vec![0.0];
     for edge in 0..edges.ends.len() {
@@ -156,9 +162,11 @@ fn chernoff(count: f64, expected: f64) -> f64 {
     count * (count / expected).ln() - (count - expected)
 }
 
-/// The box around curves and outliers.
+/// The box around curves and outliers, but for a few that are alone far off: with them it would be so large that all others were near each
+/// other in it.
 struct Room {
     low: [f64; 2],
+    high: [f64; 2],
     /// The area that no curve's own outliers take up.
     far: f64,
     /// That over the area of the box.
@@ -172,17 +180,39 @@ struct Room {
 impl Room {
     fn of(edges: &Edges, placed: &Placed, band: f64) -> Self {
         let (mut low, mut high, mut length) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2], 0.0);
-        let segments = (0..edges.ends.len()).map(|edge| edges.segment(edge));
-        for [a, b] in segments.chain(placed.outliers.iter().map(|&(_, place)| [place; 2])) {
-            length += (b[0] - a[0]).hypot(b[1] - a[1]);
+        let mut take = |p: [f64; 2]| {
             for k in 0..2 {
-                (low[k], high[k]) = (low[k].min(a[k]).min(b[k]), high[k].max(a[k]).max(b[k]));
+                (low[k], high[k]) = (low[k].min(p[k]), high[k].max(p[k]));
             }
+            [low, high]
+        };
+        let mut curves = [[0.0; 2]; 2];
+        for [a, b] in (0..edges.ends.len()).map(|edge| edges.segment(edge)) {
+            length += (b[0] - a[0]).hypot(b[1] - a[1]);
+            take(a);
+            curves = take(b);
+        }
+        let [from, to] = curves;
+        let size = (to[0] - from[0]).max(to[1] - from[1]);
+        let beyond = |p: [f64; 2]| {
+            [0, 1].map(|k| (from[k] - p[k]).max(p[k] - to[k])).into_iter().fold(0.0, f64::max)
+        };
+        let mut far: Vec<f64> = placed.outliers.iter().map(|&(_, place)| beyond(place)).collect();
+        far.sort_unstable_by(|a, b| b.total_cmp(a));
+        // The farthest few are left out, and none as far as the next.
+        let reach = far.get(HANDFUL.start - 1).map_or(size, |next| next.max(size));
+        for &(_, place) in placed.outliers.iter().filter(|out| beyond(out.1) <= reach) {
+            take(place);
         }
         let all = (high[0] - low[0]) * (high[1] - low[1]);
         let far = (all - 2.0 * OWN_BAND_RATIO * band * length).max(all / 4.0);
         let inside = 2.0 * band * length;
-        Self { low, far, free: far / all, beside: (OWN_BAND_RATIO - 1.0) * inside, inside }
+        let beside = (OWN_BAND_RATIO - 1.0) * inside;
+        Self { low, high, far, free: far / all, beside, inside }
+    }
+
+    fn holds(&self, p: [f64; 2]) -> bool {
+        (0..2).all(|k| (self.low[k]..=self.high[k]).contains(&p[k]))
     }
 }
 
@@ -218,7 +248,10 @@ fn gathered(room: &Room, far: &[(usize, [f64; 2])]) -> Option<CurveDoubt> {
         let [x, y] = cell(p);
         let (mut next, mut counts) = (4.0 * usual, [0.0; EXPECTED.len()]);
         for (i, j) in (-1..=1).flat_map(|i| (-1..=1).map(move |j| (i, j))) {
-            for q in cells.get(&[x + i, y + j]).into_iter().flatten() {
+            // Beyond the last cell that has a number there is none.
+            let beside = x.checked_add(i).zip(y.checked_add(j));
+            let near = beside.and_then(|(x, y)| cells.get(&[x, y]));
+            for q in near.into_iter().flatten() {
                 let apart = (p[0] - q[0]).hypot(p[1] - q[1]);
                 if apart > 0.0 {
                     next = next.min(apart);

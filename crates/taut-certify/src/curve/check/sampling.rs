@@ -10,8 +10,8 @@ use super::valley::valley;
 /// A gap is compared with this many gaps on either side.
 const NEIGHBOR_GAPS: usize = 32;
 
-/// −ln of how seldom chance may leave a gap as long, where vertices are rows and where they are not: of honest curves one in four hundred
-/// and one in two hundred have such a gap.
+/// −ln of how seldom chance may leave a gap as long, where vertices are rows and where they are not: of curves with rows at random seven and
+/// twelve in a thousand have such a gap, of those with more even rows fewer.
 pub(super) const GAP_RARITY: f64 = 6.0;
 pub(super) const NOISY_GAP_RARITY: f64 = 5.25;
 

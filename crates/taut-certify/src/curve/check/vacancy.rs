@@ -18,7 +18,7 @@ const ROWS_MAX: usize = 12;
 /// Rows on either side that it is compared with.
 const ROWS_BESIDE: usize = 32;
 
-/// The most evidence that honest draws give, but for two in a hundred.
+/// The most evidence that honest draws give, but for two in a hundred curves, three where there are 5000 rows.
 const EVIDENCE_MAX: f64 = 1.25;
 
 /// The stretch for which there is most evidence that it is sampled less densely than what is beside it, if there is enough.

@@ -3,7 +3,8 @@
 //! *Idea.* A tree of boxes over the points. What is surely outside of the ball is left out, box by box; of each point that remains an
 //! exact sign tells on which side of the sphere it is.
 //! *Cost.* O(log n) for a ball that touches few points. One that passes a large part of all, as the ball within a sphere of samples
-//! does, costs as many: hence the smallest ball as a witness of its own, which is empty for nearly all triangles of a dense sample.
+//! does, costs as many: hence the smallest ball as a witness of its own, which is empty for nearly all triangles of a dense sample. Where
+//! coordinates differ by so much that products underflow, no box is left out, and the cost is that of all pairs.
 //! *Facets of the hull.* A half-space is the limit of balls with the three vertices on their spheres; these lose the points of the
 //! plane but those in the circle. So no point may be beyond the plane, and none in the circle, which is where the plane cuts the
 //! smallest ball. Where a face of the hull has many points, boxes of them lie in its plane: these are told by their corners, exactly.
@@ -46,10 +47,13 @@ pub(super) fn check(
     let blocks = surface.triangles.par_chunks(BLOCK).zip(apexes.par_chunks(BLOCK)).enumerate();
     let judged: Vec<Result<Vec<bool>, CheckError>> = blocks
         .map(|(block, (triangles, apexes))| {
-            monitor.check().map_err(ReadError::from)?;
             let numbered = (block * BLOCK..).zip(triangles.iter().zip(apexes));
-            let judge = |(number, (&triangle, &apex))| search.judge(number, triangle, apex);
-            Ok(numbered.map(judge).collect::<Result<_, SurfaceViolation>>()?)
+            let judge = |(number, (&triangle, &apex))| {
+                // Where bounds underflow, each triangle takes exact signs of all points.
+                monitor.check().map_err(ReadError::from)?;
+                Ok(search.judge(number, triangle, apex)?)
+            };
+            numbered.map(judge).collect::<Result<_, CheckError>>()
         })
         .collect();
     // The first violation by position, whichever thread met it.

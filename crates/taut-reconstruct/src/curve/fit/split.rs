@@ -9,7 +9,7 @@
 /// Fewest residuals that are asked. Chosen.
 pub(super) const SPLIT_POINTS_MIN: usize = 24;
 
-/// −ln of the chance that is taken for none, at most. With 6, windows of honest bands of 20 000 points were split, and curves lost. Chosen.
+/// The evidence that is asked is no more than this. With 6, windows of honest bands of 20 000 points were split, and curves lost. Chosen.
 const EVIDENCE_MAX: f64 = 9.0;
 
 /// Parts of the range: each holds a few residuals.
@@ -22,13 +22,14 @@ const VALLEY_DENSITY_RATIO: f64 = 0.5;
 /// One of so many residuals at either end is not looked at.
 const POINTS_PER_TAIL: usize = 64;
 
-/// The least evidence for a valley in a window, where so many points are searched: chance leaves less in most of the windows around every
-/// other point. Measured: half of the points rather than all of them, or a quarter, serve circles and folds best.
+/// The least evidence for a valley in a window, where so many points are searched: −ln of the chance that is left to each of half as many
+/// windows, so that about one of them is split by chance. Measured: half of the points rather than all of them, or a quarter, serve
+/// circles and folds best.
 pub(super) fn evidence_min(points: usize) -> f64 {
     (0.5 * points as f64).ln().min(EVIDENCE_MAX)
 }
 
-/// The middle of the valley of ascending residuals, if there is one with more evidence than `least`.
+/// The middle of the valley of ascending residuals, if there is one with at least this much evidence.
 pub(super) fn split(residuals: &[f64], least: f64) -> Option<f64> {
     let (count, tail) = (residuals.len(), residuals.len() / POINTS_PER_TAIL);
     if count < SPLIT_POINTS_MIN {

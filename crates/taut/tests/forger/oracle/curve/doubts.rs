@@ -22,9 +22,13 @@ const ROUNDING: f64 = 1e-6;
 const EDGE_RATIO_MIN: f64 = 1e-9;
 
 /// A gap is compared with this many gaps on either side of it.
-const NEIGHBOR_GAPS: usize = 16;
+const NEIGHBOR_GAPS: usize = 32;
 /// They are supposed to have at least this coefficient of variation.
 const VARIATION_MIN: f64 = 0.1;
+/// A gap this much longer than their mean can be too long,
+const GAP_TIMES_MIN: f64 = 2.0;
+/// if −ln of the probability that chance leaves any as long is above this.
+const GAP_RARITY: f64 = 6.0;
 
 /// The curves and outliers, scaled so that the curves have coordinates of about 1.
 pub(super) struct Scene {
@@ -37,7 +41,7 @@ pub(super) struct Scene {
 pub(super) struct Gaps {
     /// Half of each over φ: the least and the most that may be told.
     pub(super) ratios: Vec<Vec<[f64; 2]>>,
-    /// Of each, its length over the mean of those beside it, and the most that chance makes of that.
+    /// Of each, its length over the mean of those beside it, and −ln of the probability that chance leaves any as long.
     gap_sizes: Vec<Vec<[f64; 2]>>,
 }
 
@@ -95,8 +99,9 @@ impl Scene {
                 let mean = near.iter().sum::<f64>() / many;
                 let variance = near.iter().map(|gap| (gap - mean).powi(2)).sum::<f64>() / many;
                 let varied = (variance.sqrt() / mean).clamp(VARIATION_MIN, 1.0);
-                let most = 1.0 + (9.0 + 1.5 * (count as f64).ln()) * varied;
-                [course.gap(k) / mean, most]
+                let size = course.gap(k) / mean;
+                let times = 1.0 + (size - 1.0) / varied;
+                [size, many * (1.0 + times / many).ln() - (count as f64).ln()]
             };
             (0..count).map(gap_size).collect()
         };
@@ -123,8 +128,9 @@ impl Scene {
             }
             CurveDoubt::Lacuna { curve, vertex, times } => {
                 let at = gaps.gap_sizes.get(curve).and_then(|of| of.get(vertex));
-                at.is_some_and(|&[found, most]| {
-                    is_near(times, found) && found > most * (1.0 - ROUNDING)
+                at.is_some_and(|&[found, rarity]| {
+                    let is_long = found > GAP_TIMES_MIN * (1.0 - ROUNDING);
+                    is_near(times, found) && is_long && rarity > GAP_RARITY - ROUNDING
                 })
             }
             CurveDoubt::Outliers { outliers, rows } => self.outliers.are_many(outliers, rows),
@@ -143,7 +149,9 @@ impl Scene {
         }
         let sparse = gaps.ratios.iter().flatten().find(|ratio| ratio[0] > SAMPLING_MOST);
         ensure(sparse.is_none(), || format!("sparse samples: {sparse:?}"))?;
-        let is_long = |&&[times, most]: &&[f64; 2]| times > most * (1.0 + ROUNDING);
+        let is_long = |&&[times, rarity]: &&[f64; 2]| {
+            times > GAP_TIMES_MIN * (1.0 + ROUNDING) && rarity > GAP_RARITY + ROUNDING
+        };
         let long = gaps.gap_sizes.iter().flatten().find(is_long);
         ensure(long.is_none(), || format!("a long gap: {long:?}"))?;
         self.outliers.are_few()
