@@ -228,7 +228,7 @@ pub(super) fn shape(class: Class, thickness: f64, seed: u64) -> Result<Shape> {
         }
         Class::Blend => {
             // Necks and gaps are wide if offsets to both sides change nothing.
-            for attempt in 0..50 {
+            for attempt in 0..400 {
                 let dice = &mut Dice::new(seed + 1_000_003 * attempt)?;
                 let bodies = dice.whole(3, 6);
                 let body = |_| {
