@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use super::*;
 use fields::length;
 use samplers::{Sampling, crossings, sample};
-use shapes::{Class, Shape, shape};
+use shapes::{Class, RADIUS_MAX, Shape, shape};
 
 pub(super) use bordered::{even, scans};
 pub(super) use disturbed::{noise, outliers};
@@ -56,6 +56,10 @@ impl Subject {
             spacing = (area / count as f64).sqrt();
             shape = self::shape(class, spacings * spacing, seed)?;
         }
+        let directions = generate(Distribution::Sphere, PROBES, 3, seed + 300)?;
+        let is_out = |direction: &Point| shape.field.value(direction.map(|x| RADIUS_MAX * x)) > 0.0;
+        let is_within = directions.as_chunks().0.iter().all(is_out);
+        ensure!(is_within, "the shape reaches farther than {RADIUS_MAX}");
         let step = (0.05 * shape.thickness).min(0.1 * spacing);
         let (pool, area) = crossings(&shape.field, POOL * count, step, seed + 200)?;
         let spacing = (area / count as f64).sqrt();

@@ -39,7 +39,7 @@ pub(super) fn crossings(
         let places = chances::<2>(count, seed + 2 * round + 1)?;
         for (direction, [far, around]) in directions.as_chunks::<3>().0.iter().zip(places) {
             lines += 1;
-            along(field, *direction, [far.sqrt(), TAU * around], step, &mut points)?;
+            along(field, *direction, [far.sqrt(), TAU * around], step, &mut points);
             if points.len() >= count {
                 break;
             }
@@ -59,7 +59,7 @@ fn along(
     [far, around]: [f64; 2],
     step: f64,
     points: &mut Vec<Point>,
-) -> Result<()> {
+) {
     let cross = |a: Point, b: Point| {
         [0, 1, 2].map(|k| a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3])
     };
@@ -73,7 +73,6 @@ fn along(
     let at = |t: f64| [0, 1, 2].map(|k| middle[k] + t * direction[k]);
     let end = RADIUS_MAX * (1.0 - far * far).max(0.0).sqrt();
     let (mut t, mut value) = (-end, field.value(at(-end)));
-    ensure!(value > 0.0, "a shape is not within {RADIUS_MAX} of the origin");
     while t < end {
         let next = t + value.abs().max(step);
         let found = field.value(at(next));
@@ -82,7 +81,6 @@ fn along(
         }
         (t, value) = (next, found);
     }
-    Ok(())
 }
 
 /// Where a function changes its sign, by halving.
