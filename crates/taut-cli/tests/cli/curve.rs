@@ -143,7 +143,7 @@ fn what_is_not_certified_says_why() {
             .ends(0)
             .stdout_has(&[
                 "\n  curves    1; open\n",
-                "\n  certified no; evidence: curve 0 has ends, which may be those of a gap\n",
+                "\n  certified no; evidence: curve 0 has ends, which may be those of a gap; all counted from 0\n",
             ]);
         folder
             .taut("verify half.json half.csv")
