@@ -372,8 +372,7 @@ impl<'a> Search<'a> {
             }
             self.residuals.clear();
             self.residuals.extend(self.window.local.iter().map(|&p| parabola.residual(p)));
-            self.residuals.sort_unstable_by(f64::total_cmp);
-            let Some(middle) = split(&self.residuals, self.evidence_min) else { break };
+            let Some(middle) = split(&mut self.residuals, self.evidence_min) else { break };
             let is_above = parabola.residual(parabola.local(at)) > middle;
             let mut local = self.window.local.iter();
             self.ids.retain(|_| {

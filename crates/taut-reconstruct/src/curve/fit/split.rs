@@ -4,7 +4,7 @@
 //! *Idea.* A density with one peak falls from it to both sides, so it is no less in a part of the range than on one side of that part. How
 //! little chance would leave of a part with so few residuals is bounded for either side (Chernoff); the valley is the part for which
 //! the lesser of both bounds is most.
-//! *Guarantee.* A function of the residuals; O(n log n) to sort them, and a bounded number of parts.
+//! *Guarantee.* A function of the residuals, in any order; O(n), and a bounded number of parts. Sorting them took a tenth of the time of fits.
 
 /// Fewest residuals that are asked. Chosen.
 pub(super) const SPLIT_POINTS_MIN: usize = 24;
@@ -29,19 +29,33 @@ pub(super) fn evidence_min(points: usize) -> f64 {
     (0.5 * points as f64).ln().min(EVIDENCE_MAX)
 }
 
-/// The middle of the valley of ascending residuals, if there is one with at least this much evidence.
-pub(super) fn split(residuals: &[f64], least: f64) -> Option<f64> {
+/// The middle of the valley of residuals, which change their order, if there is one with at least this much evidence.
+pub(super) fn split(residuals: &mut [f64], least: f64) -> Option<f64> {
     let (count, tail) = (residuals.len(), residuals.len() / POINTS_PER_TAIL);
     if count < SPLIT_POINTS_MIN {
         return None;
     }
-    let (low, high) = (residuals[tail], residuals[count - 1 - tail]);
+    let mut at = |k: usize| *residuals.select_nth_unstable_by(k, f64::total_cmp).1;
+    let (low, high) = (at(tail), at(count - 1 - tail));
     let parts = (count / POINTS_PER_PART).clamp(PARTS[0], PARTS[1]);
     let border = |part: usize| low + (high - low) * part as f64 / parts as f64;
-    let mut below = [0usize; PARTS[1] + 1];
-    for (part, below) in below.iter_mut().enumerate().take(parts + 1) {
-        *below = residuals.partition_point(|&x| x < border(part));
+    let borders: [f64; PARTS[1] + 1] = std::array::from_fn(border);
+    let borders = &borders[..=parts];
+    // How many are below each border: first those between it and the one before.
+    let mut below = [0usize; PARTS[1] + 2];
+    let per_part = parts as f64 / (high - low);
+    for &x in residuals.iter() {
+        // The first border above: nearly by arithmetic, then exactly.
+        let mut above = (((x - low) * per_part) as usize).min(parts);
+        while above <= parts && borders[above] <= x {
+            above += 1;
+        }
+        while above > 0 && borders[above - 1] > x {
+            above -= 1;
+        }
+        below[above] += 1;
     }
+    (1..=parts).for_each(|part| below[part] += below[part - 1]);
     let within = |from: usize, to: usize| (below[to] - below[from]) as f64;
     let most = VALLEY_DENSITY_RATIO * within(0, parts) / parts as f64;
     // Of equal valleys the one next to the middle: the range has no sides.
@@ -101,11 +115,13 @@ mod tests {
         let even = |from: f64, to: f64, count: u32| {
             (0..count).map(move |k| from + (to - from) * (f64::from(k) + 0.5) / f64::from(count))
         };
-        let two: Vec<f64> = even(-2.5, -0.5, 40).chain(even(0.5, 2.5, 40)).collect();
-        let found = split(&two, 9.0).expect("a valley");
+        let mut two: Vec<f64> = even(-2.5, -0.5, 40).chain(even(0.5, 2.5, 40)).collect();
+        assert_eq!(split(&mut two[30..50], 4.0), None);
+        let found = split(&mut two, 9.0).expect("a valley");
         assert!(found.abs() < 0.3, "{found}");
-        assert_eq!(split(&even(-1.0, 1.0, 80).collect::<Vec<_>>(), 4.0), None);
-        assert_eq!(split(&[0.0; 80], 4.0), None);
-        assert_eq!(split(&two[30..50], 4.0), None);
+        two.reverse();
+        assert_eq!(split(&mut two, 9.0), Some(found), "in another order");
+        assert_eq!(split(&mut even(-1.0, 1.0, 80).collect::<Vec<_>>(), 4.0), None);
+        assert_eq!(split(&mut [0.0; 80], 4.0), None);
     }
 }
