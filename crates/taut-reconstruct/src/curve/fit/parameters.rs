@@ -141,8 +141,8 @@ pub(super) const CHAIN_SEEDS_MIN: usize = 3;
 pub(super) const STEP_DEVIATIONS: f64 = 1.5;
 /// Length of the windows there, from their centers to their ends. Same unit. Chosen: half of what seeds need.
 pub(super) const TRACK_WINDOW_DEVIATIONS: f64 = 4.0;
-/// Fewest points of such a window. Chosen.
-pub(super) const TRACK_POINTS_MIN: usize = 8;
+/// Fewest points of such a window. Chosen: two more than a parabola takes.
+pub(super) const TRACK_POINTS_MIN: usize = 5;
 /// Fewest of them ahead of its center: where there are none, the curve ends. Chosen.
 pub(super) const TRACK_POINTS_AHEAD_MIN: usize = 2;
 /// Cosine of the largest angle between a window and what was predicted: 45°. Chosen.
