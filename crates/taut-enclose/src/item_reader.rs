@@ -160,12 +160,12 @@ impl<'a> ItemReader<'a> {
         let query = Query { center: &center, above: 0.0, keep, by_face_above: None };
         match self.first_from(query)? {
             Some(found) => Ok((center, found)),
-            None => self.from_mean(keep),
+            None => self.pass_from_mean(keep),
         }
     }
 
     /// A pass from the mean of a sample. Returns the mean, too.
-    pub(crate) fn from_mean(&mut self, keep: usize) -> Result<(Center, PassResult), Error> {
+    pub(crate) fn pass_from_mean(&mut self, keep: usize) -> Result<(Center, PassResult), Error> {
         let center = self.sample_mean()?;
         let query = Query { center: &center, above: 0.0, keep, by_face_above: None };
         let found = self.farthest(query)?;

@@ -66,7 +66,7 @@ pub(super) fn first(
             Ok((center, found, Some(list)))
         }
         None => {
-            let (center, found) = reader.from_mean(keep)?;
+            let (center, found) = reader.pass_from_mean(keep)?;
             Ok((center, found, None))
         }
     }
