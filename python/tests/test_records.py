@@ -201,6 +201,7 @@ NOWHERE = (
     "certificate.placement",  # `discrete` in Python
     "certificate.proof.items",
     "certificate.proof.held_out",
+    "certificate.proof.nogoods",
     "certificate.tour.potentials",
     "certificate.unweighted",
     "certificate.enclosure.",

@@ -32,6 +32,7 @@ pub(super) fn judge(found: &Solution<Centers>, source: &dyn PointSource) -> Judg
             LowerBound::Separated => "apart",
             LowerBound::Branches { .. } => "branches",
             LowerBound::Avoiding { .. } => "branches, some refuted by points left out",
+            LowerBound::Nogoods { .. } => "nogoods",
         },
         seconds: start.elapsed().as_secs_f64(),
     }

@@ -88,6 +88,30 @@ pub enum LowerBound {
         /// The nodes that are refuted in this way, in preorder: none of them has a branch.
         held_out: Vec<HeldOut>,
     },
+    /// By nogoods over at most 2048 items: points in the plane with free centers, without groups and outliers.
+    ///
+    /// A nogood is a set of items that no e balls of a radius less than the bound hold. Each is shown by those before it, and the last one
+    /// is a set that no k balls hold. The checker grants 1e-7 in the angles by which it finds balls. It takes time linear in the
+    /// number of nogoods, and for each as much as the square of its items near the one that is branched on.
+    Nogoods {
+        /// At most 2³⁰ / |X| of them.
+        nogoods: Vec<Nogood>,
+    },
+}
+
+/// Items that are not held by so many balls, as [`LowerBound::Nogoods`] lists them.
+///
+/// Without `misses`: the items are apart two by two, so e balls do not hold e + 1 of them. One item alone is not held by no ball.
+/// With `misses` there is one item: whatever the ball that holds it, it holds nothing of at least one of these nogoods, so that one would have to be
+/// held by the other balls. With e balls, none of these is held by e − 1. The nogood is the item with all that are in these.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Nogood {
+    /// Places in the core-set.
+    pub items: Vec<u32>,
+    /// The numbers of nogoods before this one, from 0; at most 63.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub misses: Vec<u32>,
 }
 
 /// A node of [`LowerBound::Avoiding`] in which each ball that holds a cluster holds an item that is among the outliers.
@@ -115,6 +139,9 @@ enum LowerBoundFields {
         items: Vec<u32>,
         held_out: Vec<HeldOut>,
     },
+    Nogoods {
+        nogoods: Vec<Nogood>,
+    },
 }
 
 impl TryFrom<LowerBoundFields> for LowerBound {
@@ -127,6 +154,7 @@ impl TryFrom<LowerBoundFields> for LowerBound {
             LowerBoundFields::Avoiding { items, held_out } => {
                 Ok(LowerBound::Avoiding { items, held_out })
             }
+            LowerBoundFields::Nogoods { nogoods } => Ok(LowerBound::Nogoods { nogoods }),
             LowerBoundFields::Search {} => Err(
                 "the proof of these centers is \"search\", which an earlier version of taut wrote and \
                  which is no longer verified: solve again to get a proof that lists its branches",

@@ -96,7 +96,8 @@ pub use bodies::{
     BodiesCertificate, BodiesVerdict, BodiesViolation, BodyProof, ConvexBody, InscribedBodies,
 };
 pub use centers::{
-    Centers, CentersCertificate, CentersVerdict, CentersViolation, HeldOut, LowerBound, Placement,
+    Centers, CentersCertificate, CentersVerdict, CentersViolation, HeldOut, LowerBound, Nogood,
+    Placement,
 };
 pub use circle::{CircleCertificate, CircleVerdict, CircleViolation, InscribedCircle};
 pub use convex::{ConvexCertificate, ConvexPolygon, ConvexVerdict, ConvexViolation};

@@ -16,6 +16,7 @@ mod item_rows;
 mod items;
 mod links;
 mod nearest;
+mod nogoods;
 mod of_ellipsoids;
 mod options;
 mod proof;
@@ -221,6 +222,7 @@ fn of_traversal<P: Position>(start: Start<P>) -> SearchResult<P> {
     SearchResult {
         incumbent: start.plain,
         proved: vec![],
+        refuted: None,
         core_set,
         stop: Stop::Converged,
         nodes: 0,
@@ -246,6 +248,9 @@ fn prove<P: Position>(
         false => Proof::separated(cloud, separated, monitor)?,
     };
     let mut budget = found.nodes.saturating_mul(PROOF_FACTOR).saturating_add(PROOF_NODES);
+    let recorded =
+        found.refuted.as_ref().map(|(lower, refutation)| Proof::by_nogoods(*lower, refutation));
+    let plain = recorded.filter(|recorded| recorded.lower > plain.lower).unwrap_or(plain);
     let (mut given_up, mut why) = (0, None);
     for &ProvedBound { threshold, items } in found.proved.iter().rev() {
         if threshold <= plain.lower {

@@ -157,8 +157,24 @@ impl<'a> ItemReader<'a> {
     /// The first pass: from the mean of a sample, after settling the scale. Returns the mean, too.
     pub(crate) fn first(&mut self, keep: usize) -> Result<(Center, PassResult), Error> {
         let center = self.sample_mean()?;
-        self.begin_pass();
         let query = Query { center: &center, above: 0.0, keep, by_face_above: None };
+        match self.first_from(query)? {
+            Some(found) => Ok((center, found)),
+            None => self.pass_from_mean(keep),
+        }
+    }
+
+    /// A pass from the mean of a sample. Returns the mean, too.
+    pub(crate) fn pass_from_mean(&mut self, keep: usize) -> Result<(Center, PassResult), Error> {
+        let center = self.sample_mean()?;
+        let query = Query { center: &center, above: 0.0, keep, by_face_above: None };
+        let found = self.farthest(query)?;
+        Ok((center, found))
+    }
+
+    /// The first pass as another pass; `None` after a change of scale, in which nothing that it found holds.
+    pub(crate) fn first_from(&mut self, query: Query<'_>) -> Result<Option<PassResult>, Error> {
+        self.begin_pass();
         let answer = match self.source.elsewhere() {
             Some(elsewhere) => ask_first(elsewhere, self.source, &self.view, query)?,
             None => {
@@ -174,13 +190,7 @@ impl<'a> ItemReader<'a> {
         self.largest = answer.largest;
         let found = answer.found.settle(query);
         let safe = exponent(found.farthest.reach2).abs() <= SAFE_EXPONENT && !answer.overflow;
-        if safe || !self.choose_scale(&center)? {
-            return Ok((center, found));
-        }
-        let center = self.sample_mean()?;
-        let found =
-            self.farthest(Query { center: &center, above: 0.0, keep, by_face_above: None })?;
-        Ok((center, found))
+        Ok((safe || !self.choose_scale(query.center)?).then_some(found))
     }
 
     pub(crate) fn farthest(&mut self, query: Query<'_>) -> Result<PassResult, Error> {
@@ -200,8 +210,7 @@ impl<'a> ItemReader<'a> {
     /// The mean of up to 256 rows at equal distances: an origin near the middle of the points.
     fn sample_mean(&self) -> Result<Center, Error> {
         let count = SAMPLE_ROWS.min(self.len());
-        let ids: Vec<u64> = (0..count).map(|k| k * (self.len() / count)).collect();
-        let rows = self.rows(&ids)?;
+        let rows = self.sample(count)?;
         let columns = self.source.dim();
         let first = &rows[..self.view.dim];
         let mut mean = first.to_vec();
@@ -213,6 +222,12 @@ impl<'a> ItemReader<'a> {
             }
         }
         Ok(Center { high: mean, low: vec![] })
+    }
+
+    /// So many rows at equal distances, in the units of this reader.
+    pub(crate) fn sample(&self, count: u64) -> Result<Vec<f64>, Error> {
+        let ids: Vec<u64> = (0..count).map(|k| k * (self.len() / count)).collect();
+        self.rows(&ids)
     }
 
     /// A pass for the largest |xⱼ − cⱼ|, and the scale from it; false when all items are one point.

@@ -19,6 +19,7 @@ mod exact;
 pub mod extremes;
 mod lanes;
 mod portable;
+pub mod substitution;
 pub mod triangle;
 pub mod vector;
 #[cfg(target_arch = "x86_64")]
@@ -32,6 +33,10 @@ use lanes::{Lanes, eight_rows, one_row, one_short_row};
 /// Up to this many coordinates eight rows are taken together. Beyond, eight streams of memory are more than the
 /// hardware prefetchers follow, and rows near a multiple of 4096 bytes fall on the same cache sets.
 const EIGHT_ROWS_MAX: usize = 96;
+
+/// Memory is asked for this many bytes before it is read. Measured at d = 5 and 10 beside other work on the machine: a fifth
+/// to a third faster; from 4 KiB on, the size of a page, nothing is left of that.
+const PREFETCH_BYTES: usize = 1024;
 
 /// A center as `high`, or as `high + low` where one `f64` per coordinate is too coarse.
 #[derive(Clone, Debug, PartialEq)]
@@ -115,6 +120,11 @@ unsafe fn all_rows<L: Lanes, T: Scalar>(
     if dim <= EIGHT_ROWS_MAX {
         for (group, out) in out.chunks_mut(8).enumerate() {
             let rows = &values[group * 8 * stride..(group * 8 + out.len()) * stride];
+            let ahead = rows.as_ptr().cast::<u8>().wrapping_add(PREFETCH_BYTES);
+            for line in (0..size_of_val(rows)).step_by(64) {
+                // SAFETY: features are the caller's promise.
+                unsafe { L::prefetch(ahead.wrapping_add(line)) };
+            }
             // SAFETY: features are the caller's promise; `rows` holds as many rows as `out` has places.
             let sums = unsafe { eight_rows::<L, T>(rows, out.len(), stride, center) };
             out.copy_from_slice(&sums[..out.len()]);

@@ -60,6 +60,12 @@ impl Summary for Centers {
             LowerBound::Branches { ref items } | LowerBound::Avoiding { ref items, .. } => {
                 format!("with {} of a search", counted_branches(items.len() as u64))
             }
+            LowerBound::Nogoods { ref nogoods } => {
+                format!(
+                    "with {} that fewer balls do not hold",
+                    counted(nogoods.len() as u64, "set")
+                )
+            }
         };
         let core_set = match certificate.items {
             Items::Ellipsoids => {

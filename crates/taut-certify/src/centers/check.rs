@@ -5,8 +5,8 @@
 //! *Upper bound.* Each row that counts is at most R from a center, decided exactly: [`enclosure`]. Where rows are in groups, one
 //! center serves all rows of a group: [`group_enclosure`]. Ellipsoids are compared with balls as they are: [`ellipsoids`].
 //! *Lower bound.* No k balls of a radius less than L hold all of X except z of its rows. Balls that held all rows but z
-//! would; so R* ≥ L. There are two proofs: a separated set, more than k + z rows no two of which fit in one ball, and the
-//! log of a branch and bound search, which is replayed ([`replay`]). An [`oracle`] refutes balls: with bounds on all that is
+//! would; so R* ≥ L. There are three proofs: a separated set, more than k + z rows no two of which fit in one ball, and the
+//! log of a branch and bound search, which is replayed ([`replay`]), or nogoods, each shown by those before it ([`nogoods`]). An [`oracle`] refutes balls: with bounds on all that is
 //! rounded where centers are free ([`free`]), exactly where they are rows ([`rows`]).
 //! *Order.* Structure and the gap between the bounds, one pass (finite rows, hash, balls, assignment), then the
 //! lower bound, from the rows of the core-set as that pass read them. Centers among the rows may take one pass more, which
@@ -24,6 +24,7 @@ mod free;
 mod group_enclosure;
 mod item;
 mod meter;
+mod nogoods;
 mod oracle;
 pub(crate) mod parts;
 mod replay;
@@ -197,6 +198,10 @@ fn prove(
         LowerBound::Avoiding { items, held_out } => {
             limited("branches")?;
             replay_log(core, certificate, items, held_out, places, &mut meter)
+        }
+        LowerBound::Nogoods { nogoods } => {
+            nogoods::check(core, certificate, nogoods, &mut meter)?;
+            Ok(nogoods.len() as u64)
         }
     }
 }

@@ -228,6 +228,20 @@ pub enum CentersViolation {
         /// The reason for the refusal.
         problem: &'static str,
     },
+    /// A proof by nogoods is not to be had for such a question.
+    #[error("nogoods prove nothing of this question: {problem}")]
+    NogoodsApply {
+        /// The reason for the refusal.
+        problem: &'static str,
+    },
+    /// A nogood of the log is not shown.
+    #[error("nogood {number} of the log {problem}")]
+    Nogood {
+        /// Nogoods before it.
+        number: usize,
+        /// The reason for the refusal.
+        problem: &'static str,
+    },
     /// To go back in the log of branches takes too much memory.
     #[error("to come back from {branches} branches of the log takes more than {most} bytes")]
     Kept {

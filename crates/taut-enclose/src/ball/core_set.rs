@@ -16,8 +16,10 @@
 //! the passes on cube vertices. When most of a batch enters, the support is large, and the batch is doubled.
 //! *Hard input.* Near a sphere an active set takes thousands of steps. When it drops too many items within one pass, an
 //! interior-point method looks for a better support ([`super::interior_rounds`]), once, and for points only.
-//! *Measured.* Starting from a sample, dropping points that provably stay inside, and caching distances were each
-//! tried and each cost more than they saved: so few points are ever scanned again that nothing is left to save.
+//! *Few dimensions.* The first pass starts from the ball of a sample and lists the points far from its center; the rounds
+//! are over that list as long as no other point can be outside ([`super::shortlist`]). Then one pass is all.
+//! *Measured.* In many dimensions the ball of a sample has its center too far off for that, and saves no pass. Caching
+//! distances cost more than it saved.
 
 use taut_certify::{Items, PassBounds, Stop};
 use taut_kernels::{Center, relative_error};
@@ -26,9 +28,9 @@ use taut_points::{Cancelled, Monitor, ReadError};
 use super::active_set::{ActiveSet, VIOLATION_TOLERANCE};
 use super::outcome::Outcome;
 use super::working_set::WorkingSet;
-use super::{BallOptions, interior_rounds};
+use super::{BallOptions, interior_rounds, shortlist};
 use crate::Error;
-use crate::item_reader::{ItemReader, Query};
+use crate::item_reader::{ItemReader, PassResult, Query};
 use crate::top::Far;
 
 /// Largest batch that doubling reaches.
@@ -66,7 +68,7 @@ fn solve_with_patience(
     patience: u32,
 ) -> Result<Outcome, Error> {
     let mut batch = options.batch.unwrap_or_else(|| batch_for(reader.dim()));
-    let (middle, found) = reader.first(batch.saturating_add(64))?;
+    let (middle, found, mut list) = shortlist::first(reader, batch.saturating_add(64), options)?;
     if found.farthest.reach2 == 0.0 {
         return Outcome::single(reader, found.farthest.id);
     }
@@ -111,18 +113,43 @@ fn solve_with_patience(
         let above = radius * radius * (1.0 - slack).max(0.0);
         let violating = radius * radius * (1.0 + VIOLATION_TOLERANCE);
         let by_face_above = by_face.then_some(violating);
-        let found = reader.farthest(Query { center: &center, above, keep, by_face_above })?;
+        let query = Query { center: &center, above, keep, by_face_above };
+        let new = |found: &PassResult| -> Vec<u64> {
+            let new = |far: &[Far]| -> Vec<u64> {
+                let violators =
+                    far.iter().filter(|far| far.reach2 > violating && !set.contains(far.id));
+                violators.map(|far| far.id).collect()
+            };
+            let by_face = new(&found.by_face);
+            if by_face.is_empty() { new(&found.far) } else { by_face }
+        };
+        // A list tells as much as a pass where it holds all that can be outside; as long as some of it is outside,
+        // nobody asks for the others.
+        let listed = match &list {
+            Some(list) => Some(list.pass(query)?),
+            None => None,
+        };
+        let (found, all, violators) = match listed {
+            Some((found, all)) if all || !new(&found).is_empty() => {
+                let violators = new(&found);
+                (found, all, violators)
+            }
+            _ => {
+                list = None;
+                let found = reader.farthest(query)?;
+                let violators = new(&found);
+                (found, true, violators)
+            }
+        };
+        if !all {
+            let before = set.len();
+            add(&mut set, reader, violators.into_iter(), batch)?;
+            last_batch = before..set.len();
+            active.widen(&set);
+            continue;
+        }
         let upper = found.farthest.reach2.sqrt();
         outcome.bounds(PassBounds { lower: radius, upper, working_set: set.len() as u64 });
-        let new = |far: &[Far]| -> Vec<u64> {
-            let violators =
-                far.iter().filter(|far| far.reach2 > violating && !set.contains(far.id));
-            violators.map(|far| far.id).collect()
-        };
-        let mut violators = new(&found.by_face);
-        if violators.is_empty() {
-            violators = new(&found.far);
-        }
         let gap = if upper == 0.0 { 0.0 } else { upper / radius - 1.0 };
         outcome.offer(gap, || {
             let support = active.support().iter().map(|&i| set.id(i)).collect();

@@ -108,6 +108,7 @@ fn solve_in<P: Position>(
     let search = SearchResult {
         incumbent: Incumbent { centers: best.centers, radius: best.radius },
         proved: found.proved,
+        refuted: None,
         core_set: found.core_set,
         stop: found.stop,
         nodes: found.nodes,

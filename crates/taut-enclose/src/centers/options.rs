@@ -56,7 +56,8 @@ pub struct CentersOptions<'a> {
     /// Default `None`: each row stands for itself. Not for [`CentersMethod::Thesis`] and [`CentersMethod::Stream`].
     pub group: Option<usize>,
     /// Most nodes of the search; then the best centers so far are returned with their gap. A node with k clusters beside a
-    /// core-set of m items in d dimensions counts once more for each 20,000 of kmd; a search ends up to some hundred nodes
+    /// core-set of m items in d dimensions counts once more for each 20,000 of kmd. A large tree of points in the plane is left for a search that
+    /// records nogoods, each step of which counts as ten nodes. A search ends up to some hundred nodes
     /// before the last. Writing down the proof may take trees of twenty times the nodes of the search, and 10,000; where it
     /// takes more, the bound before is proved. Default 10 million.
     pub max_nodes: u64,

@@ -18,6 +18,7 @@ use taut_points::{Monitor, ReadError};
 use super::cloud::Cloud;
 use super::clusters::Clusters;
 use super::items::Position;
+use super::nogoods::Refutation;
 use super::proof_tree::{CORE_SET_MAX, ProofLog, ProofTree};
 use super::start::least_pair_radius;
 use crate::Error;
@@ -47,6 +48,17 @@ impl Proof {
     /// Nothing is claimed.
     pub(super) fn none() -> Self {
         Proof { lower: 0.0, core_set: vec![], kind: LowerBound::Separated, nodes: 0 }
+    }
+
+    /// Nogoods as they were recorded: no k balls of this radius hold the core-set.
+    pub(super) fn by_nogoods(lower: f64, refutation: &Refutation) -> Self {
+        let Refutation { core_set, log } = refutation;
+        Proof {
+            lower,
+            core_set: core_set.clone(),
+            kind: LowerBound::Nogoods { nogoods: log.clone() },
+            nodes: log.len() as u64,
+        }
     }
 
     /// More than k + z items no two of which fit in a ball of a smaller radius.

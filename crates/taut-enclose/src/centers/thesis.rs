@@ -104,6 +104,7 @@ pub(super) fn solve<P: Position>(
     Ok(SearchResult {
         incumbent: best,
         proved: proved.into_iter().collect(),
+        refuted: None,
         core_set,
         stop,
         nodes,

@@ -9,6 +9,7 @@
 //! *Threads.* A tree that is not small is cut into up to [`SUBSEARCH_COUNT`] subsearches ([`super::subsearch`]), which go on side by side for [`NODES_PER_ROUND`] nodes
 //! each, knowing nothing of one another; then all learn what each has found, in the order of the subsearches, those that a dead
 //! end of another one refutes are dropped, and others are cut in their place. None of this knows how many threads there are.
+//! *Nogoods.* Where a tree of points of the plane becomes large, what it has to do again and again is recorded instead ([`super::nogoods`]).
 //! *Outliers.* Balls may all have one radius just below τ; then an item is left out only where it lies in none of them. In the plane this
 //! rules out most choices of what to leave out ([`super::avoiding_ball`]): on eight sets of 10⁴ to 1.5·10⁴ cities, k = 6 and z = 5, it divides nodes
 //! by 2 to 17.
@@ -28,6 +29,7 @@ use taut_points::parallel::ParallelSlice;
 
 use super::cloud::Cloud;
 use super::items::Position;
+use super::nogoods::{self, NogoodSearch, Refutation};
 use super::start::{Incumbent, Start};
 use super::subsearch::{End, Subsearch, Task};
 use crate::Error;
@@ -50,10 +52,15 @@ const SUBSEARCH_COUNT: usize = 24;
 /// A subsearch visits this many nodes until all learn from one another.
 const NODES_PER_ROUND: u64 = 1000;
 
+/// After this many nodes for one gap, nogoods are recorded in place of a tree, where that is possible.
+const NODES_BEFORE_NOGOODS: u64 = 20_000;
+
 pub(super) struct SearchResult<P> {
     pub(super) incumbent: Incumbent<P>,
     /// The bounds that finished trees over the core-set have proved, growing.
     pub(super) proved: Vec<ProvedBound>,
+    /// The largest bound that nogoods have proved.
+    pub(super) refuted: Option<(f64, Refutation)>,
     /// Items, by their number in the cloud.
     pub(super) core_set: Vec<u32>,
     pub(super) stop: Stop,
@@ -74,6 +81,8 @@ pub(super) struct ProvedBound {
 enum Halt {
     Restart,
     Budget,
+    /// It is time to record nogoods.
+    Large,
     Error(Error),
 }
 
@@ -92,6 +101,9 @@ struct Search<'c, P> {
     max_nodes: u64,
     restarts: u64,
     scans: u64,
+    refuted: Option<(f64, Refutation)>,
+    /// True if nogoods need more items than they may have.
+    is_full: bool,
 }
 
 /// Solves to a gap of `epsilon`, from where the traversals have led.
@@ -113,6 +125,8 @@ pub(super) fn solve<P: Position>(
         max_nodes,
         restarts: 0,
         scans: 0,
+        refuted: None,
+        is_full: false,
     };
     let mut lower = start.lower;
     let mut proved = vec![];
@@ -149,8 +163,18 @@ pub(super) fn solve<P: Position>(
         let is_settled = upper == before && search.gap <= LAST_BUT_ONE;
         search.gap = if is_settled { epsilon } else { (search.gap * NEXT_GAP).max(epsilon) };
     }
-    let Search { best, core_set, nodes, restarts, scans, .. } = search;
-    Ok(SearchResult { incumbent: best, proved, core_set, stop, nodes, restarts, scans, history })
+    let Search { best, core_set, nodes, restarts, scans, refuted, .. } = search;
+    Ok(SearchResult {
+        incumbent: best,
+        proved,
+        refuted,
+        core_set,
+        stop,
+        nodes,
+        restarts,
+        scans,
+        history,
+    })
 }
 
 impl<P: Position> Search<'_, P> {
@@ -161,12 +185,17 @@ impl<P: Position> Search<'_, P> {
 
     /// Trees until one ends; the radius below which no balls were found.
     fn tree(&mut self) -> Result<f64, Halt> {
-        let mut run = FIRST_RUN;
+        let (mut run, first_node) = (FIRST_RUN, self.nodes);
         loop {
-            match self.descend(run) {
+            match self.descend(run, first_node) {
                 Err(Halt::Restart) => {
                     self.restarts += 1;
                     run *= 2;
+                }
+                Err(Halt::Large) => {
+                    if let Some(threshold) = self.record_nogoods()? {
+                        return Ok(threshold);
+                    }
                 }
                 Err(halt) => return Err(halt),
                 Ok(()) => return Ok(self.best.radius / (1.0 + self.gap)),
@@ -174,9 +203,35 @@ impl<P: Position> Search<'_, P> {
         }
     }
 
-    /// One tree, from its root to its end.
-    fn descend(&mut self, run: u64) -> Result<(), Halt> {
-        let (first_node, known) = (self.nodes, self.core_set.len());
+    /// Searches for balls by nogoods; the radius below which none were found, or `None` where that takes too many items.
+    fn record_nogoods(&mut self) -> Result<Option<f64>, Halt> {
+        let task = Task { ..self.task };
+        let nodes_left = self.max_nodes.saturating_sub(self.nodes);
+        let mut search = NogoodSearch::new(&task, &self.core_set, &self.best, self.gap, nodes_left);
+        let end = search.go_on()?;
+        self.nodes += search.nodes;
+        self.scans += search.scans;
+        self.best = search.best;
+        self.core_set = search.core_set;
+        match end {
+            nogoods::End::Budget => Err(Halt::Budget),
+            nogoods::End::Full => {
+                self.is_full = true;
+                Ok(None)
+            }
+            nogoods::End::Refuted(refutation) => {
+                let threshold = self.best.radius / (1.0 + self.gap);
+                self.refuted = Some((threshold, refutation));
+                Ok(Some(threshold))
+            }
+        }
+    }
+
+    /// One tree, from its root to its end; `first_node` is the number of nodes before the first tree for this gap.
+    fn descend(&mut self, run: u64, first_node: u64) -> Result<(), Halt> {
+        let is_possible =
+            !self.is_full && nogoods::applies(&self.task, self.core_set.len(), self.gap);
+        let (root, known) = (self.nodes, self.core_set.len());
         let task = Task { ..self.task };
         let Some(subsearch) = Subsearch::new(&task, &self.core_set, &self.best, self.gap)? else {
             return Ok(());
@@ -213,7 +268,10 @@ impl<P: Position> Search<'_, P> {
             if subsearches.is_empty() {
                 return Ok(());
             }
-            if has_grown && self.nodes - first_node >= run {
+            if is_possible && self.nodes - first_node >= NODES_BEFORE_NOGOODS {
+                return Err(Halt::Large);
+            }
+            if has_grown && self.nodes - root >= run {
                 return Err(Halt::Restart);
             }
             cut(&mut subsearches);

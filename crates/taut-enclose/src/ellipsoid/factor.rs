@@ -3,13 +3,22 @@
 //! R′R = H with R upper triangular, kept by rows in one square of memory. The right-hand side w = R⁻ᵀb rides along, so
 //! that the solution of Hv = b costs one back substitution. Appending a point is one forward substitution; deleting one
 //! is a shift of columns and a rotation for each row below; both are O(s²) for s points. Many points at once are
-//! factored in blocks, by matrix products.
+//! factored in blocks, by matrix products on all threads: tiles are fixed, so that the factor does not depend on these.
 //! *Reference.* Golub and Van Loan, Matrix Computations, 6.5 (updating a Cholesky factor).
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{cholesky_in_place, cholesky_in_place_scratch};
-use faer::{MatMut, Par};
-use taut_kernels::vector::{add_scaled, dot, rotate};
+use faer::linalg::matmul::matmul;
+use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
+use faer::{Accum, MatMut, MatRef, Par};
+use taut_kernels::substitution;
+use taut_kernels::vector::{dot, rotate};
+use taut_points::parallel::ParallelSlice;
+
+/// Rows of R that are made at once.
+const BLOCK_ROWS: usize = 96;
+/// One task takes a block of rows of R from so many rows of what is left.
+const TILE_ROWS: usize = 64;
 
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Factor {
@@ -32,18 +41,9 @@ impl Factor {
         let size = b.len();
         let diagonal: Vec<f64> = (0..size).map(|i| h[i * size + i]).collect();
         let mut rows = h;
-        // A lower triangle by columns is an upper one by rows.
-        let matrix = MatMut::from_column_major_slice_mut(&mut rows, size, size);
-        let room = cholesky_in_place_scratch::<f64>(size, Par::Seq, Default::default());
-        let mut memory = MemBuffer::new(room);
-        cholesky_in_place(
-            matrix,
-            Default::default(),
-            Par::Seq,
-            MemStack::new(&mut memory),
-            Default::default(),
-        )
-        .ok()?;
+        for first in (0..size).step_by(BLOCK_ROWS) {
+            factor_block(&mut rows, size, first)?;
+        }
         for (i, &h) in diagonal.iter().enumerate() {
             let pivot = rows[i * size + i];
             if pivot.is_nan() || pivot * pivot <= least * h {
@@ -58,22 +58,19 @@ impl Factor {
     /// z with R′z = a.
     pub(crate) fn forward(&self, a: &[f64]) -> Vec<f64> {
         let mut z = a.to_vec();
-        for i in 0..self.size {
-            let row = self.row(i);
-            z[i] /= row[0];
-            let (head, tail) = z.split_at_mut(i + 1);
-            add_scaled(tail, -head[i], &row[1..]);
-        }
+        substitution::forward(&self.rows, self.stride, &mut z);
         z
     }
 
     /// y with Ry = z.
     pub(crate) fn back(&self, mut z: Vec<f64>) -> Vec<f64> {
-        for i in (0..self.size).rev() {
-            let row = self.row(i);
-            z[i] = (z[i] - dot(&row[1..], &z[i + 1..])) / row[0];
-        }
+        substitution::back(&self.rows, self.stride, &mut z);
         z
+    }
+
+    /// |Rd|² = d′Hd.
+    pub(super) fn square(&self, d: &[f64]) -> f64 {
+        (0..self.size).map(|i| dot(self.row(i), &d[i..]).powi(2)).sum()
     }
 
     /// v with Hv = b.
@@ -97,7 +94,8 @@ impl Factor {
         if self.size < self.stride {
             return;
         }
-        let stride = (self.stride + self.stride / 2).max(self.stride + 16).next_multiple_of(8);
+        // A little at a time: most factors of many points are made at once, and gain few.
+        let stride = (self.stride + self.stride / 8).max(self.stride + 16).next_multiple_of(8);
         let mut rows = vec![0.0; stride * stride];
         for i in 0..self.size {
             rows[i * stride + i..i * stride + self.size].copy_from_slice(self.row(i));
@@ -129,6 +127,35 @@ impl Factor {
         }
         self.size -= 1;
     }
+}
+
+/// Makes rows of R out of those of H from `first` on, less what the rows of R before them explain, and takes from what
+/// is left what these explain; `None` where H is not positive definite.
+fn factor_block(rows: &mut [f64], size: usize, first: usize) -> Option<()> {
+    let end = size.min(first + BLOCK_ROWS);
+    let count = end - first;
+    let (block, rest) = rows[first * size..].split_at_mut(count * size);
+    let (square, right) = MatMut::from_row_major_slice_mut(&mut *block, count, size)
+        .subcols_mut(first, size - first)
+        .split_at_col_mut(count);
+    // A lower triangle by columns is an upper one by rows.
+    let mut lower = square.transpose_mut();
+    let room = cholesky_in_place_scratch::<f64>(count, Par::Seq, Default::default());
+    let mut memory = MemBuffer::new(room);
+    let stack = MemStack::new(&mut memory);
+    cholesky_in_place(lower.as_mut(), Default::default(), Par::Seq, stack, Default::default())
+        .ok()?;
+    solve_lower_triangular_in_place(lower.as_ref(), right, Par::Seq);
+    let block = MatRef::from_row_major_slice(block, count, size);
+    rest.par_chunks_mut(TILE_ROWS * size).enumerate().for_each(|(tile, rows)| {
+        let (from, count) = (end + tile * TILE_ROWS, rows.len() / size);
+        // Only what is right of the diagonal of the tile.
+        let target =
+            MatMut::from_row_major_slice_mut(rows, count, size).subcols_mut(from, size - from);
+        let left = block.subcols(from, count).transpose();
+        matmul(target, Accum::Add, left, block.subcols(from, size - from), -1.0, Par::Seq);
+    });
+    Some(())
 }
 
 #[cfg(test)]
@@ -180,6 +207,20 @@ mod tests {
         factor.append(&z, (entry(70, 70) - dot(&z, &z)).sqrt(), 70f64.cos());
         points.push(70);
         check(&factor, &points);
+    }
+
+    /// More rows than a block and than a tile, and not a multiple of either.
+    #[test]
+    fn factors_of_several_blocks_solve() {
+        let points: Vec<usize> = (0..2 * BLOCK_ROWS + TILE_ROWS + 5).collect();
+        let h = points.iter().flat_map(|&i| points.iter().map(move |&j| entry(i, j))).collect();
+        let b: Vec<f64> = points.iter().map(|&i| (i as f64).cos()).collect();
+        let factor = Factor::of(h, &b, 1e-11).unwrap();
+        check(&factor, &points);
+        let d: Vec<f64> = points.iter().map(|&i| (2.0 * i as f64).sin()).collect();
+        let product = |i: usize| points.iter().map(|&j| entry(i, j) * d[j]).sum::<f64>();
+        let square: f64 = points.iter().map(|&i| d[i] * product(i)).sum();
+        assert!((factor.square(&d) - square).abs() < 1e-11 * square);
     }
 
     #[test]

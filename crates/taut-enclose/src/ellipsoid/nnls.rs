@@ -17,9 +17,11 @@ use std::collections::HashSet;
 
 use faer::linalg::matmul::matmul;
 use faer::{Accum, MatMut, MatRef, Par};
+use taut_kernels::substitution::products;
 use taut_kernels::triangle::{POINTS, Triangle, forms, moments};
 use taut_kernels::vector::dot;
 use taut_points::OrderBy;
+use taut_points::parallel::ParallelSlice;
 
 use super::counters::Counters;
 use super::factor::Factor;
@@ -36,6 +38,11 @@ const CANDIDATE_RATIO_MIN: f64 = 0.3;
 const BLOCKED_FACTOR_MIN: usize = 96;
 /// From this size p = m(m + 1)/2 of a model on, a cold start guesses the points in use. Below, guessing gains nothing.
 const GUESSED_START_MIN: usize = 300;
+
+/// One task multiplies this many rows of H: fixed, so that the result does not depend on threads.
+const TILE_ROWS: usize = 64;
+/// So many points with a negative multiplier leave at once, if the model rises: to know that costs as much as two solutions.
+const LEAVING_MIN: usize = 4;
 
 /// The way in which a model ended.
 pub(super) enum Outcome {
@@ -164,21 +171,27 @@ impl<'a> ActiveSet<'a> {
     /// The column of H of point j over the members, and its w.
     fn column(&self, j: usize) -> (Vec<f64>, Vec<f64>) {
         let row = self.row(j);
-        let square = |other| {
-            let product = dot(&row, other);
-            product * product
-        };
-        (self.rows.chunks_exact(self.stride).map(square).collect(), row)
+        let mut column = vec![0.0; self.members.len()];
+        products(&self.rows, self.stride, &row, &mut column);
+        column.iter_mut().for_each(|h| *h *= *h);
+        (column, row)
     }
 
-    /// H over the given points, whose rows these are.
+    /// H over the given points, whose rows these are: the upper triangle, which is what a factor reads.
     fn gram(&self, rows: &[f64]) -> Vec<f64> {
         let s = rows.len() / self.stride;
         let mut gram = vec![0.0; s * s];
         let matrix = MatRef::from_row_major_slice(rows, s, self.stride);
-        let target = MatMut::from_row_major_slice_mut(&mut gram, s, s);
-        matmul(target, Accum::Replace, matrix, matrix.transpose(), 1.0, Par::Seq);
-        gram.iter_mut().for_each(|h| *h *= *h);
+        gram.par_chunks_mut(TILE_ROWS * s).enumerate().for_each(|(tile, rows)| {
+            let (first, count) = (tile * TILE_ROWS, rows.len() / s);
+            let (left, right) = (matrix.subrows(first, count), matrix.subrows(first, s - first));
+            let target = MatMut::from_row_major_slice_mut(&mut *rows, count, s)
+                .subcols_mut(first, s - first);
+            matmul(target, Accum::Replace, left, right.transpose(), 1.0, Par::Seq);
+            for row in rows.chunks_exact_mut(s) {
+                row[first..].iter_mut().for_each(|h| *h *= *h);
+            }
+        });
         gram
     }
 
@@ -292,10 +305,32 @@ impl<'a> ActiveSet<'a> {
                 self.v = z;
                 return;
             };
+            if self.drop_all(&z, counters) {
+                continue;
+            }
             self.v.iter_mut().zip(&z).for_each(|(v, z)| *v = (*v + step * (z - *v)).max(0.0));
             self.delete(blocker);
             counters.pivots += 1;
         }
+    }
+
+    /// Goes to the maximizer z of the model without v ≥ 0, less what is negative in it, and drops all who are, if there are
+    /// many and the model rises. Many leave after a Newton step, and each of them alone would cost a solution.
+    fn drop_all(&mut self, z: &[f64], counters: &mut Counters) -> bool {
+        let leaving: Vec<usize> = (0..z.len()).filter(|&i| z[i] <= 0.0).collect();
+        if leaving.len() < LEAVING_MIN {
+            return false;
+        }
+        // Twice the model falls short of its maximum by the square of R(z − v).
+        let now: Vec<f64> = z.iter().zip(&self.v).map(|(z, v)| z - v).collect();
+        let then: Vec<f64> = z.iter().map(|z| z.min(0.0)).collect();
+        if self.factor.square(&then) >= self.factor.square(&now) {
+            return false;
+        }
+        self.v.iter_mut().zip(z).for_each(|(v, z)| *v = z.max(0.0));
+        leaving.iter().rev().for_each(|&position| self.delete(position));
+        counters.pivots += leaving.len() as u64;
+        true
     }
 
     /// N = Σ vⱼwⱼwⱼ′.

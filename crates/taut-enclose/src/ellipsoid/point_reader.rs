@@ -9,9 +9,10 @@ use std::sync::{Mutex, PoisonError};
 use taut_kernels::Center;
 use taut_kernels::extremes::{all_finite, largest};
 use taut_kernels::triangle::{POINTS, above, leverages};
+use taut_points::parallel::ParallelSlice;
 use taut_points::{
-    BlockHash, InputError, Monitor, OrderBy, PointSource, Points, PointsHash, Rows, Scalar, gather,
-    hash_block, map_blocks,
+    BlockHash, InputError, Monitor, OrderBy, PointSource, Points, PointsHash, ReadError, Rows,
+    Scalar, gather, hash_block, map_blocks,
 };
 
 use super::question::{Kind, Question, TakenIds};
@@ -100,8 +101,16 @@ impl<'a> PointReader<'a> {
         self.hash.expect("the first pass hashes the rows")
     }
 
+    /// The rows with the given numbers. Far apart, each is a wait for memory: many are read on all threads.
     pub(crate) fn rows(&self, ids: &[u64]) -> Result<Vec<f64>, Error> {
-        Ok(gather(self.source, ids)?)
+        /// One task reads this many.
+        const ROWS_OF_TASK: usize = 512;
+        if self.source.elsewhere().is_some() || ids.len() <= ROWS_OF_TASK {
+            return Ok(gather(self.source, ids)?);
+        }
+        let parts: Result<Vec<Vec<f64>>, ReadError> =
+            ids.par_chunks(ROWS_OF_TASK).map(|ids| gather(self.source, ids)).collect();
+        Ok(parts?.concat())
     }
 
     /// The same, relative to an origin.

@@ -399,5 +399,6 @@ fn name_of(proof: &LowerBound) -> &'static str {
         LowerBound::Separated => "apart",
         LowerBound::Branches { .. } => "branches",
         LowerBound::Avoiding { .. } => "avoiding",
+        LowerBound::Nogoods { .. } => "nogoods",
     }
 }

@@ -78,6 +78,9 @@ impl Search {
                 vec![],
                 "More points than balls, no two of which fit in one: nothing has to be searched.",
             ),
+            LowerBound::Nogoods { .. } => {
+                (vec![], "The proof lists sets that fewer balls do not hold; it has no cases.")
+            }
             // Nothing is left out here, so no branch is refuted by what is.
             LowerBound::Branches { items } | LowerBound::Avoiding { items, .. } => {
                 match cases(&table, &core_set, items, k, bound)? {

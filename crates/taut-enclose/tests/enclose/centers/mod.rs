@@ -209,6 +209,9 @@ pub fn judge(
             replay.follow(log)?;
             replay.is_at_end(log)?;
         }
+        LowerBound::Nogoods { .. } => {
+            return Err("trees of this size are not large enough for nogoods".into());
+        }
     }
     Ok(())
 }

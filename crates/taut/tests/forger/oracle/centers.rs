@@ -192,6 +192,7 @@ fn form(
         (LowerBound::Branches { items } | LowerBound::Avoiding { items, .. }, true) => {
             verdict.branches == items.len() as u64
         }
+        (LowerBound::Nogoods { nogoods }, true) => verdict.branches == nogoods.len() as u64,
         _ => verdict.branches == 0,
     };
     let form = [

@@ -133,6 +133,7 @@ impl<'a> Replay<'a> {
                 }
             }
             LowerBound::Avoiding { .. } => panic!("centers at rows are not asked to avoid"),
+            LowerBound::Nogoods { .. } => panic!("nogoods are recorded of free centers alone"),
             LowerBound::Branches { items } => {
                 self.node(items, &mut vec![], &mut vec![]);
                 assert_eq!(self.read, items.len(), "branches left over");

@@ -1,0 +1,192 @@
+//! The largest sets of points of the plane that discs of one radius hold, as points come one by one.
+//!
+//! *Idea.* A disc that holds some points can be moved until two of them are on its border and none has left it. So it is enough to look at
+//! the two discs with each two points on their border, and of a point without neighbors at the disc about it. A new point is added to the discs
+//! that hold it, and the discs with it on their border come in. A set that another one has in it is dropped.
+//! *Guarantee.* But for rounding, each set of points in one disc is in one of the sets. Of a set with the new point, either each
+//! disc that holds the old points holds the new one, or some disc has the new one on its border.
+
+use super::item_set::ItemSet;
+
+pub(super) type Place = [f64; 2];
+
+/// Points on the border of a disc are taken to be in it; others are where they are this much inside, in parts of the square of the radius.
+const INSIDE: f64 = 1.0 - 1e-12;
+
+/// A largest set and the center of a disc that holds it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Disc {
+    pub(super) held: ItemSet,
+    pub(super) center: Place,
+}
+
+/// Points, and the discs that hold the largest sets of them.
+#[derive(Clone, Debug)]
+pub(super) struct Discs {
+    radius: f64,
+    places: Vec<Place>,
+    /// For each point those that are in no disc with it.
+    apart: Vec<ItemSet>,
+    /// All discs there ever were.
+    discs: Vec<Disc>,
+    /// For each point the discs in use that hold it.
+    of: Vec<Vec<u32>>,
+}
+
+impl Discs {
+    pub(super) fn new(radius: f64, places: impl Iterator<Item = Place>) -> Self {
+        let mut discs = Discs { radius, places: vec![], apart: vec![], discs: vec![], of: vec![] };
+        places.for_each(|place| discs.add(place));
+        discs
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.places.len()
+    }
+
+    pub(super) fn place(&self, item: u32) -> Place {
+        self.places[item as usize]
+    }
+
+    /// The points that are in no disc with this one.
+    pub(super) fn apart(&self, item: u32) -> &ItemSet {
+        &self.apart[item as usize]
+    }
+
+    pub(super) fn disc(&self, disc: u32) -> &Disc {
+        &self.discs[disc as usize]
+    }
+
+    /// The numbers of the discs that hold a point.
+    pub(super) fn of(&self, item: u32) -> &[u32] {
+        &self.of[item as usize]
+    }
+
+    /// Takes one point more, which is at none of the others.
+    pub(super) fn add(&mut self, place: Place) {
+        let (item, square_of_radius) = (self.len() as u32, self.radius * self.radius);
+        let mut near = vec![];
+        self.apart.push(ItemSet::default());
+        for other in 0..item {
+            if square(self.place(other), place) < 4.0 * square_of_radius {
+                near.push(other);
+            } else {
+                self.apart[other as usize].insert(item);
+                self.apart[item as usize].insert(other);
+            }
+        }
+        self.places.push(place);
+        self.of.push(vec![]);
+        let mut holding: Vec<u32> =
+            near.iter().flat_map(|&other| self.of(other)).copied().collect();
+        holding.sort_unstable();
+        holding.dedup();
+        for &at in &holding {
+            let disc = &mut self.discs[at as usize];
+            if square(disc.center, place) <= square_of_radius * INSIDE {
+                disc.held.insert(item);
+                self.of[item as usize].push(at);
+            }
+        }
+        let mut new = self.on_border(item, &near);
+        // A set comes after those that may have it in them.
+        new.sort_by_key(|disc| std::cmp::Reverse(disc.held.len()));
+        new.into_iter().for_each(|disc| self.take(item, disc, &mut holding));
+    }
+
+    /// The discs with this point and one of the others on their border.
+    fn on_border(&self, item: u32, near: &[u32]) -> Vec<Disc> {
+        let (place, square_of_radius) = (self.place(item), self.radius * self.radius);
+        if near.is_empty() {
+            return vec![Disc { held: ItemSet::of_one(item), center: place }];
+        }
+        let sides = near.iter().flat_map(|&other| [(other, 1.0), (other, -1.0)]);
+        sides
+            .map(|(other, side)| {
+                let [x, y] = self.place(other);
+                let across = square_of_radius / square(place, [x, y]) - 0.25;
+                let across = side * across.max(0.0).sqrt();
+                let center = [
+                    0.5 * (place[0] + x) + across * (y - place[1]),
+                    0.5 * (place[1] + y) - across * (x - place[0]),
+                ];
+                let mut held = ItemSet::of_one(item);
+                held.insert(other);
+                for &third in near {
+                    if square(self.place(third), center) <= square_of_radius * INSIDE {
+                        held.insert(third);
+                    }
+                }
+                Disc { held, center }
+            })
+            .collect()
+    }
+
+    /// Takes a disc that holds the last point, unless another one holds all that it does. Of the discs that were there before and hold some
+    /// points near the last one, those are dropped of which that is now true.
+    fn take(&mut self, last: u32, new: Disc, before: &mut Vec<u32>) {
+        let holds_all = |&at: &u32| new.held.is_subset(&self.disc(at).held);
+        if self.of(last).iter().any(holds_all) {
+            return;
+        }
+        before.retain(|&at| {
+            let held = self.discs[at as usize].held;
+            let is_needless = held.is_subset(&new.held);
+            if is_needless {
+                for item in held.items() {
+                    self.of[item as usize].retain(|&other| other != at);
+                }
+            }
+            !is_needless
+        });
+        let number = self.discs.len() as u32;
+        new.held.items().for_each(|item| self.of[item as usize].push(number));
+        self.discs.push(new);
+    }
+}
+
+pub(super) fn square(a: Place, b: Place) -> f64 {
+    (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whatever a disc about any place of a grid holds is in one of the sets, and none of these is in another one.
+    #[test]
+    fn no_disc_of_a_grid_holds_more() {
+        let mut state = 5u64;
+        let mut draw = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695);
+            (state >> 33) as f64 / 2f64.powi(31)
+        };
+        for count in [1, 2, 7, 20, 40] {
+            let places: Vec<Place> = (0..count).map(|_| [4.0 * draw(), 3.0 * draw()]).collect();
+            let discs = Discs::new(1.0, places.iter().copied());
+            let steps = || (0..160).map(|step| f64::from(step) / 40.0);
+            for center in steps().flat_map(|x| steps().map(move |y| [x, y])) {
+                let mut held = ItemSet::default();
+                for (item, &place) in places.iter().enumerate() {
+                    if square(place, center) <= 1.0 {
+                        held.insert(item as u32);
+                    }
+                }
+                let Some(first) = held.items().next() else { continue };
+                let holds_all = |&at: &u32| held.is_subset(&discs.disc(at).held);
+                assert!(discs.of(first).iter().any(holds_all), "{center:?}");
+            }
+            let mut all: Vec<u32> = (0..count).flat_map(|item| discs.of(item).to_vec()).collect();
+            all.sort_unstable();
+            all.dedup();
+            for &a in &all {
+                let Disc { held, center } = discs.disc(a);
+                for item in held.items() {
+                    assert!(square(discs.place(item), *center) <= 1.0 + 1e-9);
+                    assert!(discs.of(item).contains(&a));
+                }
+                assert!(all.iter().all(|&b| a == b || !held.is_subset(&discs.disc(b).held)));
+            }
+        }
+    }
+}
