@@ -43,7 +43,7 @@ pub(crate) use proof::reach_up;
 /// radius is larger than needed by some units of the last place, so that nothing is outside, and the only method is
 /// [`BallMethod::CoreSet`]. The answer is the same, bit by bit, for every medium the rows come from.
 ///
-/// *Cost* of the default method: for 65 536 points or more in up to 32 dimensions, one pass of O(nd) on ordinary data; else
+/// *Cost* of the default method: for 65 536 points or more in three to 32 dimensions, one pass of O(nd) on ordinary data; else
 /// three to five, and more on cospherical points; beside O(k²d) for a core-set of k points and O(k²) for each of its steps, and near a sphere about 40 steps of O(kd²);
 /// in memory, O(k² + kd) and one block for each thread. For ellipsoids O(nd³) once and a dozen passes of O(nd²), with n·d² numbers in memory.
 ///

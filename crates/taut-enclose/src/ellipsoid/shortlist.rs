@@ -115,24 +115,25 @@ impl Shortlist {
         let shift: Vec<f64> = new.chunks_exact(dim).map(|row| dot(row, &moved)).collect();
         let along = vectors.chunks_exact(dim).map(|vector| dot(vector, &shift));
         let terms: Vec<(f64, f64)> = values.into_iter().zip(along).collect();
-        reach2(&terms, *above) * (1.0 + 4.0 * doubt + 1e-9)
+        reach2(&terms, *above) * (1.0 + 4.0 * doubt)
     }
 }
 
-/// Bounds |Tz + s|² for |z|² ≤ b, from the eigenvalues of TT′ and s in the basis of its eigenvectors.
+/// Bounds |Tz + s|² for |z|² ≤ b, rounding included, from the eigenvalues of TT′ and s in the basis of its eigenvectors.
 ///
 /// For any λ above the eigenvalues νᵢ it is at most λb + Σ sᵢ²λ/(λ − νᵢ), by duality. Several λ are tried: the best is rarely
-/// needed, and the sum of the largest |Tz| and |s|, which it replaces, counts s as if it pointed where T stretches most.
+/// needed. The square of the sum of the largest |Tz| and |s| is what the best λ gives where s points to where T stretches most or where it
+/// stretches all alike; near the end both are so near to 1 and 0 that no λ of the list comes as near.
 fn reach2(terms: &[(f64, f64)], b: f64) -> f64 {
     let largest = terms.iter().fold(0.0f64, |m, (value, _)| m.max(*value));
+    let shift = terms.iter().map(|(_, s)| s * s).sum::<f64>().sqrt();
+    let plain = (largest.sqrt() * b.sqrt() + shift).powi(2) * (1.0 + 1e-12);
     let bound = |lambda: f64| {
         let term = |(value, s): &(f64, f64)| s * s * lambda / (lambda - value);
-        lambda * b + terms.iter().map(term).sum::<f64>()
+        (lambda * b + terms.iter().map(term).sum::<f64>()) * (1.0 + 1e-9)
     };
     // Nearer to the largest eigenvalue rounding would be seen.
-    (-32..8)
-        .map(|k| bound(largest * (1.0 + 2f64.powf(f64::from(k) / 4.0))))
-        .fold(f64::INFINITY, f64::min)
+    (-32..8).map(|k| bound(largest * (1.0 + 2f64.powf(f64::from(k) / 4.0)))).fold(plain, f64::min)
 }
 
 /// Returns what share of n points a first list should hold so that it covers the end; `None` where a list saves nothing.
@@ -173,6 +174,9 @@ mod tests {
         let bound = reach2(&[(long * long, 0.0), (short * short, 0.8)], b);
         assert!(bound >= most && bound <= 1.01 * most, "{bound} {most}");
         assert!(bound < 0.8 * (long * b.sqrt() + 0.8).powi(2));
+        // Near the end it has to tell points apart that differ by little.
+        let bound = reach2(&[(1.0 + 1e-9, 1e-9), (1.0 - 1e-9, -1e-9)], b);
+        assert!(bound >= b && bound <= b * (1.0 + 1e-8), "{bound}");
     }
 
     /// What is not listed stays within the bound under other ellipsoids, and the bound is not idle.
