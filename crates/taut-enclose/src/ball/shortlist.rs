@@ -113,7 +113,7 @@ fn of_sample(reader: &ItemReader<'_>) -> Result<Option<(Center, f64)>, Error> {
 /// The center of the ball of a few rows.
 fn ball_center(rows: &[f64], dim: usize) -> Result<Option<Vec<f64>>, Error> {
     /// Squares between this and its inverse are far from either end.
-    const LEAST: f64 = 1e-100;
+    const SQUARE_MIN: f64 = 1e-100;
     if !rows.iter().all(|v| v.is_finite()) {
         return Ok(None);
     }
@@ -122,7 +122,7 @@ fn ball_center(rows: &[f64], dim: usize) -> Result<Option<Vec<f64>>, Error> {
     let options = BallOptions { epsilon: SAMPLE_GAP, ..BallOptions::default() };
     let mut reader = ItemReader::new(&points, Items::Points, &monitor)?;
     let (best, _) = core_set::solve(&mut reader, &options)?.into_best();
-    let safe = LEAST..1.0 / LEAST;
+    let safe = SQUARE_MIN..1.0 / SQUARE_MIN;
     let is_safe = reader.scale() == 1.0 && safe.contains(&best.found.farthest.reach2);
     Ok(is_safe.then_some(best.center.high))
 }
