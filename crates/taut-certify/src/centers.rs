@@ -93,6 +93,8 @@ pub enum LowerBound {
     /// A nogood is a set of items that no e balls of a radius less than the bound hold. Each is shown by those before it, and the last one
     /// is a set that no k balls hold. The checker grants 1e-7 in the angles by which it finds balls. It takes time linear in the
     /// number of nogoods, and for each as much as the square of its items near the one that is branched on.
+    ///
+    /// *Source.* Recording of nogoods as in constraint satisfaction: Dechter, Artificial Intelligence 41, 1990.
     Nogoods {
         /// At most 2³⁰ / |X| of them.
         nogoods: Vec<Nogood>,

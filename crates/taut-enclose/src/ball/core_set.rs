@@ -125,22 +125,16 @@ fn solve_with_patience(
         };
         // A list tells as much as a pass where it holds all that can be outside; as long as some of it is outside,
         // nobody asks for the others.
-        let listed = match &list {
-            Some(list) => Some(list.pass(query)?),
-            None => None,
-        };
-        let (found, all, violators) = match listed {
-            Some((found, all)) if all || !new(&found).is_empty() => {
-                let violators = new(&found);
-                (found, all, violators)
-            }
-            _ => {
+        let listed = list.as_ref().map(|list| list.pass(query)).transpose()?;
+        let told = listed.filter(|(found, all)| *all || !new(found).is_empty());
+        let (found, all) = match told {
+            Some(told) => told,
+            None => {
                 list = None;
-                let found = reader.farthest(query)?;
-                let violators = new(&found);
-                (found, true, violators)
+                (reader.farthest(query)?, true)
             }
         };
+        let violators = new(&found);
         if !all {
             let before = set.len();
             add(&mut set, reader, violators.into_iter(), batch)?;
