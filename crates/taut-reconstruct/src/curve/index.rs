@@ -2,8 +2,6 @@
 //!
 //! *Guarantee.* Answers are exact; equal distances go to the smaller number, so answers do not depend on how the search goes.
 
-use std::ops::Range;
-
 use taut_points::parallel::IntoParallel;
 
 use super::boxes::{Bounds, Boxes, FAN_OUT};
@@ -93,7 +91,9 @@ impl<'a> Index<'a> {
                 found.clear();
                 let first = i.saturating_sub(k).min(self.points.len().saturating_sub(2 * k));
                 let last = self.points.len().min(first + 2 * k);
-                self.insert_all(first..last, self.points[i], k, found);
+                // Outward from the point: the first are the nearest as a rule, and those that come later are seen to be farther at once.
+                self.insert_all(i..last, self.points[i], k, found);
+                self.insert_all((first..i).rev(), self.points[i], k, found);
                 far2 = far2.max(if found.len() < k { f64::INFINITY } else { found[k - 1].0 });
             }
             leaves.clear();
@@ -122,10 +122,16 @@ impl<'a> Index<'a> {
 
     /// Puts points in their places among the k best.
     #[inline]
-    fn insert_all(&self, points: Range<usize>, at: Point, k: usize, found: &mut Found) {
+    fn insert_all(
+        &self,
+        numbers: impl Iterator<Item = usize>,
+        at: Point,
+        k: usize,
+        found: &mut Found,
+    ) {
         let mut most = if found.len() < k { f64::INFINITY } else { found[k - 1].0 };
-        for (number, &point) in points.clone().zip(&self.points[points]) {
-            let distance2 = distance2(point, at);
+        for number in numbers {
+            let distance2 = distance2(self.points[number], at);
             if distance2 <= most {
                 insert(found, k, (distance2, number as u32));
                 most = if found.len() < k { f64::INFINITY } else { found[k - 1].0 };
@@ -173,15 +179,24 @@ impl<'a> Index<'a> {
 /// Puts a candidate in its place among the k best.
 #[inline]
 fn insert(found: &mut Found, k: usize, candidate: (f64, u32)) {
-    if found.len() == k && candidate >= found[k - 1] {
+    let is_after =
+        |kept: (f64, u32)| kept.0 > candidate.0 || kept.0 == candidate.0 && kept.1 > candidate.1;
+    if found.len() == k && !is_after(found[k - 1]) {
         return;
     }
-    let place = found.iter().rposition(|kept| *kept <= candidate).map_or(0, |p| p + 1);
+    let place = found.iter().rposition(|&kept| !is_after(kept)).map_or(0, |p| p + 1);
     // Candidates may come twice.
-    if place == 0 || found[place - 1] != candidate {
-        found.truncate(k - 1);
-        found.insert(place, candidate);
+    if place > 0 && found[place - 1] == candidate {
+        return;
     }
+    if found.len() < k {
+        found.push(candidate);
+    }
+    // A few items, moved one by one: a call of the library's move took longer.
+    for at in (place + 1..found.len()).rev() {
+        found[at] = found[at - 1];
+    }
+    found[place] = candidate;
 }
 
 #[cfg(test)]

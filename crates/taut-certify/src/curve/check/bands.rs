@@ -70,7 +70,7 @@ fn valleys(rows: &[Sample]) -> [Valley; 2] {
     let sorted = |shear: f64| {
         let mut offsets: Vec<f64> =
             rows.iter().map(|row| row.offset - shear * (row.along - rows[0].along)).collect();
-        offsets.sort_by(f64::total_cmp);
+        offsets.sort_unstable_by(f64::total_cmp);
         offsets
     };
     let (offsets, tail) = (sorted(0.0), rows.len() / ROWS_PER_TAIL);

@@ -1,7 +1,5 @@
 //! How far apart samples are along a curve, how far off, and what lies across their band.
 
-use taut_points::OrderBy;
-
 use super::super::CurveDoubt;
 use super::band::Foot;
 use super::features::Features;
@@ -69,7 +67,7 @@ pub(super) fn ordered(feet: &[Foot], first_edge: usize, features: &Features) -> 
         })
         .collect();
     // Many have one foot, a vertex.
-    samples.order_by(&|a, b| {
+    samples.sort_unstable_by(|a, b| {
         let by_place = a.along.total_cmp(&b.along).then(a.offset.total_cmp(&b.offset));
         by_place.then(a.row.cmp(&b.row))
     });
@@ -164,7 +162,7 @@ pub(super) fn split(curve: usize, samples: &[Sample]) -> Option<CurveDoubt> {
             offsets.clear();
             let around = start..start + window;
             offsets.extend(around.map(|k| samples[k % samples.len()].offset));
-            offsets.sort_by(f64::total_cmp);
+            offsets.sort_unstable_by(f64::total_cmp);
             let valley = valley(&offsets);
             if valley.evidence > worst.value {
                 share = valley.density;

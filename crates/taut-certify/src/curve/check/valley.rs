@@ -13,6 +13,9 @@ const VALLEY_DENSITY_RATIO: f64 = 0.75;
 /// A side is at most this many times doubled as wide as the part: all parts, at the least.
 const DOUBLINGS_MAX: usize = 6;
 
+/// What is less than this of a bound is less than the bound for all that rounding does.
+const ROUNDING: f64 = 1.0 - 1e-9;
+
 /// A part of a range with fewer numbers than on either side.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Valley {
@@ -42,18 +45,22 @@ pub(super) fn valley(numbers: &[f64]) -> Valley {
             if inside > most * width {
                 continue;
             }
-            // Sides as wide as the part, twice that, and so on: the best of each.
+            // Sides as wide as the part, twice that, and so on: the best of each, if it is more than what was found so far.
+            let least = deepest.evidence;
             let best = |side: &dyn Fn(usize) -> [usize; 2]| {
                 let of = |doublings: usize| {
                     let [start, end] = side((to - from) << doublings);
                     let (beside, wide) = (within(start, end), (end - start) as f64);
-                    (evidence([inside, beside], [width, wide]), beside / wide)
+                    (evidence_above(least, [inside, beside], [width, wide]), beside / wide)
                 };
                 (0..DOUBLINGS_MAX)
                     .map(of)
                     .fold((0.0, 1.0), |best, one| if one.0 > best.0 { one } else { best })
             };
             let left = best(&|wide| [from.saturating_sub(wide), from]);
+            if left.0 <= least {
+                continue;
+            }
             let right = best(&|wide| [to, parts.min(to + wide)]);
             if left.0.min(right.0) > deepest.evidence {
                 deepest = Valley {
@@ -79,6 +86,16 @@ pub(super) fn evidence(counts: [f64; 2], widths: [f64; 2]) -> f64 {
         false => 0.0,
     };
     term(0) + term(1)
+}
+
+/// The [`evidence`], or 0 where χ² shows that it is no more than `least`: ln x ≤ x − 1, so χ² is an upper bound.
+///
+/// Logarithms of hopeless parts took most of the time of this module.
+fn evidence_above(least: f64, counts: [f64; 2], widths: [f64; 2]) -> f64 {
+    let all = counts[0] + counts[1];
+    let surplus = counts[1] * widths[0] - counts[0] * widths[1];
+    let is_hopeless = surplus * surplus < ROUNDING * least * all * widths[0] * widths[1];
+    if is_hopeless { 0.0 } else { evidence(counts, widths) }
 }
 
 #[cfg(test)]
@@ -113,6 +130,22 @@ mod tests {
             found.windows(2).all(|pair| pair[1].evidence > 1.4 * pair[0].evidence),
             "{found:?}"
         );
+    }
+
+    #[test]
+    fn what_is_not_above_is_nothing() {
+        for low in 0..30u32 {
+            for [own, other] in [[1.0, 1.0], [1.0, 4.0], [5.0, 2.0]] {
+                let (counts, widths) = ([f64::from(low), 30.0], [own, other]);
+                let all = evidence(counts, widths);
+                for least in [0.0, 0.1, 0.5, 0.9, 0.999].map(|share| share * all) {
+                    assert_eq!(evidence_above(least, counts, widths), all);
+                }
+                let found = evidence_above(all, counts, widths);
+                assert!(found == all || found == 0.0);
+            }
+        }
+        assert_eq!(evidence_above(9.0, [20.0, 30.0], [1.0, 1.0]), 0.0);
     }
 
     /// Of 20 numbers none fall within the half of the width: 2⁻²⁰.

@@ -14,7 +14,7 @@ use taut_oblivious::hilbert_order;
 use taut_points::{Monitor, OrderBy};
 
 use super::link::Chain;
-use super::local::least_squares;
+use super::local::{least_squares, reach};
 use super::parameters::{
     ALONG_COS_MIN, BAND_DEVIATIONS, STEP_DEVIATIONS, STEP_TURN_COS_MIN, STEPS_MAX,
     TRACK_POINTS_AHEAD_MIN, TRACK_POINTS_MIN, TRACK_SEEDS_DROPPED, TRACK_WINDOW_DEVIATIONS,
@@ -190,7 +190,7 @@ impl Track<'_> {
             return None;
         }
         local.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-        let ([a, b, c], _) = least_squares(&local, |_| true)?;
+        let ([a, b, c], _) = least_squares(local.iter().copied(), reach(&local))?;
         let norm = b.hypot(1.0);
         let turned = predicted.turned(a, [1.0 / norm, b / norm]);
         let along =

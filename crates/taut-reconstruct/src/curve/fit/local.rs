@@ -93,7 +93,9 @@ impl Parabola {
 pub(super) struct Window {
     /// The points in the frame.
     pub(super) local: Vec<Point>,
+    /// How far each of them is from the parabola; and the same in some other order.
     residuals: Vec<f64>,
+    ranked: Vec<f64>,
 }
 
 impl Window {
@@ -108,30 +110,28 @@ impl Window {
             Parabola { origin, tangent, coefficients: [0.0; 3], variance: f64::INFINITY, kept: 0 };
         self.local.clear();
         self.local.extend(points.map(|p| parabola.local(p)));
-        let mut most = f64::INFINITY;
+        let (mut most, reach) = (f64::INFINITY, reach(&self.local));
+        self.residuals.clear();
+        self.residuals.resize(self.local.len(), 0.0);
         for _ in 0..3 {
-            let (coefficients, kept) = least_squares(&self.local, |p| {
-                most == f64::INFINITY || parabola.residual(p).abs() <= most
-            })?;
+            let counted = self.local.iter().zip(&self.residuals).filter(|(_, r)| **r <= most);
+            let (coefficients, kept) = least_squares(counted.map(|(&p, _)| p), reach)?;
             let fitted = Parabola { coefficients, kept, ..parabola };
-            self.residuals.clear();
-            self.residuals.extend(self.local.iter().map(|&p| fitted.residual(p).abs()));
-            let middle = self.residuals.len() / 2;
-            let (_, &mut median, _) = self.residuals.select_nth_unstable_by(middle, f64::total_cmp);
+            let residuals = self.local.iter().map(|&p| fitted.residual(p).abs());
+            residuals.zip(&mut self.residuals).for_each(|(r, place)| *place = r);
+            self.ranked.clone_from(&self.residuals);
+            let middle = self.ranked.len() / 2;
+            let (_, &mut median, _) = self.ranked.select_nth_unstable_by(middle, f64::total_cmp);
             // 1.4826 times the median residual is σ for normal noise; for uniform noise the edge is at 1.35 of it.
-            let next = 3.0 * 1.4826 * median;
-            let squares = |p: &&Point| fitted.residual(**p).abs() <= next;
-            let inside = self.local.iter().filter(squares);
-            let (count, sum) = inside.fold((0usize, 0.0), |(count, sum), &p| {
-                let r = fitted.residual(p);
-                (count + 1, sum + r * r)
-            });
+            most = 3.0 * 1.4826 * median;
+            let inside = self.residuals.iter().filter(|r| **r <= most);
+            let (count, sum) =
+                inside.fold((0usize, 0.0), |(count, sum), r| (count + 1, sum + r * r));
             parabola =
                 Parabola { variance: sum / (count.max(4) - 3) as f64, kept: count, ..fitted };
             if count == self.local.len() {
                 break;
             }
-            most = next;
         }
         Some(parabola)
     }
@@ -155,12 +155,16 @@ fn main_direction(origin: Point, points: impl Iterator<Item = Point> + Clone) ->
     (xx + yy > 0.0).then(|| [angle.cos(), angle.sin()])
 }
 
-/// The parabola of least squares through the points that count, and how many those are; none where the points do not determine it.
+/// How far from the origin points are, along the first axis.
+pub(super) fn reach(points: &[Point]) -> f64 {
+    points.iter().fold(0.0, |most, p| if p[0].abs() > most { p[0].abs() } else { most })
+}
+
+/// The parabola of least squares through points no farther along than `reach`, and how many they are; none where they do not determine it.
 pub(super) fn least_squares(
-    points: &[Point],
-    counts: impl Fn(Point) -> bool,
+    points: impl Iterator<Item = Point>,
+    reach: f64,
 ) -> Option<([f64; 3], usize)> {
-    let reach = points.iter().fold(0.0, |most: f64, p| most.max(p[0].abs()));
     if reach == 0.0 {
         return None;
     }
@@ -168,20 +172,18 @@ pub(super) fn least_squares(
     let mut powers = [0.0; 5];
     let mut moments = [0.0; 3];
     let mut kept = 0;
-    for &[u, v] in points {
-        if counts([u, v]) {
-            let u = u / reach;
-            let u2 = u * u;
-            powers = [
-                powers[0] + 1.0,
-                powers[1] + u,
-                powers[2] + u2,
-                powers[3] + u2 * u,
-                powers[4] + u2 * u2,
-            ];
-            moments = [moments[0] + v, moments[1] + u * v, moments[2] + u2 * v];
-            kept += 1;
-        }
+    for [u, v] in points {
+        let u = u / reach;
+        let u2 = u * u;
+        powers = [
+            powers[0] + 1.0,
+            powers[1] + u,
+            powers[2] + u2,
+            powers[3] + u2 * u,
+            powers[4] + u2 * u2,
+        ];
+        moments = [moments[0] + v, moments[1] + u * v, moments[2] + u2 * v];
+        kept += 1;
     }
     let [s0, s1, s2, s3, s4] = powers;
     let solution = cholesky([[s0, s1, s2], [s1, s2, s3], [s2, s3, s4]], moments)?;

@@ -15,9 +15,11 @@
 //! *Reference.* The coarse disk of Cheng, Funke, Golin, Kumar, Poon and Ramos, with a parabola in place of the strip, so that it
 //! needs no feature size to be 1.
 
+use std::cmp::Ordering;
+
 use taut_oblivious::hilbert_order;
+use taut_points::Monitor;
 use taut_points::parallel::ParallelSlice;
-use taut_points::{Monitor, OrderBy};
 
 use super::local::{Parabola, Window};
 use super::parameters::{
@@ -474,7 +476,12 @@ impl<'a> Search<'a> {
         along.clear();
         along.extend(self.window.local.iter().map(|&p| [p[0], parabola.residual(p)]));
         along.retain(|p| p[1].abs() <= most);
-        along.order_by(&|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+        // A hot loop: with the sort that is compiled once for all types it took a fifth of the time of seeds.
+        along.sort_unstable_by(|a, b| match a[0] < b[0] || a[0] == b[0] && a[1] < b[1] {
+            true => Ordering::Less,
+            false if a == b => Ordering::Equal,
+            false => Ordering::Greater,
+        });
         let squares: f64 = along.iter().map(|p| p[1] * p[1]).sum();
         let steps: f64 = along.windows(2).map(|p| (p[1][1] - p[0][1]).powi(2)).sum();
         steps >= 2.0 * NEUMANN_RATIO_MIN * squares

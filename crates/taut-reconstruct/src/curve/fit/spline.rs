@@ -236,7 +236,7 @@ fn polyline(spline: &Spline) -> Vec<(Point, f64)> {
 /// The distance of a point from the two pieces at a vertex, and its place along the curve. Beyond the ends of an open
 /// spline the last pieces go on.
 fn project(spline: &Spline, line: &[(Point, f64)], vertex: usize, p: Point) -> (f64, f64) {
-    let mut best = (f64::INFINITY, 0.0);
+    let mut best = (f64::INFINITY, [f64::INFINITY; 2], 0.0);
     let count = line.len();
     for first in [vertex.wrapping_sub(1), vertex] {
         let first = match first {
@@ -253,10 +253,11 @@ fn project(spline: &Spline, line: &[(Point, f64)], vertex: usize, p: Point) -> (
         let least = if !spline.closed && first == 0 { -4.0 } else { 0.0 };
         let most = if !spline.closed && first + 2 == count { 5.0 } else { 1.0 };
         let t = share.clamp(least, most);
-        let distance = (p[0] - a[0] - t * ex).hypot(p[1] - a[1] - t * ey);
-        if distance < best.0 {
-            best = (distance, start + t * (end - start));
+        let [x, y] = [p[0] - a[0] - t * ex, p[1] - a[1] - t * ey];
+        if x * x + y * y < best.0 {
+            best = (x * x + y * y, [x, y], start + t * (end - start));
         }
     }
-    best
+    let (_, [x, y], arc) = best;
+    (x.hypot(y), arc)
 }
