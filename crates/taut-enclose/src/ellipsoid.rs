@@ -9,6 +9,7 @@ pub(crate) mod dense;
 pub(crate) mod factor;
 mod first_order;
 mod flat;
+mod fourth_moments;
 mod initial;
 mod interior;
 mod newton;

@@ -5,14 +5,13 @@
 //! *Idea.* Symmetric M ≻ 0, slacks sᵢ = 1 − wᵢ′Mwᵢ and multipliers zᵢ follow the path M⁻¹ = Σ zᵢwᵢwᵢ′, zᵢsᵢ = μ → 0.
 //! With F the rows svec(wᵢwᵢ′), beside the diagonal times √2, a Newton step is (K + F′ diag(z/s) F) ΔM = svec(M⁻¹) −
 //! F′(g/s), K the symmetric Kronecker square of M⁻¹: p unknowns however many points. Predictor and corrector after
-//! Mehrotra, g = 0 and then g = σμ − Δs·Δz.
+//! Mehrotra, g = 0 and then g = σμ − Δs·Δz. F is never made: its products are forms and moments of the points ([`FourthMoments`]).
 //! *Guarantee.* The best multipliers met are handed back, the p − 1 largest of them: a basis, from which the active set
 //! needs no exchange and a step or two.
 //! *Trap.* Accuracy ends at a gap of 1e-11 to 1e-13, so this method does not finish by itself.
 //! *Reference.* Mehrotra, SIAM J. Optim. 2(4), 1992; for this problem Sun and Freund, Operations Research 52(5), 2004.
 
-use faer::linalg::matmul::matmul;
-use faer::{Accum, MatMut, MatRef, Par};
+use taut_kernels::triangle::moments;
 use taut_kernels::vector::dot;
 use taut_points::parallel::ParallelSlice;
 use taut_points::{Monitor, OrderBy, ReadError};
@@ -20,9 +19,10 @@ use taut_points::{Monitor, OrderBy, ReadError};
 use super::counters::Counters;
 use super::dense::{cholesky, divide_rows};
 use super::factor::Factor;
+use super::fourth_moments::FourthMoments;
 use super::newton::{REBASE_TOLERANCE, gap};
-use super::whitener::{Rebased, Whitener};
-use super::working_set::{WorkingSet, copy_row};
+use super::whitener::{Rebased, Whitened, Whitener};
+use super::working_set::WorkingSet;
 use crate::Error;
 
 /// The active set takes over at this gap at the latest: what points differ by may be far less than a gap of 1e-9.
@@ -33,8 +33,8 @@ const STEPS_MAX: usize = 60;
 const STEPS_WITHOUT_PROGRESS_MAX: usize = 3;
 /// A step goes this part of the way to the border of the cone.
 const STEP_FRACTION: f64 = 0.98;
-/// One task multiplies this many columns of the normal matrix: fixed, so that the result does not depend on threads.
-const TILE_COLUMNS: usize = 64;
+/// One task makes this many rows of the normal matrix.
+const TILE_ROWS: usize = 16;
 
 /// Replaces the multipliers of a working set by nearly optimal ones, p − 1 at most; a gap of `tolerance` is good enough.
 pub(super) fn solve(
@@ -90,8 +90,9 @@ pub(super) fn solve(
 struct State {
     m: usize,
     p: usize,
-    /// F, k × p by rows.
-    rows: Vec<f64>,
+    /// The y of all points.
+    whitened: Whitened,
+    fourth: FourthMoments,
     /// svec of M.
     matrix: Vec<f64>,
     s: Vec<f64>,
@@ -101,28 +102,21 @@ struct State {
 impl State {
     /// M a multiple of the identity inside the cone, which is where the whitener has brought the multipliers.
     fn new(set: &WorkingSet, whitener: &Whitener) -> Self {
-        let (dim, m) = (set.dim(), set.dim() + 1);
+        let m = set.dim() + 1;
         let p = m * (m + 1) / 2;
         let whitened = whitener.apply(set);
-        let mut rows = Vec::with_capacity(set.len() * p);
-        let mut w = vec![1.0; m];
-        for i in 0..set.len() {
-            copy_row(&whitened.blocks, dim, i, &mut w[..dim]);
-            for a in 0..m {
-                rows.extend((0..a).map(|b| w[a] * w[b] * std::f64::consts::SQRT_2));
-                rows.push(w[a] * w[a]);
-            }
-        }
         let start = 1.0 / (1.1 * (1.0 + whitened.largest()));
         let mut matrix = vec![0.0; p];
         (0..m).for_each(|a| matrix[a * (a + 1) / 2 + a] = start);
         let s = whitened.leverages.iter().map(|l| 1.0 - start * (1.0 + l)).collect();
         let z = set.weights().iter().map(|u| u * m as f64).collect();
-        State { m, p, rows, matrix, s, z }
+        State { m, p, whitened, fourth: FourthMoments::new(m), matrix, s, z }
     }
 
-    fn row(&self, i: usize) -> &[f64] {
-        &self.rows[i * self.p..(i + 1) * self.p]
+    /// One for each place of a block: those that fill the last one are 0.
+    fn padded(&self, mut weights: Vec<f64>) -> Vec<f64> {
+        weights.resize(self.whitened.blocks.len() / (self.m - 1), 0.0);
+        weights
     }
 
     /// One predictor and corrector; false when rounding has taken the last digit.
@@ -141,11 +135,10 @@ impl State {
         let sigma = (ahead.sum::<f64>() / (k as f64 * mu)).max(0.0).powi(3);
         let target: Vec<f64> =
             (0..k).map(|i| sigma * mu - predictor.s[i] * predictor.z[i]).collect();
+        let factors = (0..k).map(|i| target[i] / self.s[i]).collect();
+        let pull = moments(self.m - 1, &self.whitened.blocks, &self.padded(factors));
         let mut right = svec(&inverse, self.m);
-        for i in 0..k {
-            let factor = target[i] / self.s[i];
-            right.iter_mut().zip(self.row(i)).for_each(|(r, f)| *r -= factor * f);
-        }
+        right.iter_mut().zip(svec(&pull, self.m)).for_each(|(r, f)| *r -= f);
         let corrector = self.direction(&solver.back(solver.forward(&right)), &target, &ratio);
         let primal = self.primal_length(&corrector, STEP_FRACTION);
         let dual = self.dual_length(&corrector, STEP_FRACTION);
@@ -159,33 +152,22 @@ impl State {
     }
 
     /// K + F′ diag(ratio) F, p × p; the upper triangle by rows is what is read of it.
-    fn normal(&self, inverse: &[f64], ratio: &[f64]) -> Vec<f64> {
-        let (m, p, k) = (self.m, self.p, self.s.len());
-        let mut scaled = self.rows.clone();
-        for (row, r) in scaled.chunks_exact_mut(p).zip(ratio) {
-            let root = r.sqrt();
-            row.iter_mut().for_each(|f| *f *= root);
-        }
-        let all = MatRef::from_row_major_slice(&scaled, k, p);
-        let pairs: Vec<(usize, usize)> =
-            (0..m).flat_map(|a| (0..=a).map(move |b| (a, b))).collect();
+    fn normal(&mut self, inverse: &[f64], ratio: &[f64]) -> Vec<f64> {
+        let (m, p) = (self.m, self.p);
+        let weights = self.padded(ratio.to_vec());
+        self.fourth.fill(&self.whitened.blocks, &weights);
+        let fourth = &self.fourth;
+        let pairs: Vec<[usize; 2]> = (0..m).flat_map(|b| (0..=b).map(move |a| [a, b])).collect();
+        let root = |[a, b]: [usize; 2]| if a == b { 1.0 } else { std::f64::consts::SQRT_2 };
+        let v = |i: usize, j: usize| inverse[i * m + j];
         let mut normal = vec![0.0; p * p];
-        normal.par_chunks_mut(TILE_COLUMNS * p).enumerate().for_each(|(tile, rows)| {
-            let (first, count) = (tile * TILE_COLUMNS, rows.len() / p);
-            // Only what is right of the diagonal of the tile.
-            let left = all.subcols(first, count);
-            let right = all.subcols(first, p - first);
-            // Not `from_row_major_slice_with_stride_mut`, which faer 0.24.4 takes for columns.
-            let target = MatMut::from_row_major_slice_mut(rows, count, p);
-            let target = target.subcols_mut(first, p - first);
-            matmul(target, Accum::Replace, left.transpose(), right, 1.0, Par::Seq);
-            for (i, row) in rows.chunks_exact_mut(p).enumerate() {
-                let (a, b) = pairs[first + i];
-                for (entry, &(c, d)) in row.iter_mut().zip(&pairs).skip(first) {
-                    let v = |i: usize, j: usize| inverse[i * m + j];
-                    let off = if a == b { 1.0 } else { std::f64::consts::SQRT_2 }
-                        * if c == d { 1.0 } else { std::f64::consts::SQRT_2 };
-                    *entry += 0.5 * off * (v(a, c) * v(b, d) + v(a, d) * v(b, c));
+        normal.par_chunks_mut(TILE_ROWS * p).enumerate().for_each(|(tile, rows)| {
+            for (i, row) in (tile * TILE_ROWS..).zip(rows.chunks_exact_mut(p)) {
+                let [a, b] = pairs[i];
+                for (entry, &[c, d]) in row.iter_mut().zip(&pairs).skip(i) {
+                    let kronecker = 0.5 * (v(a, c) * v(b, d) + v(a, d) * v(b, c));
+                    let sum = fourth.of([a, b], [c, d]) + kronecker;
+                    *entry = root([a, b]) * root([c, d]) * sum;
                 }
             }
         });
@@ -194,7 +176,8 @@ impl State {
 
     /// Δs and Δz that belong to ΔM and the products zs wanted.
     fn direction(&self, matrix: &[f64], target: &[f64], ratio: &[f64]) -> Direction {
-        let s: Vec<f64> = (0..self.s.len()).map(|i| -dot(self.row(i), matrix)).collect();
+        let forms = self.whitened.forms(&smat(matrix, self.m));
+        let s: Vec<f64> = forms.into_iter().map(|form| -form).collect();
         let z = (0..s.len()).map(|i| target[i] / self.s[i] - self.z[i] - ratio[i] * s[i]).collect();
         Direction { matrix: matrix.to_vec(), s, z }
     }

@@ -9,7 +9,7 @@
 //! more turn and no accuracy (shifted CholeskyQR; Fukaya, Kannan, Nakatsukasa, Yamamoto, Yanagisawa, SIAM J. Sci.
 //! Comput. 42(1), 2020).
 
-use taut_kernels::triangle::{POINTS, Triangle, images, moments};
+use taut_kernels::triangle::{POINTS, Triangle, forms, images, moments};
 use taut_kernels::vector::dot;
 
 use super::dense::{cholesky, divide_rows, forward};
@@ -53,6 +53,30 @@ impl Whitened {
     /// The largest |y|², 0 for no points.
     pub(super) fn largest(&self) -> f64 {
         self.leverages.iter().fold(0.0, |m, &v| if v > m { v } else { m })
+    }
+
+    /// w′Nw of each point, w = (y, 1), for a symmetric matrix N of which the lower triangle is read.
+    pub(super) fn forms(&self, matrix: &[f64]) -> Vec<f64> {
+        let m = matrix.len().isqrt();
+        let dim = m - 1;
+        // With N = [[A, n], [n′, ν]]: w′Nw = y′(Ty + 2n) + ν, T the lower triangle of A, doubled beside the diagonal.
+        let mut triangle = vec![0.0; dim * dim];
+        for a in 0..dim {
+            for b in 0..=a {
+                triangle[a * dim + b] = if a == b { 1.0 } else { 2.0 } * matrix[a * m + b];
+            }
+        }
+        let shift: Vec<f64> = matrix[dim * m..][..dim].iter().map(|n| -2.0 * n).collect();
+        let triangle = Triangle { matrix: &triangle, shift: &shift };
+        let corner = matrix[m * m - 1];
+        let mut out = [0.0; POINTS];
+        let mut all = Vec::with_capacity(self.leverages.len() + POINTS);
+        for block in self.blocks.chunks_exact(POINTS * dim) {
+            forms(triangle, block, &mut out);
+            all.extend(out.iter().map(|form| form + corner));
+        }
+        all.truncate(self.leverages.len());
+        all
     }
 }
 
