@@ -34,6 +34,9 @@ const REFUTED_MARGIN: f64 = 4.0;
 /// At most this many trees are made over what the one before has branched on, or with open children farther from the
 /// bound.
 const ROUNDS_MAX: usize = 5;
+/// A log of at most this many nodes is sought once more among the items that it needs, which may make it shorter. Another time takes as long as
+/// the first and rarely helps: 31,135 nodes became 31,124, in a fifth of the time of all.
+const SHORTENED_NODES_MAX: u64 = 1000;
 
 /// Items and how they prove the lower bound.
 pub(super) struct Proof {
@@ -148,9 +151,10 @@ impl Proof {
                 threshold = claimed * (1.0 + 2.0 * rounding);
                 continue;
             }
-            budget = (log.items.len() as u64).saturating_sub(1);
+            let nodes = log.items.len() as u64;
+            budget = nodes.saturating_sub(1);
             let (needed, log) = renumbered(core_set, log);
-            let is_last = needed.len() == core_set.len();
+            let is_last = needed.len() == core_set.len() || nodes > SHORTENED_NODES_MAX;
             best = Some((needed, log));
             if is_last {
                 break;
