@@ -229,8 +229,6 @@ impl<P: Position> Search<'_, P> {
 
     /// One tree, from its root to its end; `first_node` is the number of nodes before the first tree for this gap.
     fn descend(&mut self, run: u64, first_node: u64) -> Result<(), Halt> {
-        let is_possible =
-            !self.is_full && nogoods::applies(&self.task, self.core_set.len(), self.gap);
         let (root, known) = (self.nodes, self.core_set.len());
         let task = Task { ..self.task };
         let Some(subsearch) = Subsearch::new(&task, &self.core_set, &self.best, self.gap)? else {
@@ -268,7 +266,11 @@ impl<P: Position> Search<'_, P> {
             if subsearches.is_empty() {
                 return Ok(());
             }
-            if is_possible && self.nodes - first_node >= NODES_BEFORE_NOGOODS {
+            // The core-set has grown since the tree began.
+            if self.nodes - first_node >= NODES_BEFORE_NOGOODS
+                && !self.is_full
+                && nogoods::applies(&self.task, self.core_set.len(), self.gap)
+            {
                 return Err(Halt::Large);
             }
             if has_grown && self.nodes - root >= run {

@@ -15,6 +15,7 @@ use std::f64::consts::PI;
 use taut_points::Cancelled;
 
 use super::core::Core;
+use super::distance::difference;
 use super::meter::Meter;
 
 /// In radians, by how much arcs are longer: ten times what rounding can take.
@@ -67,8 +68,9 @@ pub(super) fn is_held_out(
         let mut arcs = vec![];
         for (number, &item) in points().enumerate() {
             let is_member = number < members.len();
-            let [dx, dy] = [0, 1]
-                .map(|axis| (core.place(item)[axis] - core.place(about)[axis]) * core.scale.up);
+            let [dx, dy] = [0, 1].map(|axis| {
+                difference(core.place(item)[axis], core.place(about)[axis], core.scale)
+            });
             let distance = dx.hypot(dy);
             let cosine = distance / (2.0 * core.reach(about));
             if is_member && cosine > 1.0 + END_TOLERANCE {
@@ -102,6 +104,13 @@ mod tests {
         let all: Vec<usize> = (0..places.len()).collect();
         let (members, left_out) = all.split_at(members);
         is_held_out(&core, members, left_out, &mut Meter::of(&Monitor::silent())).unwrap()
+    }
+
+    /// Differences of coordinates are beyond the range, the balls are not.
+    #[test]
+    fn a_lens_at_the_end_of_the_range_is_as_wide_as_any() {
+        let lens = |y: f64| held_out(&[[-1.2e308, 0.0], [1.2e308, 0.0], [0.0, y]], 2, 1.5e308);
+        assert!(lens(0.5e308) && !lens(0.7e308));
     }
 
     #[test]

@@ -38,6 +38,13 @@ impl Scale {
     }
 }
 
+/// (p − q)·2ᵏ of one coordinate, also where p − q itself is beyond the range.
+pub(super) fn difference(p: f64, q: f64, scale: Scale) -> f64 {
+    let plain = p - q;
+    // Halves of numbers so large are exact.
+    if plain.is_finite() { plain * scale.up } else { (0.5 * p - 0.5 * q) * (2.0 * scale.up) }
+}
+
 /// κ of the head, for positions of `dim` coordinates.
 pub(super) fn kappa(dim: usize) -> f64 {
     ((dim / LANES + 16) + 24) as f64 * U

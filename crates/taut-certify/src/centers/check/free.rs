@@ -19,6 +19,7 @@ use taut_points::Cancelled;
 
 use super::avoiding;
 use super::core::{Core, Pairs};
+use super::distance::difference;
 use super::meter::Meter;
 use super::oracle::Oracle;
 use crate::arithmetic::U;
@@ -171,8 +172,8 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 
 /// (p − o)·scale.
 fn relative(core: &Core, origin: usize, item: usize) -> impl Iterator<Item = f64> {
-    let (places, up) = (core.place(item).iter().zip(core.place(origin)), core.scale.up);
-    places.map(move |(x, o)| (x - o) * up)
+    let places = core.place(item).iter().zip(core.place(origin));
+    places.map(|(&x, &o)| difference(x, o, core.scale))
 }
 
 /// yᵢ of a member.
@@ -416,6 +417,14 @@ mod tests {
     fn is_radius(rows: &[f64], columns: usize, kind: Kind, radius: f64) {
         assert!(refuted(rows, columns, kind, radius * (1.0 - 1e-13)), "{radius} is too small");
         assert!(!refuted(rows, columns, kind, radius * (1.0 + 1e-13)), "{radius} is too large");
+    }
+
+    /// Differences of coordinates are beyond the range, the balls are not.
+    #[test]
+    fn balls_at_the_end_of_the_range_are_not_refuted() {
+        is_radius(&[-1.2e308, 0.0, 1.2e308, 0.0], 2, Kind::Points, 1.2e308);
+        let corners = [-1e308, -1e308, 1e308, 1e308, -1e308, 1e308, 1e308, -1e308];
+        is_radius(&corners, 2, Kind::Points, 2f64.sqrt() * 1e308);
     }
 
     #[test]

@@ -18,6 +18,7 @@ use taut_points::Cancelled;
 
 use super::super::{CentersViolation, Nogood, Placement};
 use super::core::{Bits, Core, Pairs, items, set};
+use super::distance::difference;
 use super::meter::Meter;
 use crate::CheckError;
 use crate::centers::CentersCertificate;
@@ -186,8 +187,9 @@ impl Circle {
     fn about(core: &Core, about: usize) -> Self {
         let mut circle = Circle { here: vec![], near: vec![], at_start: vec![], ends: vec![] };
         for item in 0..core.len() {
-            let [dx, dy] = [0, 1]
-                .map(|axis| (core.place(item)[axis] - core.place(about)[axis]) * core.scale.up);
+            let [dx, dy] = [0, 1].map(|axis| {
+                difference(core.place(item)[axis], core.place(about)[axis], core.scale)
+            });
             let distance = dx.hypot(dy);
             let cosine = distance / (2.0 * core.reach(about));
             if distance == 0.0 {
@@ -313,6 +315,21 @@ mod tests {
         assert!(is_some_ball_wanted(&places, &[&[0, 5], &[4, 5]]));
         assert!(is_some_ball_wanted(&[[0.0, 0.0], [2.0, 0.0]], &[&[1]]));
         assert!(!is_some_ball_wanted(&[[0.0, 0.0], [2.00001, 0.0]], &[&[1]]));
+    }
+
+    /// Differences of coordinates are beyond the range, the balls are not.
+    #[test]
+    fn balls_at_the_end_of_the_range_are_found() {
+        let is_found = |bound: f64, places: &[[f64; 2]]| {
+            let core = Core::of(places.as_flattened(), 2, Kind::Points, bound);
+            let mut meter = Meter::of(&Monitor::silent());
+            let circles = Circles::of(&core, &mut meter).unwrap();
+            circles.is_some_ball_wanted(0, &[OF_ITEM, 1], OF_ITEM | 1, &mut meter).unwrap()
+        };
+        let ends = [[-1.2e308, 0.0], [1.2e308, 0.0]];
+        assert!(is_found(1.6e308, &ends) && is_found(1.2e308, &ends) && !is_found(1.19e308, &ends));
+        let corners = [[-1e308, -1e308], [1e308, 1e308]];
+        assert!(is_found(1.7e308, &corners) && !is_found(1.41e308, &corners));
     }
 
     /// Whatever a fine grid of centers shows to be held is found, and what is found is held by balls that are a little larger.
