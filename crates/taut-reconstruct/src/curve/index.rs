@@ -192,7 +192,7 @@ fn insert(found: &mut Found, k: usize, candidate: (f64, u32)) {
     if found.len() < k {
         found.push(candidate);
     }
-    // A few items, moved one by one: a call of the library's move took longer.
+    // Those after it, a few, move on by one.
     for at in (place + 1..found.len()).rev() {
         found[at] = found[at - 1];
     }

@@ -96,7 +96,7 @@ pub(super) fn split(residuals: &mut [f64], least: f64) -> Option<f64> {
 
 /// The least and the greatest of numbers, which change their order, but for so many at either end.
 ///
-/// Most windows have so few points that none or one is left out: then a pass does what two selections take four times as long for.
+/// Most windows have so few points that none or one is left out: then one pass finds both.
 fn without_tails(numbers: &mut [f64], tail: usize) -> (f64, f64) {
     if tail > 1 {
         let last = numbers.len() - 1 - tail;
