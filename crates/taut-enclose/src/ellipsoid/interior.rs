@@ -6,7 +6,7 @@
 //! With F the rows svec(wᵢwᵢ′), beside the diagonal times √2, a Newton step is (K + F′ diag(z/s) F) ΔM = svec(M⁻¹) −
 //! F′(g/s), K the symmetric Kronecker square of M⁻¹: p unknowns however many points. Predictor and corrector after
 //! Mehrotra, g = 0 and then g = σμ − Δs·Δz. F is never made: its products are forms and moments of the points ([`FourthMoments`]).
-//! *Guarantee.* The best multipliers met are handed back, the p − 1 largest of them: a basis, from which the active set
+//! *Guarantee.* The best multipliers met after a step are handed back, the p − 1 largest of them: a basis, from which the active set
 //! needs no exchange and a step or two.
 //! *Trap.* Accuracy ends at a gap of 1e-11 to 1e-13, so this method does not finish by itself.
 //! *Reference.* Mehrotra, SIAM J. Optim. 2(4), 1992; for this problem Sun and Freund, Operations Research 52(5), 2004.
