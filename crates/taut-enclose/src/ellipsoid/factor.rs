@@ -42,7 +42,7 @@ impl Factor {
         let diagonal: Vec<f64> = (0..size).map(|i| h[i * size + i]).collect();
         let mut rows = h;
         for first in (0..size).step_by(BLOCK_ROWS) {
-            factor_block(&mut rows, size, first)?;
+            factor_block(&mut rows, size, first, BLOCK_ROWS)?;
         }
         for (i, &h) in diagonal.iter().enumerate() {
             let pivot = rows[i * size + i];
@@ -80,7 +80,7 @@ impl Factor {
 
     /// Appends a point with column z = R⁻ᵀh, pivot √(h_jj − |z|²) and entry b of the right-hand side.
     pub(super) fn append(&mut self, z: &[f64], pivot: f64, b: f64) {
-        self.grow();
+        self.grow(1);
         let s = self.size;
         for (i, &z) in z.iter().enumerate() {
             self.rows[i * self.stride + s] = z;
@@ -90,12 +90,58 @@ impl Factor {
         self.size += 1;
     }
 
-    fn grow(&mut self) {
-        if self.size < self.stride {
+    /// Appends several points at once, whose rows of H over the points in use are in `z`, over each other in `square`; says no, and
+    /// appends none, if a pivot falls below `least` times its entry.
+    pub(super) fn append_all(
+        &mut self,
+        mut z: Vec<f64>,
+        mut square: Vec<f64>,
+        b: &[f64],
+        least: f64,
+    ) -> bool {
+        let (s, count) = (self.size, b.len());
+        let lower = MatRef::from_row_major_slice(&self.rows, self.stride, self.stride)
+            .submatrix(0, 0, s, s)
+            .transpose();
+        z.par_chunks_mut(TILE_ROWS * s).for_each(|z| {
+            let columns = z.len() / s;
+            let target = MatMut::from_column_major_slice_mut(z, s, columns);
+            solve_lower_triangular_in_place(lower, target, Par::Seq);
+        });
+        let diagonal: Vec<f64> = (0..count).map(|i| square[i * count + i]).collect();
+        let explained = MatRef::from_row_major_slice(&z, count, s);
+        let target = MatMut::from_row_major_slice_mut(&mut square, count, count);
+        matmul(target, Accum::Add, explained, explained.transpose(), -1.0, Par::Seq);
+        if factor_block(&mut square, count, 0, count).is_none() {
+            return false;
+        }
+        let pivots = (0..count).map(|i| square[i * count + i]);
+        if pivots.zip(&diagonal).any(|(pivot, h)| pivot.is_nan() || pivot * pivot <= least * h) {
+            return false;
+        }
+        self.grow(count);
+        for (i, row) in self.rows.chunks_exact_mut(self.stride).take(s).enumerate() {
+            row[s..s + count].iter_mut().zip(z[i..].iter().step_by(s)).for_each(|(r, z)| *r = *z);
+        }
+        for (i, row) in square.chunks_exact(count).enumerate() {
+            self.rows[(s + i) * self.stride + s + i..][..count - i].copy_from_slice(&row[i..]);
+        }
+        let mut right: Vec<f64> =
+            b.iter().zip(z.chunks_exact(s)).map(|(b, z)| b - dot(z, &self.right)).collect();
+        substitution::forward(&square, count, &mut right);
+        self.right.extend(right);
+        self.size += count;
+        true
+    }
+
+    /// Makes room for more points.
+    fn grow(&mut self, more: usize) {
+        if self.size + more <= self.stride {
             return;
         }
         // A little at a time: most factors of many points are made at once, and gain few.
-        let stride = (self.stride + self.stride / 8).max(self.stride + 16).next_multiple_of(8);
+        let spare = (self.stride / 8).max(16).max(more);
+        let stride = (self.stride + spare).next_multiple_of(8);
         let mut rows = vec![0.0; stride * stride];
         for i in 0..self.size {
             rows[i * stride + i..i * stride + self.size].copy_from_slice(self.row(i));
@@ -129,10 +175,10 @@ impl Factor {
     }
 }
 
-/// Makes rows of R out of those of H from `first` on, less what the rows of R before them explain, and takes from what
+/// Makes `most` rows of R out of those of H from `first` on, less what the rows of R before them explain, and takes from what
 /// is left what these explain; `None` where H is not positive definite.
-fn factor_block(rows: &mut [f64], size: usize, first: usize) -> Option<()> {
-    let end = size.min(first + BLOCK_ROWS);
+fn factor_block(rows: &mut [f64], size: usize, first: usize, most: usize) -> Option<()> {
+    let end = size.min(first + most);
     let count = end - first;
     let (block, rest) = rows[first * size..].split_at_mut(count * size);
     let (square, right) = MatMut::from_row_major_slice_mut(&mut *block, count, size)

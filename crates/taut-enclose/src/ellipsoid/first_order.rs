@@ -66,7 +66,9 @@ pub(super) fn solve(
             return Err(Error::Overflow);
         }
         let farthest = found.far.first().map(|far| far.id);
-        progress.note(&whitener, set.len(), largest, || candidate(&set, &whitener, center, found));
+        progress.note(&whitener, set.len(), largest, options.epsilon, || {
+            candidate(&set, &whitener, center, found)
+        });
         if gap(dim, largest) <= options.epsilon {
             break Stop::Converged;
         }

@@ -6,6 +6,8 @@
 //! solved from the points in use; then a step towards its solution, as long as f rises.
 //! *Guarantee.* f never falls. Near the optimum the number of right digits doubles with each step, degenerate or not:
 //! five to seven steps from uniform multipliers, one to three from those of a smaller working set.
+//! *Hard working sets*, whose models take too many exchanges, go to an interior-point method ([`interior`]), and from then on each of
+//! their rounds starts there. Where its answer has to be that of few points, the active set takes it from its largest multipliers.
 //! *Trap.* The largest leverage does not fall with every step: the best multipliers are kept.
 //! *Reference.* Sun and Freund, Operations Research 52(5), 2004, and Bowman and Heath, Math. Prog. Comp. 15, 2023, take
 //! Newton steps on the face of the points in use and drop one point at a time; here the face is part of each model.
@@ -30,6 +32,10 @@ const WHOLE_STEP: f64 = 0.2;
 const STEPS_MAX: usize = 200;
 /// Of smaller gaps than [`SMALL_GAP`], this many steps that do not improve the best leverage show that it is the best.
 const STEPS_WITHOUT_PROGRESS_MAX: usize = 3;
+/// The interior-point method starts from the ellipsoid of before only where points are outside by less than this gap.
+const NEAR: f64 = 1.0;
+/// The interior-point method is to come nearer than is enough by this factor: what it hands back is normalized once more.
+const INTERIOR_RATIO: f64 = 0.3;
 /// Below this gap, rounding may be what keeps the leverage from improving.
 const SMALL_GAP: f64 = 1e-6;
 
@@ -46,11 +52,13 @@ pub(super) struct Tolerance {
     pub(super) easy: f64,
     /// Once it takes the interior-point method, which comes nearer by a digit in three steps rather than by all.
     pub(super) hard: f64,
+    /// Whether an answer of the interior-point method will not do, with its multipliers on all points: a basis is wanted.
+    pub(super) basis: bool,
 }
 
 impl Tolerance {
     /// As small as rounding lets it be.
-    pub(super) const NONE: Self = Tolerance { easy: 0.0, hard: 0.0 };
+    pub(super) const NONE: Self = Tolerance { easy: 0.0, hard: 0.0, basis: true };
 }
 
 /// Improves the multipliers of a working set until its gap is at most the tolerance, or rounding is in the way.
@@ -66,8 +74,20 @@ pub(super) fn solve(
     let dim = set.dim();
     let m = dim + 1;
     let mut best: Option<(f64, Vec<f64>)> = None;
-    let mut patience = STEPS_WITHOUT_PROGRESS_MAX;
+    // The least since multipliers were left out.
+    let mut least = f64::INFINITY;
+    let mut progress_left = STEPS_WITHOUT_PROGRESS_MAX;
     let interior_steps = counters.interior;
+    let interior_tolerance = INTERIOR_RATIO * tolerance.hard;
+    // Whether the multipliers are those of the interior-point method, on all points.
+    let mut full = interior_steps > 0 && !interior::is_basis(set);
+    if full {
+        let outside = gap(dim, whitener.apply(set).largest());
+        full = outside < NEAR;
+        if full && outside > tolerance.hard {
+            interior::solve(set, whitener, interior_tolerance, counters, monitor)?;
+        }
+    }
     for _ in 0..STEPS_MAX {
         monitor.check().map_err(ReadError::from)?;
         if whitener.rebase(set, REBASE_TOLERANCE) == Rebased::Never {
@@ -75,27 +95,43 @@ pub(super) fn solve(
         }
         let whitened = whitener.apply(set);
         let largest = whitened.largest();
-        let improves = best.as_ref().is_none_or(|(least, _)| largest < *least);
-        if improves {
+        if best.as_ref().is_none_or(|(least, _)| largest < *least) {
             best = Some((largest, set.weights().to_vec()));
-        } else if gap(dim, largest) < SMALL_GAP {
-            patience -= 1;
         }
+        let best_gap = best.as_ref().map_or(f64::INFINITY, |(largest, _)| gap(dim, *largest));
         let tried = counters.interior > interior_steps;
-        let enough = if tried { tolerance.hard } else { tolerance.easy };
-        if gap(dim, largest) <= enough || patience == 0 {
+        let enough = if full || tried { tolerance.hard } else { tolerance.easy };
+        if full && (tolerance.basis || best_gap > enough) {
+            interior::keep_basis(set);
+            (full, least) = (false, f64::INFINITY);
+            continue;
+        }
+        if largest < least {
+            least = largest;
+        } else if gap(dim, largest) < SMALL_GAP {
+            progress_left -= 1;
+        }
+        if gap(dim, largest) <= enough {
+            if tolerance.basis {
+                best = Some((largest, set.weights().to_vec()));
+            }
+            break;
+        }
+        if progress_left == 0 {
             break;
         }
         counters.steps += 1;
         let excess = largest - dim as f64;
-        let patience = nnls::patience(set.len(), dim, interior_steps > 0, tried);
+        // Where there is an answer that will do but for its size, no other is worth many exchanges.
+        let patience = nnls::patience(set.len(), dim, tried && best_gap > enough);
         let u = set.weights();
         let model = nnls::solve(dim, &whitened, u, GRADIENT_RATIO_MIN * excess, patience, counters);
         let step = match model {
             Outcome::Solved(step) => step,
-            // Once: what it hands back is a basis, and models made there are short.
-            Outcome::Stuck if !tried => {
-                interior::solve(set, whitener, 0.3 * tolerance.hard, counters, monitor)?;
+            // Once: models made at its basis are short.
+            Outcome::Stuck if !tried && best_gap > tolerance.hard => {
+                interior::solve(set, whitener, interior_tolerance, counters, monitor)?;
+                full = true;
                 continue;
             }
             Outcome::Stuck => break,
@@ -148,7 +184,7 @@ mod tests {
         set.normalize();
         let mut whitener = Whitener::of_scales(&vec![1.0; dim]);
         let (mut counters, monitor) = (Counters::default(), Monitor::silent());
-        let tolerance = Tolerance { easy: 1e-13, hard: 1e-13 };
+        let tolerance = Tolerance { easy: 1e-13, hard: 1e-13, basis: true };
         let largest = solve(&mut set, &mut whitener, tolerance, &mut counters, &monitor).unwrap();
         (set, largest)
     }

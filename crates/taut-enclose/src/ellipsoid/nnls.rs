@@ -9,6 +9,8 @@
 //! *Guarantee.* The model rises with every step. At the end no point of the working set has a gradient above the tolerance.
 //! *Trap.* A point whose column depends on those in use (a copy, or one of more than m(m + 1)/2) has no pivot. It enters
 //! by an exact exchange: weight moves to it along the dependence, on which the model is linear, until another leaves.
+//! Where few points are in use of the p = m(m + 1)/2 that may be, a batch enters at once, and points leave many at a time: then a
+//! factor is extended or made again by products of matrices.
 //! *Trap.* The answer of a model may need thousands of exchanges where points lie on an ellipsoid up to rounding:
 //! [`Outcome::Stuck`] says so early.
 //! *Reference.* Lawson and Hanson, Solving Least Squares Problems, 1974, chapter 23.
@@ -39,6 +41,12 @@ const BLOCKED_FACTOR_MIN: usize = 96;
 /// From this size p = m(m + 1)/2 of a model on, a cold start guesses the points in use. Below, guessing gains nothing.
 const GUESSED_START_MIN: usize = 300;
 
+/// Fewer points than this enter one by one.
+const TOGETHER_MIN: usize = 8;
+/// A start is a bad one if this many times as many points as have a negative v are more than all.
+const BAD_START_RATIO: usize = 8;
+/// Points leave by a new factor rather than one by one from where this many times as many as leave are more than stay.
+const NEW_FACTOR_RATIO: usize = 6;
 /// One task multiplies this many rows of H: fixed, so that the result does not depend on threads.
 const TILE_ROWS: usize = 64;
 /// So many points with a negative multiplier leave at once, if the model rises: to know that costs as much as two solutions.
@@ -88,6 +96,10 @@ pub(super) fn solve(
             let weights = set.members.iter().copied().zip(set.v.iter().copied()).collect();
             return Outcome::Solved(Step { weights, matrix });
         };
+        if set.takes_all(&batch) && set.enter_all(&batch, counters) {
+            set.settle(counters);
+            continue;
+        }
         for j in batch {
             let (column, row) = set.column(j);
             if set.b(j) - dot(&column, &set.v) < CANDIDATE_RATIO_MIN * gradient[best] {
@@ -109,23 +121,18 @@ pub(super) fn solve(
     }
 }
 
-/// Exchanges and pivots after which an interior-point method would have been faster on k points; less where it was
-/// faster `before`, and many where it has just been tried.
+/// Exchanges and pivots after which an interior-point method would have been faster on k points; many where it has just
+/// been tried in vain.
 ///
-/// That takes some fifteen normal matrices of k points, an exchange a few sweeps of a p × p factor. Measured
-/// on shells of thickness 1e-8: k/10 and k/3 exchanges are within a tenth of the best for p = 496 and for p = 66.
-pub(super) fn patience(k: usize, dim: usize, before: bool, tried: bool) -> (u64, u64) {
-    let many = (dim + 1) * (dim + 2) / 2 > 150;
-    let exchanges = match (many, before) {
-        _ if tried => 4 * k,
-        (true, false) => k / 10,
-        (true, true) => k / 40,
-        (false, _) => k / 3,
-    };
-    let pivots = match (tried, before && many) {
-        (true, _) => 640 + 10 * k,
-        (false, false) => 640 + k,
-        (false, true) => 64 + k / 4,
+/// A step of that is O((k + 2p)p²) and a pivot O(p²), an exchange a few sweeps of a p × p factor. Measured on shells of thickness
+/// 1e-2, 1e-4 and 1e-8: for p = 496 a quarter of these pivots makes the first take twice as long, and four times as many the
+/// second half as long again; exchanges are within a tenth of the best there and for p = 66.
+pub(super) fn patience(k: usize, dim: usize, tried: bool) -> (u64, u64) {
+    let p = (dim + 1) * (dim + 2) / 2;
+    let (exchanges, pivots) = match tried {
+        true => (4 * k, 640 + 10 * k),
+        false if p > 150 => (k / 40, (k + 2 * p) / 2),
+        false => (k / 3, 640 + k),
     };
     (64 + exchanges as u64, pivots as u64)
 }
@@ -197,23 +204,28 @@ impl<'a> ActiveSet<'a> {
 
     /// Takes up points with given v; those that depend on others are left out. Then the model is maximized over them.
     fn start(&mut self, points: &[usize], v: &[f64], counters: &mut Counters) {
-        if points.len() >= BLOCKED_FACTOR_MIN {
-            let rows: Vec<f64> = points.iter().flat_map(|&i| self.row(i)).collect();
-            let b: Vec<f64> = points.iter().map(|&i| self.b(i)).collect();
-            if let Some(factor) = Factor::of(self.gram(&rows), &b, DEPENDENT_RATIO) {
-                (self.members, self.v, self.rows) = (points.to_vec(), v.to_vec(), rows);
-                self.factor = factor;
-                self.settle(counters);
-                return;
-            }
+        if points.len() >= BLOCKED_FACTOR_MIN && self.take_up(points, v) {
+            self.drop_from_start(counters);
+            self.settle(counters);
+            return;
         }
         for (&j, &v) in points.iter().zip(v) {
             let (column, row) = self.column(j);
-            if let Some((z, pivot)) = self.pivot(j, &column) {
+            if let (z, Some(pivot)) = self.pivot(j, &column) {
                 self.append(j, v, &z, pivot, row);
             }
         }
         self.settle(counters);
+    }
+
+    /// Replaces the members; says no, and leaves all as it was, if one of them depends on the others.
+    fn take_up(&mut self, points: &[usize], v: &[f64]) -> bool {
+        let rows: Vec<f64> = points.iter().flat_map(|&i| self.row(i)).collect();
+        let b: Vec<f64> = points.iter().map(|&i| self.b(i)).collect();
+        let Some(factor) = Factor::of(self.gram(&rows), &b, DEPENDENT_RATIO) else { return false };
+        (self.members, self.v, self.rows) = (points.to_vec(), v.to_vec(), rows);
+        self.factor = factor;
+        true
     }
 
     /// A cold start: the points of largest leverage, less those whose v is negative, until there are none.
@@ -243,12 +255,12 @@ impl<'a> ActiveSet<'a> {
         self.start(&points, &guess, counters);
     }
 
-    /// R⁻ᵀh and the pivot of a point, unless its column depends on those of the members.
-    fn pivot(&self, j: usize, column: &[f64]) -> Option<(Vec<f64>, f64)> {
+    /// R⁻ᵀh of a point, and its pivot unless its column depends on those of the members.
+    fn pivot(&self, j: usize, column: &[f64]) -> (Vec<f64>, Option<f64>) {
         let z = self.factor.forward(column);
         let kappa = 1.0 + self.whitened.leverages[j];
         let rho2 = kappa * kappa - dot(&z, &z);
-        (rho2 > DEPENDENT_RATIO * kappa * kappa).then(|| (z, rho2.sqrt()))
+        (z, (rho2 > DEPENDENT_RATIO * kappa * kappa).then(|| rho2.sqrt()))
     }
 
     fn append(&mut self, j: usize, v: f64, z: &[f64], pivot: f64, row: Vec<f64>) {
@@ -265,16 +277,53 @@ impl<'a> ActiveSet<'a> {
         self.rows.drain(position * self.stride..(position + 1) * self.stride);
     }
 
+    /// Says whether a batch may enter at once: near p points most of it would leave again.
+    fn takes_all(&self, batch: &[usize]) -> bool {
+        let p = (self.dim + 1) * (self.dim + 2) / 2;
+        p >= GUESSED_START_MIN
+            && self.members.len() >= BLOCKED_FACTOR_MIN
+            && batch.len() >= TOGETHER_MIN
+            && self.members.len() + batch.len() < 3 * p / 5
+    }
+
+    /// Makes several points members at once; says no, and takes none, if one of them depends on the others.
+    fn enter_all(&mut self, points: &[usize], counters: &mut Counters) -> bool {
+        let (s, count) = (self.members.len(), points.len());
+        let rows: Vec<f64> = points.iter().flat_map(|&j| self.row(j)).collect();
+        let b: Vec<f64> = points.iter().map(|&j| self.b(j)).collect();
+        let members = MatRef::from_row_major_slice(&self.rows, s, self.stride);
+        let mut columns = vec![0.0; count * s];
+        columns
+            .par_chunks_mut(TILE_ROWS * s)
+            .zip(rows.par_chunks(TILE_ROWS * self.stride))
+            .for_each(|(columns, rows)| {
+                let count = columns.len() / s;
+                let left = MatRef::from_row_major_slice(rows, count, self.stride);
+                let target = MatMut::from_row_major_slice_mut(&mut *columns, count, s);
+                matmul(target, Accum::Replace, left, members.transpose(), 1.0, Par::Seq);
+                columns.iter_mut().for_each(|h| *h *= *h);
+            });
+        if !self.factor.append_all(columns, self.gram(&rows), &b, DEPENDENT_RATIO) {
+            return false;
+        }
+        self.members.extend(points);
+        self.v.resize(s + count, 0.0);
+        self.rows.extend(rows);
+        counters.pivots += count as u64;
+        true
+    }
+
     /// Makes point j a member, by exchanges as long as it depends on the members.
     fn enter(&mut self, j: usize, mut column: Vec<f64>, row: Vec<f64>, counters: &mut Counters) {
         let mut weight = 0.0;
         loop {
-            if let Some((z, pivot)) = self.pivot(j, &column) {
+            let (z, pivot) = self.pivot(j, &column);
+            if let Some(pivot) = pivot {
                 self.append(j, weight, &z, pivot, row);
                 counters.pivots += 1;
                 return;
             }
-            let y = self.factor.back(self.factor.forward(&column));
+            let y = self.factor.back(z);
             let bound = (0..y.len())
                 .filter(|&i| y[i] > DIRECTION_MIN)
                 .map(|i| (self.v[i] / y[i], i))
@@ -328,9 +377,36 @@ impl<'a> ActiveSet<'a> {
             return false;
         }
         self.v.iter_mut().zip(z).for_each(|(v, z)| *v = z.max(0.0));
-        leaving.iter().rev().for_each(|&position| self.delete(position));
+        self.delete_all(&leaving);
         counters.pivots += leaving.len() as u64;
         true
+    }
+
+    /// Takes points out, by a new factor where they are many.
+    fn delete_all(&mut self, positions: &[usize]) {
+        let left = self.members.len() - positions.len();
+        if left >= BLOCKED_FACTOR_MIN && NEW_FACTOR_RATIO * positions.len() > left {
+            let leaves: HashSet<usize> = positions.iter().copied().collect();
+            let kept: Vec<usize> =
+                (0..self.members.len()).filter(|i| !leaves.contains(i)).collect();
+            let members: Vec<usize> = kept.iter().map(|&i| self.members[i]).collect();
+            let v: Vec<f64> = kept.iter().map(|&i| self.v[i]).collect();
+            if self.take_up(&members, &v) {
+                return;
+            }
+        }
+        positions.iter().rev().for_each(|&position| self.delete(position));
+    }
+
+    /// Drops all whose v would be negative, even if the model falls, if they are so many that the start was no good one.
+    fn drop_from_start(&mut self, counters: &mut Counters) {
+        let z = self.factor.solution();
+        let leaving: Vec<usize> = (0..z.len()).filter(|&i| z[i] <= 0.0).collect();
+        if BAD_START_RATIO * leaving.len() > z.len() {
+            self.v.iter_mut().zip(z).for_each(|(v, z)| *v = z.max(0.0));
+            self.delete_all(&leaving);
+            counters.pivots += leaving.len() as u64;
+        }
     }
 
     /// N = Σ vⱼwⱼwⱼ′.

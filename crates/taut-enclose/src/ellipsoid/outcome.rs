@@ -47,20 +47,32 @@ impl Progress {
         Progress { dim, best: None, history: vec![] }
     }
 
-    /// Takes note of a pass with this whitener, in which |y|² was at most `largest`, and of the points worked on then.
+    /// Takes note of a pass with this whitener, in which |y|² was at most `largest`, and of the points worked on then. Of candidates
+    /// within the `wanted` gap the one with fewer points is the better.
     pub(super) fn note(
         &mut self,
         whitener: &Whitener,
         working_set: usize,
         largest: f64,
+        wanted: f64,
         candidate: impl FnOnce() -> Candidate,
     ) {
         let lower = trial_log_volume(self.dim, whitener.matrix());
         let upper = (lower + gap(self.dim, largest)).min(f64::MAX);
         self.history.push(PassBounds { lower, upper, working_set: working_set as u64 });
-        if self.best.as_ref().is_none_or(|best| largest < best.found.largest) {
-            self.best = Some(candidate());
+        let is_enough = gap(self.dim, largest) <= wanted && self.best_gap() <= wanted;
+        if self.best.as_ref().is_some_and(|best| largest >= best.found.largest) && !is_enough {
+            return;
         }
+        let candidate = candidate();
+        if !is_enough || candidate.support.len() < self.support() {
+            self.best = Some(candidate);
+        }
+    }
+
+    /// How many points have a multiplier in the best candidate; 0 if there is none.
+    pub(super) fn support(&self) -> usize {
+        self.best.as_ref().map_or(0, |best| best.support.len())
     }
 
     pub(super) fn best_gap(&self) -> f64 {

@@ -17,6 +17,7 @@ use taut_kernels::{Center, DoubleDouble};
 use taut_points::OrderBy;
 
 use super::counters::Counters;
+use super::interior::largest_first;
 use super::newton::{self, Tolerance, gap};
 use super::outcome::{Candidate, Outcome, Progress};
 use super::point_reader::{PassResult, PointReader, Query};
@@ -41,6 +42,10 @@ const LEVERAGE_RATIO_MIN: f64 = 0.9;
 /// method costs as many products as there are points: so many times m(m + 1)/2 without a multiplier stay, the nearest. Twice
 /// as many took a tenth longer, four times as many a quarter.
 const HARD_SPARE: usize = 1;
+
+/// Points that together have less than this share of the multipliers may leave a hard working set, the p of largest multiplier
+/// excepted.
+const SMALL_SHARE: f64 = 1e-2;
 
 /// This many passes without a better gap show that rounding is in the way, of gaps below [`SMALL_GAP`].
 const STALE_PASSES_MAX: u32 = 3;
@@ -81,11 +86,15 @@ pub(super) fn solve(
         Some(_) => working_set_of_sample(sample, &whitener, first.min(4 * (dim + 1) * (dim + 2))),
         None => first_working_set(reader, sample, &mut whitener, first)?,
     };
+    let points_of_basis = (dim + 1) * (dim + 2) / 2;
     let mut later = later;
     // With all points in the working set there is nothing to come.
-    let first = if set.len() as u64 == reader.len() { 0.6 * wanted } else { 1e-2 };
-    let mut tolerance = Tolerance { easy: first, hard: first };
+    let whole = set.len() as u64 == reader.len();
+    let first = if whole { 0.6 * wanted } else { 1e-2 };
+    let mut tolerance = Tolerance { easy: first, hard: first, basis: whole };
     let mut last = f64::INFINITY;
+    // The least gap of a round, and whether it was tried to do with fewer points.
+    let (mut nearest, mut polished) = (f64::INFINITY, false);
     let (mut best, mut stale) = (f64::INFINITY, 0);
     // Of the rounds over a list.
     let (mut least, mut idle) = (f64::INFINITY, 0);
@@ -132,17 +141,33 @@ pub(super) fn solve(
         far.truncate(4 * later);
         let size = set.len();
         if all {
-            progress.note(&whitener, size, largest, || candidate(&set, &whitener, center, found));
+            progress.note(&whitener, size, largest, wanted, || {
+                candidate(&set, &whitener, center, found)
+            });
         }
         let reached = gap(dim, largest);
+        if std::env::var("TRACE").is_ok() {
+            eprintln!("PASS reached {reached:.1e} set {} far {}", set.len(), far.len());
+        }
         if progress.best_gap() <= wanted {
-            break Stop::Converged;
+            if polished
+                || progress.support() < points_of_basis
+                || reader.passes() >= options.max_passes
+            {
+                break Stop::Converged;
+            }
+            // Good enough, but with multipliers on more points than it takes.
+            polished = true;
+            tolerance = Tolerance { easy: 0.6 * wanted, hard: 0.6 * wanted, basis: true };
+            continue;
         }
         if all && list.is_none() && reader.passes() >= options.max_passes {
             break Stop::PassBudget;
         }
-        let added =
-            add(&mut set, reader, &sample.origin, &whitener, &far, later, counters.interior > 0)?;
+        // Points that leave may be missed: only after a round that was worth it, so that the working set does not go in circles.
+        let may_drop = counters.interior > 0 && reached < 0.5 * nearest;
+        let added = add(&mut set, reader, &sample.origin, &whitener, &far, later, may_drop)?;
+        nearest = nearest.min(reached);
         if all {
             stale = if progress.best_gap() < best { 0 } else { stale + 1 };
             best = progress.best_gap();
@@ -154,15 +179,21 @@ pub(super) fn solve(
             break Stop::Rounding;
         }
         // What is outside is in the working set already: only a sharper solution of the working set can help.
-        // The first time, nobody knows yet how thin the points lie: an interior point above that tells nothing.
-        let part = if counters.interior == 0 { 1e-4 } else { 1e-2 };
+        // Points that join now move the ellipsoid by a part of what is reached: a tenth of it is near enough for an interior point,
+        // and less the first time, when nobody knows yet how thin the points lie.
+        let part = if counters.interior == 0 { 1e-2 } else { 1e-1 };
         let hard = (part * reached).max(0.6 * wanted);
         let easy = if 1e-2 * reached < 1e-3 && counters.interior == 0 {
             0.6 * wanted
         } else {
             (1e-2 * reached).max(0.6 * wanted)
         };
-        tolerance = if added == 0 { Tolerance::NONE } else { Tolerance { easy, hard } };
+        let basis = hard <= 0.6 * wanted;
+        tolerance = match added {
+            0 if tolerance.easy <= 0.6 * wanted => Tolerance::NONE,
+            0 => Tolerance { easy: 0.6 * wanted, hard: 0.6 * wanted, basis: true },
+            _ => Tolerance { easy, hard, basis },
+        };
         if reached > last / 3.0 {
             later *= 2;
         }
@@ -285,16 +316,23 @@ fn add(
         let leverages = whitener.apply(set).leverages;
         let weights = set.weights().to_vec();
         let mut least = LEVERAGE_RATIO_MIN * dim as f64;
-        let spare = HARD_SPARE * (dim + 1) * (dim + 2) / 2;
+        let p = (dim + 1) * (dim + 2) / 2;
+        let mut used: Vec<bool> = weights.iter().map(|u| *u > 0.0).collect();
         if hard {
-            let free = leverages.iter().zip(&weights).filter(|(_, u)| **u == 0.0);
+            let mut kept = 0.0;
+            for (rank, i) in largest_first(&weights).into_iter().enumerate() {
+                used[i] &= rank < p || kept < 1.0 - SMALL_SHARE;
+                kept += weights[i];
+            }
+            let spare = HARD_SPARE * p;
+            let free = leverages.iter().zip(&used).filter(|(_, used)| !**used);
             let mut free: Vec<f64> = free.map(|(leverage, _)| *leverage).collect();
             if free.len() > spare {
                 let (_, bound, _) = free.select_nth_unstable_by(spare, |a, b| b.total_cmp(a));
                 least = least.max(*bound);
             }
         }
-        set.retain(|i| weights[i] > 0.0 || leverages[i] > least);
+        set.retain(|i| used[i] || leverages[i] > least);
     }
     let ids: Vec<u64> = far.iter().map(|far| far.id).collect();
     let rows = reader.rows_from(origin, &ids)?;

@@ -61,7 +61,7 @@ impl Base {
         let (mut passes, mut stale) = (1, 0);
         let base_logs: f64 = (0..rank).map(|a| self.lower[a * rank + a].ln()).sum();
         let stop = loop {
-            let sharp = Tolerance { easy: tolerance, hard: tolerance };
+            let sharp = Tolerance { easy: tolerance, hard: tolerance, basis: true };
             newton::solve(&mut set, &mut whitener, sharp, &mut counters, monitor)?;
             passes += 1;
             monitor.pass(passes, shapes.len() as u64);
