@@ -57,6 +57,25 @@ impl<S: State> Path<S> {
         self.frames.last().map(|frame| &frame.chain[..])
     }
 
+    /// What is left from the present node on: the states of the children to come, the deepest first, each with its chain.
+    pub(super) fn left(self, mut state: S) -> Vec<(S, Vec<u32>)>
+    where
+        S: Clone,
+    {
+        let mut left = vec![];
+        for frame in self.frames.into_iter().rev() {
+            if let Some(undo) = frame.undo {
+                state.undo(undo);
+            }
+            for place in frame.places {
+                let mut child = state.clone();
+                child.put(frame.item, place);
+                left.push((child, frame.chain.clone()));
+            }
+        }
+        left
+    }
+
     /// Goes on to the next child of the deepest node that has one; returns false where none has.
     pub(super) fn advance(&mut self, state: &mut S) -> bool {
         while let Some(frame) = self.frames.last_mut() {

@@ -3,12 +3,13 @@
 //! *Idea.* The radius and the items stay as they are: each item is given to each cluster in turn, to a new one, and to those left
 //! out, and each of these children has a tree of its own or is refuted at once by a ball that is too large.
 //! A node can also be refuted by the items left out above it ([`super::avoiding_ball`]).
-//! *Threads.* What is below a node depends on nothing beside it. A tree that is not small is opened from its root until there are
-//! [`UNKNOWN_PARTS_MAX`] nodes whose trees are unknown, or [`OPENED_NODES_MAX`] in all; these are made side by side, and their logs put where they belong.
+//! *Threads.* What is below a node depends on nothing beside it. After [`PART_NODES_MAX`] nodes a part of the tree leaves what it has
+//! not come to, subtrees from the deepest to the one nearest to its root, as parts of their own. The first [`PARTS_AT_ONCE`] parts in
+//! the order of the log are made side by side, then the first of what is left.
 //! *Guarantee.* One set of options has one log, or one reason to have none: it is longer than the budget, else it does not end in
-//! dead ends alone. A part that fails does not stop the others, so the reason does not depend on threads.
+//! dead ends alone. Neither depends on threads.
 
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::collections::VecDeque;
 
 use taut_certify::{HeldOut, Stop};
 use taut_points::parallel::IntoParallel;
@@ -17,15 +18,10 @@ use taut_points::{Monitor, ReadError};
 use super::depth_first::{Path, Place, State};
 use crate::Error;
 
-/// A tree with more nodes is made in parts.
-const WHOLE_TREE_NODES_MAX: u64 = 1000;
-/// A tree is opened until the trees of this many nodes are unknown: far more than there are cores, as some are a
-/// hundred times as large as others.
-const UNKNOWN_PARTS_MAX: usize = 256;
-/// A tree that this many nodes have not made so wide is left as it is.
-const OPENED_NODES_MAX: usize = 4 * UNKNOWN_PARTS_MAX;
-/// Each part adds to the common count of nodes after this many of its own.
-const NODES_BETWEEN_COUNTS: u64 = 64;
+/// A part has this many nodes: some twenty parts are left then, each with a copy of its state, which takes as long as a node.
+const PART_NODES_MAX: u64 = 256;
+/// So many parts are made at once: more than there are cores, and few enough copies of states.
+const PARTS_AT_ONCE: usize = 64;
 /// Most items of a core-set with a log: below the checker's limit of 16384.
 pub(super) const CORE_SET_MAX: usize = 16_000;
 
@@ -76,28 +72,13 @@ impl ProofLog {
         self.open = self.open.max(next.open);
     }
 
+    /// The number of nodes.
+    fn nodes(&self) -> u64 {
+        (self.items.len() + self.held_out.len()) as u64
+    }
+
     fn empty() -> Self {
         ProofLog { items: vec![], held_out: vec![], lower: f64::INFINITY, open: 0.0 }
-    }
-}
-
-/// A part of a log.
-struct Piece {
-    log: ProofLog,
-    /// `Ok` if the part is complete; else why it stopped.
-    end: Result<(), Stop>,
-}
-
-impl Piece {
-    fn node(item: u32) -> Self {
-        let log = ProofLog { items: vec![item], ..ProofLog::empty() };
-        Piece { log, end: Ok(()) }
-    }
-
-    fn held_out(cluster: usize) -> Self {
-        let mut log = ProofLog::empty();
-        log.held_out(cluster);
-        Piece { log, end: Ok(()) }
     }
 }
 
@@ -107,128 +88,98 @@ pub(super) struct ProofTree<'a, S> {
     /// Most nodes.
     budget: u64,
     monitor: &'a Monitor<'a>,
-    /// Nodes so far, but for the last few of each part.
-    nodes: AtomicU64,
 }
 
-/// A piece of a log that is not complete.
+/// A part of a log, or the tree that is to make it.
 enum Part<S> {
-    Node(u32),
-    HeldOut(usize),
-    /// All from the node on to which so many decisions led, and the chain it is in.
-    Below {
-        state: Box<S>,
-        depth: usize,
-        chain: Vec<u32>,
-    },
+    Made(ProofLog),
+    /// All from the node in this state on, and the chain it is in.
+    Below(S, Vec<u32>),
 }
 
 impl<'a, S: Proving> ProofTree<'a, S> {
     pub(super) fn new(root: S, budget: u64, monitor: &'a Monitor<'a>) -> Self {
-        ProofTree { root, budget, monitor, nodes: AtomicU64::new(0) }
+        ProofTree { root, budget, monitor }
     }
 
     /// The whole tree, or why there is none: [`Stop::ProofBudget`], or [`Stop::Rounding`] where balls below the threshold hold the
     /// core-set.
-    pub(super) fn log(&self) -> Result<Result<ProofLog, Stop>, Error> {
-        let small = self.below(self.root.clone(), vec![], WHOLE_TREE_NODES_MAX.min(self.budget))?;
-        if small.end != Err(Stop::ProofBudget) || self.budget <= WHOLE_TREE_NODES_MAX {
-            return Ok(small.end.map(|()| small.log));
-        }
-        self.nodes.store(0, Ordering::Relaxed);
+    pub(super) fn log(self) -> Result<Result<ProofLog, Stop>, Error> {
         let mut log = ProofLog::empty();
-        let Some(parts) = self.open(&mut log)? else { return Ok(Err(Stop::Rounding)) };
-        let pieces: Vec<Piece> = parts
-            .into_par_iter()
-            .map(|part| match part {
-                Part::Node(item) => Ok(Piece::node(item)),
-                Part::HeldOut(cluster) => Ok(Piece::held_out(cluster)),
-                Part::Below { state, chain, .. } => self.below(*state, chain, self.budget),
-            })
-            .collect::<Result<_, Error>>()?;
-        let steps = |log: &ProofLog| (log.items.len() + log.held_out.len()) as u64;
-        let nodes: u64 = pieces.iter().map(|piece| steps(&piece.log)).sum();
-        let ends_by = |why| pieces.iter().any(|piece| piece.end == Err(why));
-        if nodes > self.budget || ends_by(Stop::ProofBudget) {
-            return Ok(Err(Stop::ProofBudget));
+        let mut parts = VecDeque::from([Part::Below(self.root, vec![])]);
+        while !parts.is_empty() {
+            let made: Vec<Option<Vec<Part<S>>>> = first_parts(&mut parts)
+                .into_par_iter()
+                .map(|part| match part {
+                    Part::Made(log) => Ok(Some(vec![Part::Made(log)])),
+                    Part::Below(state, chain) => below(state, chain, self.monitor),
+                })
+                .collect::<Result<_, Error>>()?;
+            let Some(made) = made.into_iter().collect::<Option<Vec<_>>>() else {
+                return Ok(Err(Stop::Rounding));
+            };
+            made.into_iter().flatten().rev().for_each(|part| parts.push_front(part));
+            while let Some(Part::Made(made)) = parts.pop_front_if(|part| part.is_made()) {
+                log.append(made);
+            }
+            if log.nodes() + parts.iter().map(Part::nodes).sum::<u64>() > self.budget {
+                return Ok(Err(Stop::ProofBudget));
+            }
         }
-        if ends_by(Stop::Rounding) {
-            return Ok(Err(Stop::Rounding));
-        }
-        pieces.into_iter().for_each(|piece| log.append(piece.log));
         Ok(Ok(log))
     }
+}
 
-    /// The tree opened from its root on, nodes nearest to it first; `bounds` takes what its children are refuted by.
-    fn open(&self, bounds: &mut ProofLog) -> Result<Option<Vec<Part<S>>>, Error> {
-        let mut parts =
-            vec![Part::Below { state: Box::new(self.root.clone()), depth: 0, chain: vec![] }];
-        let mut unknown = 1;
-        while (1..UNKNOWN_PARTS_MAX).contains(&unknown) && parts.len() < OPENED_NODES_MAX {
-            self.monitor.check().map_err(ReadError::from)?;
-            let unknowns = parts.iter_mut().enumerate().filter_map(|(at, part)| match part {
-                Part::Node(_) | Part::HeldOut(_) => None,
-                Part::Below { state, depth, chain } => Some((*depth, at, state, chain)),
-            });
-            let first = unknowns.min_by_key(|&(depth, at, ..)| (depth, at));
-            let (depth, at, state, chain) = first.expect("some are unknown");
-            let (item, rest) = match next(&mut **state, chain) {
-                Next::Branch(item, rest) => (item, rest),
-                Next::HeldOut(cluster) => {
-                    parts[at] = Part::HeldOut(cluster);
-                    unknown -= 1;
-                    continue;
-                }
-                Next::Open => return Ok(None),
-            };
-            let places = state.open_places(item, bounds);
-            unknown = unknown - 1 + places.len();
-            let child = |place| {
-                let mut state = state.clone();
-                state.put(item, place);
-                Part::Below { state, depth: depth + 1, chain: rest.clone() }
-            };
-            let children: Vec<Part<S>> = places.into_iter().map(child).collect();
-            parts.splice(at..=at, std::iter::once(Part::Node(item)).chain(children));
-        }
-        Ok(Some(parts))
+impl<S> Part<S> {
+    fn is_made(&self) -> bool {
+        matches!(self, Part::Made(_))
     }
 
-    /// All from the node in this state on, but no more than `most` nodes, and no more once all parts together exceed the budget.
-    fn below(&self, mut state: S, chain: Vec<u32>, most: u64) -> Result<Piece, Error> {
-        let mut piece = Piece { log: ProofLog::empty(), end: Err(Stop::ProofBudget) };
-        let log = &mut piece.log;
-        let mut path = Path::new();
-        loop {
-            // One load of a flag, which any node outweighs; with centers at rows a node can take milliseconds.
-            self.monitor.check().map_err(ReadError::from)?;
-            let steps = (log.items.len() + log.held_out.len()) as u64;
-            if steps.is_multiple_of(NODES_BETWEEN_COUNTS) {
-                let counted = if steps == 0 { 0 } else { NODES_BETWEEN_COUNTS };
-                let nodes = self.nodes.fetch_add(counted, Ordering::Relaxed) + counted;
-                if nodes > self.budget {
-                    return Ok(piece);
-                }
+    /// The number of nodes that it has made.
+    fn nodes(&self) -> u64 {
+        match self {
+            Part::Made(log) => log.nodes(),
+            Part::Below(..) => 0,
+        }
+    }
+}
+
+/// Takes the parts up to the last that are to be made next.
+fn first_parts<S>(parts: &mut VecDeque<Part<S>>) -> Vec<Part<S>> {
+    let open = parts.iter().enumerate().filter(|(_, part)| !part.is_made());
+    let last = open.map(|(at, _)| at).take(PARTS_AT_ONCE).last();
+    parts.drain(..last.map_or(0, |last| last + 1)).collect()
+}
+
+/// A tree as far as a part goes, and what is left of it; none where balls below the threshold hold the core-set.
+fn below<S: Proving>(
+    mut state: S,
+    chain: Vec<u32>,
+    monitor: &Monitor<'_>,
+) -> Result<Option<Vec<Part<S>>>, Error> {
+    let mut log = ProofLog::empty();
+    let mut path = Path::new();
+    loop {
+        // One load of a flag, which any node outweighs; with centers at rows a node can take milliseconds.
+        monitor.check().map_err(ReadError::from)?;
+        let chain = path.chain().unwrap_or(&chain);
+        if log.nodes() >= PART_NODES_MAX {
+            let here = Part::Below(state.clone(), chain.to_vec());
+            let left = path.left(state).into_iter();
+            let left = left.map(|(state, chain)| Part::Below(state, chain));
+            return Ok(Some([Part::Made(log), here].into_iter().chain(left).collect()));
+        }
+        match next(&mut state, chain) {
+            Next::Branch(item, rest) => {
+                log.items.push(item);
+                let places = state.open_places(item, &mut log);
+                path.branch(item, places, rest);
             }
-            if steps >= most {
-                return Ok(piece);
-            }
-            match next(&mut state, path.chain().unwrap_or(&chain)) {
-                Next::Branch(item, rest) => {
-                    log.items.push(item);
-                    let places = state.open_places(item, log);
-                    path.branch(item, places, rest);
-                }
-                Next::HeldOut(cluster) => log.held_out(cluster),
-                Next::Open => {
-                    piece.end = Err(Stop::Rounding);
-                    return Ok(piece);
-                }
-            }
-            if !path.advance(&mut state) {
-                piece.end = Ok(());
-                return Ok(piece);
-            }
+            Next::HeldOut(cluster) => log.held_out(cluster),
+            Next::Open => return Ok(None),
+        }
+        if !path.advance(&mut state) {
+            return Ok(Some(vec![Part::Made(log)]));
         }
     }
 }

@@ -5,6 +5,7 @@
 //! one another, which is a lower bound; where z items may be left out, the k + z first centers lose those of the fewest items.
 //! *Reference.* Gonzalez, Theoretical Computer Science 38, 1985; Lloyd, IEEE Trans. Information Theory 28, 1982.
 
+use taut_points::parallel::ParallelSlice;
 use taut_points::{Monitor, OrderBy, ReadError};
 
 use super::cloud::{Cloud, Far};
@@ -46,35 +47,33 @@ pub(super) fn start<P: Position>(
 ) -> Result<Start<P>, Error> {
     let count = (2 * k).saturating_add(z).saturating_add(cloud.items.dim());
     let (far, near) = extremes(cloud);
-    let mut best: Option<Start<P>> = None;
-    let mut firsts = vec![far, near];
-    let mut at = 0;
-    while at < firsts.len() {
+    let from = |first: u32| -> Result<Start<P>, Error> {
         monitor.check().map_err(ReadError::from)?;
-        let traversal = cloud.traverse(firsts[at], count, monitor)?.items;
-        if at == 0 {
-            firsts.extend(traversal.iter().skip(1).take(2));
-        }
-        at += 1;
+        let traversal = cloud.traverse(first, count, monitor)?.items;
         let plain = heaviest(cloud, &traversal, k, z);
         let incumbent = improve(cloud, plain.clone(), k, z, monitor)?;
         let separated: Vec<u32> =
             traversal.iter().copied().take(k.saturating_add(z).saturating_add(1)).collect();
         let separated = if separated.len() > k.saturating_add(z) { separated } else { vec![] };
         let lower = least_pair_radius(cloud, &separated, monitor)?;
-        let traversal = with_largest(cloud, traversal);
-        let Some(best) = &mut best else {
-            best = Some(Start { incumbent, plain, lower, separated, traversal });
-            continue;
-        };
-        if incumbent.radius < best.incumbent.radius {
-            best.incumbent = incumbent;
+        Ok(Start { incumbent, plain, lower, separated, traversal })
+    };
+    let mut best = from(far)?;
+    let others: Vec<u32> =
+        std::iter::once(near).chain(best.traversal.iter().copied().skip(1).take(2)).collect();
+    let others: Vec<Start<P>> =
+        others.par_iter().map(|&first| from(first)).collect::<Result<_, Error>>()?;
+    for other in others {
+        if other.incumbent.radius < best.incumbent.radius {
+            best.incumbent = other.incumbent;
         }
-        if lower > best.lower {
-            (best.lower, best.separated, best.traversal) = (lower, separated, traversal);
+        if other.lower > best.lower {
+            (best.lower, best.separated) = (other.lower, other.separated);
+            best.traversal = other.traversal;
         }
     }
-    Ok(best.expect("there is a first item"))
+    best.traversal = with_largest(cloud, best.traversal);
+    Ok(best)
 }
 
 /// Of groups in a traversal, the items that stand for them, and those of the group whose own ball is largest: that is a lower bound.
