@@ -163,6 +163,8 @@ pub(super) fn improve<P: Position>(
 ) -> Result<Incumbent<P>, Error> {
     let mut work = Workspace::new(cloud.items.dim());
     let mut clusters: Vec<Vec<u32>> = vec![];
+    // Those whose balls have the present centers.
+    let mut before: Vec<Vec<u32>> = vec![];
     let mut left_out = vec![false; cloud.len()];
     for _ in 0..MOST_STEPS {
         monitor.check().map_err(ReadError::from)?;
@@ -182,14 +184,18 @@ pub(super) fn improve<P: Position>(
                 clusters[center].push(item as u32);
             }
         });
-        let centers = clusters
-            .iter()
-            .zip(&centers)
-            .map(|(cluster, center)| match cluster[..] {
-                [] => center.clone(),
-                _ => Ball::of_all(&cloud.items, cluster, &mut work).center,
-            })
-            .collect();
+        // Near the end few clusters change, and in the last step none.
+        let is_as_before = |at: usize| before.get(at) == Some(&clusters[at]);
+        if (0..clusters.len()).all(is_as_before) {
+            return Ok(best);
+        }
+        let mut ball_center = |(at, center): (usize, P)| match clusters[at][..] {
+            [] => center,
+            _ if is_as_before(at) => center,
+            ref cluster => Ball::of_all(&cloud.items, cluster, &mut work).center,
+        };
+        let centers = centers.into_iter().enumerate().map(&mut ball_center).collect();
+        std::mem::swap(&mut before, &mut clusters);
         let next = measured(cloud, centers, z);
         if next.radius >= best.radius * (1.0 - LLOYD_GAIN_MIN) {
             return Ok(if next.radius < best.radius { next } else { best });
