@@ -20,7 +20,7 @@ mod spheres;
 #[cfg(test)]
 mod tests;
 
-use super::items::{ItemSet, Position, Shape};
+use super::items::{ItemSet, Position, Shape, square};
 pub(super) use spheres::Workspace;
 
 /// Rounding may add this to a reach; in parts of the radius.
@@ -102,10 +102,23 @@ impl<P: Position> Ball<P> {
     ) -> Option<(u32, f64)> {
         let mut farthest = None;
         let mut most = self.radius * (1.0 + REACH_TOLERANCE);
+        // Points whose squared distance is no more than this are no farther: it spares their roots.
+        let no_farther = |most: f64| match items.shape() {
+            Shape::Points if most * most < f64::INFINITY => {
+                most * most * (1.0 - 4.0 * f64::EPSILON)
+            }
+            _ => f64::NEG_INFINITY,
+        };
+        let mut skipped = no_farther(most);
         for &item in members.iter().chain(&[more]) {
-            let reach = items.reach(item as usize, &self.center);
+            let square = square(items.at(item as usize), self.center.as_ref());
+            if square <= skipped {
+                continue;
+            }
+            let reach = items.reach_at(item as usize, square.sqrt());
             if reach > most {
                 (farthest, most) = (Some((item, reach)), reach);
+                skipped = no_farther(most);
             }
         }
         farthest
