@@ -29,13 +29,22 @@ pub(super) struct Discs {
     apart: Vec<ItemSet>,
     /// All discs there ever were.
     discs: Vec<Disc>,
+    /// The numbers of those in use, growing.
+    in_use: Vec<u32>,
     /// For each point the discs in use that hold it.
     of: Vec<Vec<u32>>,
 }
 
 impl Discs {
     pub(super) fn new(radius: f64, places: impl Iterator<Item = Place>) -> Self {
-        let mut discs = Discs { radius, places: vec![], apart: vec![], discs: vec![], of: vec![] };
+        let mut discs = Discs {
+            radius,
+            places: vec![],
+            apart: vec![],
+            discs: vec![],
+            in_use: vec![],
+            of: vec![],
+        };
         places.for_each(|place| discs.add(place));
         discs
     }
@@ -65,11 +74,12 @@ impl Discs {
     /// Takes one point more, which is at none of the others.
     pub(super) fn add(&mut self, place: Place) {
         let (item, square_of_radius) = (self.len() as u32, self.radius * self.radius);
-        let mut near = vec![];
+        let (mut near, mut all_near) = (vec![], ItemSet::default());
         self.apart.push(ItemSet::default());
         for other in 0..item {
             if square(self.place(other), place) < 4.0 * square_of_radius {
                 near.push(other);
+                all_near.insert(other);
             } else {
                 self.apart[other as usize].insert(item);
                 self.apart[item as usize].insert(other);
@@ -77,11 +87,9 @@ impl Discs {
         }
         self.places.push(place);
         self.of.push(vec![]);
-        let mut holding: Vec<u32> =
-            near.iter().flat_map(|&other| self.of(other)).copied().collect();
-        holding.sort_unstable();
-        holding.dedup();
-        for &at in &holding {
+        let (mut beside, elsewhere): (Vec<u32>, Vec<u32>) =
+            self.in_use.iter().partition(|&&at| !self.disc(at).held.is_disjoint(&all_near));
+        for &at in &beside {
             let disc = &mut self.discs[at as usize];
             if square(disc.center, place) <= square_of_radius * INSIDE {
                 disc.held.insert(item);
@@ -91,7 +99,12 @@ impl Discs {
         let mut new = self.on_border(item, &near);
         // A set comes after those that may have it in them.
         new.sort_by_key(|disc| std::cmp::Reverse(disc.held.len()));
-        new.into_iter().for_each(|disc| self.take(item, disc, &mut holding));
+        let first_new = self.discs.len() as u32;
+        new.into_iter().for_each(|disc| self.take(item, disc, &mut beside));
+        self.in_use = elsewhere;
+        self.in_use.extend(beside);
+        self.in_use.sort_unstable();
+        self.in_use.extend(first_new..self.discs.len() as u32);
     }
 
     /// The discs with this point and one of the others on their border.
