@@ -9,11 +9,13 @@
 //! and rows that leave this module are in those units; [`ItemReader::scale`] says which, and [`ItemReader::outside`] leads back.
 
 mod pass;
+mod row_bounds;
 
 use taut_certify::Items;
 use taut_points::{InputError, Monitor, PointSource, PointsHash, gather, map_blocks};
 
 pub(crate) use self::pass::{Found, Pass, farther};
+use self::row_bounds::RowBounds;
 use crate::Error;
 use crate::passes::{FirstAnswer, ask_first, ask_items, ask_spread};
 use crate::top::Far;
@@ -23,6 +25,11 @@ use taut_kernels::{Center, DoubleDouble};
 const SAMPLE_ROWS: u64 = 256;
 /// Squared distances between 2⁻⁴⁰⁰ and 2⁴⁰⁰ leave room for every product the solvers form.
 const SAFE_EXPONENT: i32 = 400;
+
+/// In fewer dimensions a row is read as fast as its bound.
+const BOUNDED_DIM_MIN: usize = 33;
+/// Bounds on more rows than this, 128 MiB, are not kept.
+const BOUNDED_ROWS_MAX: u64 = 1 << 24;
 
 /// The question that a pass answers.
 #[derive(Clone, Copy)]
@@ -78,6 +85,8 @@ pub(crate) struct ItemReader<'a> {
     passes: u64,
     hash: Option<PointsHash>,
     largest: Option<Far>,
+    /// From the last pass, where that is of use.
+    row_bounds: Option<RowBounds>,
 }
 
 impl<'a> ItemReader<'a> {
@@ -112,7 +121,16 @@ impl<'a> ItemReader<'a> {
             passes: 0,
             hash: None,
             largest: None,
+            row_bounds: None,
         })
+    }
+
+    /// Tests whether it is of use to know how far rows are at most.
+    fn bounds_rows(&self) -> bool {
+        self.view.items == Items::Points
+            && self.view.scale == 1.0
+            && self.dim() >= BOUNDED_DIM_MIN
+            && self.len() <= BOUNDED_ROWS_MAX
     }
 
     /// Dimension of the space.
@@ -178,8 +196,14 @@ impl<'a> ItemReader<'a> {
         let answer = match self.source.elsewhere() {
             Some(elsewhere) => ask_first(elsewhere, self.source, &self.view, query)?,
             None => {
-                let pass = Pass::new(&self.view, query, 0);
-                let report = pass.first(self.source, self.monitor)?;
+                let mut pass = Pass::new(&self.view, query, 0);
+                if self.bounds_rows() {
+                    pass = pass.telling_distances(None);
+                }
+                let mut report = pass.first(self.source, self.monitor)?;
+                let distances = std::mem::take(&mut report.distances);
+                self.row_bounds =
+                    (!distances.is_empty()).then(|| RowBounds::new(query.center, distances));
                 let (n, columns) = (self.source.len(), self.source.dim());
                 let hash = PointsHash::of_blocks(n, columns, report.hashes);
                 let (found, largest) = (report.found, report.largest);
@@ -190,16 +214,36 @@ impl<'a> ItemReader<'a> {
         self.largest = answer.largest;
         let found = answer.found.settle(query);
         let safe = exponent(found.farthest.reach2).abs() <= SAFE_EXPONENT && !answer.overflow;
-        Ok((safe || !self.choose_scale(query.center)?).then_some(found))
+        let is_settled = safe || !self.choose_scale(query.center)?;
+        if self.view.scale != 1.0 {
+            self.row_bounds = None;
+        }
+        Ok(is_settled.then_some(found))
     }
 
     pub(crate) fn farthest(&mut self, query: Query<'_>) -> Result<PassResult, Error> {
         self.begin_pass();
         let found = match self.source.elsewhere() {
             Some(elsewhere) => ask_items(elsewhere, self.source, &self.view, query)?,
+            None if self.bounds_rows() => self.farthest_of_those_read(query)?,
             None => Pass::new(&self.view, query, 0).run(self.source, self.monitor)?,
         };
         Ok(found.settle(query))
+    }
+
+    /// A pass that leaves out the rows that cannot be above what is asked for.
+    fn farthest_of_those_read(&mut self, query: Query<'_>) -> Result<Found, Error> {
+        let bounds = self.row_bounds.take();
+        let known = bounds.as_ref().map(|bounds| bounds.from(query.center, query.above));
+        let pass = Pass::new(&self.view, query, 0).telling_distances(known);
+        let (found, distances) = pass.run_with_distances(self.source, self.monitor)?;
+        if known.is_some() && found.farthest.reach2 <= query.above {
+            // Of rows that were not read, all that is known is that they are not above: now all of them are read.
+            self.begin_pass();
+            return self.farthest_of_those_read(query);
+        }
+        self.row_bounds = Some(RowBounds::new(query.center, distances));
+        Ok(found)
     }
 
     fn begin_pass(&mut self) {

@@ -18,8 +18,9 @@
 //! interior-point method looks for a better support ([`super::interior_rounds`]), once, and for points only.
 //! *Few dimensions.* The first pass starts from the ball of a sample and lists the points far from its center; the rounds
 //! are over that list as long as no other point can be outside ([`super::shortlist`]). Then one pass is all.
-//! *Measured.* In many dimensions the ball of a sample has its center too far off for that, and saves no pass. Caching
-//! distances cost more than it saved.
+//! *Many dimensions.* The ball of a sample has its center too far off for that, and saves no pass. But the last centers are near to one
+//! another, and the pass that confirms the ball reads few rows: of the others it is known that they are inside
+//! (`item_reader::row_bounds`).
 
 use taut_certify::{Items, PassBounds, Stop};
 use taut_kernels::{Center, relative_error};

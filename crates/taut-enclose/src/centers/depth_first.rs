@@ -57,7 +57,7 @@ impl<S: State> Path<S> {
         self.frames.last().map(|frame| &frame.chain[..])
     }
 
-    /// What is left from the present node on: the states of the children to come, the deepest first, each with its chain.
+    /// The states of the children to come, from the deepest node up, each with its chain.
     pub(super) fn left(self, mut state: S) -> Vec<(S, Vec<u32>)>
     where
         S: Clone,

@@ -6,8 +6,8 @@
 //! *Threads.* What is below a node depends on nothing beside it. After [`PART_NODES_MAX`] nodes a part of the tree leaves what it has
 //! not come to, subtrees from the deepest to the one nearest to its root, as parts of their own. The first [`PARTS_AT_ONCE`] parts in
 //! the order of the log are made side by side, then the first of what is left.
-//! *Guarantee.* One set of options has one log, or one reason to have none: it is longer than the budget, else it does not end in
-//! dead ends alone. Neither depends on threads.
+//! *Guarantee.* One set of options has one log, or one reason to have none: it does not end in dead ends alone, or it is longer than the
+//! budget, whichever the parts made at once show first. Neither depends on threads.
 
 use std::collections::VecDeque;
 
@@ -18,9 +18,9 @@ use taut_points::{Monitor, ReadError};
 use super::depth_first::{Path, Place, State};
 use crate::Error;
 
-/// A part has this many nodes: some twenty parts are left then, each with a copy of its state, which takes as long as a node.
+/// A part has this many nodes. On cities some twenty parts are left then, each with a copy of its state, which takes as long as a node.
 const PART_NODES_MAX: u64 = 256;
-/// So many parts are made at once: more than there are cores, and few enough copies of states.
+/// This many parts are made at once: more than there are cores, and few enough copies of states.
 const PARTS_AT_ONCE: usize = 64;
 /// Most items of a core-set with a log: below the checker's limit of 16384.
 pub(super) const CORE_SET_MAX: usize = 16_000;
@@ -135,11 +135,11 @@ impl<S> Part<S> {
         matches!(self, Part::Made(_))
     }
 
-    /// The number of nodes that it has made.
+    /// The number of nodes that it has made, or one, as it will have at least that.
     fn nodes(&self) -> u64 {
         match self {
             Part::Made(log) => log.nodes(),
-            Part::Below(..) => 0,
+            Part::Below(..) => 1,
         }
     }
 }

@@ -104,9 +104,7 @@ impl<P: Position> Ball<P> {
         let mut most = self.radius * (1.0 + REACH_TOLERANCE);
         // Points whose squared distance is no more than this are no farther: it spares their roots.
         let no_farther = |most: f64| match items.shape() {
-            Shape::Points if most * most < f64::INFINITY => {
-                most * most * (1.0 - 4.0 * f64::EPSILON)
-            }
+            Shape::Points if (most * most).is_normal() => most * most * (1.0 - 4.0 * f64::EPSILON),
             _ => f64::NEG_INFINITY,
         };
         let mut skipped = no_farther(most);

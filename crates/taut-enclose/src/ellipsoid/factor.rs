@@ -1,4 +1,4 @@
-//! The triangular factor of the Gram matrix of the points in use, grown and shrunk by one point at a time.
+//! The triangular factor of the Gram matrix of the points in use, grown and shrunk by one point at a time or grown by several.
 //!
 //! R′R = H with R upper triangular, kept by rows in one square of memory. The right-hand side w = R⁻ᵀb rides along, so
 //! that the solution of Hv = b costs one back substitution. Appending a point is one forward substitution; deleting one
@@ -90,8 +90,8 @@ impl Factor {
         self.size += 1;
     }
 
-    /// Appends several points at once, whose rows of H over the points in use are in `z`, over each other in `square`; says no, and
-    /// appends none, if a pivot falls below `least` times its entry.
+    /// Appends several points at once, whose rows of H over the points in use are in `z`, over each other in `square`; returns
+    /// false, with all as it was, if a pivot falls below `least` times its entry.
     pub(super) fn append_all(
         &mut self,
         mut z: Vec<f64>,
@@ -100,6 +100,7 @@ impl Factor {
         least: f64,
     ) -> bool {
         let (s, count) = (self.size, b.len());
+        debug_assert!(s > 0 && count > 0);
         let lower = MatRef::from_row_major_slice(&self.rows, self.stride, self.stride)
             .submatrix(0, 0, s, s)
             .transpose();

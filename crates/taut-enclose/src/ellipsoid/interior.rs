@@ -48,10 +48,10 @@ const SIGMA_MIN: f64 = 0.3;
 const TILE_ROWS: usize = 16;
 
 /// Replaces the multipliers of a working set by nearly optimal ones; a gap of `tolerance` is good enough. The whitener is that of
-/// good multipliers, those of the set or of one that shares most of its points.
+/// good multipliers, those of the set or of one that shares most of its points; it stays as it is.
 pub(super) fn solve(
     set: &mut WorkingSet,
-    whitener: &mut Whitener,
+    whitener: &Whitener,
     tolerance: f64,
     counters: &mut Counters,
     monitor: &Monitor<'_>,
@@ -304,7 +304,7 @@ mod tests {
         let mut whitener = Whitener::of_scales(&[1.0; 4]);
         let mut counters = Counters::default();
         assert_eq!(whitener.rebase(&set, REBASE_TOLERANCE), Rebased::Plainly);
-        solve(&mut set, &mut whitener, 0.0, &mut counters, &Monitor::silent()).unwrap();
+        solve(&mut set, &whitener, 0.0, &mut counters, &Monitor::silent()).unwrap();
         assert_eq!(whitener.rebase(&set, REBASE_TOLERANCE), Rebased::Plainly);
         assert!(gap(dim, whitener.apply(&set).largest()) < 1e-10);
         keep_basis(&mut set);
@@ -330,7 +330,7 @@ mod tests {
             if first == 0 {
                 assert_eq!(whitener.rebase(&set, REBASE_TOLERANCE), Rebased::Plainly);
             }
-            solve(&mut set, &mut whitener, 1e-8, &mut counters, &Monitor::silent()).unwrap();
+            solve(&mut set, &whitener, 1e-8, &mut counters, &Monitor::silent()).unwrap();
             whitener.rebase(&set, REBASE_TOLERANCE);
             assert!(gap(dim, whitener.apply(&set).largest()) <= 1.1e-8);
             steps.push(counters.interior - steps.iter().sum::<u64>());

@@ -4,7 +4,7 @@
 //! Its maximizer sums to 1 by itself, and is that of the D-optimal design, the dual of the ellipsoid.
 //! *Idea.* In coordinates in which Σ uᵢwᵢwᵢ′ = 1 the second-order model of f is a non-negative least squares ([`nnls`]),
 //! solved from the points in use; then a step towards its solution, as long as f rises.
-//! *Guarantee.* f never falls. Near the optimum the number of right digits doubles with each step, degenerate or not:
+//! *Guarantee.* f never falls by a step of Newton's. Near the optimum the number of right digits doubles with each step, degenerate or not:
 //! five to seven steps from uniform multipliers, one to three from those of a smaller working set.
 //! *Hard working sets*, whose models take too many exchanges, go to an interior-point method ([`interior`]), and from then on each of
 //! their rounds starts there. Where its answer has to be that of few points, the active set takes it from its largest multipliers.
@@ -52,7 +52,7 @@ pub(super) struct Tolerance {
     pub(super) easy: f64,
     /// Once it takes the interior-point method, which comes nearer by a digit in three steps rather than by all.
     pub(super) hard: f64,
-    /// Whether an answer of the interior-point method will not do, with its multipliers on all points: a basis is wanted.
+    /// True if a basis is wanted, so that the interior-point method's multipliers on all points will not do.
     pub(super) basis: bool,
 }
 
@@ -79,7 +79,7 @@ pub(super) fn solve(
     let mut progress_left = STEPS_WITHOUT_PROGRESS_MAX;
     let interior_steps = counters.interior;
     let interior_tolerance = INTERIOR_RATIO * tolerance.hard;
-    // Whether the multipliers are those of the interior-point method, on all points.
+    // True while the multipliers are those of the interior-point method, on all points.
     let mut full = interior_steps > 0 && !interior::is_basis(set);
     if full {
         let outside = gap(dim, whitener.apply(set).largest());
@@ -174,6 +174,8 @@ fn length(matrix: &[f64], m: usize) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use taut_points::{Distribution, generate};
+
     use super::*;
 
     fn solved(rows: &[f64], dim: usize) -> (WorkingSet, f64) {
@@ -204,6 +206,28 @@ mod tests {
         assert!(gap(1, largest) <= 1e-13);
         assert!(set.weights()[..2].iter().all(|u| (u - 0.5).abs() < 1e-15));
         assert_eq!(set.weights()[2..], [0.0, 0.0]);
+    }
+
+    /// Multipliers on ends of axes are optimal, and points on the sphere come into models and leave them again for ever.
+    #[test]
+    fn a_set_that_is_optimal_up_to_rounding_ends() {
+        let dim = 50;
+        let mut set = WorkingSet::new(dim);
+        for at in 0..2 * dim {
+            let mut row = vec![0.0; dim];
+            row[at / 2] = if at % 2 == 0 { 1.0 } else { -1.0 };
+            set.push(at as u64, &row, 1.0);
+        }
+        let sphere: Vec<f64> = generate(Distribution::Sphere, 1000, dim, 3).unwrap();
+        for (id, row) in (1000..).zip(sphere.chunks_exact(dim)) {
+            set.push(id, row, 0.0);
+        }
+        set.normalize();
+        let mut whitener = Whitener::of_scales(&vec![1.0; dim]);
+        let (mut counters, monitor) = (Counters::default(), Monitor::silent());
+        let none = Tolerance::NONE;
+        let largest = solve(&mut set, &mut whitener, none, &mut counters, &monitor).unwrap();
+        assert!(gap(dim, largest) <= 1e-12);
     }
 
     #[test]

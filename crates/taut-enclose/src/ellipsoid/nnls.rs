@@ -6,7 +6,7 @@
 //! *Idea.* Lawson and Hanson's active set with a triangular factor of H over the points in use. The gradient is
 //! gᵢ = bᵢ − wᵢ′Nwᵢ with the m × m matrix N = Σ vⱼwⱼwⱼ′: one sweep prices thousands of points without a row of H. Each
 //! sweep gives a batch, whose members are priced again, exactly, when their turn comes.
-//! *Guarantee.* The model rises with every step. At the end no point of the working set has a gradient above the tolerance.
+//! *Guarantee.* The model rises with every step but that which leaves a bad start. At the end no point of the working set has a gradient above the tolerance.
 //! *Trap.* A point whose column depends on those in use (a copy, or one of more than m(m + 1)/2) has no pivot. It enters
 //! by an exact exchange: weight moves to it along the dependence, on which the model is linear, until another leaves.
 //! Where few points are in use of the p = m(m + 1)/2 that may be, a batch enters at once, and points leave many at a time: then a
@@ -43,9 +43,9 @@ const GUESSED_START_MIN: usize = 300;
 
 /// Fewer points than this enter one by one.
 const TOGETHER_MIN: usize = 8;
-/// A start is a bad one if this many times as many points as have a negative v are more than all.
+/// A start is bad if more than this part, as a divisor, of its points have a negative v.
 const BAD_START_RATIO: usize = 8;
-/// Points leave by a new factor rather than one by one from where this many times as many as leave are more than stay.
+/// Points leave by a new factor, not one by one, if they are more than this part, as a divisor, of those that stay.
 const NEW_FACTOR_RATIO: usize = 6;
 /// One task multiplies this many rows of H: fixed, so that the result does not depend on threads.
 const TILE_ROWS: usize = 64;
@@ -98,22 +98,12 @@ pub(super) fn solve(
         };
         if set.takes_all(&batch) && set.enter_all(&batch, counters) {
             set.settle(counters);
-            continue;
-        }
-        for j in batch {
-            let (column, row) = set.column(j);
-            if set.b(j) - dot(&column, &set.v) < CANDIDATE_RATIO_MIN * gradient[best] {
-                // The best can only have lost its gradient to rounding.
-                if j == best {
-                    tabu.insert(j);
-                }
-                continue;
+            // Of a batch that leaves as it came, nothing but rounding is to be had.
+            if batch.iter().all(|j| !set.members.contains(j)) {
+                tabu.extend(batch);
             }
-            set.enter(j, column, row, counters);
-            set.settle(counters);
-            if !set.members.contains(&j) {
-                tabu.insert(j);
-            }
+        } else {
+            set.enter_in_turn(batch, gradient[best], &mut tabu, counters);
         }
         if counters.exchanges - exchanges > patience.0 || counters.pivots - pivots > patience.1 {
             return Outcome::Stuck;
@@ -218,7 +208,7 @@ impl<'a> ActiveSet<'a> {
         self.settle(counters);
     }
 
-    /// Replaces the members; says no, and leaves all as it was, if one of them depends on the others.
+    /// Replaces the members; returns false, with all as it was, if one of them depends on the others.
     fn take_up(&mut self, points: &[usize], v: &[f64]) -> bool {
         let rows: Vec<f64> = points.iter().flat_map(|&i| self.row(i)).collect();
         let b: Vec<f64> = points.iter().map(|&i| self.b(i)).collect();
@@ -277,7 +267,7 @@ impl<'a> ActiveSet<'a> {
         self.rows.drain(position * self.stride..(position + 1) * self.stride);
     }
 
-    /// Says whether a batch may enter at once: near p points most of it would leave again.
+    /// Tests whether a batch may enter at once: near p points most of it would leave again.
     fn takes_all(&self, batch: &[usize]) -> bool {
         let p = (self.dim + 1) * (self.dim + 2) / 2;
         p >= GUESSED_START_MIN
@@ -286,7 +276,7 @@ impl<'a> ActiveSet<'a> {
             && self.members.len() + batch.len() < 3 * p / 5
     }
 
-    /// Makes several points members at once; says no, and takes none, if one of them depends on the others.
+    /// Makes several points members at once; returns false, with all as it was, if one of them depends on the others.
     fn enter_all(&mut self, points: &[usize], counters: &mut Counters) -> bool {
         let (s, count) = (self.members.len(), points.len());
         let rows: Vec<f64> = points.iter().flat_map(|&j| self.row(j)).collect();
@@ -311,6 +301,32 @@ impl<'a> ActiveSet<'a> {
         self.rows.extend(rows);
         counters.pivots += count as u64;
         true
+    }
+
+    /// Makes the points of a batch members, the best first, as long as their gradients are not far below that of the best.
+    fn enter_in_turn(
+        &mut self,
+        batch: Vec<usize>,
+        largest: f64,
+        tabu: &mut HashSet<usize>,
+        counters: &mut Counters,
+    ) {
+        let best = batch[0];
+        for j in batch {
+            let (column, row) = self.column(j);
+            if self.b(j) - dot(&column, &self.v) < CANDIDATE_RATIO_MIN * largest {
+                // The best can only have lost its gradient to rounding.
+                if j == best {
+                    tabu.insert(j);
+                }
+                continue;
+            }
+            self.enter(j, column, row, counters);
+            self.settle(counters);
+            if !self.members.contains(&j) {
+                tabu.insert(j);
+            }
+        }
     }
 
     /// Makes point j a member, by exchanges as long as it depends on the members.

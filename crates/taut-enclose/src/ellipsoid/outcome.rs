@@ -60,17 +60,18 @@ impl Progress {
         let lower = trial_log_volume(self.dim, whitener.matrix());
         let upper = (lower + gap(self.dim, largest)).min(f64::MAX);
         self.history.push(PassBounds { lower, upper, working_set: working_set as u64 });
-        let is_enough = gap(self.dim, largest) <= wanted && self.best_gap() <= wanted;
-        if self.best.as_ref().is_some_and(|best| largest >= best.found.largest) && !is_enough {
-            return;
-        }
-        let candidate = candidate();
-        if !is_enough || candidate.support.len() < self.support() {
-            self.best = Some(candidate);
+        let both_suffice = gap(self.dim, largest) <= wanted && self.best_gap() <= wanted;
+        if both_suffice {
+            let candidate = candidate();
+            if candidate.support.len() < self.support() {
+                self.best = Some(candidate);
+            }
+        } else if self.best.as_ref().is_none_or(|best| largest < best.found.largest) {
+            self.best = Some(candidate());
         }
     }
 
-    /// How many points have a multiplier in the best candidate; 0 if there is none.
+    /// The number of points with a multiplier in the best candidate; 0 if there is none.
     pub(super) fn support(&self) -> usize {
         self.best.as_ref().map_or(0, |best| best.support.len())
     }

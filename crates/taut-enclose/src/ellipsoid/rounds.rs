@@ -5,7 +5,7 @@
 //! more than the wanted gap. The working set's multipliers prove a lower bound for all points at any moment.
 //! Of many points in few dimensions the rounds are over the sample first, and then over the few points that a pass with
 //! its ellipsoid lists, as long as that list is known to hold every point outside ([`shortlist`]).
-//! *Guarantee.* Lower bounds never fall. One pass or two with a list; without, three to five on ordinary data and about a
+//! *Guarantee.* The best lower bound is kept; bounds do not fall but where points leave a hard working set. One pass or two with a list; without, three to five on ordinary data and about a
 //! dozen where all points lie near one ellipsoid. The points in memory are those of the working set and of the list.
 //! *Trap.* The points farthest outside are often near-copies of each other, so each sector around the center may only
 //! give a few: a sector is a coordinate of the image and its sign.
@@ -93,7 +93,7 @@ pub(super) fn solve(
     let first = if whole { 0.6 * wanted } else { 1e-2 };
     let mut tolerance = Tolerance { easy: first, hard: first, basis: whole };
     let mut last = f64::INFINITY;
-    // The least gap of a round, and whether it was tried to do with fewer points.
+    // The least gap of a round, and true once an answer on fewer points has been sought.
     let (mut nearest, mut polished) = (f64::INFINITY, false);
     let (mut best, mut stale) = (f64::INFINITY, 0);
     // Of the rounds over a list.
@@ -135,6 +135,9 @@ pub(super) fn solve(
         };
         let largest = found.largest;
         if !largest.is_finite() {
+            if polished {
+                break Stop::Converged;
+            }
             return Err(Error::Overflow);
         }
         let mut far = outside(&found, dim, &set);
@@ -146,11 +149,9 @@ pub(super) fn solve(
             });
         }
         let reached = gap(dim, largest);
-        if std::env::var("TRACE").is_ok() {
-            eprintln!("PASS reached {reached:.1e} set {} far {}", set.len(), far.len());
-        }
         if progress.best_gap() <= wanted {
             if polished
+                || counters.interior == 0
                 || progress.support() < points_of_basis
                 || reader.passes() >= options.max_passes
             {
@@ -190,7 +191,7 @@ pub(super) fn solve(
         };
         let basis = hard <= 0.6 * wanted;
         tolerance = match added {
-            0 if tolerance.easy <= 0.6 * wanted => Tolerance::NONE,
+            0 if tolerance.easy.max(tolerance.hard) <= 0.6 * wanted => Tolerance::NONE,
             0 => Tolerance { easy: 0.6 * wanted, hard: 0.6 * wanted, basis: true },
             _ => Tolerance { easy, hard, basis },
         };
@@ -333,6 +334,7 @@ fn add(
             }
         }
         set.retain(|i| used[i] || leverages[i] > least);
+        set.normalize();
     }
     let ids: Vec<u64> = far.iter().map(|far| far.id).collect();
     let rows = reader.rows_from(origin, &ids)?;

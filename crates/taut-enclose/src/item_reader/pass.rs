@@ -10,6 +10,7 @@ use taut_points::{
     BlockHash, InputError, Monitor, PointSource, Points, Rows, Scalar, hash_block, map_blocks,
 };
 
+use super::row_bounds::{KnownRows, distance_at_most};
 use super::{PassResult, Query, View};
 use crate::Error;
 use crate::top::{Face, Far, Top, TopByFace};
@@ -29,6 +30,10 @@ pub(crate) struct Pass<'p> {
     /// The bits of a squared reach below which nothing can be listed any more. It only saves work: what is listed in
     /// the end does not depend on when threads see it.
     bound: AtomicU64,
+    /// What is known of the rows, if anything.
+    known: Option<KnownRows<'p>>,
+    /// Whether the pass tells how far each row is at most.
+    tells_distances: bool,
 }
 
 /// What a pass finds over some rows, and, merged, over all.
@@ -70,12 +75,15 @@ pub(crate) struct FirstReport {
     pub(crate) largest: Option<Far>,
     /// True if a square exceeded the largest `f64`.
     pub(crate) overflow: bool,
+    /// How far each row is at most, where that is told.
+    pub(super) distances: Vec<f64>,
 }
 
 struct Measured {
     farthest: Far,
     /// True if every reach is a number.
     finite: bool,
+    distances: Vec<f64>,
 }
 
 /// The contribution of one block to the first pass.
@@ -84,6 +92,7 @@ struct BlockReport {
     hash: BlockHash,
     largest: Option<Far>,
     overflow: bool,
+    distances: Vec<f64>,
 }
 
 impl<'p> Pass<'p> {
@@ -91,7 +100,12 @@ impl<'p> Pass<'p> {
     pub(crate) fn new(view: &'p View, query: Query<'p>, first_row: u64) -> Self {
         let lists = Mutex::new((Top::new(query.keep), TopByFace::default()));
         let bound = AtomicU64::new(query.above.to_bits());
-        Pass { view, query, first_row, lists, bound }
+        Pass { view, query, first_row, lists, bound, known: None, tells_distances: false }
+    }
+
+    /// The same, which also tells how far each row is at most, and reads only those of which that is not known to be near enough.
+    pub(super) fn telling_distances(self, known: Option<KnownRows<'p>>) -> Self {
+        Pass { known, tells_distances: true, ..self }
     }
 
     pub(crate) fn run(
@@ -99,14 +113,24 @@ impl<'p> Pass<'p> {
         source: &dyn PointSource,
         monitor: &Monitor<'_>,
     ) -> Result<Found, Error> {
-        let farthest = map_blocks(source, monitor, |row, rows| {
+        Ok(self.run_with_distances(source, monitor)?.0)
+    }
+
+    /// The same, and how far each row is at most, where that is told.
+    pub(super) fn run_with_distances(
+        self,
+        source: &dyn PointSource,
+        monitor: &Monitor<'_>,
+    ) -> Result<(Found, Vec<f64>), Error> {
+        let blocks = map_blocks(source, monitor, |row, rows| {
             let row = self.first_row + row;
             Ok::<_, Error>(match rows {
-                Rows::F32(points) => self.block(row, &points).farthest,
-                Rows::F64(points) => self.block(row, &points).farthest,
+                Rows::F32(points) => self.block(row, &points),
+                Rows::F64(points) => self.block(row, &points),
             })
         })?;
-        Ok(self.found(farthest.into_iter()))
+        let distances = concat(blocks.iter().map(|block| &block.distances[..]));
+        Ok((self.found(blocks.iter().map(|block| block.farthest)), distances))
     }
 
     pub(crate) fn first(
@@ -125,6 +149,7 @@ impl<'p> Pass<'p> {
             hashes: reports.iter().map(|report| report.hash).collect(),
             largest: reports.iter().filter_map(|report| report.largest).reduce(farther),
             overflow: reports.iter().any(|report| report.overflow),
+            distances: concat(reports.iter().map(|report| &report.distances[..])),
             found: self.found(reports.iter().map(|report| report.farthest)),
         })
     }
@@ -145,7 +170,7 @@ impl<'p> Pass<'p> {
         points: &Points<'_, T>,
     ) -> Result<BlockReport, Error> {
         let rows = T::rows(*points);
-        let Measured { farthest, finite } = self.block(first_row, points);
+        let Measured { farthest, finite, distances } = self.block(first_row, points);
         // A coordinate that is not finite makes a reach that is not; large coordinates do, too.
         if !finite && let Some((row, column, value)) = rows.first_non_finite() {
             return Err(Error::Input(InputError::NonFinite {
@@ -158,7 +183,8 @@ impl<'p> Pass<'p> {
             Items::Balls => Some(largest_radius(first_row, points)?),
             Items::Points | Items::Ellipsoids => None,
         };
-        Ok(BlockReport { farthest, hash: hash_block(&rows), largest, overflow: !finite })
+        let hash = hash_block(&rows);
+        Ok(BlockReport { farthest, hash, largest, overflow: !finite, distances })
     }
 
     /// Measures a block; its far items are merged with those of the pass.
@@ -181,10 +207,11 @@ impl<'p> Pass<'p> {
         let mut by_face = TopByFace::default();
         let face_above = query.by_face_above.unwrap_or(f64::INFINITY);
         let mut reaches = [0.0; ROWS_AT_ONCE];
+        let mut distances = vec![];
         for start in (0..points.len()).step_by(ROWS_AT_ONCE) {
             let part = points.slice(start..points.len().min(start + ROWS_AT_ONCE));
             let reaches = &mut reaches[..part.len()];
-            squared_distances(part.values(), part.dim(), query.center, reaches);
+            self.squared_distances(first_row as usize + start, &part, reaches, &mut distances);
             if self.view.items == Items::Balls {
                 add_radii(&part, reaches);
             }
@@ -220,8 +247,47 @@ impl<'p> Pass<'p> {
         lists.0.merge(top);
         lists.1.merge(by_face);
         self.bound.fetch_max(lists.0.bound().to_bits(), Ordering::Relaxed);
-        Measured { farthest, finite }
+        Measured { farthest, finite, distances }
     }
+
+    /// The squared distances of the rows from this one on; 0 of those that need not be read. Adds to the bounds on distances.
+    fn squared_distances<T: Scalar>(
+        &self,
+        first: usize,
+        part: &Points<'_, T>,
+        reaches: &mut [f64],
+        distances: &mut Vec<f64>,
+    ) {
+        let (center, dim) = (self.query.center, part.dim());
+        // Where most rows have to be read, reading all of them takes less than finding them.
+        let known = self.known.filter(|known| {
+            let near = (first..first + part.len()).filter(|&row| known.is_near(row)).count();
+            2 * near >= part.len()
+        });
+        let is_near = |at: usize| known.is_some_and(|known| known.is_near(first + at));
+        let mut at = 0;
+        while at < part.len() {
+            if is_near(at) {
+                reaches[at] = 0.0;
+                at += 1;
+                continue;
+            }
+            let end = (at + 1..part.len()).find(|&at| is_near(at)).unwrap_or(part.len());
+            squared_distances(part.slice(at..end).values(), dim, center, &mut reaches[at..end]);
+            at = end;
+        }
+        if self.tells_distances {
+            distances.extend(reaches.iter().enumerate().map(|(at, &reach2)| match known {
+                Some(known) if known.is_near(first + at) => known.distance(first + at),
+                _ => distance_at_most(reach2, dim),
+            }));
+        }
+    }
+}
+
+/// The numbers of all blocks, in their order.
+fn concat<'a>(blocks: impl Iterator<Item = &'a [f64]>) -> Vec<f64> {
+    blocks.collect::<Vec<_>>().concat()
 }
 
 /// The one that reaches farther; the lower row of two that reach equally far.
