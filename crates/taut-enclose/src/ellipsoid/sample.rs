@@ -90,13 +90,7 @@ impl Sample {
         for (i, row) in rows.chunks_exact_mut(dim).enumerate() {
             copy_row(blocks, dim, i, row);
         }
-        let mut chosen = vec![];
-        for j in 0..dim {
-            let value = |i: &usize| rows[*i * dim + j];
-            let order = |a: &usize, b: &usize| value(a).total_cmp(&value(b));
-            chosen.extend((0..k).min_by(order));
-            chosen.extend((0..k).max_by(order));
-        }
+        let mut chosen = extreme(&rows, dim);
         let mut left: Vec<f64> = rows.chunks_exact(dim).map(|row| dot(row, row)).collect();
         let farthest = |left: &[f64]| (0..k).max_by(|&a, &b| left[a].total_cmp(&left[b]));
         let Some(first) = farthest(&left) else { return chosen };
@@ -129,6 +123,25 @@ impl Sample {
         }
         chosen
     }
+}
+
+/// Positions of the rows, the least and the largest of each coordinate in turn.
+fn extreme(rows: &[f64], dim: usize) -> Vec<usize> {
+    let Some(first) = rows.get(..dim) else { return vec![] };
+    let (mut least, mut largest) = (first.to_vec(), first.to_vec());
+    let mut at = vec![[0, 0]; dim];
+    for (i, row) in rows.chunks_exact(dim).enumerate() {
+        let bounds = least.iter_mut().zip(&mut largest).zip(&mut at);
+        for (&value, ((least, largest), at)) in row.iter().zip(bounds) {
+            if value < *least {
+                (*least, at[0]) = (value, i);
+            }
+            if value >= *largest {
+                (*largest, at[1]) = (value, i);
+            }
+        }
+    }
+    at.concat()
 }
 
 /// The mean of some rows at equal distances, taken from the first on, so that equal coordinates give just that.
