@@ -33,7 +33,7 @@ const STEPS_MAX: usize = 200;
 /// Of smaller gaps than [`SMALL_GAP`], this many steps that do not improve the best leverage show that it is the best.
 const STEPS_WITHOUT_PROGRESS_MAX: usize = 3;
 /// The interior-point method starts from the ellipsoid of before only where points are outside by less than this gap.
-const NEAR: f64 = 1.0;
+const START_GAP_MAX: f64 = 1.0;
 /// The interior-point method is to come nearer than is enough by this factor: what it hands back is normalized once more.
 const INTERIOR_RATIO: f64 = 0.3;
 /// Below this gap, rounding may be what keeps the leverage from improving.
@@ -83,7 +83,7 @@ pub(super) fn solve(
     let mut full = interior_steps > 0 && !interior::is_basis(set);
     if full {
         let outside = gap(dim, whitener.apply(set).largest());
-        full = outside < NEAR;
+        full = outside < START_GAP_MAX;
         if full && outside > tolerance.hard {
             interior::solve(set, whitener, interior_tolerance, counters, monitor)?;
         }
@@ -208,7 +208,7 @@ mod tests {
         assert_eq!(set.weights()[2..], [0.0, 0.0]);
     }
 
-    /// Multipliers on ends of axes are optimal, and points on the sphere come into models and leave them again for ever.
+    /// Multipliers on ends of axes are optimal, and points on the sphere come into models and leave them again, each time.
     #[test]
     fn a_set_that_is_optimal_up_to_rounding_ends() {
         let dim = 50;

@@ -112,7 +112,7 @@ pub(super) fn solve(
 }
 
 /// Exchanges and pivots after which an interior-point method would have been faster on k points; many where it has just
-/// been tried in vain.
+/// been tried without success.
 ///
 /// A step of that is O((k + 2p)p²) and a pivot O(p²), an exchange a few sweeps of a p × p factor. Measured on shells of thickness
 /// 1e-2, 1e-4 and 1e-8: for p = 496 a quarter of these pivots makes the first take twice as long, and four times as many the
