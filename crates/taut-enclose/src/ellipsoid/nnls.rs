@@ -114,9 +114,8 @@ pub(super) fn solve(
 /// Exchanges and pivots after which an interior-point method would have been faster on k points; many where it has just
 /// been tried without success.
 ///
-/// A step of that is O((k + 2p)p²) and a pivot O(p²), an exchange a few sweeps of a p × p factor. Measured on shells of thickness
-/// 1e-2, 1e-4 and 1e-8: for p = 496 a quarter of these pivots makes the first take twice as long, and four times as many the
-/// second half as long again; exchanges are within a tenth of the best there and for p = 66.
+/// A step of that is O((k + 2p)p²) and a pivot O(p²), an exchange a few sweeps of a p × p factor. For p = 496, three eighths of k + 2p
+/// in place of half made no difference on shells of thickness 1e-2, 1e-4 and 1e-8; for p = 1326 it made vertices of a cube take twice as long.
 pub(super) fn patience(k: usize, dim: usize, tried: bool) -> (u64, u64) {
     let p = (dim + 1) * (dim + 2) / 2;
     let (exchanges, pivots) = match tried {
