@@ -271,6 +271,25 @@ mod tests {
     }
 
     #[test]
+    fn points_appended_at_once_solve_as_those_one_by_one() {
+        for (known, count) in [(1, 1), (5, 40), (130, 70)] {
+            let points: Vec<usize> = (0..known + count).collect();
+            let mut factor = appended(&points[..known]);
+            let of = |rows: &[usize], columns: &[usize]| -> Vec<f64> {
+                rows.iter().flat_map(|&i| columns.iter().map(move |&j| entry(i, j))).collect()
+            };
+            let (old, new) = points.split_at(known);
+            let b: Vec<f64> = new.iter().map(|&i| (i as f64).cos()).collect();
+            assert!(factor.append_all(of(new, old), of(new, new), &b, 1e-11));
+            check(&factor, &points);
+            // A copy of a point depends on it, and leaves all as it was.
+            let copy = [points[known]];
+            assert!(!factor.append_all(of(&copy, &points), of(&copy, &copy), &b[..1], 1e-11));
+            check(&factor, &points);
+        }
+    }
+
+    #[test]
     fn dependent_points_are_not_factored() {
         assert!(Factor::of(vec![1.0, 1.0, 1.0, 1.0], &[1.0, 1.0], 1e-11).is_none());
     }
