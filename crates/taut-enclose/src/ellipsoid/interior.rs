@@ -37,9 +37,9 @@ const STEP_FRACTION: f64 = 0.98;
 /// The least slack of a start, in parts of what the largest leverage exceeds that of an optimum by. A third of it leaves no room for
 /// a whole step in one start of ten, three times as much takes a tenth more steps.
 const START_SLACK: f64 = 3.0;
-/// But so much at least: rounding of slacks is to be far below it.
+/// The least slack of a start where all points are inside: rounding of slacks is to be far below it.
 const START_SLACK_MIN: f64 = 1e-11;
-/// And at most, where multipliers tell little of the optimum.
+/// The largest: where points are farther outside, the multipliers tell little of the optimum.
 const START_SLACK_MAX: f64 = 0.1;
 /// Until a whole step has been made, μ falls by no more than this: M would follow a path of multipliers that are none yet, and each
 /// step becomes shorter. With 0.1 and with 0.5 the worst of a hundred starts took twice as many steps.
@@ -119,7 +119,7 @@ struct State {
     matrix: Vec<f64>,
     s: Vec<f64>,
     z: Vec<f64>,
-    /// Whether a whole step has been made: then M⁻¹ = Σ zᵢwᵢwᵢ′ up to the second order of a step.
+    /// True once a whole step has been made: then M⁻¹ = Σ zᵢwᵢwᵢ′ up to the second order of a step.
     feasible: bool,
 }
 

@@ -25,7 +25,7 @@ use super::proof::{pass_error, triangular_spread};
 use super::sample::Sample;
 use super::shortlist::{self, Shortlist};
 use super::whitener::Whitener;
-use super::working_set::{WorkingSet, copy_row};
+use super::working_set::{WorkingSet, basis_max, copy_row};
 use super::{EllipsoidOptions, ROUNDING};
 use crate::Error;
 use crate::top::Far;
@@ -54,7 +54,7 @@ const SMALL_GAP: f64 = 1e-6;
 
 /// Points of the first working set, and points that may join after a pass.
 fn sizes(dim: usize, n: u64) -> (usize, usize) {
-    let p = (dim + 1) * (dim + 2) / 2;
+    let p = basis_max(dim);
     let first = match dim {
         0..=10 => 4 * p,
         11..=20 => 2 * p,
@@ -86,7 +86,7 @@ pub(super) fn solve(
         Some(_) => working_set_of_sample(sample, &whitener, first.min(4 * (dim + 1) * (dim + 2))),
         None => first_working_set(reader, sample, &mut whitener, first)?,
     };
-    let points_of_basis = (dim + 1) * (dim + 2) / 2;
+    let points_of_basis = basis_max(dim);
     let mut later = later;
     // With all points in the working set there is nothing to come.
     let whole = set.len() as u64 == reader.len();
@@ -317,7 +317,7 @@ fn add(
         let leverages = whitener.apply(set).leverages;
         let weights = set.weights().to_vec();
         let mut least = LEVERAGE_RATIO_MIN * dim as f64;
-        let p = (dim + 1) * (dim + 2) / 2;
+        let p = basis_max(dim);
         let mut used: Vec<bool> = weights.iter().map(|u| *u > 0.0).collect();
         if hard {
             let mut kept = 0.0;

@@ -5,6 +5,11 @@ use std::hash::{BuildHasherDefault, Hasher};
 
 use taut_kernels::triangle::POINTS;
 
+/// The largest number of points whose wᵢwᵢ′, wᵢ = (yᵢ, 1), can be independent: multipliers on more can be moved to fewer.
+pub(super) const fn basis_max(dim: usize) -> usize {
+    (dim + 1) * (dim + 2) / 2
+}
+
 /// Points relative to an origin, in the order the kernels want, and their multipliers u.
 #[derive(Clone, Debug)]
 pub(super) struct WorkingSet {
