@@ -447,9 +447,9 @@ impl<'a> ActiveSet<'a> {
 
     /// The points of largest gradient above the tolerance, the best first.
     fn batch(&self, gradient: &[f64], tolerance: f64, tabu: &HashSet<usize>) -> Vec<usize> {
-        let members: HashSet<usize> = self.members.iter().copied().collect();
-        let worth =
-            |i: &usize| gradient[*i] > tolerance && !members.contains(i) && !tabu.contains(i);
+        let mut barred = vec![false; gradient.len()];
+        self.members.iter().chain(tabu).for_each(|&i| barred[i] = true);
+        let worth = |i: &usize| gradient[*i] > tolerance && !barred[*i];
         let mut batch: Vec<usize> = (0..gradient.len()).filter(worth).collect();
         let keep = (self.members.len() / 8).max(8);
         let better = |a: &usize, b: &usize| gradient[*b].total_cmp(&gradient[*a]).then(a.cmp(b));

@@ -195,7 +195,7 @@ impl<'a> PointReader<'a> {
         if let Some(answer) = self.ask(question)? {
             let Some(TakenIds { ids, above }) = answer.taken()? else { return Ok(None) };
             let rows = self.rows(&ids)?;
-            return Ok(Some(TakenRows { ids, rows, above }));
+            return Ok(Some(TakenRows { ids, rows: vec![rows], squares: None, above }));
         }
         let first = self.begin_pass();
         let (taken, hashes) = take(self.source, self.monitor, query, share, first)?;
@@ -247,13 +247,16 @@ pub(super) fn take(
         Rows::F64(points) => take_block(query, share, row, &points, first),
     })?;
     let hashes = reports.iter().map(|report| report.1).collect();
-    let mut all = TakenRows { ids: vec![], rows: vec![], above: query.above };
+    let mut squares = vec![];
+    let mut all = TakenRows { ids: vec![], rows: vec![], squares: None, above: query.above };
     for (taken, _) in reports {
         let Some(taken) = taken else { return Ok((None, hashes)) };
         all.ids.extend(taken.ids);
         all.rows.extend(taken.rows);
+        squares.extend(taken.squares.into_iter().flatten());
         all.above = all.above.max(taken.above);
     }
+    all.squares = Some(squares);
     Ok((Some(all), hashes))
 }
 
@@ -270,15 +273,41 @@ fn settled(query: Query<'_>, largest: f64, far: Vec<Far>) -> PassResult {
 pub(super) struct TakenRows {
     /// Row numbers, ascending.
     pub(super) ids: Vec<u64>,
-    /// The coordinates as they are in the source.
-    pub(super) rows: Vec<f64>,
+    /// The coordinates as they are in the source, in parts: to put them together would take as long as to measure them.
+    pub(super) rows: Vec<Vec<f64>>,
+    /// Their |M(x − c)|², unless the pass was made elsewhere.
+    pub(super) squares: Option<Vec<f64>>,
     /// No other row has an |M(x − c)|² above this.
     pub(super) above: f64,
 }
 
-/// Returns what a pass over some rows finds.
-pub(super) fn pass_over(points: &Points<'_, f64>, query: Query<'_>) -> Result<PassResult, Error> {
-    Ok(measure(points, &Monitor::silent(), query, false)?.0)
+/// Returns what a pass over some rows in memory finds, which are numbered from 0 on, on the calling thread: to wake another takes as
+/// long as measuring thousands.
+pub(super) fn pass_over(
+    dim: usize,
+    parts: &[Vec<f64>],
+    query: Query<'_>,
+) -> Result<PassResult, Error> {
+    let list = Mutex::new(Top::new(query.keep));
+    let bound = AtomicU64::new(query.above.to_bits());
+    let (mut first, mut largest, mut finite) = (0, 0.0f64, true);
+    for part in parts.iter().filter(|part| !part.is_empty()) {
+        let points = Points::new(part, dim).map_err(ReadError::from)?;
+        let report = block(query, &list, &bound, first, &points, false)?;
+        first += points.len() as u64;
+        largest = largest.max(report.largest);
+        finite &= report.finite;
+    }
+    let far = list.into_inner().unwrap_or_else(PoisonError::into_inner).into_sorted();
+    Ok(settled(query, if finite { largest } else { f64::INFINITY }, far))
+}
+
+/// Returns what a pass over rows finds whose squares are known.
+pub(super) fn pass_of_squares(ids: &[u64], squares: &[f64], query: Query<'_>) -> PassResult {
+    let mut top = Top::new(query.keep);
+    let far = ids.iter().zip(squares).map(|(&id, &reach2)| Far { id, reach2 });
+    far.filter(|far| far.reach2 > query.above).for_each(|far| top.offer(far));
+    settled(query, squares.iter().copied().fold(0.0, f64::max), top.into_sorted())
 }
 
 /// Measures all blocks of a source; in a first pass they are hashed, too.
@@ -359,15 +388,13 @@ fn take_block<T: Scalar>(
         far.order_by_key(|(i, _)| *i);
     }
     let dim = points.dim();
-    let mut taken = TakenRows {
-        ids: Vec::with_capacity(far.len()),
-        rows: Vec::with_capacity(far.len() * dim),
-        above: none_above,
-    };
-    for (i, _) in far {
-        taken.ids.push(first_row + u64::from(i));
-        taken.rows.extend(points.row(i as usize).iter().map(|&x| x.into()));
+    let ids = far.iter().map(|far| first_row + u64::from(far.0)).collect();
+    let mut rows = Vec::with_capacity(far.len() * dim);
+    for &(i, _) in &far {
+        rows.extend(points.row(i as usize).iter().map(|&x| -> f64 { x.into() }));
     }
+    let squares = Some(far.iter().map(|far| far.1).collect());
+    let taken = TakenRows { ids, rows: vec![rows], squares, above: none_above };
     Ok((Some(taken), hash))
 }
 

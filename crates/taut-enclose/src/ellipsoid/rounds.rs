@@ -123,8 +123,7 @@ pub(super) fn solve(
                     {
                         break Stop::PassBudget;
                     }
-                    *list = Shortlist::of_pass(reader, query, &whitener, sample, share)?;
-                    found = list.pass(query)?;
+                    (*list, found) = Shortlist::of_pass(reader, query, &whitener, sample, share)?;
                     others = list.others(&whitener, doubt);
                     all = true;
                     (least, idle) = (f64::INFINITY, 0);
@@ -220,7 +219,8 @@ fn working_set_of_sample(sample: &Sample, whitener: &Whitener, size: usize) -> W
     }
     let mut set = WorkingSet::new(sample.set.dim());
     let mut row = vec![0.0; sample.set.dim()];
-    for i in order.into_iter().chain(sample.spread(&images.blocks)) {
+    let spread = sample.spread(&images.blocks, &order);
+    for i in order.into_iter().chain(spread) {
         sample.set.copy_row(i, &mut row);
         set.push(sample.set.ids()[i], &row, 1.0);
     }
@@ -256,7 +256,7 @@ fn first_working_set(
         set.push(id, row, 1.0);
     }
     let mut row = vec![0.0; dim];
-    for i in sample.spread(&images.blocks) {
+    for i in sample.spread(&images.blocks, &[]) {
         sample.set.copy_row(i, &mut row);
         set.push(sample.set.ids()[i], &row, 1.0);
     }

@@ -6,11 +6,14 @@
 //! they may be copies of one. A working set like that has no ellipsoid, and gives leverages of 1e16 outside. So the points
 //! farthest from the span of those before them are taken, too: an affine basis.
 
+use taut_kernels::extremes::all_finite;
+use taut_kernels::substitution::products;
+use taut_kernels::triangle::POINTS;
 use taut_kernels::vector::dot;
 
 use super::point_reader::PointReader;
 use super::whitener::{Rebased, Whitener};
-use super::working_set::{WorkingSet, copy_row};
+use super::working_set::{WorkingSet, copy_row, rows_of_blocks};
 use crate::Error;
 
 /// The sample has this many rows.
@@ -19,6 +22,9 @@ const SAMPLE_ROWS: u64 = 4096;
 const MEAN_ROWS: usize = 256;
 /// The covariance of the sample ends this near the identity.
 const REBASE_TOLERANCE: f64 = 1e-3;
+/// Points hold an affine basis if the last point of theirs, the nearest to the others' hyperplane, is at least this many standard
+/// deviations of the sample away from it: no working set with them is thin.
+const HELD_BASIS_MIN: f64 = 0.5;
 
 /// Some of the points.
 pub(super) struct Sample {
@@ -34,33 +40,29 @@ impl Sample {
         let ids: Vec<u64> = (0..count)
             .map(|k| (u128::from(k) * u128::from(reader.len()) / u128::from(count)) as u64)
             .collect();
-        let rows = reader.rows(&ids)?;
+        let mut rows = reader.rows(&ids)?;
         let dim = reader.dim();
         let origin = mean(&rows, dim);
-        let mut set = WorkingSet::with_room(dim, ids.len());
-        let mut row = vec![0.0; dim];
-        for (&id, values) in ids.iter().zip(rows.chunks_exact(dim)) {
-            for ((row, x), o) in row.iter_mut().zip(values).zip(&origin) {
-                *row = x - o;
-            }
-            set.push(id, &row, 1.0 / count as f64);
+        for row in rows.chunks_exact_mut(dim) {
+            row.iter_mut().zip(&origin).for_each(|(x, o)| *x -= o);
         }
-        Ok(Sample { origin, set })
+        Ok(Sample { origin, set: WorkingSet::of_rows(dim, ids, &rows) })
     }
 
     /// Returns true if all rows are finite, relative to the origin.
     pub(super) fn is_finite(&self) -> bool {
-        self.set.blocks().iter().all(|v| v.is_finite())
+        all_finite(self.set.blocks())
     }
 
     /// The largest absolute value of each coordinate, relative to the origin.
     pub(super) fn extents(&self) -> Vec<f64> {
         let dim = self.set.dim();
         let mut extents = vec![0.0f64; dim];
-        let mut row = vec![0.0; dim];
-        for i in 0..self.set.len() {
-            self.set.copy_row(i, &mut row);
-            extents.iter_mut().zip(&row).for_each(|(e, v)| *e = e.max(v.abs()));
+        // Blocks are filled up with zeros, which are no extremes of these.
+        for block in self.set.blocks().chunks_exact(POINTS * dim) {
+            for (extent, values) in extents.iter_mut().zip(block.chunks_exact(POINTS)) {
+                *extent = values.iter().fold(*extent, |most, v| most.max(v.abs()));
+            }
         }
         extents
     }
@@ -81,63 +83,81 @@ impl Sample {
         (whitener, how)
     }
 
-    /// Positions of an affine basis, and of what is least and largest in each coordinate of `blocks`, the images of the
-    /// sample under its whitener.
-    pub(super) fn spread(&self, blocks: &[f64]) -> Vec<usize> {
+    /// Positions of what is least and largest in each coordinate of `blocks`, the images of the sample under its whitener; and of an
+    /// affine basis, unless those and the positions `chosen` hold one.
+    pub(super) fn spread(&self, blocks: &[f64], chosen: &[usize]) -> Vec<usize> {
         let dim = self.set.dim();
-        let k = self.set.len();
-        let mut rows = vec![0.0; k * dim];
-        for (i, row) in rows.chunks_exact_mut(dim).enumerate() {
+        let mut spread = extreme(blocks, dim, self.set.len());
+        let held: Vec<usize> = chosen.iter().chain(&spread).copied().collect();
+        let mut rows = vec![0.0; held.len() * dim];
+        for (&i, row) in held.iter().zip(rows.chunks_exact_mut(dim)) {
             copy_row(blocks, dim, i, row);
         }
-        let mut chosen = extreme(&rows, dim);
-        let mut left: Vec<f64> = rows.chunks_exact(dim).map(|row| dot(row, row)).collect();
-        let farthest = |left: &[f64]| (0..k).max_by(|&a, &b| left[a].total_cmp(&left[b]));
-        let Some(first) = farthest(&left) else { return chosen };
-        chosen.push(first);
-        let start = rows[first * dim..(first + 1) * dim].to_vec();
-        for row in rows.chunks_exact_mut(dim) {
-            row.iter_mut().zip(&start).for_each(|(v, s)| *v -= s);
+        if affine_basis(rows, dim).1 < HELD_BASIS_MIN {
+            spread.extend(affine_basis(rows_of_blocks(blocks, dim, self.set.len()), dim).0);
         }
-        left.iter_mut().zip(rows.chunks_exact(dim)).for_each(|(l, row)| *l = dot(row, row));
-        let mut basis: Vec<Vec<f64>> = vec![];
-        for _ in 0..dim {
-            let Some(next) = farthest(&left) else { break };
-            let mut direction = rows[next * dim..(next + 1) * dim].to_vec();
-            for other in basis.iter().chain(&basis) {
-                let product = dot(&direction, other);
-                direction.iter_mut().zip(other).for_each(|(v, o)| *v -= product * o);
-            }
-            let norm = dot(&direction, &direction).sqrt();
-            if norm == 0.0 {
-                break;
-            }
-            direction.iter_mut().for_each(|v| *v /= norm);
-            for (left, row) in left.iter_mut().zip(rows.chunks_exact(dim)) {
-                let product = dot(row, &direction);
-                *left -= product * product;
-            }
-            left[next] = 0.0;
-            chosen.push(next);
-            basis.push(direction);
-        }
-        chosen
+        spread
     }
 }
 
-/// Positions of the rows, the least and the largest of each coordinate in turn.
-fn extreme(rows: &[f64], dim: usize) -> Vec<usize> {
-    let Some(first) = rows.get(..dim) else { return vec![] };
-    let (mut least, mut largest) = (first.to_vec(), first.to_vec());
+/// Positions of an affine basis of some rows, each next the farthest from the span of those before it, and how far the last is;
+/// 0 if the rows do not span the space.
+fn affine_basis(mut rows: Vec<f64>, dim: usize) -> (Vec<usize>, f64) {
+    let count = rows.len() / dim;
+    let mut left: Vec<f64> = rows.chunks_exact(dim).map(|row| dot(row, row)).collect();
+    let farthest = |left: &[f64]| (0..count).max_by(|&a, &b| left[a].total_cmp(&left[b]));
+    let Some(first) = farthest(&left) else { return (vec![], 0.0) };
+    let mut chosen = vec![first];
+    let start = rows[first * dim..(first + 1) * dim].to_vec();
+    for row in rows.chunks_exact_mut(dim) {
+        row.iter_mut().zip(&start).for_each(|(v, s)| *v -= s);
+    }
+    left.iter_mut().zip(rows.chunks_exact(dim)).for_each(|(l, row)| *l = dot(row, row));
+    let mut basis: Vec<Vec<f64>> = vec![];
+    let mut along = vec![0.0; count];
+    let mut last = 0.0;
+    for _ in 0..dim {
+        let Some(next) = farthest(&left) else { break };
+        let mut direction = rows[next * dim..(next + 1) * dim].to_vec();
+        for other in basis.iter().chain(&basis) {
+            let product = dot(&direction, other);
+            direction.iter_mut().zip(other).for_each(|(v, o)| *v -= product * o);
+        }
+        last = dot(&direction, &direction).sqrt();
+        if last == 0.0 {
+            break;
+        }
+        direction.iter_mut().for_each(|v| *v /= last);
+        products(&rows, dim, &direction, &mut along);
+        left.iter_mut().zip(&along).for_each(|(left, product)| *left -= product * product);
+        left[next] = 0.0;
+        chosen.push(next);
+        basis.push(direction);
+    }
+    (chosen, last)
+}
+
+/// Positions of the least and the largest of each coordinate in turn, of the first `count` points of blocks.
+fn extreme(blocks: &[f64], dim: usize, count: usize) -> Vec<usize> {
+    if count == 0 {
+        return vec![];
+    }
+    let (mut least, mut largest) = (vec![f64::INFINITY; dim], vec![f64::NEG_INFINITY; dim]);
     let mut at = vec![[0, 0]; dim];
-    for (i, row) in rows.chunks_exact(dim).enumerate() {
+    for (block, first) in blocks.chunks_exact(POINTS * dim).zip((0..count).step_by(POINTS)) {
         let bounds = least.iter_mut().zip(&mut largest).zip(&mut at);
-        for (&value, ((least, largest), at)) in row.iter().zip(bounds) {
-            if value < *least {
-                (*least, at[0]) = (value, i);
-            }
-            if value >= *largest {
-                (*largest, at[1]) = (value, i);
+        for (values, ((least, largest), at)) in block.chunks_exact(POINTS).zip(bounds) {
+            let values = &values[..POINTS.min(count - first)];
+            // Few blocks hold an extreme.
+            if values.iter().any(|v| v < least || v >= largest) {
+                for (i, &value) in (first..).zip(values) {
+                    if value < *least {
+                        (*least, at[0]) = (value, i);
+                    }
+                    if value >= *largest {
+                        (*largest, at[1]) = (value, i);
+                    }
+                }
             }
         }
     }

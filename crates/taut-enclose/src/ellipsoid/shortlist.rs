@@ -8,13 +8,12 @@
 //! an ellipsoid. So the ellipsoid of a sample comes first.
 
 use taut_kernels::vector::dot;
-use taut_points::Points;
 
 use super::dense::divide_rows;
-use super::point_reader::{PassResult, PointReader, Query, pass_over};
+use super::point_reader::{PassResult, PointReader, Query, pass_of_squares, pass_over};
 use super::sample::Sample;
 use super::whitener::Whitener;
-use super::working_set::WorkingSet;
+use super::working_set::{WorkingSet, rows_of_blocks};
 use crate::Error;
 use crate::shapes::eigen::eigen;
 use crate::top::Far;
@@ -32,8 +31,8 @@ pub(super) struct Shortlist {
     dim: usize,
     /// Row numbers, ascending.
     ids: Vec<u64>,
-    /// Their coordinates as they are in the source.
-    rows: Vec<f64>,
+    /// Their coordinates as they are in the source, in parts.
+    rows: Vec<Vec<f64>>,
     /// The ellipsoid that listed them, and the |y|² that no other point exceeds; `None` if they are but a sample.
     others: Option<(Whitener, f64)>,
 }
@@ -42,41 +41,46 @@ impl Shortlist {
     /// A sample, of which nothing follows for other points.
     pub(super) fn of_sample(sample: &Sample) -> Self {
         let dim = sample.set.dim();
-        let mut rows = vec![0.0; sample.set.len() * dim];
-        for (i, row) in rows.chunks_exact_mut(dim).enumerate() {
-            sample.set.copy_row(i, row);
+        let mut rows = rows_of_blocks(sample.set.blocks(), dim, sample.set.len());
+        for row in rows.chunks_exact_mut(dim) {
             row.iter_mut().zip(&sample.origin).for_each(|(x, o)| *x += o);
         }
-        Shortlist { dim, ids: sample.set.ids().to_vec(), rows, others: None }
+        Shortlist { dim, ids: sample.set.ids().to_vec(), rows: vec![rows], others: None }
     }
 
-    /// One pass over all points, in which this whitener lists about a share of them.
+    /// One pass over all points, in which this whitener lists about a share of them, and what a pass over the list would find.
     pub(super) fn of_pass(
         reader: &mut PointReader<'_>,
         query: Query<'_>,
         whitener: &Whitener,
         sample: &Sample,
         share: f64,
-    ) -> Result<Self, Error> {
+    ) -> Result<(Self, PassResult), Error> {
         let share = share.min(MOST_LISTED / reader.len() as f64);
         let mut leverages = whitener.apply(&sample.set).leverages;
         let rank =
             ((share * leverages.len() as f64) as usize + SAMPLE_RANK_MIN).min(leverages.len() - 1);
         let (_, &mut above, _) = leverages.select_nth_unstable_by(rank, |a, b| b.total_cmp(a));
-        let query = Query { above: above.min(query.above), ..query };
-        let Some(taken) = reader.take(query, BLOCK_SHARE_MAX * share)? else {
+        let lower = Query { above: above.min(query.above), ..query };
+        let Some(taken) = reader.take(lower, BLOCK_SHARE_MAX * share)? else {
             return Err(Error::Overflow);
         };
         let others = Some((whitener.clone(), taken.above));
-        Ok(Shortlist { dim: reader.dim(), ids: taken.ids, rows: taken.rows, others })
+        let list = Shortlist { dim: reader.dim(), ids: taken.ids, rows: taken.rows, others };
+        let found = match taken.squares {
+            Some(squares) => pass_of_squares(&list.ids, &squares, query),
+            None => list.pass(query)?,
+        };
+        Ok((list, found))
     }
 
     /// A pass over the list.
     pub(super) fn pass(&self, query: Query<'_>) -> Result<PassResult, Error> {
         // A list of a pass holds the points with a multiplier, unless numbers have left their range.
-        let points = Points::new(&self.rows, self.dim).ok().filter(|points| !points.is_empty());
-        let points = points.ok_or(Error::Overflow)?;
-        let mut found = pass_over(&points, query)?;
+        if self.ids.is_empty() {
+            return Err(Error::Overflow);
+        }
+        let mut found = pass_over(self.dim, &self.rows, query)?;
         // Positions ascend as row numbers do, so ties were decided alike.
         for Far { id, .. } in &mut found.far {
             *id = self.ids[*id as usize];
@@ -155,7 +159,7 @@ pub(super) fn share(dim: usize, sample: &WorkingSet, n: u64) -> Option<f64> {
 mod tests {
     use super::*;
     use crate::ellipsoid::rounds::center_of;
-    use taut_points::{Distribution, Monitor, generate};
+    use taut_points::{Distribution, Monitor, Points, generate};
 
     /// The bound is one, and is reached within a little where the maximum is known.
     #[test]
@@ -191,7 +195,8 @@ mod tests {
             let (whitener, _) = sample.whitener(&sample.extents());
             let center = center_of(&sample.origin, &whitener);
             let query = Query { matrix: whitener.matrix(), center: &center, above: 1e9, keep: 10 };
-            let list = Shortlist::of_pass(&mut reader, query, &whitener, &sample, 0.05).unwrap();
+            let (list, _) =
+                Shortlist::of_pass(&mut reader, query, &whitener, &sample, 0.05).unwrap();
             assert!((600..1700).contains(&list.ids.len()), "{}", list.ids.len());
             // Steps to single points change shape and center.
             let mut other = whitener.clone();

@@ -1,5 +1,6 @@
 //! The points a solver works on, coordinate by coordinate in blocks, each with its multiplier.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 
@@ -33,14 +34,21 @@ impl WorkingSet {
         }
     }
 
-    /// The same with room for a number of points.
-    pub(super) fn with_room(dim: usize, points: usize) -> Self {
-        let mut set = WorkingSet::new(dim);
-        set.positions.reserve(points);
-        set.ids.reserve(points);
-        set.blocks.reserve(points.next_multiple_of(POINTS) * dim);
-        set.weights.reserve(points.next_multiple_of(POINTS));
-        set
+    /// Points of equal multipliers, whose numbers differ.
+    pub(super) fn of_rows(dim: usize, ids: Vec<u64>, rows: &[f64]) -> Self {
+        let count = ids.len();
+        let size = count.next_multiple_of(POINTS);
+        let (mut blocks, mut weights) = (vec![0.0; size * dim], vec![0.0; size]);
+        for (block, rows) in blocks.chunks_exact_mut(POINTS * dim).zip(rows.chunks(POINTS * dim)) {
+            for (j, column) in block.chunks_exact_mut(POINTS).enumerate() {
+                for (row, value) in rows.chunks_exact(dim).zip(column) {
+                    *value = row[j];
+                }
+            }
+        }
+        weights[..count].fill(1.0 / count as f64);
+        let positions = ids.iter().copied().zip(0..).collect();
+        WorkingSet { dim, ids, positions, blocks, weights }
     }
 
     pub(super) fn dim(&self) -> usize {
@@ -127,7 +135,10 @@ impl WorkingSet {
     }
 
     /// The blocks and padded weights of the points with a multiplier alone.
-    pub(super) fn support(&self) -> (Vec<f64>, Vec<f64>) {
+    pub(super) fn support(&self) -> (Cow<'_, [f64]>, Cow<'_, [f64]>) {
+        if self.weights[..self.len()].iter().all(|u| *u > 0.0) {
+            return (Cow::Borrowed(&self.blocks), Cow::Borrowed(&self.weights));
+        }
         let used: Vec<usize> = (0..self.len()).filter(|&i| self.weights[i] > 0.0).collect();
         let size = used.len().next_multiple_of(POINTS);
         let (mut blocks, mut weights) = (vec![0.0; size * self.dim], vec![0.0; size]);
@@ -137,7 +148,7 @@ impl WorkingSet {
                 blocks[place(self.dim, k, j)] = self.blocks[place(self.dim, i, j)];
             }
         }
-        (blocks, weights)
+        (Cow::Owned(blocks), Cow::Owned(weights))
     }
 }
 
@@ -170,4 +181,17 @@ pub(super) fn copy_row(blocks: &[f64], dim: usize, i: usize, row: &mut [f64]) {
     for (j, value) in row.iter_mut().enumerate() {
         *value = blocks[place(dim, i, j)];
     }
+}
+
+/// All of `count` points of blocks of points of dimension d, row by row.
+pub(super) fn rows_of_blocks(blocks: &[f64], dim: usize, count: usize) -> Vec<f64> {
+    let mut rows = vec![0.0; count * dim];
+    for (block, rows) in blocks.chunks_exact(POINTS * dim).zip(rows.chunks_mut(POINTS * dim)) {
+        for (j, column) in block.chunks_exact(POINTS).enumerate() {
+            for (row, value) in rows.chunks_exact_mut(dim).zip(column) {
+                row[j] = *value;
+            }
+        }
+    }
+    rows
 }

@@ -95,7 +95,7 @@ pub(super) fn first_working_set(framed: &Framed, axes: Vec<Axes>) -> (WorkingSet
             sample.set.push(at as u64, &points[at], 1.0);
         }
     }
-    let spread = sample.spread(sample.set.blocks());
+    let spread = sample.spread(sample.set.blocks(), &[]);
     chosen.extend(spread.into_iter().map(|i| sample.set.ids()[i] as usize));
     let mut set = WorkingSet::new(rank);
     for at in chosen {
