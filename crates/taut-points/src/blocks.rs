@@ -113,7 +113,11 @@ fn for_each_block(source: &dyn PointSource, monitor: &Monitor<'_>, work: &Work<'
             failed.fetch_or(!one(&mut scratch, block), Ordering::Relaxed);
         }
     };
-    rayon::scope(|scope| (0..workers).for_each(|_| scope.spawn(|_| worker())));
+    // The calling thread takes part: from outside of the pool it would wait for one thread to wake, which then wakes the others.
+    rayon::in_place_scope(|scope| {
+        (1..workers).for_each(|_| scope.spawn(|_| worker()));
+        worker();
+    });
 }
 
 #[cfg(test)]

@@ -28,14 +28,27 @@ pub use items::{Borrowed, Chunks, IntoParallel, Numbers, Owned, ParallelSlice};
 /// Most tasks of a loop that names no least number of items: eight for each of 128 threads.
 const TASKS_MAX: usize = 1 << 10;
 
-/// Calls `task` with each number below `count`, on all threads.
+/// Calls `task` with each number below `count`, on all threads; the calling thread takes part, as it would else wait until another is awake.
 fn run_tasks(count: usize, task: &(dyn Fn(usize) + Sync)) {
     match count {
         0 => {}
         1 => task(0),
         _ => {
-            use rayon::iter::{IntoParallelIterator, ParallelIterator};
-            IntoParallelIterator::into_par_iter(0..count).for_each(task);
+            let next = AtomicUsize::new(0);
+            let worker = || {
+                loop {
+                    let number = next.fetch_add(1, Relaxed);
+                    if number >= count {
+                        return;
+                    }
+                    task(number);
+                }
+            };
+            rayon::in_place_scope(|scope| {
+                (1..count.min(rayon::current_num_threads()))
+                    .for_each(|_| scope.spawn(|_| worker()));
+                worker();
+            });
         }
     }
 }
