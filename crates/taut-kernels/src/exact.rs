@@ -136,8 +136,11 @@ impl PartialOrd for DoubleDouble {
 }
 
 /// Returns true if a number is not 0, but so small that the error of its square is no `f64` any more.
+#[inline(always)]
 pub fn vanishes(value: f64) -> bool {
-    value != 0.0 && value.abs() < 2f64.powi(-450)
+    /// 2⁻⁴⁵⁰.
+    const BOUND: f64 = f64::from_bits((1023 - 450) << 52);
+    (value != 0.0) & (value.abs() < BOUND)
 }
 
 /// x − c, coordinate by coordinate, each as an exact sum of three `f64`, times a power of two.
@@ -154,18 +157,23 @@ pub struct Difference {
 impl Difference {
     /// (x − c)·scale. A scale below 1 belongs to points so far apart that differences would overflow: it comes first.
     pub fn new(x: &[f64], center: &Center, scale: f64) -> Self {
-        let mut difference = Difference::default();
-        let (before, after) = if scale < 1.0 { (scale, 1.0) } else { (1.0, scale) };
-        for (j, (&x, &c)) in x.iter().zip(&center.high).enumerate() {
-            let tail = center.low.get(j).copied().unwrap_or(0.0);
-            let (high, low) = two_sum(x * before, -c * before);
-            difference.high.push(high * after);
-            difference.low.push(low * after);
-            difference.tail.push(-tail * scale);
-            let small = [high * after, low * after, tail * scale].into_iter().any(vanishes);
-            let flushed = x * before / before != x || c * before / before != c;
-            difference.vanishes |= small || flushed;
+        let mut difference = Difference {
+            high: vec![0.0; x.len()],
+            low: vec![0.0; x.len()],
+            tail: center.low.iter().map(|tail| -tail * scale).collect(),
+            vanishes: false,
+        };
+        difference.tail.resize(x.len(), -0.0);
+        #[cfg(target_arch = "x86_64")]
+        if instruction_set() >= InstructionSet::Avx2 {
+            // SAFETY: the processor has both features.
+            #[allow(unsafe_code)]
+            unsafe {
+                fill_with_fma(&mut difference, x, &center.high, scale)
+            };
+            return difference;
         }
+        fill(&mut difference, x, &center.high, scale);
         difference
     }
 
@@ -189,6 +197,20 @@ impl Difference {
             return unsafe { squared_with_fma(self) };
         }
         squared(self)
+    }
+
+    /// sumⱼ ← sumⱼ + weight·(x − c)ⱼ in double-double.
+    pub fn add_times(&self, weight: DoubleDouble, sums: &mut [DoubleDouble]) {
+        #[cfg(target_arch = "x86_64")]
+        if instruction_set() >= InstructionSet::Avx2 {
+            // SAFETY: the processor has both features.
+            #[allow(unsafe_code)]
+            unsafe {
+                add_times_with_fma(self, weight, sums)
+            };
+            return;
+        }
+        add_times(self, weight, sums);
     }
 
     /// Returns true if its length is at most reach − r ≥ 0, decided exactly, for the ties that double-double cannot tell.
@@ -217,6 +239,46 @@ impl Difference {
     }
 }
 
+/// The same with wider vectors.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma")]
+fn fill_with_fma(difference: &mut Difference, x: &[f64], center: &[f64], scale: f64) {
+    fill(difference, x, center, scale);
+}
+
+/// Sets all but the tails.
+#[inline(always)]
+fn fill(difference: &mut Difference, x: &[f64], center: &[f64], scale: f64) {
+    let (before, after) = if scale < 1.0 { (scale, 1.0) } else { (1.0, scale) };
+    let mut lost = false;
+    let terms = difference.high.iter_mut().zip(&mut difference.low).zip(&difference.tail);
+    for ((&x, &c), ((high, low), &tail)) in x.iter().zip(center).zip(terms) {
+        let (sum, error) = two_sum(x * before, -c * before);
+        (*high, *low) = (sum * after, error * after);
+        lost |= vanishes(*high) | vanishes(*low) | vanishes(tail);
+    }
+    // Times 1 nothing is flushed.
+    if before != 1.0 {
+        let is_flushed = |value: f64| value * before / before != value;
+        lost |= x.iter().zip(center).any(|(&x, &c)| is_flushed(x) || is_flushed(c));
+    }
+    difference.vanishes = lost;
+}
+
+/// The same with the multiply-add as an instruction rather than a function call.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma")]
+fn add_times_with_fma(difference: &Difference, weight: DoubleDouble, sums: &mut [DoubleDouble]) {
+    add_times(difference, weight, sums);
+}
+
+#[inline(always)]
+fn add_times(difference: &Difference, weight: DoubleDouble, sums: &mut [DoubleDouble]) {
+    for (j, sum) in sums.iter_mut().enumerate() {
+        *sum = *sum + weight * difference.coordinate(j);
+    }
+}
+
 /// The same with the multiply-add as an instruction rather than a function call.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
@@ -226,18 +288,25 @@ fn squared_with_fma(difference: &Difference) -> DoubleDouble {
 
 #[inline(always)]
 fn squared(difference: &Difference) -> DoubleDouble {
-    let dim = difference.high.len();
-    let mut sums = [DoubleDouble::ZERO; 8];
-    let whole = dim / 8 * 8;
-    for j in (0..whole).step_by(8) {
-        for (k, sum) in sums.iter_mut().enumerate() {
-            *sum = *sum + difference.coordinate(j + k).square();
+    // Sums apart from what they lack: eight sums are two registers then, where eight pairs are taken one by one.
+    let (mut high, mut low) = ([0.0; 8], [0.0; 8]);
+    let parts = difference.high.as_chunks::<8>();
+    let lows = difference.low.as_chunks::<8>();
+    let tails = difference.tail.as_chunks::<8>();
+    for ((h, l), t) in parts.0.iter().zip(lows.0).zip(tails.0) {
+        for k in 0..8 {
+            let coordinate = DoubleDouble { high: h[k], low: l[k] } + t[k].into();
+            let sum = DoubleDouble { high: high[k], low: low[k] } + coordinate.square();
+            (high[k], low[k]) = (sum.high, sum.low);
         }
     }
-    for j in whole..dim {
-        sums[j - whole] = sums[j - whole] + difference.coordinate(j).square();
+    for (k, ((&h, &l), &t)) in parts.1.iter().zip(lows.1).zip(tails.1).enumerate() {
+        let coordinate = DoubleDouble { high: h, low: l } + t.into();
+        let sum = DoubleDouble { high: high[k], low: low[k] } + coordinate.square();
+        (high[k], low[k]) = (sum.high, sum.low);
     }
-    sums.into_iter().fold(DoubleDouble::ZERO, DoubleDouble::add)
+    let sums = high.into_iter().zip(low).map(|(high, low)| DoubleDouble { high, low });
+    sums.fold(DoubleDouble::ZERO, DoubleDouble::add)
 }
 
 /// Adds b to an expansion of components that do not overlap, smallest first; no component is 0.

@@ -149,8 +149,8 @@ impl Measurement {
                     radius.first().copied().unwrap_or(0.0),
                     reader.scale(),
                 ));
-                for (j, sum) in beside.iter_mut().enumerate() {
-                    *sum = *sum + weights[k * ROWS_AT_ONCE + i] * difference.coordinate(j);
+                if let Some(&weight) = weights.get(k * ROWS_AT_ONCE + i) {
+                    difference.add_times(weight, &mut beside);
                 }
             }
             Ok(Measurement { items, beside })
