@@ -4,6 +4,7 @@
 //! d-dimensional points is in the k × k matrix, which is why its steps do not depend on d.
 
 use std::collections::HashMap;
+use std::ops::Range;
 
 use faer::linalg::matmul::matmul;
 use faer::{Accum, MatMut, MatRef, Par};
@@ -11,8 +12,11 @@ use taut_kernels::vector::{add_combination, add_scaled_exactly};
 use taut_kernels::{Center, DoubleDouble};
 use taut_points::parallel::IntoParallel;
 
-/// One task multiplies this many columns of the Gram matrix: fixed, so that the result does not depend on threads.
-const TILE_COLUMNS: usize = 128;
+/// One task multiplies this many columns of the Gram matrix, so that the result does not depend on threads.
+fn tile_columns(items: usize) -> usize {
+    // A first batch has few tiles else, and half of each is known from the others.
+    if items <= 512 { 32 } else { 128 }
+}
 /// A center with a coordinate beyond this many radii is kept in two terms: rounding it to one would cost 8·2⁻⁵³ radii.
 const FAR_OFF: f64 = 8.0;
 
@@ -158,29 +162,30 @@ impl WorkingSet {
     /// New rows times all rows.
     fn multiply(&mut self, before: usize) {
         let (k, dim) = (self.len(), self.dim);
-        let new = MatRef::from_row_major_slice(&self.rows[before * dim..], k - before, dim);
-        let tile = |first: usize| {
-            let count = TILE_COLUMNS.min(k - first);
-            let mut product = vec![0.0; (k - before) * count];
-            let other = MatRef::from_row_major_slice(
-                &self.rows[first * dim..(first + count) * dim],
-                count,
-                dim,
-            );
-            let target = MatMut::from_row_major_slice_mut(&mut product, k - before, count);
-            matmul(target, Accum::Replace, new, other.transpose(), 1.0, Par::Seq);
-            (first, count, product)
+        let columns = tile_columns(k);
+        let rows = |range: Range<usize>| {
+            let count = range.len();
+            MatRef::from_row_major_slice(&self.rows[range.start * dim..range.end * dim], count, dim)
         };
-        let firsts: Vec<usize> = (0..k).step_by(TILE_COLUMNS).collect();
+        // Of rows that are new as columns are, those before them have been multiplied by an earlier tile.
+        let tile = |first: usize| {
+            let (end, start) = (k.min(first + columns), before.max(first));
+            let mut product = vec![0.0; (k - start) * (end - first)];
+            let target = MatMut::from_row_major_slice_mut(&mut product, k - start, end - first);
+            let other = rows(first..end).transpose();
+            matmul(target, Accum::Replace, rows(start..k), other, 1.0, Par::Seq);
+            (first..end, start, product)
+        };
+        let firsts: Vec<usize> = (0..k).step_by(columns).collect();
         let tiles: Vec<_> = if (k - before) * k * dim < 1 << 18 {
             firsts.into_iter().map(tile).collect()
         } else {
             firsts.into_par_iter().map(tile).collect()
         };
-        for (first, count, product) in tiles {
-            for (i, row) in (before..k).zip(product.chunks_exact(count)) {
-                self.gram[i * self.stride + first..][..count].copy_from_slice(row);
-                for (j, &value) in (first..).zip(row) {
+        for (columns, start, product) in tiles {
+            for (i, row) in (start..k).zip(product.chunks_exact(columns.len())) {
+                self.gram[i * self.stride + columns.start..][..columns.len()].copy_from_slice(row);
+                for (j, &value) in columns.clone().zip(row) {
                     self.gram[j * self.stride + i] = value;
                 }
             }
