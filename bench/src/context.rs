@@ -65,11 +65,17 @@ impl Context {
     }
 }
 
-/// A pool of so many threads, each bound to a processor of its own where there are as many.
+/// A pool of so many threads.
+pub(crate) fn pool(threads: usize) -> Result<rayon::ThreadPool> {
+    Ok(rayon::ThreadPoolBuilder::new().num_threads(threads).build()?)
+}
+
+/// The same, each thread bound to a processor of its own where there are as many; for work that starts no threads itself, as these
+/// would be bound to the same processor.
 ///
 /// Kernels of virtual machines take a processor that has halted for one that another machine uses, and start a woken thread behind the
 /// one that woke it: a second thread came two milliseconds late, which is half of some of the times measured here.
-pub(crate) fn pool(threads: usize) -> Result<rayon::ThreadPool> {
+pub(crate) fn bound_pool(threads: usize) -> Result<rayon::ThreadPool> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
     Ok(pool.start_handler(bind).build()?)
 }

@@ -1,6 +1,6 @@
 //! taut with each number of threads, and peers, by turns, so that all see the same moods of the machine.
 
-use crate::context::pool;
+use crate::context::bound_pool;
 use crate::prelude::*;
 use crate::read::plain_read;
 
@@ -67,7 +67,7 @@ pub(crate) fn run<T: Send>(
 ) -> Result<Rounds<T>> {
     let timed = |&threads| -> Result<_> {
         // Pools are built once, outside the times: a program of the user's has its pool, too.
-        Ok((pool(threads)?, Timed { threads, wall: vec![], cpu: vec![], reads: vec![] }))
+        Ok((bound_pool(threads)?, Timed { threads, wall: vec![], cpu: vec![], reads: vec![] }))
     };
     let mut taut = context.threads.iter().map(timed).collect::<Result<Vec<_>>>()?;
     let mut peers = start_peers(context, beside)?;

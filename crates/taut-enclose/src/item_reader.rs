@@ -28,7 +28,7 @@ const SAFE_EXPONENT: i32 = 400;
 
 /// In fewer dimensions a row is read as fast as its bound.
 const BOUNDED_DIM_MIN: usize = 33;
-/// Bounds on more rows than this, 128 MiB, are not kept.
+/// Bounds on more rows than this are not kept: they take 128 MiB, and three times that while a pass makes new ones.
 const BOUNDED_ROWS_MAX: u64 = 1 << 24;
 
 /// The question that a pass answers.
@@ -234,10 +234,11 @@ impl<'a> ItemReader<'a> {
     /// A pass that leaves out the rows that cannot be above what is asked for.
     fn farthest_of_those_read(&mut self, query: Query<'_>) -> Result<Found, Error> {
         let bounds = self.row_bounds.take();
-        let known = bounds.as_ref().map(|bounds| bounds.from(query.center, query.above));
+        let above = query.by_face_above.map_or(query.above, |above| above.min(query.above));
+        let known = bounds.as_ref().map(|bounds| bounds.from(query.center, above));
         let pass = Pass::new(&self.view, query, 0).telling_distances(known);
         let (found, distances) = pass.run_with_distances(self.source, self.monitor)?;
-        if known.is_some() && found.farthest.reach2 <= query.above {
+        if known.is_some() && found.farthest.reach2 <= above {
             // Of rows that were not read, all that is known is that they are not above: now all of them are read.
             self.begin_pass();
             return self.farthest_of_those_read(query);

@@ -239,7 +239,7 @@ impl Difference {
     }
 }
 
-/// The same with wider vectors.
+/// Does the same in wider vectors.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
 fn fill_with_fma(difference: &mut Difference, x: &[f64], center: &[f64], scale: f64) {
@@ -288,7 +288,7 @@ fn squared_with_fma(difference: &Difference) -> DoubleDouble {
 
 #[inline(always)]
 fn squared(difference: &Difference) -> DoubleDouble {
-    // Sums apart from what they lack: eight sums are two registers then, where eight pairs are taken one by one.
+    // Sums are kept apart from what they lack: then eight of them fill two registers, where eight pairs would be taken one by one.
     let (mut high, mut low) = ([0.0; 8], [0.0; 8]);
     let parts = difference.high.as_chunks::<8>();
     let lows = difference.low.as_chunks::<8>();

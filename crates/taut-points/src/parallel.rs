@@ -28,7 +28,8 @@ pub use items::{Borrowed, Chunks, IntoParallel, Numbers, Owned, ParallelSlice};
 /// Most tasks of a loop that names no least number of items: eight for each of 128 threads.
 const TASKS_MAX: usize = 1 << 10;
 
-/// Calls `task` with each number below `count`, on all threads; the calling thread takes part, as it would else wait until another is awake.
+/// Calls `task` with each number below `count`, on all threads. The calling thread takes part: it need not wait for another to wake. Outside of
+/// a pool a loop within a loop can so keep one thread more busy than the pool has.
 fn run_tasks(count: usize, task: &(dyn Fn(usize) + Sync)) {
     match count {
         0 => {}

@@ -44,7 +44,8 @@ pub struct BallOptions<'a> {
     pub delta: Option<f64>,
     /// Most reads of all points; then the best ball so far is returned with its gap. At least 3, and 4 for the methods
     /// of the thesis, which read thrice before their first ball. Default 1,000,000.
-    /// A read or two more are made where nothing could be said of the radius otherwise.
+    /// A read or two more are made where nothing could be said of the radius otherwise, and one where all rows that a read left out, as they
+    /// are known to be near, have to be read after all.
     pub max_passes: u64,
     /// Threads to use, 1 to 1024; `None` takes those of the current rayon pool. The answer does not depend on it.
     pub threads: Option<usize>,

@@ -134,6 +134,7 @@ impl Measurement {
         weights: &[DoubleDouble],
         center: &Center,
     ) -> Result<Self, Error> {
+        debug_assert!(weights.is_empty() || weights.len() == ids.len());
         let rows = reader.rows_as_given(ids)?;
         let columns = rows.len() / ids.len().max(1);
         let part = |(k, rows): (usize, &[f64])| -> Result<Measurement, Cancelled> {

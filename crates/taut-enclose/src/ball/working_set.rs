@@ -12,10 +12,11 @@ use taut_kernels::vector::{add_combination, add_scaled_exactly};
 use taut_kernels::{Center, DoubleDouble};
 use taut_points::parallel::IntoParallel;
 
-/// One task multiplies this many columns of the Gram matrix, so that the result does not depend on threads.
-fn tile_columns(items: usize) -> usize {
-    // A first batch has few tiles else, and half of each is known from the others.
-    if items <= 512 { 32 } else { 128 }
+/// One task multiplies this many columns of the Gram matrix, which depends on the size of the set only: so the result does not depend on
+/// threads. Narrow tiles of a small set keep two threads busy, and leave out most of what is known by symmetry.
+const fn tile_columns(items: usize) -> usize {
+    const SMALL_SET: usize = 512;
+    if items <= SMALL_SET { 32 } else { 128 }
 }
 /// A center with a coordinate beyond this many radii is kept in two terms: rounding it to one would cost 8·2⁻⁵³ radii.
 const FAR_OFF: f64 = 8.0;

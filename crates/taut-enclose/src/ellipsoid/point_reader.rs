@@ -281,8 +281,8 @@ pub(super) struct TakenRows {
     pub(super) above: f64,
 }
 
-/// Returns what a pass over some rows in memory finds, which are numbered from 0 on, on the calling thread: to wake another takes as
-/// long as measuring thousands.
+/// Returns what a pass over some rows in memory finds, which are numbered from 0 on. The calling thread measures them: another would take
+/// about as long to wake as most lists take to be measured.
 pub(super) fn pass_over(
     dim: usize,
     parts: &[Vec<f64>],

@@ -206,7 +206,7 @@ pub(super) fn solve(
     Ok(progress.into_outcome(stop, counters, core_set))
 }
 
-/// Equal weights on points of a sample: those of large leverage, an affine basis, and what is extreme.
+/// Equal weights on points of a sample: those of large leverage, what is extreme, and an affine basis unless these hold one.
 fn working_set_of_sample(sample: &Sample, whitener: &Whitener, size: usize) -> WorkingSet {
     let images = whitener.apply(&sample.set);
     let mut order: Vec<usize> = (0..sample.set.len()).collect();
@@ -228,7 +228,7 @@ fn working_set_of_sample(sample: &Sample, whitener: &Whitener, size: usize) -> W
     set
 }
 
-/// Equal weights on points of large leverage, on an affine basis, and on what is extreme in the sample.
+/// Equal weights on points of large leverage, on what is extreme in the sample, and on an affine basis unless that holds one.
 fn first_working_set(
     reader: &mut PointReader<'_>,
     sample: &Sample,

@@ -4,7 +4,7 @@
 //! makes leverages comparable before anything is known of the optimum.
 //! *Trap.* The points of largest leverage alone may lie in a plane: of data with few different points, or many copies,
 //! they may be copies of one. A working set like that has no ellipsoid, and gives leverages of 1e16 outside. So the points
-//! farthest from the span of those before them are taken, too: an affine basis.
+//! farthest from the span of those before them are taken, too, an affine basis, unless the others hold one.
 
 use taut_kernels::extremes::all_finite;
 use taut_kernels::substitution::products;
@@ -22,9 +22,9 @@ const SAMPLE_ROWS: u64 = 4096;
 const MEAN_ROWS: usize = 256;
 /// The covariance of the sample ends this near the identity.
 const REBASE_TOLERANCE: f64 = 1e-3;
-/// Points hold an affine basis if the last point of theirs, the nearest to the others' hyperplane, is at least this many standard
-/// deviations of the sample away from it: no working set with them is thin.
-const HELD_BASIS_MIN: f64 = 0.5;
+/// Points hold an affine basis if the last point of theirs is at least this part as far from the hyperplane through the others as the
+/// first two are from each other: then no working set with them is thin.
+const HELD_BASIS_RATIO: f64 = 0.05;
 
 /// Some of the points.
 pub(super) struct Sample {
@@ -93,15 +93,17 @@ impl Sample {
         for (&i, row) in held.iter().zip(rows.chunks_exact_mut(dim)) {
             copy_row(blocks, dim, i, row);
         }
-        if affine_basis(rows, dim).1 < HELD_BASIS_MIN {
+        let (_, thickness) = affine_basis(rows, dim);
+        let is_held = thickness >= HELD_BASIS_RATIO;
+        if !is_held {
             spread.extend(affine_basis(rows_of_blocks(blocks, dim, self.set.len()), dim).0);
         }
         spread
     }
 }
 
-/// Positions of an affine basis of some rows, each next the farthest from the span of those before it, and how far the last is;
-/// 0 if the rows do not span the space.
+/// Positions of an affine basis of some rows, each next the farthest from the span of those before it, and how far the last is as a part
+/// of how far the second is; 0 if the rows do not span the space.
 fn affine_basis(mut rows: Vec<f64>, dim: usize) -> (Vec<usize>, f64) {
     let count = rows.len() / dim;
     let mut left: Vec<f64> = rows.chunks_exact(dim).map(|row| dot(row, row)).collect();
@@ -115,8 +117,8 @@ fn affine_basis(mut rows: Vec<f64>, dim: usize) -> (Vec<usize>, f64) {
     left.iter_mut().zip(rows.chunks_exact(dim)).for_each(|(l, row)| *l = dot(row, row));
     let mut basis: Vec<Vec<f64>> = vec![];
     let mut along = vec![0.0; count];
-    let mut last = 0.0;
-    for _ in 0..dim {
+    let (mut second, mut last) = (0.0, 0.0);
+    for number in 0..dim {
         let Some(next) = farthest(&left) else { break };
         let mut direction = rows[next * dim..(next + 1) * dim].to_vec();
         for other in basis.iter().chain(&basis) {
@@ -124,6 +126,9 @@ fn affine_basis(mut rows: Vec<f64>, dim: usize) -> (Vec<usize>, f64) {
             direction.iter_mut().zip(other).for_each(|(v, o)| *v -= product * o);
         }
         last = dot(&direction, &direction).sqrt();
+        if number == 0 {
+            second = last;
+        }
         if last == 0.0 {
             break;
         }
@@ -134,7 +139,7 @@ fn affine_basis(mut rows: Vec<f64>, dim: usize) -> (Vec<usize>, f64) {
         chosen.push(next);
         basis.push(direction);
     }
-    (chosen, last)
+    (chosen, last / second)
 }
 
 /// Positions of the least and the largest of each coordinate in turn, of the first `count` points of blocks.

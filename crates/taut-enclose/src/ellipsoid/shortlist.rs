@@ -65,6 +65,10 @@ impl Shortlist {
         let Some(taken) = reader.take(lower, BLOCK_SHARE_MAX * share)? else {
             return Err(Error::Overflow);
         };
+        // A list of a pass holds the points with a multiplier, unless numbers have left their range.
+        if taken.ids.is_empty() {
+            return Err(Error::Overflow);
+        }
         let others = Some((whitener.clone(), taken.above));
         let list = Shortlist { dim: reader.dim(), ids: taken.ids, rows: taken.rows, others };
         let found = match taken.squares {
@@ -76,10 +80,6 @@ impl Shortlist {
 
     /// A pass over the list.
     pub(super) fn pass(&self, query: Query<'_>) -> Result<PassResult, Error> {
-        // A list of a pass holds the points with a multiplier, unless numbers have left their range.
-        if self.ids.is_empty() {
-            return Err(Error::Overflow);
-        }
         let mut found = pass_over(self.dim, &self.rows, query)?;
         // Positions ascend as row numbers do, so ties were decided alike.
         for Far { id, .. } in &mut found.far {

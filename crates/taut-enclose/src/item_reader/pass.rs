@@ -116,7 +116,7 @@ impl<'p> Pass<'p> {
         Ok(self.run_with_distances(source, monitor)?.0)
     }
 
-    /// The same, and how far each row is at most, where that is told.
+    /// Runs the pass and returns also how far each row is at most, where that is told.
     pub(super) fn run_with_distances(
         self,
         source: &dyn PointSource,
@@ -207,7 +207,7 @@ impl<'p> Pass<'p> {
         let mut by_face = TopByFace::default();
         let face_above = query.by_face_above.unwrap_or(f64::INFINITY);
         let mut reaches = [0.0; ROWS_AT_ONCE];
-        let mut distances = vec![];
+        let mut distances = Vec::with_capacity(if self.tells_distances { points.len() } else { 0 });
         for start in (0..points.len()).step_by(ROWS_AT_ONCE) {
             let part = points.slice(start..points.len().min(start + ROWS_AT_ONCE));
             let reaches = &mut reaches[..part.len()];

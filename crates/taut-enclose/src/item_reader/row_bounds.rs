@@ -32,7 +32,8 @@ impl RowBounds {
             })
             .sum();
         let error = kernel_error(center.dim());
-        let moved = square.sqrt() * (1.0 + error);
+        // These squares are added one after the other, where the kernel has several sums.
+        let moved = square.sqrt() * (1.0 + error + center.dim() as f64 * f64::EPSILON);
         let limit = (above * (1.0 - error)).max(0.0).sqrt() * (1.0 - error) - moved;
         KnownRows { distances: &self.distances, moved, limit }
     }
@@ -150,5 +151,19 @@ mod tests {
             assert!(all.iter().zip(distances(&center)).all(|(bound, d)| *bound >= d));
             bounds = RowBounds::new(&center, all);
         }
+    }
+
+    /// Each of the small squares is lost when it is added to the first.
+    #[test]
+    fn a_move_along_many_coordinates_is_bounded() {
+        let dim = 1500;
+        let small = 2f64.powf(-26.51);
+        let start = Center { high: vec![0.0; dim], low: vec![] };
+        let mut end = Center { high: vec![small; dim], low: vec![] };
+        end.high[0] = 1.0;
+        // √(1 + e) < 1 + e/2.
+        let excess = (dim - 1) as f64 * small * small;
+        let bounds = RowBounds::new(&start, vec![]);
+        assert!(bounds.from(&end, f64::INFINITY).moved - 1.0 >= excess / 2.0);
     }
 }

@@ -64,7 +64,7 @@ pub(super) fn axes(framed: &Framed) -> Vec<Axes> {
     (0..framed.len()).into_par_iter().with_min_len(32).map(axes).collect()
 }
 
-/// Equal weights on ends of axes that lie far out, on an affine basis, and on what is extreme in a sample.
+/// Equal weights on ends of axes that lie far out, on what is extreme in a sample, and on an affine basis unless that holds one.
 pub(super) fn first_working_set(framed: &Framed, axes: Vec<Axes>) -> (WorkingSet, SupportPoints) {
     let rank = framed.rank;
     let mut list = vec![];
