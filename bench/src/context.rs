@@ -73,8 +73,8 @@ pub(crate) fn pool(threads: usize) -> Result<rayon::ThreadPool> {
 /// The same, each thread bound to a processor of its own where there are as many; for work that starts no threads itself, as these
 /// would be bound to the same processor.
 ///
-/// Kernels of virtual machines take a processor that has halted for one that another machine uses, and start a woken thread behind the
-/// one that woke it: a second thread came two milliseconds late, which is half of some of the times measured here.
+/// On the virtual machine of the first runs a second thread that was woken began up to two milliseconds late, often when the first was
+/// done, though the other processor was idle. That is half of some of the times measured here.
 pub(crate) fn bound_pool(threads: usize) -> Result<rayon::ThreadPool> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
     Ok(pool.start_handler(bind).build()?)

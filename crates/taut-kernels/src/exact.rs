@@ -199,7 +199,10 @@ impl Difference {
         squared(self)
     }
 
-    /// sumⱼ ← sumⱼ + weight·(x − c)ⱼ in double-double.
+    /// sumⱼ ← sumⱼ + weight·(x − c)ⱼ in double-double, for the first coordinates, as many as there are sums. O(d).
+    ///
+    /// # Panics
+    /// If there are more sums than coordinates.
     pub fn add_times(&self, weight: DoubleDouble, sums: &mut [DoubleDouble]) {
         #[cfg(target_arch = "x86_64")]
         if instruction_set() >= InstructionSet::Avx2 {
@@ -239,7 +242,7 @@ impl Difference {
     }
 }
 
-/// Does the same in wider vectors.
+/// Does what [`fill`] does, in wider vectors.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
 fn fill_with_fma(difference: &mut Difference, x: &[f64], center: &[f64], scale: f64) {

@@ -40,7 +40,7 @@ const LEVERAGE_RATIO_MIN: f64 = 0.9;
 
 /// Where points lie on an ellipsoid up to rounding, none is useless by that measure, and each step of the interior-point
 /// method costs as many products as there are points: so many times m(m + 1)/2 without a multiplier stay, the nearest. Twice
-/// as many took a tenth longer, four times as many a quarter.
+/// as many took a tenth longer, four times as many a quarter, when each round still ended with a basis.
 const HARD_SPARE: usize = 1;
 
 /// Points that together have less than this share of the multipliers may leave a hard working set, the p of largest multiplier
