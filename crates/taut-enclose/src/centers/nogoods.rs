@@ -48,6 +48,8 @@ pub(super) const NODES_PER_STEP: u64 = 10;
 const WORTH_IMPROVING: f64 = 1.02;
 /// Most nogoods by which a checker shows another one.
 const MISSES_MAX: usize = 63;
+/// Most items times nogoods of a log that a checker takes.
+const LOG_BITS_MAX: usize = 1 << 30;
 /// Orders in which items apart are sought.
 const ORDERS: usize = 3;
 
@@ -58,12 +60,19 @@ pub(super) struct Refutation {
     pub(super) log: Vec<Nogood>,
 }
 
+impl Refutation {
+    /// Tests whether a checker takes so long a log.
+    fn is_checkable(&self) -> bool {
+        self.core_set.len().saturating_mul(self.log.len()) <= LOG_BITS_MAX
+    }
+}
+
 /// How a search ended.
 pub(super) enum End {
     Refuted(Refutation),
     /// It took too many nodes.
     Budget,
-    /// It took more items, or more nogoods for one, than a checker takes.
+    /// It took more items, more nogoods for one, or a longer log than a checker takes.
     Full,
 }
 
@@ -150,7 +159,14 @@ impl<'c, P: Position> NogoodSearch<'c, P> {
             let centers = match self.search(&all, self.task.k)? {
                 Outcome::Budget => return Ok(End::Budget),
                 Outcome::Full => return Ok(End::Full),
-                Outcome::Not(missed) => return Ok(End::Refuted(self.refutation(missed))),
+                Outcome::Not(missed) => {
+                    let refutation = self.refutation(missed);
+                    return Ok(if refutation.is_checkable() {
+                        End::Refuted(refutation)
+                    } else {
+                        End::Full
+                    });
+                }
                 Outcome::Held(centers) => centers,
             };
             let before = self.best.radius;

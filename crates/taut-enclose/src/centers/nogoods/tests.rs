@@ -3,7 +3,7 @@
 use taut_certify::{Centers, CheckError, Items, LowerBound, Nogood, Solution, Stop};
 use taut_points::{Distribution, Monitor, Points, generate};
 
-use super::{End, NogoodSearch};
+use super::{End, NogoodSearch, Refutation};
 use crate::centers::answer::answer;
 use crate::centers::cloud::Cloud;
 use crate::centers::item_rows::ItemRows;
@@ -149,4 +149,13 @@ fn damaged_logs_are_refused() {
     }
     // A few are not needed, as others are missed by the same balls.
     assert!(refused * 10 >= fewer * 8 && fewer > 40, "{refused} of {fewer}");
+}
+
+#[test]
+fn a_log_that_no_checker_takes_is_no_refutation() {
+    let of = |count| {
+        let nogood = Nogood { items: vec![], misses: vec![] };
+        Refutation { core_set: vec![0; 2048], log: vec![nogood; count] }
+    };
+    assert!(of(1 << 19).is_checkable() && !of((1 << 19) + 1).is_checkable());
 }
