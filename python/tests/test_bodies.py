@@ -66,7 +66,7 @@ def test_the_procedure_of_the_thesis_gives_disjoint_bodies():
     # All triangles turned outward, as its votes need them.
     turned = [face if (face > 2).sum() % 2 == 0 else face[::-1] for face in FACES]
     outward = np.array(turned)
-    found = taut.inscribed_dops(OCTAHEDRON, outward, directions=6, count=3, method="thesis", seeds="random")
+    found = taut.inscribed_dops(OCTAHEDRON, outward, directions=6, count=3, method="thesis", seeds="random", cells=16)
     assert found.answer.disjoint and found.trace.method == "thesis"
     assert found.check(taut.triangle_rows(OCTAHEDRON, outward)).disjoint
     with pytest.raises(ValueError, match="cells"):

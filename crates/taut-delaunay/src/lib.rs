@@ -59,6 +59,8 @@ mod sites;
 mod solution;
 mod space;
 pub mod terrain;
+#[cfg(test)]
+mod test_length;
 mod threads;
 mod triangulation;
 mod vector;

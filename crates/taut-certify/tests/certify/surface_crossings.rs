@@ -117,7 +117,7 @@ fn triangles_with_empty_balls_do_meet_now_and_then() {
     use proptest::strategy::ValueTree;
     use proptest::test_runner::TestRunner;
     let (mut runner, mut meet, mut all) = (TestRunner::deterministic(), 0, 0);
-    for _ in 0..200 {
+    for _ in 0..crate::test_length::long_or(200, 80) {
         let places = places().new_tree(&mut runner).unwrap().current();
         let numbers = vec(0usize..1000, 40).new_tree(&mut runner).unwrap().current();
         if places.len() < 3 {

@@ -297,7 +297,7 @@ fn every_damage_is_refused_and_flips_as_plain_meshes_too() {
     for case in valid() {
         plain += flips_refused_as_plain_meshes(&case);
         assert!(case.solution.check(&case.points()).is_ok(), "{}", case.name);
-        for (kind, changed) in damaged(&case).into_iter().step_by(long_or(1, 5)) {
+        for (kind, changed) in damaged(&case).into_iter().step_by(long_or(1, 15)) {
             made += 1;
             match changed.solution.check(&case.points()) {
                 Ok(_) => accepted.push(format!("{}: {kind}: {:?}", case.name, changed.solution)),
@@ -307,7 +307,7 @@ fn every_damage_is_refused_and_flips_as_plain_meshes_too() {
         }
     }
     assert!(accepted.is_empty(), "{} of {made}:\n{}", accepted.len(), accepted.join("\n"));
-    assert!(made > long_or(10_000, 2000) && plain > long_or(30, 15), "{made}, {plain}");
+    assert!(made > long_or(10_000, 650) && plain > long_or(30, 15), "{made}, {plain}");
 }
 
 /// A coordinate moved by one ulp changes the hash; with the hash of the moved points, the answer stands exactly if it is
@@ -332,8 +332,7 @@ fn one_ulp_is_judged_by_what_it_changes() {
         solved("twice", &[1., 1., 2., 1., 1., 2., 2., 1.], 2),
     ];
     for case in cases {
-        let near = 0..case.values.len();
-        for k in near {
+        for k in (0..case.values.len()).step_by(long_or(1, 2)) {
             for next in [case.values[k].next_up(), case.values[k].next_down()] {
                 let mut moved = case.clone();
                 moved.values[k] = next;
@@ -353,7 +352,7 @@ fn one_ulp_is_judged_by_what_it_changes() {
             }
         }
     }
-    assert!(stood > 30 && fell > 30, "{stood} stood, {fell} fell");
+    assert!(stood.min(fell) > long_or(30, 12), "{stood} stood, {fell} fell");
 }
 
 /// What the messages are about.
@@ -421,7 +420,7 @@ fn flips_refused_as_plain_meshes(case: &Case) -> usize {
     let mut damage = Damage { case, made: vec![] };
     flips(&mut damage);
     let mut refused = 0;
-    for (_, changed) in damage.made.into_iter().step_by(long_or(1, 4)) {
+    for (_, changed) in damage.made.into_iter().step_by(long_or(1, 12)) {
         let simplices = &changed.solution.answer.simplices;
         let found = check_simplices(&changed.points(), simplices, width, &Monitor::silent());
         assert!(found.is_err(), "{}: {:?}", case.name, changed.solution.answer);

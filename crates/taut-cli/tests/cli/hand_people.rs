@@ -124,11 +124,11 @@ fn a_key_from_the_environment_serves_as_well() {
 #[test]
 fn a_matcher_is_learned_from_a_folder() {
     let folder = TestFolder::new();
-    folder.taut("hand synthesize scans --people 10 --scans 3 --clean --seed 4 --quiet").ends(0);
+    folder.taut("hand synthesize scans --people 8 --scans 3 --clean --seed 4 --quiet").ends(0);
     folder
         .taut("hand train scans -o matcher.json --scans 1 --fmr 0.2 --source tests")
         .ends(0)
-        .stdout_has(&["A matcher of ", " scans of 10 people", " right, 0 left\n", "\n  FNMR "]);
+        .stdout_has(&["A matcher of ", " scans of 8 people", " right, 0 left\n", "\n  FNMR "]);
     let matcher: serde_json::Value = serde_json::from_str(&folder.text("matcher.json")).unwrap();
     assert_eq!((&matcher["format"], &matcher["source"]), (&json!("taut-matcher"), &json!("tests")));
     let image = image(1, 0);
@@ -148,11 +148,11 @@ fn a_matcher_is_learned_from_a_folder() {
 #[test]
 fn a_matcher_of_both_hands_says_so() {
     let folder = TestFolder::new();
-    folder.taut("hand synthesize scans --people 10 --scans 3 --clean --seed 4 --quiet").ends(0);
+    folder.taut("hand synthesize scans --people 8 --scans 3 --clean --seed 4 --quiet").ends(0);
     folder
-        .taut("hand synthesize left --left --people 10 --scans 3 --clean --seed 4 --quiet")
+        .taut("hand synthesize left --left --people 8 --scans 3 --clean --seed 4 --quiet")
         .ends(0);
-    for person in 0..10 {
+    for person in 0..8 {
         let name =
             |folder: &str, scan: u32| format!("{folder}/person-{person:04}-scan-{scan:02}.png");
         let (from, to) = (folder.path(&name("left", 0)), folder.path(&name("scans", 3)));

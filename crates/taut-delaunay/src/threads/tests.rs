@@ -82,8 +82,7 @@ fn compare(seed: u64, most: u64, mut is_enough: impl FnMut(u32) -> bool) -> u32 
 
 #[test]
 fn small_sets_have_the_same_simplices() {
-    let long = std::env::var_os("TAUT_LONG_TESTS").is_some();
-    let sets = if long { 10_000 } else { 300 };
+    let sets = crate::test_length::long_or(10_000, 200);
     assert_eq!(compare(1, 200, |done| done >= sets), sets);
 }
 

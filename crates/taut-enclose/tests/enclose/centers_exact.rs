@@ -9,6 +9,7 @@ use taut_enclose::{CentersMethod, CentersOptions, centers};
 use taut_points::Points;
 
 use crate::centers;
+use crate::test_length::long_or;
 
 fn seeded(cases: u32) -> Config {
     Config { cases, rng_seed: RngSeed::Fixed(50), failure_persistence: None, ..Config::default() }
@@ -50,7 +51,7 @@ fn close(a: f64, b: f64) -> bool {
 }
 
 proptest! {
-    #![proptest_config(seeded(40))]
+    #![proptest_config(seeded(long_or(40, 12)))]
 
     #[test]
     fn points((values, dim) in few_points(), epsilon in prop_oneof![Just(0.0), Just(1e-9)]) {

@@ -8,6 +8,7 @@ use taut_enclose::{CentersMethod, CentersOptions, Error, StreamingOptions, cente
 use taut_points::{Distribution, InputError, Points, generate};
 
 use crate::centers;
+use crate::test_length::long_or;
 
 fn seeded(cases: u32) -> Config {
     Config { cases, rng_seed: RngSeed::Fixed(51), failure_persistence: None, ..Config::default() }
@@ -53,7 +54,7 @@ fn cloud() -> impl Strategy<Value = (Vec<f64>, usize)> {
 }
 
 proptest! {
-    #![proptest_config(seeded(40))]
+    #![proptest_config(seeded(long_or(40, 14)))]
 
     /// More centers are never worse, nor is leaving out more.
     #[test]

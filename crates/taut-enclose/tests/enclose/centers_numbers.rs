@@ -4,6 +4,8 @@ use taut_certify::{Centers, Items, Placement, Solution, Stop};
 use taut_enclose::{CentersMethod, CentersOptions, Error, StreamingOptions, centers};
 use taut_points::{Distribution, Points, generate};
 
+use crate::test_length::long_or;
+
 /// SplitMix64 (Steele, Lea, Flood, OOPSLA 2014).
 struct Random(u64);
 
@@ -180,7 +182,7 @@ impl Case {
 
 #[test]
 fn every_answer_is_confirmed() {
-    let (count, mut wrong, mut overflows) = (2000, vec![], 0);
+    let (count, mut wrong, mut overflows) = (long_or(2000, 600), vec![], 0);
     for seed in 0..count {
         let case = case(seed);
         overflows += u64::from(matches!(case.solve(CentersMethod::Tree), Err(Error::Overflow)));

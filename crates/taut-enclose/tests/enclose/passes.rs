@@ -73,7 +73,8 @@ fn sets() -> Vec<(String, usize, Vec<f64>)> {
     let mut add = |name: &str, dim: usize, values: Vec<f64>| {
         sets.push((format!("{name} in dimension {dim}"), dim, values));
     };
-    for (dim, blocks) in [(1, 3), (2, 5), (3, 9), (10, 17), (100, 7)] {
+    for (dim, many, few) in [(1, 3, 2), (2, 5, 3), (3, 9, 4), (10, 17, 5), (100, 7, 4)] {
+        let blocks = long_or(many, few);
         let n = blocks * (Blocks::VALUES / dim) - 5;
         for (name, distribution) in [
             ("normal", Distribution::Normal),
@@ -295,7 +296,8 @@ fn contaminated(n: usize, dim: usize) -> Vec<f64> {
 
 #[test]
 fn robust_ellipsoids_of_parts_bear_outliers_whatever_the_parts() {
-    for (n, dim, coverage) in [(60_000, 3, None), (40_000, 10, None), (9000, 2, Some(0.6))] {
+    let sizes = [(9000, 2, Some(0.6)), (60_000, 3, None), (40_000, 10, None)];
+    for (n, dim, coverage) in sizes.into_iter().take(long_or(3, 1)) {
         let values = contaminated(n, dim);
         let points = Points::new(&values, dim).unwrap();
         let options = RobustOptions { coverage, ..Default::default() };

@@ -146,7 +146,7 @@ fn lattices_are_fitted_or_laid_flat() {
             state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (state >> 33) % below
     };
-    for which in 0..crate::test_length::long_or(400, 60) {
+    for which in 0..crate::test_length::long_or(400, 20) {
         let (dim, n) = (1 + lot(7) as usize, 8 + lot(23) as usize);
         let (levels, unit) = (2 + lot(2), [1.0, 0.1, 1.0 / 3.0, 1e8][lot(4) as usize]);
         // Rows that are 0 but for the last columns, so that many are copies.

@@ -83,7 +83,7 @@ fn events_equal_brute_force_and_do_not_see_subdivision() {
     let mut random = Random::new(1);
     let (mut events, mut stopped) = (0, 0);
     // In the long tests more than 10⁵ events.
-    let bodies = long_or(800, 16);
+    let bodies = long_or(800, 6);
     let of_kinds = KINDS.map(|kind| (kind, Directions::of(kind)));
     let skew = [[1, 2, 3], [-2, 1, 0], [5, -3, 1], [0, 1, -1], [7, 7, -1]];
     let given = [&skew[..], &skew[..3]].map(|u| (2 * u.len(), Directions::given(u).unwrap()));
@@ -123,7 +123,7 @@ fn events_of_a_large_mesh_equal_brute_force() {
     let directions = Arc::new(Directions::of(18));
     let tree = Tree::new(&triangles, &directions);
     let mut random = Random::new(4);
-    let (compared, timed) = long_or((3_000, 100_000), (50, 3_000));
+    let (compared, timed) = long_or((3_000, 100_000), (20, 3_000));
     let (mut times, mut stopped) = (vec![], 0);
     let mut h = [0; _];
     for event in 0..timed {

@@ -235,14 +235,15 @@ fn answers_are_the_same_for_every_number_of_threads_and_of_each_seed() {
 
 #[test]
 fn thin_rectangles_have_proved_answers_or_a_reason() {
-    let mut answers = 0;
-    for exponent in 2..15 {
+    let (mut answers, mut tried) = (0, 0);
+    for exponent in (2..15).step_by(long_or(1, 3)) {
         let (factor, angles) = match exponent % 2 {
             0 => (1.0, [0.0f64, 0.576]),
             _ => (0.4, [0.3, std::f64::consts::FRAC_PI_4]),
         };
         let width = factor * 10f64.powi(-exponent);
         for angle in angles {
+            tried += 1;
             let (sine, cosine) = angle.sin_cos();
             let at = |x: f64, y: f64| [cosine * x - sine * y, sine * x + cosine * y];
             let ring = vec![at(0.0, 0.0), at(1.0, 0.0), at(1.0, width), at(0.0, width)];
@@ -262,7 +263,7 @@ fn thin_rectangles_have_proved_answers_or_a_reason() {
             }
         }
     }
-    assert!(answers > 13, "{answers} of 26");
+    assert!(2 * answers > tried, "{answers} of {tried}");
 }
 
 #[test]

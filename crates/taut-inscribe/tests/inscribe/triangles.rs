@@ -6,6 +6,8 @@ use taut_certify::{InscribedTriangle, Solution, Stop, TriangleVerdict};
 use taut_inscribe::{Error, TriangleOptions, inscribed_triangle};
 use taut_points::Points;
 
+use crate::test_length::long_or;
+
 /// Proved relative gap of most tests.
 const EPSILON: f64 = 1e-4;
 
@@ -74,7 +76,7 @@ fn parallelograms_triangles_and_regular_polygons_have_the_areas_of_closed_forms(
         [unit, [[3.0, 1.0], [0.5, 0.75]], [[1.0, 900.0], [0.0, 1.0]], [[0.0, -2.0], [1e-3, 0.25]]]
     {
         let determinant: f64 = map[0][0] * map[1][1] - map[0][1] * map[1][0];
-        for shift in [[0.0, 0.0], [-7.0, 1000.0]] {
+        for &shift in long_or(&[[-7.0, 1000.0], [0.0, 0.0]][..], &[[-7.0, 1000.0]]) {
             let of = |ring: &[[f64; 2]]| vec![mapped(ring, map, shift)];
             assert_area(&of(&square(0.0, 0.0, 1.0)), 0.5 * determinant.abs());
             let triangle = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];

@@ -182,7 +182,7 @@ fn scans_are_frozen() {
 
 #[test]
 fn rates_over_synthetic_scans() {
-    let is_long = std::env::var_os("TAUT_LONG_TESTS").is_some();
+    let is_long = crate::test_length::long_or(true, false);
     let mut rates = Rates::default();
     let named = std::env::var("TAUT_SEED").ok();
     let named = named.map(|seed| seed.parse::<u64>().expect("TAUT_SEED is a number"));

@@ -15,3 +15,4 @@ mod hand_scans;
 #[cfg(feature = "store")]
 mod store;
 mod template_index;
+mod test_length;

@@ -11,7 +11,7 @@ use proptest::test_runner::{Config, RngSeed};
 
 proptest! {
     #![proptest_config(Config {
-        cases: 200, rng_seed: RngSeed::Fixed(6), failure_persistence: None, ..Config::default()
+        cases: crate::test_length::long_or(200, 60), rng_seed: RngSeed::Fixed(6), failure_persistence: None, ..Config::default()
     })]
 
     #[test]

@@ -8,6 +8,8 @@ use taut_points::{
 };
 use taut_reconstruct::{CurveMethod, CurveOptions, curve};
 
+use crate::test_length::long_or;
+
 fn fitted(points: &[f64]) -> Solution<Curve> {
     let points = Points::new(points, 2).expect("pairs");
     let options = CurveOptions { method: CurveMethod::Fit, ..Default::default() };
@@ -59,13 +61,14 @@ fn two_thousand_points_of_each_test_curve() {
 /// Samples in which some windows are flat by chance, within the band or across it: no vertex is to be at one.
 #[test]
 fn what_is_flat_by_chance_is_no_part_of_the_curve() {
-    for (name, n, outliers, seed) in [
+    let sets = [
         ("circle", 6283, 0.0, 10),
         ("circle", 6283, 0.1, 11),
         ("ellipse3", 20_194, 0.0, 7),
         ("ellipse3", 20_194, 0.1, 8),
         ("ellipse3", 20_194, 0.1, 28),
-    ] {
+    ];
+    for (name, n, outliers, seed) in sets.into_iter().step_by(long_or(1, 4)) {
         let (truth, points) = sampled(name, n, outliers, false, seed);
         let found = quality(&truth, &fitted(&points).answer);
         assert!(found.topology_right() && found.hausdorff < 0.012, "{name} {seed}: {found:?}");
@@ -113,12 +116,13 @@ fn the_noise_is_told() {
 /// Scaled by 10^±6, turned, shifted by a thousand diameters, shuffled: the same curves, to 1e-6 of their size.
 #[test]
 fn curves_turn_scale_and_shift_with_the_points() {
-    for (name, n, outliers, seed) in [
+    let kinds = [
         ("circle", 3000, 0.0, 1),
         ("flower5", 4000, 0.1, 2),
         ("multi4", 6000, 0.0, 3),
         ("gear20", 2500, 0.0, 4),
-    ] {
+    ];
+    for (name, n, outliers, seed) in kinds.into_iter().take(long_or(4, 2)) {
         let (_, points) = sampled(name, n, outliers, false, seed);
         let size = points.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         let original = fitted(&points).answer;
@@ -163,7 +167,7 @@ fn curves_turn_with_the_points_vertex_by_vertex() {
     let mut sets: Vec<Vec<f64>> = (0..16).map(blob).collect();
     sets.extend((0..6).map(|seed| around_polygon(&square, 1500, 0.05, seed)));
     sets.extend((0..4).map(|seed| sampled("wave", 2000, 0.0, false, seed).1));
-    for (set, points) in sets.iter().enumerate().step_by(crate::test_length::long_or(1, 5)) {
+    for (set, points) in sets.iter().enumerate().step_by(long_or(1, 5)) {
         let original = fitted(points).answer;
         let size = points.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         for (cos, sin) in [(0.0, 1.0), (-1.0, 0.0), (1.1_f64.cos(), 1.1_f64.sin())] {
@@ -386,7 +390,7 @@ fn exact_points_beside_noisy_ones_are_fitted_too() {
 /// Outliers about as far off as the checker stops to count them as the curve's own: whoever is right, it is no contradiction.
 #[test]
 fn claims_hold_where_roundings_decide() {
-    for seed in 0..60 {
+    for seed in 0..long_or(60, 20) {
         let lots: Vec<f64> = generate(Distribution::Uniform, 2000, 2, seed).expect("numbers");
         let place = |(k, lots): (usize, &[f64])| {
             let off = 2.0 * lots[0] - 1.0;

@@ -7,6 +7,7 @@ use taut_points::{Distribution, GeneratedSource, Points, ScalarKind};
 
 use super::*;
 use crate::outofcore::Tile;
+use crate::test_length::long_or;
 use crate::{DelaunayOptions, delaunay};
 
 fn options() -> FolderOptions<'static> {
@@ -52,10 +53,12 @@ fn a_folder_holds_the_triangulation_in_memory() {
     };
     let found = same_as_in_memory::<2>(&generated(Distribution::Uniform, 250_000, 2));
     assert!(found.tiles.len() > 4, "{found:?}");
-    same_as_in_memory::<2>(&generated(Distribution::Kuzmin, 100_000, 2));
-    same_as_in_memory::<2>(&generated(Distribution::Grid { side: 300, angle: 0.0 }, 90_000, 2));
-    let found = same_as_in_memory::<3>(&generated(Distribution::Uniform, 150_000, 3));
-    assert!(found.tiles.len() > 4, "{found:?}");
+    let side = long_or(300, 120);
+    same_as_in_memory::<2>(&generated(Distribution::Kuzmin, side * side, 2));
+    same_as_in_memory::<2>(&generated(Distribution::Grid { side, angle: 0.0 }, side * side, 2));
+    let found =
+        same_as_in_memory::<3>(&generated(Distribution::Uniform, long_or(150_000, 60_000), 3));
+    assert!(found.tiles.len() > long_or(4, 2), "{found:?}");
     same_as_in_memory::<2>(&generated(Distribution::Uniform, 3, 2));
     same_as_in_memory::<3>(&generated(Distribution::Uniform, 0, 3));
 }
@@ -106,7 +109,7 @@ fn a_stopped_run_is_resumed_to_the_same_bytes() {
     let mut stops = 0;
     for round in 0..200u64 {
         let (cancel, seen) = (AtomicBool::new(false), AtomicU64::new(0));
-        let allowed = 20_000 + round * 10_000;
+        let allowed = 20_000 + round * long_or(10_000, 40_000);
         let count = |points: u64| {
             if seen.fetch_add(points, Ordering::Relaxed) + points > allowed {
                 cancel.store(true, Ordering::Relaxed);

@@ -157,14 +157,14 @@ fn merging_leaves_fewer_bodies_that_keep_what_was_asked_for() {
         {
             let base = BodiesOptions {
                 count: 24,
-                events: long_or(12_000, 5000),
+                events: long_or(12_000, 3000),
                 objective,
                 disjoint,
                 ..base.clone()
             };
             let (all, many) = merged(&mesh, &base);
             let mut before = many;
-            for loss in [0.0, 0.05, 0.3] {
+            for &loss in long_or(&[0.0, 0.05, 0.3][..], &[0.05, 0.3]) {
                 let options = BodiesOptions { merge_within: Some(loss), ..base.clone() };
                 let (kept, bodies) = merged(&mesh, &options);
                 println!(

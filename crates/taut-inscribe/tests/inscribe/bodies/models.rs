@@ -110,12 +110,13 @@ fn free_bodies_cover_what_the_documentation_says() {
 
 #[test]
 fn k_dops_cover_what_the_documentation_says() {
-    for (name, count, [overlapping, disjoint]) in [
+    let covered = [
         ("beethoven", 15, [0.78, 0.69]),
         ("porsche", 10, [0.78, 0.71]),
         ("bunny_res2", 45, [0.86, 0.76]),
         ("horse", 10, [0.67, 0.57]),
-    ] {
+    ];
+    for (name, count, [overlapping, disjoint]) in covered.into_iter().take(long_or(4, 2)) {
         let Some(mesh) = model(name) else { return };
         for (is_disjoint, least) in [(false, overlapping), (true, disjoint)] {
             let options = BodiesOptions {
@@ -146,17 +147,18 @@ fn few_free_facets_are_worth_more_than_fixed_ones() {
 
 #[test]
 fn bodies_of_all_models_are_proved_inside() {
-    let mut packed_models = 0;
-    for name in ALL {
+    let (mut packed_models, mut tried) = (0, 0);
+    for name in ALL.into_iter().step_by(long_or(1, 2)) {
         let Some(mesh) = model(name) else { return };
         for shape in [BodyShape::Dop(18), BodyShape::Free(256)] {
             let options = BodiesOptions {
                 shape,
                 close_holes: true,
                 count: 6,
-                events: long_or(10_000, 4000),
+                events: long_or(10_000, 3000),
                 ..BodiesOptions::default()
             };
+            tried += 1;
             match solve(&mesh, &options) {
                 Err(Error::Ambiguous) => println!("{name}: ambiguous"),
                 _ => {
@@ -165,7 +167,7 @@ fn bodies_of_all_models_are_proved_inside() {
             }
         }
     }
-    assert!(packed_models >= 22, "{packed_models} of 26 packed");
+    assert!(26 * packed_models >= 22 * tried, "{packed_models} of {tried} packed");
 }
 
 #[test]
@@ -213,8 +215,8 @@ fn rotation(random: &mut Random) -> [[f64; 3]; 3] {
 fn no_body_of_a_turned_model_is_outside() {
     let rotations = long_or(20, 1);
     let mut random = Random(28);
-    let (mut judged, mut ambiguous) = (0, 0);
-    for name in ALL {
+    let (mut judged, mut ambiguous, mut tried) = (0, 0, 0);
+    for name in ALL.into_iter().step_by(long_or(1, 2)) {
         let Some(mesh) = model(name) else { return };
         for turn in 0..rotations {
             let rows = rotation(&mut random);
@@ -223,6 +225,7 @@ fn no_body_of_a_turned_model_is_outside() {
             let is_closed =
                 solve(&turned, &BodiesOptions { events: 1, ..Default::default() }).is_ok();
             for shape in [BodyShape::Dop(18), BodyShape::Free(256)] {
+                tried += 1;
                 let base =
                     BodiesOptions { shape, close_holes: true, count: 6, ..Default::default() };
                 let found = match solve(&turned, &BodiesOptions { events: 3000, ..base }) {
@@ -247,8 +250,8 @@ fn no_body_of_a_turned_model_is_outside() {
             }
         }
     }
-    println!("{judged} bodies, {ambiguous} of {} shapes ambiguous", 26 * rotations);
-    assert!(judged >= 24 * 4 * rotations);
+    println!("{judged} bodies, {ambiguous} of {tried} shapes ambiguous");
+    assert!(26 * judged >= 24 * 4 * tried, "{judged} bodies of {tried} shapes");
 }
 
 /// How often a mesh goes around a point: the sum of its solid angles over 4π.

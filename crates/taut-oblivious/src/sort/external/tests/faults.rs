@@ -8,6 +8,7 @@ use std::sync::atomic::Ordering::Relaxed;
 use super::*;
 use crate::sort::external::files;
 use crate::store::faulty::{Fault, Faulty, Record};
+use crate::test_length::long_or;
 
 /// What is sorted, with which memory, and whether the runs have a name.
 struct Case {
@@ -96,7 +97,7 @@ impl Case {
     /// Each call of each file, with all that may happen to it.
     fn every_call(&self, names: &[&str]) {
         for name in names {
-            for call in 0..self.calls(name).0 {
+            for call in (0..self.calls(name).0).step_by(long_or(1, 3)) {
                 self.is_overcome(name, Fault::Refused(call, ErrorKind::Interrupted));
                 // In turn a byte, and a page and a half, as the system may leave it past the cache.
                 let moved = if call % 2 == 0 { 1 } else { 4096 + 2048 };
