@@ -160,7 +160,7 @@ fn turned_scaled_and_repeated_points_have_the_same_ball() {
 /// A mean of points is rounded in units of the last place of their coordinates, which here is more than the room that the checker leaves.
 #[test]
 fn a_circle_far_from_the_origin_is_proved() {
-    for (x, y) in [(5e5, 5e6), (1e10, -3e9)] {
+    for &(x, y) in long_or(&[(1e10, -3e9), (5e5, 5e6)][..], &[(1e10, -3e9)]) {
         let circle: Vec<f64> = (0..long_or(2000, 250))
             .flat_map(|i| {
                 let (sin, cos) = (i as f64 * 0.618).sin_cos();

@@ -173,7 +173,7 @@ fn centers_of_streams_have_the_bytes_and_verdicts_of_those_in_memory() {
         for (k, placement) in [(1, Placement::Free), (7, Placement::Rows)] {
             let options = CentersOptions { method, placement, ..Default::default() };
             let wanted = centers(&points, k, &options).map(AnySolution::from);
-            for count in [1, 7] {
+            for &count in long_or(&[1, 7][..], &[7]) {
                 let parts = parts(&points, count);
                 let mut cover = StreamingCenters::new(*dim, k, &StreamingOptions::DEFAULT).unwrap();
                 let added = parts.iter().try_for_each(|(_, part)| {
@@ -208,7 +208,7 @@ fn traversals_have_the_answers_and_certificates_of_those_in_memory() {
             let method = CentersMethod::FarthestFirst;
             let options = CentersOptions { method, placement, ..Default::default() };
             let wanted = centers(&points, k, &options);
-            for count in [1, 7] {
+            for &count in long_or(&[1, 7][..], &[7]) {
                 let parts = parts(&points, count);
                 let solver = Solver::k_centers(n, *dim, k, options).unwrap();
                 match (solve(solver, &parts), &wanted) {
@@ -231,7 +231,7 @@ fn traversals_have_the_answers_and_certificates_of_those_in_memory() {
             }
         }
     }
-    assert!(compared >= 100, "{compared} compared");
+    assert!(compared >= long_or(100, 50), "{compared} compared");
 }
 
 #[test]

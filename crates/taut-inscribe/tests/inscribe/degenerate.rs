@@ -83,7 +83,7 @@ fn single_precision_points_have_the_circle_of_their_copies() {
 
 #[test]
 fn needles_are_solved_to_the_gap() {
-    for &height in long_or(&[1e-3, 1e-6, 1e-9, 1e-12, 1e-15][..], &[1e-3, 1e-9, 1e-15]) {
+    for &height in long_or(&[1e-3, 1e-6, 1e-9, 1e-12, 1e-15][..], &[1e-3, 1e-15]) {
         let (found, _) = proved(&[[0.0, 0.0], [1.0, 0.0], [0.5, height]]);
         // Area over half the perimeter.
         let expected = height / (1.0 + 2.0 * 0.5f64.hypot(height));

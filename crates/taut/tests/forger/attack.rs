@@ -11,7 +11,7 @@ use crate::oracle::{CaseOracle, Interval, Truth};
 
 use crate::random::Random;
 /// Forgeries of each kind where `TAUT_FORGERIES` does not say another number.
-const FORGERIES_DEFAULT: u64 = 2000;
+const FORGERIES_DEFAULT: u64 = 1000;
 
 /// Undecided oracle calls are to be fewer than one in so many accepted forgeries.
 const UNDECIDED_ONE_IN: u64 = 1000;

@@ -1,6 +1,6 @@
 //! Forged answers against the checkers, and exact oracles that judge what the checkers let pass.
 //!
-//! `cargo test -p taut --test forger -- --nocapture` makes 2000 forgeries of each kind of answer and prints what came of
+//! `cargo test -p taut --test forger -- --nocapture` makes 1000 forgeries of each kind of answer and prints what came of
 //! them; `TAUT_FORGERIES=100000` makes so many of each kind, and `TAUT_FORGER_REASONS=1` lists why they were refused.
 #![allow(unreachable_pub)] // modules of one test binary
 
