@@ -1,5 +1,7 @@
 """Folders of tiles beside the triangulation in memory, read with NumPy, verified, and resumed."""
 
+import os
+
 import numpy as np
 import pytest
 
@@ -7,13 +9,15 @@ import taut
 from taut._tiles import HULL, OTHER_TILE
 
 MEMORY = 64 << 20
+# Points of the plane that take several tiles.
+MANY = 250_000 if "TAUT_LONG_TESTS" in os.environ else 120_000
 
 
 def sets(simplices):
     return {tuple(sorted(row)) for row in np.asarray(simplices).tolist()}
 
 
-@pytest.mark.parametrize(("n", "d"), [(3000, 2), (800, 3), (120_000, 2)])
+@pytest.mark.parametrize(("n", "d"), [(3000, 2), (800, 3), (MANY, 2)])
 def test_tiles_are_the_triangulation_in_memory(tmp_path, n, d):
     points = taut.generate("uniform", n, d, seed=3)
     tiles = taut.delaunay_tiles(points, tmp_path / "tiles", memory=MEMORY)
@@ -32,7 +36,7 @@ def test_tiles_are_the_triangulation_in_memory(tmp_path, n, d):
 
 
 def test_links_close_all_facets(tmp_path):
-    points = taut.generate("uniform", 120_000, 2, seed=4)
+    points = taut.generate("uniform", MANY, 2, seed=4)
     tiles = taut.delaunay_tiles(points, tmp_path, memory=MEMORY)
     assert len(tiles) > 1
     across, linked, hull = 0, 0, 0
@@ -74,7 +78,7 @@ def volume(faces):
 
 
 def test_cells_fill_the_box_and_are_those_of_their_sites(tmp_path):
-    points = taut.generate("uniform", 120_000, 2, seed=7)
+    points = taut.generate("uniform", MANY, 2, seed=7)
     tiles = taut.delaunay_tiles(points, tmp_path / "plane", memory=MEMORY)
     assert len(tiles) > 1
     cells = list(tiles.voronoi_cells(([0, 0], [1, 1])))
@@ -104,7 +108,7 @@ def test_the_box_of_cells_is_that_of_the_points_and_a_tenth_more(tmp_path):
     assert list(nothing.voronoi_cells()) == []
 
 
-@pytest.mark.parametrize(("n", "d", "alpha"), [(120_000, 2, 0.0015), (3000, 3, 0.06)])
+@pytest.mark.parametrize(("n", "d", "alpha"), [(MANY, 2, 0.0015), (3000, 3, 0.06)])
 def test_alpha_complexes_have_the_small_simplices(tmp_path, n, d, alpha):
     points = taut.generate("uniform", n, d, seed=9)
     tiles = taut.delaunay_tiles(points, tmp_path, memory=MEMORY)
