@@ -41,6 +41,8 @@ const NEXT_GAP: f64 = 0.5;
 const WIDEST_GAP: f64 = 1e6;
 /// Once a step below this leaves the centers as they are, the next is the last.
 const LAST_BUT_ONE: f64 = 0.03;
+/// A gap within this factor of the last one is not worth a step of its own.
+const LAST_STEP_MIN: f64 = 1.5;
 /// Nodes before the first restart.
 const FIRST_RUN: u64 = 200;
 /// A tree with more nodes is cut.
@@ -161,7 +163,8 @@ pub(super) fn solve<P: Position>(
             break;
         }
         let is_settled = upper == before && search.gap <= LAST_BUT_ONE;
-        search.gap = if is_settled { epsilon } else { (search.gap * NEXT_GAP).max(epsilon) };
+        let next = search.gap * NEXT_GAP;
+        search.gap = if is_settled || next < LAST_STEP_MIN * epsilon { epsilon } else { next };
     }
     let Search { best, core_set, nodes, restarts, scans, refuted, .. } = search;
     Ok(SearchResult {
@@ -205,9 +208,34 @@ impl<P: Position> Search<'_, P> {
 
     /// Searches for balls by nogoods; the radius below which none were found, or `None` where that takes too many items.
     fn record_nogoods(&mut self) -> Result<Option<f64>, Halt> {
+        // Wide sets take longer to compare, and a search that turns out to need wider ones starts again.
+        for words in [8, 16, 24, 32] {
+            if self.core_set.len() as f64 * nogoods::GROWTH > 64.0 * words as f64 {
+                continue;
+            }
+            let threshold = match words {
+                8 => self.record_nogoods_in::<8>()?,
+                16 => self.record_nogoods_in::<16>()?,
+                24 => self.record_nogoods_in::<24>()?,
+                _ => self.record_nogoods_in::<32>()?,
+            };
+            if threshold.is_some() {
+                return Ok(threshold);
+            }
+            if self.is_full {
+                break;
+            }
+        }
+        self.is_full = true;
+        Ok(None)
+    }
+
+    /// The same with sets of so many words; `None` where these are too short, or nogoods cannot be checked.
+    fn record_nogoods_in<const WORDS: usize>(&mut self) -> Result<Option<f64>, Halt> {
         let task = Task { ..self.task };
         let nodes_left = self.max_nodes.saturating_sub(self.nodes);
-        let mut search = NogoodSearch::new(&task, &self.core_set, &self.best, self.gap, nodes_left);
+        let mut search =
+            NogoodSearch::<_, WORDS>::new(&task, &self.core_set, &self.best, self.gap, nodes_left);
         let end = search.go_on()?;
         self.nodes += search.nodes;
         self.scans += search.scans;
@@ -215,6 +243,7 @@ impl<P: Position> Search<'_, P> {
         self.core_set = search.core_set;
         match end {
             nogoods::End::Budget => Err(Halt::Budget),
+            nogoods::End::ManyItems => Ok(None),
             nogoods::End::Full => {
                 self.is_full = true;
                 Ok(None)

@@ -32,9 +32,9 @@ const ITEMS_MAX: usize = 1 << 11;
 /// Most bits of all sets: 128 MiB.
 const BITS_MAX: usize = 1 << 30;
 /// Most nogoods by which one is shown: a bit each, and one for the item.
-const MISSES_MAX: usize = 63;
+const MISSES_MAX: usize = 127;
 /// The bit of the item that is branched on.
-const OF_ITEM: u64 = 1 << MISSES_MAX;
+const OF_ITEM: u128 = 1 << MISSES_MAX;
 
 /// Shows each nogood; the last one proves the bound.
 pub(super) fn check(
@@ -167,8 +167,8 @@ impl Circles {
     fn is_some_ball_wanted(
         &self,
         item: usize,
-        masks: &[u64],
-        wanted: u64,
+        masks: &[u128],
+        wanted: u128,
         meter: &mut Meter<'_>,
     ) -> Result<bool, Cancelled> {
         let Circle { here, near, .. } = &self.0[item];
@@ -210,18 +210,18 @@ impl Circle {
         circle
     }
 
-    fn mask_of_all(&self, masks: &[u64]) -> u64 {
+    fn mask_of_all(&self, masks: &[u128]) -> u128 {
         let all = self.here.iter().chain(&self.near);
         all.fold(0, |all, &item| all | masks[item as usize])
     }
 
     /// Goes around the circle.
-    fn is_some_angle_wanted(&self, masks: &[u64], wanted: u64) -> bool {
+    fn is_some_angle_wanted(&self, masks: &[u128], wanted: u128) -> bool {
         let here = self.here.iter().fold(0, |all, &item| all | masks[item as usize]);
         if here == wanted {
             return true;
         }
-        let mut held = Held { counts: [0; 64], mask: here };
+        let mut held = Held { counts: [0; MISSES_MAX + 1], mask: here };
         // They are never let go.
         bits(here).for_each(|bit| held.counts[bit] = 1);
         self.at_start.iter().for_each(|&item| held.add(masks[item as usize]));
@@ -238,18 +238,18 @@ impl Circle {
 
 /// The bits of the items that a ball holds.
 struct Held {
-    counts: [u32; 64],
+    counts: [u32; MISSES_MAX + 1],
     /// Those of which there is an item.
-    mask: u64,
+    mask: u128,
 }
 
 impl Held {
-    fn add(&mut self, mask: u64) {
+    fn add(&mut self, mask: u128) {
         self.mask |= mask;
         bits(mask).for_each(|bit| self.counts[bit] += 1);
     }
 
-    fn remove(&mut self, mask: u64) {
+    fn remove(&mut self, mask: u128) {
         for bit in bits(mask) {
             self.counts[bit] -= 1;
             if self.counts[bit] == 0 {
@@ -259,7 +259,7 @@ impl Held {
     }
 }
 
-fn bits(mask: u64) -> impl Iterator<Item = usize> {
+fn bits(mask: u128) -> impl Iterator<Item = usize> {
     let mut rest = mask;
     std::iter::from_fn(move || {
         let bit = rest.trailing_zeros() as usize;
@@ -315,6 +315,21 @@ mod tests {
         assert!(is_some_ball_wanted(&places, &[&[0, 5], &[4, 5]]));
         assert!(is_some_ball_wanted(&[[0.0, 0.0], [2.0, 0.0]], &[&[1]]));
         assert!(!is_some_ball_wanted(&[[0.0, 0.0], [2.00001, 0.0]], &[&[1]]));
+    }
+
+    /// As many sets as a nogood may be shown by: the ball that holds all places is found, and there is none if one place is far.
+    #[test]
+    fn each_of_very_many_sets_counts() {
+        let near = |at: usize| [0.001 * at as f64, 0.0];
+        let places: Vec<[f64; 2]> = (0..=MISSES_MAX).map(near).collect();
+        let items: Vec<usize> = (1..=MISSES_MAX).collect();
+        let sets: Vec<&[usize]> = items.chunks(1).collect();
+        assert!(is_some_ball_wanted(&places, &sets));
+        for far in [1, 63, 64, MISSES_MAX] {
+            let mut places = places.clone();
+            places[far] = [3.0, 0.0];
+            assert!(!is_some_ball_wanted(&places, &sets), "{far}");
+        }
     }
 
     /// Differences of coordinates are beyond the range, the balls are not.

@@ -15,27 +15,27 @@ const INSIDE: f64 = 1.0 - 1e-12;
 
 /// A largest set and the center of a disc that holds it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Disc {
-    pub(super) held: ItemSet,
+pub(super) struct Disc<const WORDS: usize> {
+    pub(super) held: ItemSet<WORDS>,
     pub(super) center: Place,
 }
 
 /// Points, and the discs that hold the largest sets of them.
 #[derive(Clone, Debug)]
-pub(super) struct Discs {
+pub(super) struct Discs<const WORDS: usize> {
     radius: f64,
     places: Vec<Place>,
     /// For each point those that are in no disc with it.
-    apart: Vec<ItemSet>,
+    apart: Vec<ItemSet<WORDS>>,
     /// All discs there ever were.
-    discs: Vec<Disc>,
+    discs: Vec<Disc<WORDS>>,
     /// The numbers of those in use, growing.
     in_use: Vec<u32>,
     /// For each point the discs in use that hold it.
     of: Vec<Vec<u32>>,
 }
 
-impl Discs {
+impl<const WORDS: usize> Discs<WORDS> {
     pub(super) fn new(radius: f64, places: impl Iterator<Item = Place>) -> Self {
         let mut discs = Discs {
             radius,
@@ -58,11 +58,11 @@ impl Discs {
     }
 
     /// The points that are in no disc with this one.
-    pub(super) fn apart(&self, item: u32) -> &ItemSet {
+    pub(super) fn apart(&self, item: u32) -> &ItemSet<WORDS> {
         &self.apart[item as usize]
     }
 
-    pub(super) fn disc(&self, disc: u32) -> &Disc {
+    pub(super) fn disc(&self, disc: u32) -> &Disc<WORDS> {
         &self.discs[disc as usize]
     }
 
@@ -108,7 +108,7 @@ impl Discs {
     }
 
     /// The discs with this point and one of the others on their border.
-    fn on_border(&self, item: u32, near: &[u32]) -> Vec<Disc> {
+    fn on_border(&self, item: u32, near: &[u32]) -> Vec<Disc<WORDS>> {
         let (place, square_of_radius) = (self.place(item), self.radius * self.radius);
         if near.is_empty() {
             return vec![Disc { held: ItemSet::of_one(item), center: place }];
@@ -137,7 +137,7 @@ impl Discs {
 
     /// Takes a disc that holds the last point, unless another one holds all that it does. Of the discs that were there before and hold some
     /// points near the last one, those are dropped of which that is now true.
-    fn take(&mut self, last: u32, new: Disc, before: &mut Vec<u32>) {
+    fn take(&mut self, last: u32, new: Disc<WORDS>, before: &mut Vec<u32>) {
         let holds_all = |&at: &u32| new.held.is_subset(&self.disc(at).held);
         if self.of(last).iter().any(holds_all) {
             return;
@@ -176,7 +176,7 @@ mod tests {
         };
         for count in [1, 2, 7, 20, 40] {
             let places: Vec<Place> = (0..count).map(|_| [4.0 * draw(), 3.0 * draw()]).collect();
-            let discs = Discs::new(1.0, places.iter().copied());
+            let discs = Discs::<1>::new(1.0, places.iter().copied());
             let steps = || (0..160).map(|step| f64::from(step) / 40.0);
             for center in steps().flat_map(|x| steps().map(move |y| [x, y])) {
                 let mut held = ItemSet::default();

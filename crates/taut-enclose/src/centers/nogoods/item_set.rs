@@ -1,15 +1,19 @@
 //! Sets of items of a core-set of limited size, a bit each.
 
-/// Most items of a core-set of which nogoods are recorded. The largest of the benchmarks takes some 700; sets of fixed size need no
-/// memory of their own and no checks of length.
-pub(super) const ITEMS_MAX: usize = 64 * WORDS;
-const WORDS: usize = 16;
+/// A set of items by number, below [`Self::ITEMS_MAX`]. Sets of fixed size need no memory of their own and no checks of length.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct ItemSet<const WORDS: usize>([u64; WORDS]);
 
-/// A set of items by number, below [`ITEMS_MAX`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct ItemSet([u64; WORDS]);
+impl<const WORDS: usize> Default for ItemSet<WORDS> {
+    fn default() -> Self {
+        ItemSet([0; WORDS])
+    }
+}
 
-impl ItemSet {
+impl<const WORDS: usize> ItemSet<WORDS> {
+    /// Most items.
+    pub(super) const ITEMS_MAX: usize = 64 * WORDS;
+
     pub(super) fn of_one(item: u32) -> Self {
         let mut set = ItemSet::default();
         set.insert(item);
@@ -77,32 +81,38 @@ impl ItemSet {
     }
 }
 
+impl<const WORDS: usize> FromIterator<u32> for ItemSet<WORDS> {
+    fn from_iter<I: IntoIterator<Item = u32>>(items: I) -> Self {
+        let mut set = ItemSet::default();
+        items.into_iter().for_each(|item| set.insert(item));
+        set
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use std::collections::BTreeSet;
 
     use super::*;
 
+    type Items = ItemSet<16>;
+
     #[test]
     fn sets_are_as_those_of_the_standard_library() {
-        let of = |step: u32| (0..ITEMS_MAX as u32).filter(move |item| item % step == 1);
+        let of = |step: u32| (0..Items::ITEMS_MAX as u32).filter(move |item| item % step == 1);
         let (a, b): (BTreeSet<u32>, BTreeSet<u32>) = (of(3).collect(), of(5).collect());
-        let set = |items: &BTreeSet<u32>| {
-            let mut set = ItemSet::default();
-            items.iter().for_each(|&item| set.insert(item));
-            set
-        };
+        let set = |items: &BTreeSet<u32>| items.iter().copied().collect::<Items>();
         let (x, y) = (set(&a), set(&b));
         let common: BTreeSet<u32> = a.intersection(&b).copied().collect();
         assert_eq!(x.intersection(&y), set(&common));
         assert_eq!(x.without(&y), set(&a.difference(&b).copied().collect()));
         assert!(x.items().eq(a.iter().copied()) && x.len() as usize == a.len());
         assert!(!x.is_subset(&y) && set(&common).is_subset(&y) && !x.is_disjoint(&y));
-        assert!(x.without(&y).is_disjoint(&y) && ItemSet::default().is_empty() && !x.is_empty());
+        assert!(x.without(&y).is_disjoint(&y) && Items::default().is_empty() && !x.is_empty());
         let mut all = x;
         all.add_all(&y);
         assert_eq!(all, set(&a.union(&b).copied().collect()));
-        assert!(ItemSet::first(70).items().eq(0..70) && x.contains(1) && !x.contains(2));
-        assert!(ItemSet::of_one(700).items().eq([700]));
+        assert!(Items::first(70).items().eq(0..70) && x.contains(1) && !x.contains(2));
+        assert!(Items::of_one(700).items().eq([700]));
     }
 }

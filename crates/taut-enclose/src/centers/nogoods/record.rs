@@ -3,6 +3,7 @@
 use taut_certify::Nogood;
 
 use super::item_set::ItemSet;
+use super::subset_index::{Question, SubsetIndex};
 
 /// A set of items that so many discs cannot hold, by what shows it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,45 +24,68 @@ pub(super) enum Reason {
 }
 
 /// All nogoods found so far.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Record {
-    items: Vec<ItemSet>,
+#[derive(Clone, Debug)]
+pub(super) struct Record<const WORDS: usize> {
+    items: Vec<ItemSet<WORDS>>,
     reasons: Vec<Reason>,
     /// Of those with a branch, the numbers for each count of discs and each item that is branched on.
-    of_level: Vec<Vec<Vec<u32>>>,
+    of_level: Vec<Vec<SubsetIndex>>,
 }
 
-impl Record {
-    pub(super) fn add(&mut self, level: usize, items: ItemSet, reason: Reason) -> u32 {
-        let number = self.items.len() as u32;
-        // Items apart are found again faster than they are looked up.
-        if let &Reason::Branch { item, .. } = &reason {
-            if self.of_level.len() <= level {
-                self.of_level.resize(level + 1, vec![]);
-            }
-            let of_level = &mut self.of_level[level];
-            if of_level.len() <= item as usize {
-                of_level.resize(item as usize + 1, vec![]);
-            }
-            of_level[item as usize].push(number);
-        }
+impl<const WORDS: usize> Default for Record<WORDS> {
+    fn default() -> Self {
+        Record { items: vec![], reasons: vec![], of_level: vec![] }
+    }
+}
+
+impl<const WORDS: usize> Record<WORDS> {
+    /// Records items of which there is one more than there are discs, and no two in one disc. They are found again faster than they
+    /// are looked up.
+    pub(super) fn add_separated(&mut self, items: ItemSet<WORDS>) -> u32 {
         self.items.push(items);
-        self.reasons.push(reason);
+        self.reasons.push(Reason::Separated);
+        self.items.len() as u32 - 1
+    }
+
+    /// Records a nogood for so many discs that was found by a branch on an item; its items come by growing `key`.
+    pub(super) fn add_branch(
+        &mut self,
+        level: usize,
+        item: u32,
+        misses: Vec<Source>,
+        items: &[u32],
+        key: impl Fn(u32) -> f64,
+    ) -> u32 {
+        let number = self.items.len() as u32;
+        if self.of_level.len() <= level {
+            self.of_level.resize(level + 1, vec![]);
+        }
+        let of_level = &mut self.of_level[level];
+        if of_level.len() <= item as usize {
+            of_level.resize(item as usize + 1, SubsetIndex::default());
+        }
+        of_level[item as usize].add(number, items, key);
+        self.items.push(items.iter().copied().collect());
+        self.reasons.push(Reason::Branch { item, misses: misses.into() });
         number
     }
 
-    pub(super) fn items(&self, number: u32) -> &ItemSet {
+    pub(super) fn items(&self, number: u32) -> &ItemSet<WORDS> {
         &self.items[number as usize]
     }
 
-    /// The nogoods of a level whose items are all among these.
-    pub(super) fn within(&self, level: usize, items: &ItemSet) -> impl Iterator<Item = u32> {
-        let of_level = self.of_level.get(level).map_or(&[][..], |of_level| &of_level[..]);
-        // Most are told apart by the item that is branched on, without a look at the set.
-        let possible = of_level.iter().enumerate().filter(|&(item, _)| items.contains(item as u32));
-        possible
-            .flat_map(|(_, numbers)| numbers.iter().copied())
-            .filter(|&number| self.items(number).is_subset(items))
+    /// The nogoods of a level whose items are all among these, by the item that was branched on, which must be one of these.
+    pub(super) fn within(&self, level: usize, items: &ItemSet<WORDS>, order: &[u32]) -> Vec<u32> {
+        let mut numbers = vec![];
+        if let Some(of_level) = self.of_level.get(level) {
+            let question = Question::new(items, order);
+            for item in items.items() {
+                if let Some(sets) = of_level.get(item as usize) {
+                    sets.add_within(&question, &mut numbers);
+                }
+            }
+        }
+        numbers
     }
 
     /// The items that a nogood needs, and the log that ends with it, in numbers of these.

@@ -1,0 +1,139 @@
+//! Which of many item sets lie within one.
+//!
+//! *Idea.* 64 sets stand side by side: for each item that any of them has, a word says which. An item that is not among those asked for rules
+//! out all sets with it at once.
+//! *Cost.* Linear in the number of sets and their items, 64 sets at a time.
+//! *Evidence.* Nogoods of 15,112 cities and 20 centers, gap 3 %: a question asks 100 groups of 48 sets with 118 items on average, and finds
+//! 360 sets. With a branch for each item, or a look at each set on its own, it takes about twice as long.
+
+use super::item_set::ItemSet;
+
+/// Sets that stand side by side: a bit of a word each.
+const SIDE_BY_SIDE: usize = u64::BITS as usize;
+/// Items after which it is seen whether the rest of them matters.
+const ITEMS_AT_ONCE: usize = 16;
+
+/// Item sets, each with a number.
+#[derive(Clone, Debug, Default)]
+pub(super) struct SubsetIndex {
+    groups: Vec<Group>,
+}
+
+/// As many sets as stand side by side, or fewer in the last group.
+#[derive(Clone, Debug)]
+struct Group {
+    numbers: Vec<u32>,
+    /// Items in their order, and the sets that have them.
+    with_item: Vec<(u32, u64)>,
+}
+
+impl SubsetIndex {
+    /// Takes a set, its items by growing key. The items of smaller keys are looked at first.
+    pub(super) fn add(&mut self, number: u32, items: &[u32], key: impl Fn(u32) -> f64) {
+        match self.groups.last_mut() {
+            Some(group) if group.numbers.len() < SIDE_BY_SIDE => group.add(number, items, key),
+            _ => self.groups.push(Group::of_one(number, items)),
+        }
+    }
+
+    /// Adds the numbers of the sets within the items of a question, in the order in which they were added.
+    pub(super) fn add_within(&self, question: &Question, numbers: &mut Vec<u32>) {
+        self.groups.iter().for_each(|group| group.add_within(question, numbers));
+    }
+}
+
+/// The items that a set may have.
+pub(super) struct Question {
+    /// For each item all bits if a set may have it, and none if not: so a group is asked without a branch for each of its items.
+    is_left: Vec<u64>,
+    /// For each item, whether a set may have it and all those that come after it.
+    is_settled: Vec<bool>,
+}
+
+impl Question {
+    /// About some of the items that are given in their order.
+    pub(super) fn new<const WORDS: usize>(items: &ItemSet<WORDS>, order: &[u32]) -> Self {
+        let (mut is_left, mut is_settled) = (vec![0; order.len()], vec![false; order.len()]);
+        items.items().for_each(|item| is_left[item as usize] = u64::MAX);
+        let last = order.iter().rev().take_while(|&&item| items.contains(item));
+        last.for_each(|&item| is_settled[item as usize] = true);
+        Question { is_left, is_settled }
+    }
+}
+
+impl Group {
+    fn of_one(number: u32, items: &[u32]) -> Self {
+        Group { numbers: vec![number], with_item: items.iter().map(|&item| (item, 1)).collect() }
+    }
+
+    fn add(&mut self, number: u32, items: &[u32], key: impl Fn(u32) -> f64) {
+        let bit = 1 << self.numbers.len();
+        self.numbers.push(number);
+        let comes_before = |a: u32, b: u32| (key(a), a) < (key(b), b);
+        let mut merged = Vec::with_capacity(self.with_item.len() + items.len());
+        let mut old = self.with_item.iter().copied().peekable();
+        for &item in items {
+            while let Some(before) = old.next_if(|&(other, _)| comes_before(other, item)) {
+                merged.push(before);
+            }
+            let sets = old.next_if(|&(other, _)| other == item).map_or(0, |(_, sets)| sets);
+            merged.push((item, sets | bit));
+        }
+        merged.extend(old);
+        self.with_item = merged;
+    }
+
+    fn add_within(&self, question: &Question, numbers: &mut Vec<u32>) {
+        let mut left = u64::MAX >> (SIDE_BY_SIDE - self.numbers.len());
+        for some in self.with_item.chunks(ITEMS_AT_ONCE) {
+            if left == 0 {
+                return;
+            }
+            if question.is_settled[some[0].0 as usize] {
+                break;
+            }
+            for &(item, sets) in some {
+                left &= !sets | question.is_left[item as usize];
+            }
+        }
+        while left != 0 {
+            numbers.push(self.numbers[left.trailing_zeros() as usize]);
+            left &= left - 1;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sets_within_are_those_that_a_look_at_each_finds() {
+        let mut state = 3u64;
+        let mut draw = |below: u64| {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695);
+            (state >> 33) % below
+        };
+        let key = |item: u32| f64::from(item % 7);
+        let mut order: Vec<u32> = (0..100).collect();
+        order.sort_by(|&a, &b| (key(a), a).partial_cmp(&(key(b), b)).unwrap());
+        let (mut index, mut all) = (SubsetIndex::default(), vec![]);
+        let mut found = 0;
+        for number in 0..300 {
+            let set: ItemSet<2> = (0..1 + draw(4)).map(|_| draw(90) as u32).collect();
+            let in_order: Vec<u32> =
+                order.iter().copied().filter(|&item| set.contains(item)).collect();
+            index.add(number, &in_order, key);
+            all.push((number, set));
+            let gone: ItemSet<2> = (0..draw(60)).map(|_| draw(100) as u32).collect();
+            let items = ItemSet::first(100).without(&gone);
+            let is_within = |&&(_, set): &&(u32, ItemSet<2>)| set.is_subset(&items);
+            let expected: Vec<u32> = all.iter().filter(is_within).map(|&(at, _)| at).collect();
+            let mut within = vec![];
+            index.add_within(&Question::new(&items, &order), &mut within);
+            assert_eq!(within, expected);
+            found += expected.len();
+        }
+        assert!((10_000..40_000).contains(&found), "{found}");
+    }
+}
