@@ -45,7 +45,7 @@ const DISCS_MIN: usize = 13;
 /// Most discs: one call within another for each.
 const DISCS_MAX: usize = 64;
 /// A core-set is expected to grow by at most this factor. Measured: 1.5 for 15 and 20 of 15,112 cities at gaps of 5 to 1 %.
-pub(super) const GROWTH: f64 = 1.6;
+pub(super) const CORE_SET_GROWTH: f64 = 1.6;
 /// In parts of the radius, by how much larger discs are than what is claimed. A checker adds a tenth of it.
 const MARGIN: f64 = 1e-6;
 /// A step counts as so many nodes of a tree, as it takes about as much time.
@@ -288,18 +288,18 @@ impl<'c, P: Position, const WORDS: usize> NogoodSearch<'c, P, WORDS> {
                     },
                 },
             };
-            open.retain(|&(_, disc)| !self.discs.disc(disc).held.is_disjoint(&missed.items));
+            let by_this = open.extract_if(.., |&mut (_, disc)| {
+                self.discs.disc(disc).held.is_disjoint(&missed.items)
+            });
+            misses.push((missed.source, by_this.map(|(_, disc)| disc).collect()));
             nogood.add_all(&missed.items);
-            misses.push(missed.source);
         }
+        let misses = self.needed(&misses);
         if misses.len() > MISSES_MAX {
-            self.drop_needless(first, &mut misses);
-            if misses.len() > MISSES_MAX {
-                return Ok(Outcome::Full);
-            }
-            nogood = ItemSet::of_one(first);
-            misses.iter().for_each(|&miss| nogood.add_all(&self.items_of(miss)));
+            return Ok(Outcome::Full);
         }
+        let mut nogood = ItemSet::of_one(first);
+        misses.iter().for_each(|&miss| nogood.add_all(&self.items_of(miss)));
         let order = self.orders[0].iter().copied();
         let in_order: Vec<u32> = order.filter(|&item| nogood.contains(item)).collect();
         let along_axis = |item| self.discs.place(item)[self.axis];
@@ -313,30 +313,20 @@ impl<'c, P: Position, const WORDS: usize> NogoodSearch<'c, P, WORDS> {
         discs.map(|&disc| (self.discs.disc(disc).held.intersection(items).len(), disc)).collect()
     }
 
-    /// Drops nogoods, the last ones first, as long as each disc with an item holds nothing of one that is left.
-    fn drop_needless(&self, item: u32, misses: &mut Vec<Source>) {
-        let all = self.discs.of(item);
-        let is_missed =
-            |items: &ItemSet<WORDS>, disc: u32| self.discs.disc(disc).held.is_disjoint(items);
-        let mut counts = vec![0; all.len()];
-        for &miss in &*misses {
-            let items = self.items_of(miss);
-            let pairs = all.iter().zip(&mut counts);
-            pairs.for_each(|(&disc, count)| *count += u32::from(is_missed(&items, disc)));
-        }
-        let mut kept = vec![];
-        for &miss in misses.iter().rev() {
-            let items = self.items_of(miss);
-            let missed = || all.iter().zip(&counts).filter(|&(&disc, _)| is_missed(&items, disc));
-            if missed().any(|(_, &count)| count == 1) {
-                kept.push(miss);
-                continue;
+    /// Of nogoods, each with the discs that it was the first to refute, those without which some disc is refuted by none. Measured: without
+    /// the others a search takes 0.8 times as many steps.
+    fn needed(&self, misses: &[(Source, Vec<u32>)]) -> Vec<Source> {
+        let mut needed: Vec<(Source, ItemSet<WORDS>)> = vec![];
+        for (source, discs) in misses.iter().rev() {
+            let is_missed = |&disc: &u32| {
+                let held = &self.discs.disc(disc).held;
+                needed.iter().any(|(_, items)| held.is_disjoint(items))
+            };
+            if !discs.iter().all(is_missed) {
+                needed.push((*source, self.items_of(*source)));
             }
-            let pairs = all.iter().zip(&mut counts);
-            pairs.for_each(|(&disc, count)| *count -= u32::from(is_missed(&items, disc)));
         }
-        kept.reverse();
-        *misses = kept;
+        needed.iter().rev().map(|&(source, _)| source).collect()
     }
 
     fn items_of(&self, source: Source) -> ItemSet<WORDS> {

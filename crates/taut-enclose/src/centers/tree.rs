@@ -210,7 +210,7 @@ impl<P: Position> Search<'_, P> {
     fn record_nogoods(&mut self) -> Result<Option<f64>, Halt> {
         // Wide sets take longer to compare, and a search that turns out to need wider ones starts again.
         for words in [8, 16, 24, 32] {
-            if self.core_set.len() as f64 * nogoods::GROWTH > 64.0 * words as f64 {
+            if self.core_set.len() as f64 * nogoods::CORE_SET_GROWTH > 64.0 * words as f64 {
                 continue;
             }
             let threshold = match words {

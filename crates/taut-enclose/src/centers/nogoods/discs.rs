@@ -142,12 +142,13 @@ impl<const WORDS: usize> Discs<WORDS> {
         if self.of(last).iter().any(holds_all) {
             return;
         }
+        let Discs { discs, of, .. } = self;
         before.retain(|&at| {
-            let held = self.discs[at as usize].held;
+            let held = &discs[at as usize].held;
             let is_needless = held.is_subset(&new.held);
             if is_needless {
                 for item in held.items() {
-                    self.of[item as usize].retain(|&other| other != at);
+                    of[item as usize].retain(|&other| other != at);
                 }
             }
             !is_needless
