@@ -14,9 +14,9 @@
 //! *Trap.* For few discs there is little to use again, and a tree is faster. A bound much nearer to the radius than 1e-5 is not proved.
 //! *Evidence.* 15,112 cities, gap 1 %: 15 centers take 2·10⁴ steps and 13,000 nogoods, where the tree takes 1.7·10⁵ nodes. The choice of
 //! p hardly matters: the first along other axes, or that with the fewest discs of the first eight, takes 0.9 to 1.1 times as many steps.
-//! 20 centers take 4.4·10⁴ steps in all at 5 %, 1.8·10⁵ at 3 % and 7.7·10⁵ at 1 %. There each step finds some 360 nogoods within what is left, and
-//! all are of use: with the 200 smallest of them it takes 3.3 times as many steps. Weights on items of which no disc holds more than 1, from linear
-//! programs of all items and of parts, refute what is left more often than items apart do, and save a third of the steps: not worth the programs.
+//! 20 centers take 4.4·10⁴ steps in all at 5 %, 1.8·10⁵ at 3 % and 7.7·10⁵ at 1 %. At 3 % a step finds some 360 nogoods within what is
+//! left, and all are of use: with the 200 smallest of them it takes 3.3 times as many steps. Weights on items of which no disc holds more than 1, from linear
+//! programs of all items and of parts, refute what is left more often than items apart do, and save a sixth to a third of the steps at 5 %: not worth the programs.
 //! *Reference.* Recording is that of constraint satisfaction: Dechter, Artificial Intelligence 41, 1990. A sweep over the plane with k discs takes
 //! n^O(√k) states: Hwang, Lee and Chang, Algorithmica 9, 1993.
 
