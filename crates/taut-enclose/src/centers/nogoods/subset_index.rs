@@ -4,7 +4,7 @@
 //! out all sets with it at once.
 //! *Cost.* Linear in the number of sets and their items, 64 sets at a time.
 //! *Evidence.* Nogoods of 15,112 cities and 20 centers, gap 3 %: a question asks 100 groups of 48 sets with 118 items on average, and finds
-//! 360 sets. With a branch for each item, or a look at each set on its own, it takes about twice as long.
+//! 360 sets. Beside a look at each set on its own the whole search took 15.5 instead of 21.7 s.
 
 use super::item_set::ItemSet;
 
