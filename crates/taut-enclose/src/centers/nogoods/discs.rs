@@ -6,6 +6,7 @@
 //! *Guarantee.* But for rounding, each set of points in one disc is in one of the sets. Of a set with the new point, either each
 //! disc that holds the old points holds the new one, or some disc has the new one on its border.
 
+use super::disc_table::DiscTable;
 use super::item_set::ItemSet;
 
 pub(super) type Place = [f64; 2];
@@ -33,6 +34,8 @@ pub(super) struct Discs<const WORDS: usize> {
     in_use: Vec<u32>,
     /// For each point the discs in use that hold it.
     of: Vec<Vec<u32>>,
+    /// For each point the table of these discs, once it has been asked for.
+    tables: Vec<Option<DiscTable<WORDS>>>,
 }
 
 impl<const WORDS: usize> Discs<WORDS> {
@@ -44,6 +47,7 @@ impl<const WORDS: usize> Discs<WORDS> {
             discs: vec![],
             in_use: vec![],
             of: vec![],
+            tables: vec![],
         };
         places.for_each(|place| discs.add(place));
         discs
@@ -71,6 +75,22 @@ impl<const WORDS: usize> Discs<WORDS> {
         &self.of[item as usize]
     }
 
+    /// Makes the table of the discs with a point, if there is none yet.
+    pub(super) fn make_table(&mut self, item: u32) {
+        let Discs { discs, of, tables, .. } = self;
+        tables[item as usize]
+            .get_or_insert_with(|| DiscTable::new(&of[item as usize], |at| &discs[at as usize]));
+    }
+
+    /// The table of the discs with a point.
+    ///
+    /// # Panics
+    ///
+    /// Panics if it has not been made, or a point near by has come since.
+    pub(super) fn table(&self, item: u32) -> &DiscTable<WORDS> {
+        self.tables[item as usize].as_ref().expect("it has been made")
+    }
+
     /// Takes one point more, which is at none of the others.
     pub(super) fn add(&mut self, place: Place) {
         let (item, square_of_radius) = (self.len() as u32, self.radius * self.radius);
@@ -87,6 +107,9 @@ impl<const WORDS: usize> Discs<WORDS> {
         }
         self.places.push(place);
         self.of.push(vec![]);
+        // Only points near the new one share a disc with it.
+        all_near.items().for_each(|other| self.tables[other as usize] = None);
+        self.tables.push(None);
         let (mut beside, elsewhere): (Vec<u32>, Vec<u32>) =
             self.in_use.iter().partition(|&&at| !self.disc(at).held.is_disjoint(&all_near));
         for &at in &beside {

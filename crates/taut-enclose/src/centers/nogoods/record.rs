@@ -3,7 +3,7 @@
 use taut_certify::Nogood;
 
 use super::item_set::ItemSet;
-use super::subset_index::{Question, SubsetIndex};
+use super::subset_index::{Question, SetsOfGroup, SubsetIndex};
 
 /// A set of items that so many discs cannot hold, by what shows it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,10 +23,19 @@ pub(super) enum Reason {
     Branch { item: u32, misses: Box<[Source]> },
 }
 
+/// Nogoods of one level that lie within some items, as the record has them.
+#[derive(Debug)]
+pub(super) struct Known {
+    level: usize,
+    /// By the item that was branched on.
+    sets: Vec<(u32, SetsOfGroup)>,
+}
+
 /// All nogoods found so far.
 #[derive(Clone, Debug)]
 pub(super) struct Record<const WORDS: usize> {
     items: Vec<ItemSet<WORDS>>,
+    sizes: Vec<u32>,
     reasons: Vec<Reason>,
     /// Of those with a branch, the numbers for each count of discs and each item that is branched on.
     of_level: Vec<Vec<SubsetIndex>>,
@@ -34,7 +43,7 @@ pub(super) struct Record<const WORDS: usize> {
 
 impl<const WORDS: usize> Default for Record<WORDS> {
     fn default() -> Self {
-        Record { items: vec![], reasons: vec![], of_level: vec![] }
+        Record { items: vec![], sizes: vec![], reasons: vec![], of_level: vec![] }
     }
 }
 
@@ -43,6 +52,7 @@ impl<const WORDS: usize> Record<WORDS> {
     /// are looked up.
     pub(super) fn add_separated(&mut self, items: ItemSet<WORDS>) -> u32 {
         self.items.push(items);
+        self.sizes.push(items.len());
         self.reasons.push(Reason::Separated);
         self.items.len() as u32 - 1
     }
@@ -66,6 +76,7 @@ impl<const WORDS: usize> Record<WORDS> {
         }
         of_level[item as usize].add(number, items, key);
         self.items.push(items.iter().copied().collect());
+        self.sizes.push(items.len() as u32);
         self.reasons.push(Reason::Branch { item, misses: misses.into() });
         number
     }
@@ -74,18 +85,31 @@ impl<const WORDS: usize> Record<WORDS> {
         &self.items[number as usize]
     }
 
-    /// The nogoods of a level whose items are all among these, by the item that was branched on, which must be one of these.
-    pub(super) fn within(&self, level: usize, items: &ItemSet<WORDS>, order: &[u32]) -> Vec<u32> {
-        let mut numbers = vec![];
+    /// How many items a nogood has.
+    pub(super) fn size(&self, number: u32) -> u32 {
+        self.sizes[number as usize]
+    }
+
+    /// The nogoods of a level whose items are all among these, but not those with the first of these in their order.
+    pub(super) fn within(&self, level: usize, items: &ItemSet<WORDS>, order: &[u32]) -> Known {
+        let mut known = Known { level, sets: vec![] };
         if let Some(of_level) = self.of_level.get(level) {
             let question = Question::new(items, order);
-            for item in items.items() {
-                if let Some(sets) = of_level.get(item as usize) {
-                    sets.add_within(&question, &mut numbers);
+            let first = order.iter().find(|&&item| items.contains(item));
+            for item in items.items().filter(|item| Some(item) != first) {
+                if let Some(index) = of_level.get(item as usize) {
+                    known.sets.extend(index.within(&question).map(|sets| (item, sets)));
                 }
             }
         }
-        numbers
+        known
+    }
+
+    /// The numbers of the known nogoods whose items are all among those of a question.
+    pub(super) fn known_within(&self, known: &Known, question: &Question) -> impl Iterator<Item = u32> {
+        known.sets.iter().flat_map(move |&(item, sets)| {
+            self.of_level[known.level][item as usize].numbers_within(sets, question)
+        })
     }
 
     /// The items that a nogood needs, and the log that ends with it, in numbers of these.

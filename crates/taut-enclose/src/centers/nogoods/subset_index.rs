@@ -36,10 +36,33 @@ impl SubsetIndex {
         }
     }
 
-    /// Adds the numbers of the sets within the items of a question, in the order in which they were added.
-    pub(super) fn add_within(&self, question: &Question, numbers: &mut Vec<u32>) {
-        self.groups.iter().for_each(|group| group.add_within(question, numbers));
+    /// The sets within the items of a question, for each group of which there are some.
+    pub(super) fn within<'i>(&'i self, question: &'i Question) -> impl Iterator<Item = SetsOfGroup> {
+        self.groups.iter().zip(0..).filter_map(|(group, number)| {
+            let sets = group.within(group.all(), question);
+            (sets != 0).then_some(SetsOfGroup { group: number, sets })
+        })
     }
+
+    /// Of some sets the numbers of those within the items of a question, in the order in which they were added.
+    pub(super) fn numbers_within(&self, some: SetsOfGroup, question: &Question) -> impl Iterator<Item = u32> {
+        let group = &self.groups[some.group as usize];
+        let mut left = group.within(some.sets, question);
+        std::iter::from_fn(move || {
+            let bit = left.trailing_zeros() as usize;
+            (left != 0).then(|| {
+                left &= left - 1;
+                group.numbers[bit]
+            })
+        })
+    }
+}
+
+/// Some of the sets of one group.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SetsOfGroup {
+    group: u32,
+    sets: u64,
 }
 
 /// The items that a set may have.
@@ -83,23 +106,22 @@ impl Group {
         self.with_item = merged;
     }
 
-    fn add_within(&self, question: &Question, numbers: &mut Vec<u32>) {
-        let mut left = u64::MAX >> (SIDE_BY_SIDE - self.numbers.len());
-        for some in self.with_item.chunks(ITEMS_AT_ONCE) {
-            if left == 0 {
-                return;
-            }
-            if question.is_settled[some[0].0 as usize] {
+    fn all(&self) -> u64 {
+        u64::MAX >> (SIDE_BY_SIDE - self.numbers.len())
+    }
+
+    /// Of some sets those within the items of a question.
+    fn within(&self, some: u64, question: &Question) -> u64 {
+        let mut left = some;
+        for items in self.with_item.chunks(ITEMS_AT_ONCE) {
+            if left == 0 || question.is_settled[items[0].0 as usize] {
                 break;
             }
-            for &(item, sets) in some {
+            for &(item, sets) in items {
                 left &= !sets | question.is_left[item as usize];
             }
         }
-        while left != 0 {
-            numbers.push(self.numbers[left.trailing_zeros() as usize]);
-            left &= left - 1;
-        }
+        left
     }
 }
 
