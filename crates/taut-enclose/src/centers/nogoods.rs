@@ -61,8 +61,8 @@ const MISSES_MAX: usize = 127;
 const ITEMS_MAX: usize = 2048;
 /// Most items times nogoods of a log that a checker takes.
 const LOG_BITS_MAX: usize = 1 << 30;
-/// Orders in which items apart are sought.
-const ORDERS: usize = 3;
+/// Orders in which items apart are sought, from both of their ends: as far along the axis that items are held along, and as far across it.
+const ORDERS: [Place; 4] = [[1.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, -1.0]];
 
 /// A finished search: no k balls of a radius of `best.radius / (1 + gap)` hold the core-set.
 pub(super) struct Refutation {
@@ -102,7 +102,9 @@ pub(super) struct NogoodSearch<'c, P, const WORDS: usize> {
     discs: Discs<WORDS>,
     /// The axis along which items are held.
     axis: usize,
-    orders: [Vec<u32>; ORDERS],
+    orders: [Vec<u32>; ORDERS.len()],
+    /// For each item, where it is in the first of the orders.
+    ranks: Vec<u32>,
     record: Record<WORDS>,
 }
 
@@ -153,6 +155,7 @@ impl<'c, P: Position, const WORDS: usize> NogoodSearch<'c, P, WORDS> {
             discs: Discs::new(0.0, std::iter::empty()),
             axis: 0,
             orders: Default::default(),
+            ranks: vec![],
             record: Record::default(),
         };
         search.make_discs();
@@ -214,16 +217,20 @@ impl<'c, P: Position, const WORDS: usize> NogoodSearch<'c, P, WORDS> {
         self.discs = Discs::new(radius, self.core_set.iter().map(|&item| self.place_of(item)));
     }
 
-    /// Puts the last item where it is in each order: along the axis, along the other one, and along the diagonal.
+    /// Puts the last item where it is in each order.
     fn put_in_order(&mut self, item: u32) {
         let axis = self.axis;
-        for (number, order) in self.orders.iter_mut().enumerate() {
+        for (order, [along, across]) in self.orders.iter_mut().zip(ORDERS) {
             let key = |item: u32| {
                 let place = self.discs.place(item);
-                [place[axis], place[1 - axis], place[0] + place[1]][number]
+                along * place[axis] + across * place[1 - axis]
             };
             let at = order.partition_point(|&other| key(other) <= key(item));
             order.insert(at, item);
+        }
+        self.ranks.push(0);
+        for (&item, rank) in self.orders[0].iter().zip(0..) {
+            self.ranks[item as usize] = rank;
         }
     }
 
@@ -334,23 +341,31 @@ impl<'c, P: Position, const WORDS: usize> NogoodSearch<'c, P, WORDS> {
         }
     }
 
-    /// Of the known nogoods within what a disc leaves, that which adds the fewest items.
+    /// Of the known nogoods within what a disc leaves, that whose first item that is not in the nogood yet is the farthest along the
+    /// axis; of these the one that adds the fewest. What is far from the front is there whenever the nogood is asked for again. Measured: with
+    /// the one that adds the fewest items, however near, a search takes 1.2 times as many steps.
     fn known_missed(
         &self,
         known: &Known,
         rest: &ItemSet<WORDS>,
         nogood: &ItemSet<WORDS>,
     ) -> Option<Missed<WORDS>> {
-        let (mut best, mut fewest) = (None, u32::MAX);
-        let has = nogood.len();
+        let mut best = None;
+        let mut best_rank = 0;
+        let mut fewest = u32::MAX;
+        let mut before = ItemSet::default();
         let question = Question::new(rest, &self.orders[0]);
         for number in self.record.known_within(known, &question) {
-            // Not all have to be compared to see that they add more.
-            if self.record.size(number).saturating_sub(has) < fewest {
-                let added = self.record.items(number).without(nogood).len();
-                if added < fewest {
-                    (best, fewest) = (Some(number), added);
-                }
+            let added = self.record.items(number).without(nogood);
+            if !added.is_disjoint(&before) {
+                continue;
+            }
+            let ranks = added.items().map(|item| self.ranks[item as usize]);
+            let rank = ranks.min().unwrap_or(u32::MAX);
+            let count = added.len();
+            if rank > best_rank || count < fewest {
+                before.extend(self.orders[0][best_rank as usize..].iter().take((rank - best_rank) as usize).copied());
+                (best, best_rank, fewest) = (Some(number), rank, count);
             }
         }
         let number = best?;
@@ -371,22 +386,32 @@ impl<'c, P: Position, const WORDS: usize> NogoodSearch<'c, P, WORDS> {
         rest.items().max_by_key(|&item| (nogood.contains(item), outside(item), item))
     }
 
-    /// One more of the items than there may be discs, no two of which are in one disc; sought greedily in some orders.
+    /// One more of the items than there may be discs, no two of which are in one disc; sought greedily in each order from both ends. The far
+    /// end comes first, as items there are left whenever this is asked again. Measured: so a search takes 0.7 times as many steps as
+    /// with three orders from their near ends alone.
     fn apart(&self, items: &ItemSet<WORDS>, level: usize) -> Option<ItemSet<WORDS>> {
-        self.orders.iter().find_map(|order| {
-            let (mut left, mut apart, mut count) = (*items, ItemSet::default(), 0);
-            for &item in order {
-                if left.contains(item) {
-                    apart.insert(item);
-                    count += 1;
-                    if count > level {
-                        return Some(apart);
-                    }
-                    left = left.intersection(self.discs.apart(item));
+        let from_far = self.orders.iter().find_map(|order| self.apart_in(order.iter().rev(), items, level));
+        from_far.or_else(|| self.orders.iter().find_map(|order| self.apart_in(order.iter(), items, level)))
+    }
+
+    fn apart_in<'o>(
+        &self,
+        order: impl Iterator<Item = &'o u32>,
+        items: &ItemSet<WORDS>,
+        level: usize,
+    ) -> Option<ItemSet<WORDS>> {
+        let (mut left, mut apart, mut count) = (*items, ItemSet::default(), 0);
+        for &item in order {
+            if left.contains(item) {
+                apart.insert(item);
+                count += 1;
+                if count > level {
+                    return Some(apart);
                 }
+                left = left.intersection(self.discs.apart(item));
             }
-            None
-        })
+        }
+        None
     }
 
     fn refutation(&self, missed: Missed<WORDS>) -> Refutation {

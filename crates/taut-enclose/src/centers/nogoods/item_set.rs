@@ -81,10 +81,16 @@ impl<const WORDS: usize> ItemSet<WORDS> {
     }
 }
 
+impl<const WORDS: usize> Extend<u32> for ItemSet<WORDS> {
+    fn extend<I: IntoIterator<Item = u32>>(&mut self, items: I) {
+        items.into_iter().for_each(|item| self.insert(item));
+    }
+}
+
 impl<const WORDS: usize> FromIterator<u32> for ItemSet<WORDS> {
     fn from_iter<I: IntoIterator<Item = u32>>(items: I) -> Self {
         let mut set = ItemSet::default();
-        items.into_iter().for_each(|item| set.insert(item));
+        set.extend(items);
         set
     }
 }

@@ -35,7 +35,6 @@ pub(super) struct Known {
 #[derive(Clone, Debug)]
 pub(super) struct Record<const WORDS: usize> {
     items: Vec<ItemSet<WORDS>>,
-    sizes: Vec<u32>,
     reasons: Vec<Reason>,
     /// Of those with a branch, the numbers for each count of discs and each item that is branched on.
     of_level: Vec<Vec<SubsetIndex>>,
@@ -43,7 +42,7 @@ pub(super) struct Record<const WORDS: usize> {
 
 impl<const WORDS: usize> Default for Record<WORDS> {
     fn default() -> Self {
-        Record { items: vec![], sizes: vec![], reasons: vec![], of_level: vec![] }
+        Record { items: vec![], reasons: vec![], of_level: vec![] }
     }
 }
 
@@ -52,7 +51,6 @@ impl<const WORDS: usize> Record<WORDS> {
     /// are looked up.
     pub(super) fn add_separated(&mut self, items: ItemSet<WORDS>) -> u32 {
         self.items.push(items);
-        self.sizes.push(items.len());
         self.reasons.push(Reason::Separated);
         self.items.len() as u32 - 1
     }
@@ -76,18 +74,12 @@ impl<const WORDS: usize> Record<WORDS> {
         }
         of_level[item as usize].add(number, items, key);
         self.items.push(items.iter().copied().collect());
-        self.sizes.push(items.len() as u32);
         self.reasons.push(Reason::Branch { item, misses: misses.into() });
         number
     }
 
     pub(super) fn items(&self, number: u32) -> &ItemSet<WORDS> {
         &self.items[number as usize]
-    }
-
-    /// How many items a nogood has.
-    pub(super) fn size(&self, number: u32) -> u32 {
-        self.sizes[number as usize]
     }
 
     /// The nogoods of a level whose items are all among these, but not those with the first of these in their order.
