@@ -12,10 +12,13 @@
 //! *Guarantee.* The radius is a little larger than what is claimed ([`MARGIN`]), so that a checker refutes the same discs whatever rounding does.
 //! Nothing depends on threads.
 //! *Trap.* For few discs there is little to use again, and a tree is faster. A bound much nearer to the radius than 1e-5 is not proved.
-//! *Evidence.* 15,112 cities, gap 1 %: 15 centers take 2·10⁴ steps and 13,000 nogoods, where the tree takes 1.7·10⁵ nodes. The choice of
-//! p hardly matters: the first along other axes, or that with the fewest discs of the first eight, takes 0.9 to 1.1 times as many steps.
-//! 20 centers take 4.4·10⁴ steps in all at 5 %, 1.8·10⁵ at 3 % and 7.7·10⁵ at 1 %. At 3 % a step finds some 360 nogoods within what is
-//! left, and all are of use: with the 200 smallest of them it takes 3.3 times as many steps. Weights on items of which no disc holds more than 1, from linear
+//! *Evidence.* 15,112 cities: 15 centers take 6·10³ steps for the last gap, 1 %, and 7,400 nogoods show it, where the tree takes 1.7·10⁵ nodes. 20
+//! centers take 3.3·10⁴ steps in all at 5 %, 1.1·10⁵ at 3 % and 4.4·10⁵ at 1 %. At 3 % a step finds some 210 nogoods within what is left.
+//! What a nogood is made of matters, as those with items far from the front apply more often ([`NogoodSearch::known_missed`],
+//! [`NogoodSearch::apart`]). Which disc is tried first does not: for the same radius, the disc that holds the most takes as many steps as the ones
+//! that hold most beside p, or most far from it, by several weights. Nor does the choice of
+//! p: the first along other axes, or that with the fewest discs of the first eight, takes 0.9 to 1.1 times as many steps.
+//! Weights on items of which no disc holds more than 1, from linear
 //! programs of all items and of parts, refute what is left more often than items apart do, and save a sixth to a third of the steps at 5 %: not worth the programs.
 //! *Reference.* Recording is that of constraint satisfaction: Dechter, Artificial Intelligence 41, 1990. A sweep over the plane with k discs takes
 //! n^O(√k) states: Hwang, Lee and Chang, Algorithmica 9, 1993.
@@ -271,9 +274,9 @@ impl<'c, P: Position, const WORDS: usize> NogoodSearch<'c, P, WORDS> {
         self.task.monitor.check().map_err(ReadError::from)?;
         let first = self.orders[0].iter().copied().find(|&item| items.contains(item));
         let first = first.expect("there are items");
-        self.discs.make_table(first);
+        self.discs.update_table(first);
         let table = self.discs.table(first);
-        let (mut open, counts) = (table.all(), table.counts(items));
+        let (mut open, counts) = (table.all().clone(), table.counts(items));
         // Of those for `level` discs there is none within the items, or this would not have been asked.
         let known = self.record.within(level - 1, items, &self.orders[0]);
         let mut nogood = ItemSet::of_one(first);
@@ -364,7 +367,12 @@ impl<'c, P: Position, const WORDS: usize> NogoodSearch<'c, P, WORDS> {
             let rank = ranks.min().unwrap_or(u32::MAX);
             let count = added.len();
             if rank > best_rank || count < fewest {
-                before.extend(self.orders[0][best_rank as usize..].iter().take((rank - best_rank) as usize).copied());
+                before.extend(
+                    self.orders[0][best_rank as usize..]
+                        .iter()
+                        .take((rank - best_rank) as usize)
+                        .copied(),
+                );
                 (best, best_rank, fewest) = (Some(number), rank, count);
             }
         }
@@ -390,8 +398,11 @@ impl<'c, P: Position, const WORDS: usize> NogoodSearch<'c, P, WORDS> {
     /// end comes first, as items there are left whenever this is asked again. Measured: so a search takes 0.7 times as many steps as
     /// with three orders from their near ends alone.
     fn apart(&self, items: &ItemSet<WORDS>, level: usize) -> Option<ItemSet<WORDS>> {
-        let from_far = self.orders.iter().find_map(|order| self.apart_in(order.iter().rev(), items, level));
-        from_far.or_else(|| self.orders.iter().find_map(|order| self.apart_in(order.iter(), items, level)))
+        let from_far =
+            self.orders.iter().find_map(|order| self.apart_in(order.iter().rev(), items, level));
+        from_far.or_else(|| {
+            self.orders.iter().find_map(|order| self.apart_in(order.iter(), items, level))
+        })
     }
 
     fn apart_in<'o>(

@@ -30,12 +30,16 @@ pub(super) struct Discs<const WORDS: usize> {
     apart: Vec<ItemSet<WORDS>>,
     /// All discs there ever were.
     discs: Vec<Disc<WORDS>>,
+    /// How many points each of them holds.
+    sizes: Vec<u32>,
     /// The numbers of those in use, growing.
     in_use: Vec<u32>,
     /// For each point the discs in use that hold it.
     of: Vec<Vec<u32>>,
-    /// For each point the table of these discs, once it has been asked for.
-    tables: Vec<Option<DiscTable<WORDS>>>,
+    /// For each point the table of these discs, as it was when it was last asked for.
+    tables: Vec<DiscTable<WORDS>>,
+    /// Whether nothing has changed near a point since its table was asked for.
+    is_current: Vec<bool>,
 }
 
 impl<const WORDS: usize> Discs<WORDS> {
@@ -45,9 +49,11 @@ impl<const WORDS: usize> Discs<WORDS> {
             places: vec![],
             apart: vec![],
             discs: vec![],
+            sizes: vec![],
             in_use: vec![],
             of: vec![],
             tables: vec![],
+            is_current: vec![],
         };
         places.for_each(|place| discs.add(place));
         discs
@@ -75,20 +81,20 @@ impl<const WORDS: usize> Discs<WORDS> {
         &self.of[item as usize]
     }
 
-    /// Makes the table of the discs with a point, if there is none yet.
-    pub(super) fn make_table(&mut self, item: u32) {
-        let Discs { discs, of, tables, .. } = self;
-        tables[item as usize]
-            .get_or_insert_with(|| DiscTable::new(&of[item as usize], |at| &discs[at as usize]));
+    /// Brings the table of the discs with a point up to date.
+    pub(super) fn update_table(&mut self, item: u32) {
+        let Discs { discs, of, tables, is_current, places, .. } = self;
+        let item = item as usize;
+        if !std::mem::replace(&mut is_current[item], true) {
+            tables[item].update(&of[item], places.len() as u32, |at| &discs[at as usize].held);
+        }
     }
 
     /// The table of the discs with a point.
     ///
-    /// # Panics
-    ///
-    /// Panics if it has not been made, or a point near by has come since.
+    /// It has to be up to date.
     pub(super) fn table(&self, item: u32) -> &DiscTable<WORDS> {
-        self.tables[item as usize].as_ref().expect("it has been made")
+        &self.tables[item as usize]
     }
 
     /// Takes one point more, which is at none of the others.
@@ -108,14 +114,16 @@ impl<const WORDS: usize> Discs<WORDS> {
         self.places.push(place);
         self.of.push(vec![]);
         // Only points near the new one share a disc with it.
-        all_near.items().for_each(|other| self.tables[other as usize] = None);
-        self.tables.push(None);
+        all_near.items().for_each(|other| self.is_current[other as usize] = false);
+        self.is_current.push(false);
+        self.tables.push(DiscTable::default());
         let (mut beside, elsewhere): (Vec<u32>, Vec<u32>) =
             self.in_use.iter().partition(|&&at| !self.disc(at).held.is_disjoint(&all_near));
         for &at in &beside {
             let disc = &mut self.discs[at as usize];
             if square(disc.center, place) <= square_of_radius * INSIDE {
                 disc.held.insert(item);
+                self.sizes[at as usize] += 1;
                 self.of[item as usize].push(at);
             }
         }
@@ -159,16 +167,18 @@ impl<const WORDS: usize> Discs<WORDS> {
     }
 
     /// Takes a disc that holds the last point, unless another one holds all that it does. Of the discs that were there before and hold some
-    /// points near the last one, those are dropped of which that is now true.
+    /// points near the last one, those are dropped of which that is now true. As each of them held a largest set, such a one held
+    /// all that the new one holds but the last point, and nothing else: most are ruled out by their size.
     fn take(&mut self, last: u32, new: Disc<WORDS>, before: &mut Vec<u32>) {
         let holds_all = |&at: &u32| new.held.is_subset(&self.disc(at).held);
         if self.of(last).iter().any(holds_all) {
             return;
         }
-        let Discs { discs, of, .. } = self;
+        let size = new.held.len();
+        let Discs { discs, sizes, of, .. } = self;
         before.retain(|&at| {
             let held = &discs[at as usize].held;
-            let is_needless = held.is_subset(&new.held);
+            let is_needless = sizes[at as usize] + 1 == size && held.is_subset(&new.held);
             if is_needless {
                 for item in held.items() {
                     of[item as usize].retain(|&other| other != at);
@@ -179,6 +189,7 @@ impl<const WORDS: usize> Discs<WORDS> {
         let number = self.discs.len() as u32;
         new.held.items().for_each(|item| self.of[item as usize].push(number));
         self.discs.push(new);
+        self.sizes.push(size);
     }
 }
 

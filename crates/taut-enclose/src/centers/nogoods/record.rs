@@ -98,7 +98,11 @@ impl<const WORDS: usize> Record<WORDS> {
     }
 
     /// The numbers of the known nogoods whose items are all among those of a question.
-    pub(super) fn known_within(&self, known: &Known, question: &Question) -> impl Iterator<Item = u32> {
+    pub(super) fn known_within(
+        &self,
+        known: &Known,
+        question: &Question,
+    ) -> impl Iterator<Item = u32> {
         known.sets.iter().flat_map(move |&(item, sets)| {
             self.of_level[known.level][item as usize].numbers_within(sets, question)
         })

@@ -2,9 +2,10 @@
 //!
 //! *Idea.* 64 sets stand side by side: for each item that any of them has, a word says which. An item that is not among those asked for rules
 //! out all sets with it at once.
+//! *Again.* Sets that lie within some items are asked for again, of fewer items: only their groups are looked at then.
 //! *Cost.* Linear in the number of sets and their items, 64 sets at a time.
-//! *Evidence.* Nogoods of 15,112 cities and 20 centers, gap 3 %: a question asks 100 groups of 48 sets with 118 items on average, and finds
-//! 360 sets. Beside a look at each set on its own the whole search took 15.5 instead of 21.7 s.
+//! *Evidence.* Nogoods of 15,112 cities and 20 centers, gap 2 %: a question finds 420 sets in some 70 groups. Beside a look at each set on its own
+//! the whole search took 0.7 times as long.
 
 use super::item_set::ItemSet;
 
@@ -37,7 +38,10 @@ impl SubsetIndex {
     }
 
     /// The sets within the items of a question, for each group of which there are some.
-    pub(super) fn within<'i>(&'i self, question: &'i Question) -> impl Iterator<Item = SetsOfGroup> {
+    pub(super) fn within<'i>(
+        &'i self,
+        question: &'i Question,
+    ) -> impl Iterator<Item = SetsOfGroup> {
         self.groups.iter().zip(0..).filter_map(|(group, number)| {
             let sets = group.within(group.all(), question);
             (sets != 0).then_some(SetsOfGroup { group: number, sets })
@@ -45,7 +49,11 @@ impl SubsetIndex {
     }
 
     /// Of some sets the numbers of those within the items of a question, in the order in which they were added.
-    pub(super) fn numbers_within(&self, some: SetsOfGroup, question: &Question) -> impl Iterator<Item = u32> {
+    pub(super) fn numbers_within(
+        &self,
+        some: SetsOfGroup,
+        question: &Question,
+    ) -> impl Iterator<Item = u32> {
         let group = &self.groups[some.group as usize];
         let mut left = group.within(some.sets, question);
         std::iter::from_fn(move || {
@@ -151,10 +159,18 @@ mod tests {
             let items = ItemSet::first(100).without(&gone);
             let is_within = |&&(_, set): &&(u32, ItemSet<2>)| set.is_subset(&items);
             let expected: Vec<u32> = all.iter().filter(is_within).map(|&(at, _)| at).collect();
-            let mut within = vec![];
-            index.add_within(&Question::new(&items, &order), &mut within);
-            assert_eq!(within, expected);
+            let question = Question::new(&items, &order);
+            let sets: Vec<SetsOfGroup> = index.within(&question).collect();
+            let among = |question: &Question| -> Vec<u32> {
+                sets.iter().flat_map(|&sets| index.numbers_within(sets, question)).collect()
+            };
+            assert_eq!(among(&question), expected);
             found += expected.len();
+            // Asked again of fewer items.
+            let fewer = items.without(&(0..draw(9)).map(|_| draw(100) as u32).collect());
+            let expected: Vec<u32> =
+                all.iter().filter(|(_, set)| set.is_subset(&fewer)).map(|&(at, _)| at).collect();
+            assert_eq!(among(&Question::new(&fewer, &order)), expected);
         }
         assert!((10_000..40_000).contains(&found), "{found}");
     }

@@ -152,6 +152,28 @@ fn damaged_logs_are_refused() {
     assert!(refused * 10 >= fewer * 8 && fewer > 40, "{refused} of {fewer}");
 }
 
+/// A checker takes 127 others to show a nogood, however often they are repeated, and refuses 128.
+#[test]
+fn nogoods_shown_by_too_many_others_are_refused() {
+    let values: Vec<f64> = generate(Distribution::Uniform, 200, 2, 9).unwrap();
+    let points = Points::new(&values, 2).unwrap();
+    let sound = solved(&values, 7, 0.01);
+    let shown_by = |count: usize| {
+        let mut repeated = sound.clone();
+        let misses = &mut nogoods(&mut repeated).last_mut().unwrap().misses;
+        assert!(!misses.is_empty());
+        *misses = misses.iter().copied().cycle().take(count).collect();
+        repeated.check(&points)
+    };
+    assert!(shown_by(127).unwrap().gap <= 0.01001);
+    match shown_by(128) {
+        Err(CheckError::Rejected(violation)) => {
+            assert!(violation.to_string().contains("too many others"), "{violation}");
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
 #[test]
 fn a_log_that_no_checker_takes_is_no_refutation() {
     let of = |count| {
