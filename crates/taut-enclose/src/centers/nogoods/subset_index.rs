@@ -24,8 +24,10 @@ pub(super) struct SubsetIndex {
 #[derive(Clone, Debug)]
 struct Group {
     numbers: Vec<u32>,
-    /// Items in their order, and the sets that have them.
-    with_item: Vec<(u32, u64)>,
+    /// Items in their order.
+    items: Vec<u16>,
+    /// For each of them the sets that have it.
+    with_item: Vec<u64>,
 }
 
 impl SubsetIndex {
@@ -94,24 +96,36 @@ impl Question {
 
 impl Group {
     fn of_one(number: u32, items: &[u32]) -> Self {
-        Group { numbers: vec![number], with_item: items.iter().map(|&item| (item, 1)).collect() }
+        Group {
+            numbers: vec![number],
+            items: items.iter().map(|&item| item as u16).collect(),
+            with_item: vec![1; items.len()],
+        }
     }
 
     fn add(&mut self, number: u32, items: &[u32], key: impl Fn(u32) -> f64) {
         let bit = 1 << self.numbers.len();
         self.numbers.push(number);
-        let comes_before = |a: u32, b: u32| (key(a), a) < (key(b), b);
-        let mut merged = Vec::with_capacity(self.with_item.len() + items.len());
-        let mut old = self.with_item.iter().copied().peekable();
-        for &item in items {
-            while let Some(before) = old.next_if(|&(other, _)| comes_before(other, item)) {
-                merged.push(before);
+        let comes_before = |a: u16, b: u16| {
+            let [a, b] = [a, b].map(u32::from);
+            (key(a), a) < (key(b), b)
+        };
+        let (mut merged, mut with_item) = (vec![], vec![]);
+        let mut push = |item: u16, sets: u64| {
+            merged.push(item);
+            with_item.push(sets);
+        };
+        let old = self.items.iter().copied().zip(self.with_item.iter().copied());
+        let mut old = old.peekable();
+        for item in items.iter().map(|&item| item as u16) {
+            while let Some((before, sets)) = old.next_if(|&(other, _)| comes_before(other, item)) {
+                push(before, sets);
             }
             let sets = old.next_if(|&(other, _)| other == item).map_or(0, |(_, sets)| sets);
-            merged.push((item, sets | bit));
+            push(item, sets | bit);
         }
-        merged.extend(old);
-        self.with_item = merged;
+        old.for_each(|(item, sets)| push(item, sets));
+        (self.items, self.with_item) = (merged, with_item);
     }
 
     fn all(&self) -> u64 {
@@ -121,12 +135,13 @@ impl Group {
     /// Of some sets those within the items of a question.
     fn within(&self, some: u64, question: &Question) -> u64 {
         let mut left = some;
-        for items in self.with_item.chunks(ITEMS_AT_ONCE) {
-            if left == 0 || question.is_settled[items[0].0 as usize] {
+        let sets = self.with_item.chunks(ITEMS_AT_ONCE);
+        for (items, sets) in self.items.chunks(ITEMS_AT_ONCE).zip(sets) {
+            if left == 0 || question.is_settled[usize::from(items[0])] {
                 break;
             }
-            for &(item, sets) in items {
-                left &= !sets | question.is_left[item as usize];
+            for (&item, &sets) in items.iter().zip(sets) {
+                left &= !sets | question.is_left[usize::from(item)];
             }
         }
         left
