@@ -12,8 +12,9 @@
 //! *Guarantee.* The radius is a little larger than what is claimed ([`MARGIN`]), so that a checker refutes the same discs whatever rounding does.
 //! Nothing depends on threads.
 //! *Trap.* For few discs there is little to use again, and a tree is faster. A bound much nearer to the radius than 1e-5 is not proved.
-//! *Evidence.* 15,112 cities: 15 centers take 6·10³ steps for the last gap, 1 %, and 7,400 nogoods show it, where the tree takes 1.7·10⁵ nodes. 20
-//! centers take 3.3·10⁴ steps in all at 5 %, 1.1·10⁵ at 3 % and 4.4·10⁵ at 1 %. At 3 % a step finds some 210 nogoods within what is left.
+//! *Evidence.* 15,112 cities: for 15 centers at 1 % some 8000 nogoods are enough, where the tree takes 1.7·10⁵ nodes. 20 centers take 4·10⁴ steps in all
+//! at 5 %, 1.6·10⁵ at 3 % and 6·10⁵ at 1 %; with other starts of the same search 4.4·10⁵ to 6·10⁵, fewer where good centers are found soon. At 3 % a step finds
+//! some 210 nogoods within what is left.
 //! What a nogood is made of matters, as those with items far from the front apply more often ([`NogoodSearch::known_missed`],
 //! [`NogoodSearch::apart`]). Which disc is tried first does not: for the same radius, the disc that holds the most takes as many steps as the ones
 //! that hold most beside p, or most far from it, by several weights. Nor does the choice of

@@ -71,43 +71,40 @@ pub(super) struct DiscTable<const WORDS: usize> {
     rows: Vec<u16>,
 }
 
-impl<const WORDS: usize> Default for DiscTable<WORDS> {
-    fn default() -> Self {
+impl<const WORDS: usize> DiscTable<WORDS> {
+    /// An empty table with room for so many discs of so many points.
+    pub(super) fn with_room(discs: usize, points: usize) -> Self {
+        let words = discs.div_ceil(SIDE_BY_SIDE);
         DiscTable {
             discs: vec![],
-            all: DiscSet(vec![]),
+            all: DiscSet(vec![0; words]),
             near: ItemSet::default(),
             holders: vec![],
-            words: 0,
-            rows: vec![],
+            words,
+            rows: vec![0; points],
         }
     }
-}
 
-impl<const WORDS: usize> DiscTable<WORDS> {
     /// Learns which discs there are now, by their growing numbers, of so many points. What a disc held, it still holds; it may hold new
     /// points, too.
     pub(super) fn update<'d>(
         &mut self,
         numbers: &[u32],
-        points: u32,
+        points: usize,
         held: impl Fn(u32) -> &'d ItemSet<WORDS>,
     ) {
-        let known_points = self.rows.len() as u32;
         let last = self.discs.last().copied();
         let first_new = numbers.partition_point(|&number| Some(number) <= last);
         let (old, new) = numbers.split_at(first_new);
-        let count = self.discs.len() + new.len();
-        if count > SIDE_BY_SIDE * self.words || old.len() < self.discs.len() / 2 {
-            *self = DiscTable::default();
-            // Some room for discs that come later.
-            self.words = (numbers.len() + numbers.len() / 8).div_ceil(SIDE_BY_SIDE);
-            self.all = DiscSet(vec![0; self.words]);
-            self.rows = vec![0; points as usize];
-            self.add(numbers, &held);
+        let is_full = self.discs.len() + new.len() > SIDE_BY_SIDE * self.words;
+        if is_full || old.len() < self.discs.len() / 2 {
+            // Some of it is for discs that come later.
+            *self = DiscTable::with_room(numbers.len() + numbers.len() / 8, points);
+            numbers.iter().for_each(|&number| self.add(number, held(number)));
             return;
         }
-        self.rows.resize(points as usize, 0);
+        let new_points = self.rows.len() as u32..points as u32;
+        self.rows.resize(points, 0);
         self.all.0.fill(0);
         let mut at = 0;
         for &number in old {
@@ -115,20 +112,21 @@ impl<const WORDS: usize> DiscTable<WORDS> {
                 at += 1;
             }
             self.all.insert(at);
-            for item in (known_points..points).filter(|&item| held(number).contains(item)) {
-                self.insert(item, at);
-            }
+            let held = held(number);
+            new_points
+                .clone()
+                .filter(|&item| held.contains(item))
+                .for_each(|item| self.insert(item, at));
         }
-        self.add(new, held);
+        new.iter().for_each(|&number| self.add(number, held(number)));
     }
 
-    fn add<'d>(&mut self, numbers: &[u32], held: impl Fn(u32) -> &'d ItemSet<WORDS>) {
-        for &number in numbers {
-            let at = self.discs.len();
-            self.discs.push(number);
-            self.all.insert(at);
-            held(number).items().for_each(|item| self.insert(item, at));
-        }
+    /// Takes one disc more, where there is room for it.
+    pub(super) fn add(&mut self, number: u32, held: &ItemSet<WORDS>) {
+        let at = self.discs.len();
+        self.discs.push(number);
+        self.all.insert(at);
+        held.items().for_each(|item| self.insert(item, at));
     }
 
     /// Notes that a disc holds a point.
@@ -159,6 +157,18 @@ impl<const WORDS: usize> DiscTable<WORDS> {
             discs.0.iter_mut().zip(self.row(item)).for_each(|(disc, held)| *disc &= !held);
         }
         discs
+    }
+
+    /// Tests whether there is a disc that holds all of these points.
+    pub(super) fn has_one_with(&self, items: &ItemSet<WORDS>) -> bool {
+        let mut discs = self.all.clone();
+        for item in items.items() {
+            if !self.near.contains(item) {
+                return false;
+            }
+            discs.0.iter_mut().zip(self.row(item)).for_each(|(disc, held)| *disc &= held);
+        }
+        !discs.is_empty()
     }
 
     /// How many of these points each disc holds.

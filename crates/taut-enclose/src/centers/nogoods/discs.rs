@@ -1,8 +1,8 @@
 //! The largest sets of points of the plane that discs of one radius hold, as points come one by one.
 //!
-//! *Idea.* A disc that holds some points can be moved until two of them are on its border and none has left it. So it is enough to look at
-//! the two discs with each two points on their border, and of a point without neighbors at the disc about it. A new point is added to the discs
-//! that hold it, and the discs with it on their border come in. A set that another one has in it is dropped.
+//! *Idea.* A disc that holds some points can be moved until two of them are on its border and none has left it; of a point without neighbors
+//! the disc about it is enough. A new point is added to the discs that hold it, and discs with it on their border come in: as a disc goes around it, the others come in and
+//! go out, and the set is largest between one that comes in and the next that goes out. A set that another one has in it is dropped.
 //! *Guarantee.* But for rounding, each set of points in one disc is in one of the sets. Of a set with the new point, either each
 //! disc that holds the old points holds the new one, or some disc has the new one on its border.
 
@@ -86,7 +86,7 @@ impl<const WORDS: usize> Discs<WORDS> {
         let Discs { discs, of, tables, is_current, places, .. } = self;
         let item = item as usize;
         if !std::mem::replace(&mut is_current[item], true) {
-            tables[item].update(&of[item], places.len() as u32, |at| &discs[at as usize].held);
+            tables[item].update(&of[item], places.len(), |at| &discs[at as usize].held);
         }
     }
 
@@ -100,12 +100,11 @@ impl<const WORDS: usize> Discs<WORDS> {
     /// Takes one point more, which is at none of the others.
     pub(super) fn add(&mut self, place: Place) {
         let (item, square_of_radius) = (self.len() as u32, self.radius * self.radius);
-        let (mut near, mut all_near) = (vec![], ItemSet::default());
+        let mut near = vec![];
         self.apart.push(ItemSet::default());
         for other in 0..item {
             if square(self.place(other), place) < 4.0 * square_of_radius {
                 near.push(other);
-                all_near.insert(other);
             } else {
                 self.apart[other as usize].insert(item);
                 self.apart[item as usize].insert(other);
@@ -114,42 +113,84 @@ impl<const WORDS: usize> Discs<WORDS> {
         self.places.push(place);
         self.of.push(vec![]);
         // Only points near the new one share a disc with it.
-        all_near.items().for_each(|other| self.is_current[other as usize] = false);
-        self.is_current.push(false);
-        self.tables.push(DiscTable::default());
-        let (mut beside, elsewhere): (Vec<u32>, Vec<u32>) =
-            self.in_use.iter().partition(|&&at| !self.disc(at).held.is_disjoint(&all_near));
-        for &at in &beside {
+        near.iter().for_each(|&other| self.is_current[other as usize] = false);
+        let mut without_it = vec![];
+        for &at in &self.in_use {
             let disc = &mut self.discs[at as usize];
-            if square(disc.center, place) <= square_of_radius * INSIDE {
+            let away = square(disc.center, place);
+            if away <= square_of_radius * INSIDE {
                 disc.held.insert(item);
                 self.sizes[at as usize] += 1;
                 self.of[item as usize].push(at);
+            } else if away < 9.0 * square_of_radius {
+                without_it.push((self.sizes[at as usize], at));
             }
         }
-        let mut new = self.on_border(item, &near);
-        // A set comes after those that may have it in them.
-        new.sort_by_key(|disc| std::cmp::Reverse(disc.held.len()));
-        let first_new = self.discs.len() as u32;
-        new.into_iter().for_each(|disc| self.take(item, disc, &mut beside));
-        self.in_use = elsewhere;
-        self.in_use.extend(beside);
-        self.in_use.sort_unstable();
-        self.in_use.extend(first_new..self.discs.len() as u32);
+        self.take(item, self.on_border(item, &near), &without_it);
     }
 
-    /// The discs with this point and one of the others on their border.
+    /// Takes discs that hold the last point, but those of which another one holds all that they do. Discs that do not hold it and of which
+    /// that is now true are dropped: as each of them held a largest set, such a one held all that the new one holds but the last point. Given are
+    /// the sizes and numbers of those that may be such ones.
+    fn take(&mut self, last: u32, mut new: Vec<Disc<WORDS>>, without_it: &[(u32, u32)]) {
+        // A set comes after those that may have it in them.
+        new.sort_by_key(|disc| std::cmp::Reverse(disc.held.len()));
+        let room = self.of(last).len() + new.len();
+        let mut table = DiscTable::with_room(room, self.len());
+        self.of(last).iter().for_each(|&at| table.add(at, &self.disc(at).held));
+        let only_last = ItemSet::of_one(last);
+        let (first_new, mut needless) = (self.discs.len() as u32, vec![]);
+        for disc in new {
+            if table.has_one_with(&disc.held) {
+                continue;
+            }
+            let size = disc.held.len();
+            let rest = disc.held.without(&only_last);
+            let as_large = without_it.iter().filter(|&&(other, _)| other + 1 == size);
+            needless.extend(as_large.map(|&(_, at)| at).find(|&at| self.disc(at).held == rest));
+            let number = self.discs.len() as u32;
+            table.add(number, &disc.held);
+            disc.held.items().for_each(|item| self.of[item as usize].push(number));
+            self.discs.push(disc);
+            self.sizes.push(size);
+        }
+        needless.sort_unstable();
+        for &at in &needless {
+            for item in self.discs[at as usize].held.items() {
+                self.of[item as usize].retain(|&other| other != at);
+            }
+        }
+        self.in_use.retain(|at| needless.binary_search(at).is_err());
+        self.in_use.extend(first_new..self.discs.len() as u32);
+        self.tables.push(table);
+        self.is_current.push(true);
+    }
+
+    /// Discs with this point and another one on their border, but none that holds less than one beside it as a disc goes around.
     fn on_border(&self, item: u32, near: &[u32]) -> Vec<Disc<WORDS>> {
         let (place, square_of_radius) = (self.place(item), self.radius * self.radius);
         if near.is_empty() {
             return vec![Disc { held: ItemSet::of_one(item), center: place }];
         }
-        let sides = near.iter().flat_map(|&other| [(other, 1.0), (other, -1.0)]);
-        sides
-            .map(|(other, side)| {
+        // By angle of the center; of equals, those that come in first.
+        let mut changes: Vec<(f64, bool, u32)> = vec![];
+        for &other in near {
+            let [x, y] = self.place(other);
+            let (dx, dy) = (x - place[0], y - place[1]);
+            let direction = dy.atan2(dx);
+            let half = (0.5 * dx.hypot(dy) / self.radius).min(1.0).acos();
+            changes.push((into_turn(direction - half), false, other));
+            changes.push((into_turn(direction + half), true, other));
+        }
+        changes
+            .sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2)));
+        let nexts = changes.iter().cycle().skip(1);
+        let largest = changes.iter().zip(nexts).filter(|(now, next)| !now.1 && next.1);
+        largest
+            .map(|(&(_, _, other), _)| {
                 let [x, y] = self.place(other);
                 let across = square_of_radius / square(place, [x, y]) - 0.25;
-                let across = side * across.max(0.0).sqrt();
+                let across = across.max(0.0).sqrt();
                 let center = [
                     0.5 * (place[0] + x) + across * (y - place[1]),
                     0.5 * (place[1] + y) - across * (x - place[0]),
@@ -165,31 +206,17 @@ impl<const WORDS: usize> Discs<WORDS> {
             })
             .collect()
     }
+}
 
-    /// Takes a disc that holds the last point, unless another one holds all that it does. Of the discs that were there before and hold some
-    /// points near the last one, those are dropped of which that is now true. As each of them held a largest set, such a one held
-    /// all that the new one holds but the last point, and nothing else: most are ruled out by their size.
-    fn take(&mut self, last: u32, new: Disc<WORDS>, before: &mut Vec<u32>) {
-        let holds_all = |&at: &u32| new.held.is_subset(&self.disc(at).held);
-        if self.of(last).iter().any(holds_all) {
-            return;
-        }
-        let size = new.held.len();
-        let Discs { discs, sizes, of, .. } = self;
-        before.retain(|&at| {
-            let held = &discs[at as usize].held;
-            let is_needless = sizes[at as usize] + 1 == size && held.is_subset(&new.held);
-            if is_needless {
-                for item in held.items() {
-                    of[item as usize].retain(|&other| other != at);
-                }
-            }
-            !is_needless
-        });
-        let number = self.discs.len() as u32;
-        new.held.items().for_each(|item| self.of[item as usize].push(number));
-        self.discs.push(new);
-        self.sizes.push(size);
+/// An angle between −π and π, but for rounding.
+fn into_turn(angle: f64) -> f64 {
+    use std::f64::consts::PI;
+    if angle < -PI {
+        angle + 2.0 * PI
+    } else if angle > PI {
+        angle - 2.0 * PI
+    } else {
+        angle
     }
 }
 
@@ -221,7 +248,7 @@ mod tests {
                     }
                 }
                 let Some(first) = held.items().next() else { continue };
-                let holds_all = |&at: &u32| held.is_subset(&discs.disc(at).held);
+                let holds_all = |&at: &u32| held.without(&discs.disc(at).held).is_empty();
                 assert!(discs.of(first).iter().any(holds_all), "{center:?}");
             }
             let mut all: Vec<u32> = (0..count).flat_map(|item| discs.of(item).to_vec()).collect();
@@ -233,7 +260,9 @@ mod tests {
                     assert!(square(discs.place(item), *center) <= 1.0 + 1e-9);
                     assert!(discs.of(item).contains(&a));
                 }
-                assert!(all.iter().all(|&b| a == b || !held.is_subset(&discs.disc(b).held)));
+                assert!(
+                    all.iter().all(|&b| a == b || !held.without(&discs.disc(b).held).is_empty())
+                );
             }
         }
     }
