@@ -65,7 +65,7 @@ const MISSES_MAX: usize = 127;
 const ITEMS_MAX: usize = 2048;
 /// Most items times nogoods of a log that a checker takes.
 const LOG_BITS_MAX: usize = 1 << 30;
-/// Orders in which items apart are sought, from both of their ends: as far along the axis that items are held along, and as far across it.
+/// Directions in whose order items apart are sought, from both ends: by how far they go along the axis of the search, and across it.
 const ORDERS: [Place; 4] = [[1.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, -1.0]];
 
 /// A finished search: no k balls of a radius of `best.radius / (1 + gap)` hold the core-set.
@@ -346,7 +346,7 @@ impl<'c, P: Position, const WORDS: usize> NogoodSearch<'c, P, WORDS> {
     }
 
     /// Of the known nogoods within what a disc leaves, that whose first item that is not in the nogood yet is the farthest along the
-    /// axis; of these the one that adds the fewest. What is far from the front is there whenever the nogood is asked for again. Measured: with
+    /// axis; of these the one that adds the fewest. What is far from the front is usually left when the nogood is asked for again. Measured: with
     /// the one that adds the fewest items, however near, a search takes 1.2 times as many steps.
     fn known_missed(
         &self,
@@ -396,7 +396,7 @@ impl<'c, P: Position, const WORDS: usize> NogoodSearch<'c, P, WORDS> {
     }
 
     /// One more of the items than there may be discs, no two of which are in one disc; sought greedily in each order from both ends. The far
-    /// end comes first, as items there are left whenever this is asked again. Measured: so a search takes 0.7 times as many steps as
+    /// end comes first, as items there are usually left when this is asked again. Measured: so a search takes 0.7 times as many steps as
     /// with three orders from their near ends alone.
     fn apart(&self, items: &ItemSet<WORDS>, level: usize) -> Option<ItemSet<WORDS>> {
         let from_far =

@@ -3,7 +3,7 @@
 //! *Idea.* A disc that holds some points can be moved until two of them are on its border and none has left it; of a point without neighbors
 //! the disc about it is enough. A new point is added to the discs that hold it, and discs with it on their border come in: as a disc goes around it, the others come in and
 //! go out, and the set is largest between one that comes in and the next that goes out. A set that another one has in it is dropped.
-//! *Guarantee.* But for rounding, each set of points in one disc is in one of the sets. Of a set with the new point, either each
+//! *Guarantee.* Each set of points in one disc is in one of the sets. Of a set with the new point, either each
 //! disc that holds the old points holds the new one, or some disc has the new one on its border.
 
 use super::disc_table::DiscTable;
@@ -11,8 +11,10 @@ use super::item_set::ItemSet;
 
 pub(super) type Place = [f64; 2];
 
-/// Points on the border of a disc are taken to be in it; others are where they are this much inside, in parts of the square of the radius.
-const INSIDE: f64 = 1.0 - 1e-12;
+/// In parts of the square of the radius, how far from the center points are taken to be in a disc. Its border points are in it, whatever
+/// rounding does: two points nearly at one place come in at once, and so do more points on one circle of this radius. Where two points are nearly
+/// as far apart as a disc is wide, its center is off by 1e-8 of the radius. What a disc holds too much only refutes larger discs, less than the margin of a search.
+const INSIDE: f64 = 1.0 + 1e-7;
 
 /// A largest set and the center of a disc that holds it.
 #[derive(Clone, Copy, Debug)]
@@ -36,9 +38,9 @@ pub(super) struct Discs<const WORDS: usize> {
     in_use: Vec<u32>,
     /// For each point the discs in use that hold it.
     of: Vec<Vec<u32>>,
-    /// For each point the table of these discs, as it was when it was last asked for.
+    /// For each point the table of these discs, as it was when it was last brought up to date; empty if it never was.
     tables: Vec<DiscTable<WORDS>>,
-    /// Whether nothing has changed near a point since its table was asked for.
+    /// For each point, whether its table is up to date: no point near by has come since.
     is_current: Vec<bool>,
 }
 
@@ -103,7 +105,7 @@ impl<const WORDS: usize> Discs<WORDS> {
         let mut near = vec![];
         self.apart.push(ItemSet::default());
         for other in 0..item {
-            if square(self.place(other), place) < 4.0 * square_of_radius {
+            if square(self.place(other), place) < 4.0 * INSIDE * square_of_radius {
                 near.push(other);
             } else {
                 self.apart[other as usize].insert(item);
@@ -129,9 +131,9 @@ impl<const WORDS: usize> Discs<WORDS> {
         self.take(item, self.on_border(item, &near), &without_it);
     }
 
-    /// Takes discs that hold the last point, but those of which another one holds all that they do. Discs that do not hold it and of which
-    /// that is now true are dropped: as each of them held a largest set, such a one held all that the new one holds but the last point. Given are
-    /// the sizes and numbers of those that may be such ones.
+    /// Takes those discs that hold the last point whose sets lie in no other set. An old disc without that point is dropped if its set now lies
+    /// in a new one: its set was a largest one, so it is the new set without the last point, and it is found as such. Rounding can only leave a set
+    /// that is not needed. Given are the sizes and numbers of the old discs near by.
     fn take(&mut self, last: u32, mut new: Vec<Disc<WORDS>>, without_it: &[(u32, u32)]) {
         // A set comes after those that may have it in them.
         new.sort_by_key(|disc| std::cmp::Reverse(disc.held.len()));
@@ -162,11 +164,11 @@ impl<const WORDS: usize> Discs<WORDS> {
         }
         self.in_use.retain(|at| needless.binary_search(at).is_err());
         self.in_use.extend(first_new..self.discs.len() as u32);
-        self.tables.push(table);
-        self.is_current.push(true);
+        self.tables.push(DiscTable::with_room(0, 0));
+        self.is_current.push(false);
     }
 
-    /// Discs with this point and another one on their border, but none that holds less than one beside it as a disc goes around.
+    /// Discs with this point and another one on their border. As a disc goes around this point, only those that hold more than the ones beside it are kept.
     fn on_border(&self, item: u32, near: &[u32]) -> Vec<Disc<WORDS>> {
         let (place, square_of_radius) = (self.place(item), self.radius * self.radius);
         if near.is_empty() {
@@ -208,7 +210,7 @@ impl<const WORDS: usize> Discs<WORDS> {
     }
 }
 
-/// An angle between −π and π, but for rounding.
+/// The same direction as an angle between −π and π.
 fn into_turn(angle: f64) -> f64 {
     use std::f64::consts::PI;
     if angle < -PI {
@@ -257,12 +259,63 @@ mod tests {
             for &a in &all {
                 let Disc { held, center } = discs.disc(a);
                 for item in held.items() {
-                    assert!(square(discs.place(item), *center) <= 1.0 + 1e-9);
+                    assert!(square(discs.place(item), *center) <= INSIDE);
                     assert!(discs.of(item).contains(&a));
                 }
                 assert!(
                     all.iter().all(|&b| a == b || !held.without(&discs.disc(b).held).is_empty())
                 );
+            }
+        }
+    }
+
+    /// Points on one circle of the radius of the discs, points nearly at one place, and a grid some of whose points are on such a circle.
+    #[test]
+    fn ties_lose_no_set() {
+        let mut state = 7u64;
+        let mut draw = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695);
+            (state >> 33) as f64 / 2f64.powi(31)
+        };
+        let has = |discs: &Discs<1>, items: &[u32]| {
+            let items: ItemSet<1> = items.iter().copied().collect();
+            let first = items.items().next().unwrap();
+            let holds_all = |&at: &u32| items.without(&discs.disc(at).held).is_empty();
+            discs.of(first).iter().any(holds_all)
+        };
+        let on_circle = |degrees: f64| [degrees.to_radians().cos(), degrees.to_radians().sin()];
+        let discs = Discs::<1>::new(1.0, [-80.0, -40.0, 0.0].map(on_circle).into_iter());
+        assert!(has(&discs, &[0, 1, 2]));
+        for _ in 0..300 {
+            let turns = [draw(), draw(), draw()].map(|part| on_circle(360.0 * part));
+            assert!(has(&Discs::new(1.0, turns.into_iter()), &[0, 1, 2]), "{turns:?}");
+            let [x, y] = on_circle(360.0 * draw());
+            let far = 1.0 + 0.95 * draw();
+            for near in [1e-9, 1e-11, 1e-13, 1e-15] {
+                let twins = [[far * x, far * y], [0.0, 0.0], [near * draw(), near * draw()]];
+                assert!(has(&Discs::new(1.0, twins.into_iter()), &[0, 1, 2]), "{twins:?}");
+            }
+        }
+        for square_of_radius in [5.0, 8.5, 10.0f64] {
+            for _ in 0..20 {
+                let mut places: Vec<Place> = vec![];
+                while places.len() < 20 {
+                    let place = [(7.0 * draw()).floor(), (7.0 * draw()).floor()];
+                    if !places.contains(&place) {
+                        places.push(place);
+                    }
+                }
+                let radius = square_of_radius.sqrt();
+                let discs = Discs::<1>::new(radius, places.iter().copied());
+                for _ in 0..50 {
+                    let center =
+                        [7.0 * draw() - 0.5, 7.0 * draw() - 0.5].map(|at| (2.0 * at).round() / 2.0);
+                    let is_held = |&item: &u32| {
+                        square(places[item as usize], center).sqrt() <= radius * (1.0 - 1e-6)
+                    };
+                    let held: Vec<u32> = (0..20).filter(is_held).collect();
+                    assert!(held.is_empty() || has(&discs, &held), "{places:?} {center:?}");
+                }
             }
         }
     }

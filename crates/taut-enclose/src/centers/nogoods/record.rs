@@ -82,7 +82,8 @@ impl<const WORDS: usize> Record<WORDS> {
         &self.items[number as usize]
     }
 
-    /// The nogoods of a level whose items are all among these, but not those with the first of these in their order.
+    /// The nogoods of a level whose items are all among these, without those that have the first of these in their order: each
+    /// disc that is tried holds it.
     pub(super) fn within(&self, level: usize, items: &ItemSet<WORDS>, order: &[u32]) -> Known {
         let mut known = Known { level, sets: vec![] };
         if let Some(of_level) = self.of_level.get(level) {
