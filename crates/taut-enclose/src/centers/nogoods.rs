@@ -325,12 +325,10 @@ impl<'c, P: Position, const WORDS: usize> NogoodSearch<'c, P, WORDS> {
     /// Of nogoods, each with the discs of the table that it was the first to refute, those without which some disc is refuted by none.
     /// Measured: without the others a search takes 0.8 times as many steps.
     fn needed(&self, table: &DiscTable<WORDS>, misses: &[(Source, DiscSet)]) -> Vec<Source> {
-        let mut needed = vec![];
-        let mut refuted: Option<DiscSet> = None;
+        let (mut needed, mut left) = (vec![], table.all().clone());
         for (source, discs) in misses.iter().rev() {
-            if refuted.as_ref().is_none_or(|refuted| !discs.is_subset(refuted)) {
-                let by_this = table.without(&self.items_of(*source));
-                refuted.get_or_insert_with(|| by_this.clone()).add_all(&by_this);
+            if !discs.intersection(&left).is_empty() {
+                left.remove_all(&table.without(&self.items_of(*source)));
                 needed.push(*source);
             }
         }

@@ -33,20 +33,12 @@ impl DiscSet {
         self.0.iter().map(|word| word.count_ones()).sum()
     }
 
-    pub(super) fn is_subset(&self, other: &Self) -> bool {
-        self.0.iter().zip(&other.0).all(|(a, b)| a & !b == 0)
-    }
-
     pub(super) fn intersection(&self, other: &Self) -> Self {
         DiscSet(self.0.iter().zip(&other.0).map(|(a, b)| a & b).collect())
     }
 
     pub(super) fn remove_all(&mut self, other: &Self) {
         self.0.iter_mut().zip(&other.0).for_each(|(a, b)| *a &= !b);
-    }
-
-    pub(super) fn add_all(&mut self, other: &Self) {
-        self.0.iter_mut().zip(&other.0).for_each(|(a, b)| *a |= b);
     }
 
     fn last(&self) -> Option<usize> {
