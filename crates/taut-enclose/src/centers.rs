@@ -15,6 +15,7 @@ mod in_parts;
 mod item_rows;
 mod items;
 mod links;
+mod lloyd;
 mod nearest;
 mod nogoods;
 mod of_ellipsoids;

@@ -2,7 +2,8 @@
 //!
 //! *Idea.* Items are put in the order of a k-d tree; the leaves, up to [`LEAF_SIZE`] neighbors each, have a middle and a spread. The
 //! farthest item from some centers is sought in the cell whose bound is largest, then in the next, until no bound is larger than
-//! what was found: some ten of hundreds of cells. Nearest centers are sought among those that can be nearest for a cell.
+//! what was found: some ten of hundreds of cells; to have bounds of blocks of them first takes as long. Nearest centers are sought
+//! among those that can be nearest for a cell.
 //! *Guarantee.* What is found is what a look at all items would find; of equals, the one of the lower row. Nothing depends on
 //! threads.
 //! *Groups.* Where one ball is to hold all items of a group, the farthest group is sought in place of the farthest item, and all items of
@@ -251,6 +252,41 @@ impl<P: Position> Cloud<P> {
         }
     }
 
+    /// Calls `visit(cell, items, nearest center)` for runs of items of one cell that have one nearest center, as [`Self::assign`] finds it;
+    /// of groups, for each item, and the cell says nothing.
+    pub(super) fn assign_runs(
+        &self,
+        centers: &[P],
+        mut visit: impl FnMut(usize, Range<usize>, usize),
+    ) {
+        if self.grouping.is_some() {
+            return self.assign(centers, |item, center, _| visit(0, item..item + 1, center));
+        }
+        let mut near = Near::default();
+        for (at, cell) in self.cells.iter().enumerate() {
+            near.find(cell, centers);
+            if let [only] = near.centers[..] {
+                visit(at, cell.range.clone(), only);
+                continue;
+            }
+            let nearest = |item: usize| near.nearest(self.items.at(item), centers).0;
+            let (mut start, mut center) = (cell.range.start, nearest(cell.range.start));
+            for item in cell.range.start + 1..cell.range.end {
+                let next = nearest(item);
+                if next != center {
+                    visit(at, start..item, center);
+                    (start, center) = (item, next);
+                }
+            }
+            visit(at, start..cell.range.end, center);
+        }
+    }
+
+    /// No item of a cell reaches farther from the nearest of some centers.
+    pub(super) fn bound_of_cell(&self, cell: usize, centers: &[P]) -> f64 {
+        self.cells[cell].bound(&self.items, centers)
+    }
+
     /// Farthest-first traversal: `first`, then again and again the item that reaches farthest from the positions of all before.
     /// It ends early when no item is left, or only copies of points.
     pub(super) fn traverse(
@@ -487,6 +523,17 @@ mod tests {
                 assert_eq!(d, least.sqrt());
             });
             assert!(seen.into_iter().all(|is_seen| is_seen), "{what}");
+            let (mut singly, mut in_runs) = (vec![], vec![]);
+            cloud.assign(&some, |item, center, _| singly.push((item, center)));
+            cloud.assign_runs(&some, |cell, items, center| {
+                assert!(!items.is_empty(), "{what}");
+                for item in items {
+                    let reach = cloud.items.reach(item, &some[center]);
+                    assert!(reach <= cloud.bound_of_cell(cell, &some), "{what}, item {item}");
+                    in_runs.push((item, center));
+                }
+            });
+            assert_eq!(in_runs, singly, "{what}");
         });
     }
 

@@ -12,11 +12,13 @@
 //! *Choice.* The item that fits in the fewest clusters; of equals, the one that makes them grow most. Items that fit in none
 //! need an empty cluster each, if no two of them fit in one: a clique.
 
+mod apart_pairs;
 mod conflicts;
 mod proving;
 
 use std::sync::Arc;
 
+use self::apart_pairs::ApartPairs;
 use super::avoiding_ball::AvoidingBall;
 use super::cloud::Cloud;
 use super::depth_first::{Place, State};
@@ -490,8 +492,12 @@ impl<P: Position> Clusters<P> {
 
     /// The largest of greedy cliques from all items in turn; the search ends with one of more than `enough`.
     pub(super) fn large_clique(&self, enough: usize) -> Vec<u32> {
-        let candidates: Vec<u32> = (0..self.items.len() as u32).collect();
-        let pairs = candidates.len().saturating_mul(enough.min(candidates.len()));
+        let count = self.items.len();
+        if count.saturating_mul(count) <= CLIQUE_PAIRS {
+            return ApartPairs::of(count, |a, b| self.are_apart(a, b)).large_clique(enough);
+        }
+        let candidates: Vec<u32> = (0..count as u32).collect();
+        let pairs = count.saturating_mul(enough.min(count));
         let starts = (CLIQUE_PAIRS / pairs.max(1)).max(1);
         let (mut clique, mut trial) = (vec![], vec![]);
         for &start in candidates.iter().take(starts) {

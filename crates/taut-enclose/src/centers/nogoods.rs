@@ -41,7 +41,8 @@ use self::item_set::ItemSet;
 use self::record::{Known, Record, Source};
 use self::subset_index::Question;
 use super::items::{Position, Shape};
-use super::start::{Incumbent, improve};
+use super::lloyd::improve;
+use super::start::Incumbent;
 use super::subsearch::Task;
 use crate::Error;
 

@@ -26,7 +26,7 @@ pub(super) use spheres::Workspace;
 /// Rounding may add this to a reach; in parts of the radius.
 pub(super) const REACH_TOLERANCE: f64 = 1e-13;
 /// Of supports up to this size all subsets are tried.
-const ALL_SUBSETS_MAX: usize = 4;
+pub(super) const ALL_SUBSETS_MAX: usize = 4;
 
 /// A smallest ball, with what proves it.
 #[derive(Clone, Debug)]

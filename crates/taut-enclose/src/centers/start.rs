@@ -1,22 +1,17 @@
 //! Where a search starts: centers, a lower bound, and the first items of its core-set.
 //!
-//! *Idea.* Farthest-first traversals from four items, each made better by Lloyd's steps with exact balls: every item goes to the
-//! nearest center, every center to that of the smallest ball of its items. The first k + z + 1 items of a traversal are far from
-//! one another, which is a lower bound; where z items may be left out, the k + z first centers lose those of the fewest items.
-//! *Reference.* Gonzalez, Theoretical Computer Science 38, 1985; Lloyd, IEEE Trans. Information Theory 28, 1982.
+//! *Idea.* Farthest-first traversals from four items, each made better by Lloyd's steps ([`super::lloyd`]). The first k + z + 1 items
+//! of a traversal are far from one another, which is a lower bound; where z items may be left out, the k + z first centers lose
+//! those of the fewest items.
+//! *Reference.* Gonzalez, Theoretical Computer Science 38, 1985.
 
 use taut_points::parallel::ParallelSlice;
 use taut_points::{Monitor, OrderBy, ReadError};
 
-use super::cloud::{Cloud, Far};
+use super::cloud::Cloud;
 use super::items::Position;
-use super::small_ball::{Ball, Workspace};
+use super::lloyd::improve;
 use crate::Error;
-
-/// Lloyd's steps end when one gains less than this part of the radius.
-const LLOYD_GAIN_MIN: f64 = 1e-9;
-/// And after this many; most starts need five to twenty.
-const MOST_STEPS: usize = 100;
 
 /// Centers and the radius from them.
 #[derive(Clone, Debug)]
@@ -151,69 +146,4 @@ pub(super) fn measured<P: Position>(cloud: &Cloud<P>, centers: Vec<P>, z: usize)
     let far = cloud.farthest(&centers, z.saturating_add(1));
     let radius = far.get(z).map_or(0.0, |far| far.reach);
     Incumbent { centers, radius }
-}
-
-/// Lloyd's steps, as long as the radius gets smaller.
-pub(super) fn improve<P: Position>(
-    cloud: &Cloud<P>,
-    mut best: Incumbent<P>,
-    k: usize,
-    z: usize,
-    monitor: &Monitor<'_>,
-) -> Result<Incumbent<P>, Error> {
-    let mut work = Workspace::new(cloud.items.dim());
-    let mut clusters: Vec<Vec<u32>> = vec![];
-    // Those whose balls have the present centers.
-    let mut before: Vec<Vec<u32>> = vec![];
-    let mut left_out = vec![false; cloud.len()];
-    for _ in 0..MOST_STEPS {
-        monitor.check().map_err(ReadError::from)?;
-        left_out.iter_mut().for_each(|is_out| *is_out = false);
-        for far in cloud.farthest(&best.centers, z) {
-            cloud.linked(far.item).into_iter().for_each(|item| left_out[item as usize] = true);
-        }
-        let mut centers = best.centers.clone();
-        // A center that is still free goes where it helps most.
-        if let Some(Far { item, .. }) = outliers_left(cloud, &best, k, z) {
-            centers.push(cloud.place_of(item));
-        }
-        clusters.iter_mut().for_each(Vec::clear);
-        clusters.resize(centers.len(), vec![]);
-        cloud.assign(&centers, |item, center, _| {
-            if !left_out[item] {
-                clusters[center].push(item as u32);
-            }
-        });
-        // Near the end few clusters change, and in the last step none.
-        let is_as_before = |at: usize| before.get(at) == Some(&clusters[at]);
-        if (0..clusters.len()).all(is_as_before) {
-            return Ok(best);
-        }
-        let mut ball_center = |(at, center): (usize, P)| match clusters[at][..] {
-            [] => center,
-            _ if is_as_before(at) => center,
-            ref cluster => Ball::of_all(&cloud.items, cluster, &mut work).center,
-        };
-        let centers = centers.into_iter().enumerate().map(&mut ball_center).collect();
-        std::mem::swap(&mut before, &mut clusters);
-        let next = measured(cloud, centers, z);
-        if next.radius >= best.radius * (1.0 - LLOYD_GAIN_MIN) {
-            return Ok(if next.radius < best.radius { next } else { best });
-        }
-        best = next;
-    }
-    Ok(best)
-}
-
-/// The item to open a further center at, where there are fewer than k.
-fn outliers_left<P: Position>(
-    cloud: &Cloud<P>,
-    best: &Incumbent<P>,
-    k: usize,
-    z: usize,
-) -> Option<Far> {
-    if best.centers.len() >= k || best.radius == 0.0 {
-        return None;
-    }
-    cloud.farthest(&best.centers, z.saturating_add(1)).pop()
 }

@@ -18,7 +18,8 @@ use super::clusters::{Clusters, NodeState, Undo};
 use super::conflict::Levels;
 use super::depth_first::{Place, State};
 use super::items::Position;
-use super::start::{Incumbent, improve};
+use super::lloyd::improve;
+use super::start::Incumbent;
 use crate::Error;
 
 /// Centers whose radius is this near to the best are worth Lloyd's steps, and those within the gap that is sought.

@@ -17,11 +17,15 @@ const SIZE_MIN: f64 = 1e-9;
 /// Squares of edges whose products of three neither vanish nor overflow.
 const SQUARES: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
 
+/// What the square of a radius is multiplied by to be that of what the radius reaches, rounding included.
+const REACH: f64 = (1.0 + REACH_TOLERANCE) * (1.0 + REACH_TOLERANCE);
+
 /// A sphere, and the points that determine it.
 #[derive(Clone, Copy)]
 struct Sphere<const D: usize> {
     center: [f64; D],
-    radius: f64,
+    /// The square of its radius.
+    square: f64,
     support: [[f64; D]; 4],
     count: usize,
 }
@@ -49,22 +53,23 @@ where
         std::array::from_fn(|axis| at[axis])
     };
     let center: [f64; D] = std::array::from_fn(|axis| ball.center.as_ref()[axis]);
-    let is_inside = square(place(more), center) <= reach2(ball.radius);
+    let is_inside = square(place(more), center) <= ball.radius * ball.radius * REACH;
     if is_inside || ball.support.len() > D + 1 {
         return None;
     }
     let mut support = [[0.0; D]; 4];
     support.iter_mut().zip(&ball.support).for_each(|(to, &item)| *to = place(item));
-    let (mut count, mut entering, mut before) = (ball.support.len(), place(more), ball.radius);
+    let (mut count, mut entering) = (ball.support.len(), place(more));
+    let mut before = ball.radius * ball.radius;
     for _ in 0..ROUNDS_MAX {
         let sphere = entered(&support[..count], entering)?;
-        if sphere.radius >= limit {
+        if sphere.square.sqrt() >= limit {
             return Some(f64::INFINITY);
         }
-        if sphere.radius <= before * (1.0 + REACH_TOLERANCE) {
+        if sphere.square <= before * REACH {
             return None;
         }
-        let mut most = reach2(sphere.radius);
+        let mut most = sphere.square * REACH;
         let mut farthest = None;
         for &item in members.iter().chain(&[more]) {
             let reach = square(place(item), sphere.center);
@@ -73,10 +78,10 @@ where
             }
         }
         match farthest {
-            None => return Some(sphere.radius),
+            None => return Some(sphere.square.sqrt()),
             Some(place) => entering = place,
         }
-        (support, count, before) = (sphere.support, sphere.count, sphere.radius);
+        (support, count, before) = (sphere.support, sphere.count, sphere.square);
     }
     None
 }
@@ -87,12 +92,12 @@ where
     [f64; D]: Through,
 {
     let holds_all =
-        |center: [f64; D], radius| support.iter().all(|&a| square(a, center) <= reach2(radius));
+        |center: [f64; D], r2: f64| support.iter().all(|&a| square(a, center) <= r2 * REACH);
     for &a in support {
         let center = std::array::from_fn(|axis| 0.5 * (a[axis] + p[axis]));
-        let radius = 0.5 * square(a, p).sqrt();
-        if holds_all(center, radius) {
-            return Some(Sphere { center, radius, support: [p, a, p, p], count: 2 });
+        let r2 = 0.25 * square(a, p);
+        if holds_all(center, r2) {
+            return Some(Sphere { center, square: r2, support: [p, a, p, p], count: 2 });
         }
     }
     let mut best: Option<Sphere<D>> = None;
@@ -110,10 +115,10 @@ where
             return None;
         }
         let to_center = <[f64; D]>::to_center(&edges[..count])?;
-        let radius = square(to_center, [0.0; D]).sqrt();
+        let r2 = square(to_center, [0.0; D]);
         let center = std::array::from_fn(|axis| p[axis] + to_center[axis]);
-        if best.is_none_or(|best| radius < best.radius) && holds_all(center, radius) {
-            best = Some(Sphere { center, radius, support: through, count: count + 1 });
+        if best.is_none_or(|best| r2 < best.square) && holds_all(center, r2) {
+            best = Some(Sphere { center, square: r2, support: through, count: count + 1 });
         }
     }
     best
@@ -125,9 +130,9 @@ impl Through for [f64; 2] {
         let (uu, vv) = (square(u, [0.0; 2]), square(v, [0.0; 2]));
         let area = u[0] * v[1] - u[1] * v[0];
         // Also where numbers are none.
-        let is_clear = area.abs() > SIZE_MIN * (uu * vv).sqrt();
-        is_clear
-            .then(|| [0.5 * (v[1] * uu - u[1] * vv) / area, 0.5 * (u[0] * vv - v[0] * uu) / area])
+        let is_clear = area * area > SIZE_MIN * SIZE_MIN * (uu * vv);
+        let part = 0.5 / area;
+        is_clear.then(|| [(v[1] * uu - u[1] * vv) * part, (u[0] * vv - v[0] * uu) * part])
     }
 }
 
@@ -159,13 +164,6 @@ impl Through for [f64; 3] {
 
 fn cross(u: [f64; 3], v: [f64; 3]) -> [f64; 3] {
     [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
-}
-
-/// The square of what a radius reaches, rounding included.
-#[inline(always)]
-fn reach2(radius: f64) -> f64 {
-    let reach = radius * (1.0 + REACH_TOLERANCE);
-    reach * reach
 }
 
 /// |a − b|².
