@@ -2,8 +2,8 @@
 //!
 //! *Idea.* Items are put in the order of a k-d tree; the leaves, up to [`LEAF_SIZE`] neighbors each, have a middle and a spread. The
 //! farthest item from some centers is sought in the cell whose bound is largest, then in the next, until no bound is larger than
-//! what was found: some ten of hundreds of cells; to have bounds of blocks of them first takes as long. Nearest centers are sought
-//! among those that can be nearest for a cell.
+//! what was found: some ten of hundreds of cells. Nearest centers are sought among those that can be nearest for a cell. A second level of
+//! larger cells saves nothing: on 15,112 cities most of their bounds are too weak.
 //! *Guarantee.* What is found is what a look at all items would find; of equals, the one of the lower row. Nothing depends on
 //! threads.
 //! *Groups.* Where one ball is to hold all items of a group, the farthest group is sought in place of the farthest item, and all items of

@@ -493,8 +493,8 @@ impl<P: Position> Clusters<P> {
     /// The largest of greedy cliques from all items in turn; the search ends with one of more than `enough`.
     pub(super) fn large_clique(&self, enough: usize) -> Vec<u32> {
         let count = self.items.len();
-        if count.saturating_mul(count) <= CLIQUE_PAIRS {
-            return ApartPairs::of(count, |a, b| self.are_apart(a, b)).large_clique(enough);
+        if count.saturating_mul(count) / 2 <= CLIQUE_PAIRS {
+            return ApartPairs::new(count, |a, b| self.are_apart(a, b)).large_clique(enough);
         }
         let candidates: Vec<u32> = (0..count as u32).collect();
         let pairs = count.saturating_mul(enough.min(count));

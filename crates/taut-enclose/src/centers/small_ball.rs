@@ -25,8 +25,11 @@ pub(super) use spheres::Workspace;
 
 /// Rounding may add this to a reach; in parts of the radius.
 pub(super) const REACH_TOLERANCE: f64 = 1e-13;
+/// After this many items that make the radius grow by no more than rounding, nothing else is left. One may do so without being the last: a
+/// point outside by δ raises the radius by δ²/2 where it lies across a diameter, and the next may raise it by δ.
+pub(super) const STALLS_MAX: u32 = 4;
 /// Of supports up to this size all subsets are tried.
-pub(super) const ALL_SUBSETS_MAX: usize = 4;
+const ALL_SUBSETS_MAX: usize = 4;
 
 /// A smallest ball, with what proves it.
 #[derive(Clone, Debug)]
@@ -75,6 +78,7 @@ impl<P: Position> Ball<P> {
                 None => return,
             }
         }
+        let mut stalls = 0;
         loop {
             let before = self.radius;
             if self.support.len() > ALL_SUBSETS_MAX || !self.enter(items, entering, work) {
@@ -85,8 +89,8 @@ impl<P: Position> Ball<P> {
                 return;
             }
             let Some((item, reach)) = self.farthest_outside(items, members, more) else { return };
-            // The radius grows unless rounding is all that is left.
-            if self.radius <= before * (1.0 + REACH_TOLERANCE) || self.support.contains(&item) {
+            stalls += u32::from(self.radius <= before * (1.0 + REACH_TOLERANCE));
+            if stalls > STALLS_MAX || self.support.contains(&item) {
                 self.radius = self.radius.max(reach);
                 return;
             }

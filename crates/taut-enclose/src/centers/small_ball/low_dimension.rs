@@ -17,15 +17,14 @@ const SIZE_MIN: f64 = 1e-9;
 /// Squares of edges whose products of three neither vanish nor overflow.
 const SQUARES: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
 
-/// What the square of a radius is multiplied by to be that of what the radius reaches, rounding included.
-const REACH: f64 = (1.0 + REACH_TOLERANCE) * (1.0 + REACH_TOLERANCE);
+/// A squared distance may exceed that of a radius by this factor, which covers rounding.
+const SQUARED_SLACK: f64 = (1.0 + REACH_TOLERANCE) * (1.0 + REACH_TOLERANCE);
 
 /// A sphere, and the points that determine it.
 #[derive(Clone, Copy)]
 struct Sphere<const D: usize> {
     center: [f64; D],
-    /// The square of its radius.
-    square: f64,
+    radius_squared: f64,
     support: [[f64; D]; 4],
     count: usize,
 }
@@ -53,7 +52,7 @@ where
         std::array::from_fn(|axis| at[axis])
     };
     let center: [f64; D] = std::array::from_fn(|axis| ball.center.as_ref()[axis]);
-    let is_inside = square(place(more), center) <= ball.radius * ball.radius * REACH;
+    let is_inside = square(place(more), center) <= ball.radius * ball.radius * SQUARED_SLACK;
     if is_inside || ball.support.len() > D + 1 {
         return None;
     }
@@ -63,13 +62,13 @@ where
     let mut before = ball.radius * ball.radius;
     for _ in 0..ROUNDS_MAX {
         let sphere = entered(&support[..count], entering)?;
-        if sphere.square.sqrt() >= limit {
+        if sphere.radius_squared.sqrt() >= limit {
             return Some(f64::INFINITY);
         }
-        if sphere.square <= before * REACH {
+        if sphere.radius_squared <= before * SQUARED_SLACK {
             return None;
         }
-        let mut most = sphere.square * REACH;
+        let mut most = sphere.radius_squared * SQUARED_SLACK;
         let mut farthest = None;
         for &item in members.iter().chain(&[more]) {
             let reach = square(place(item), sphere.center);
@@ -78,10 +77,10 @@ where
             }
         }
         match farthest {
-            None => return Some(sphere.square.sqrt()),
+            None => return Some(sphere.radius_squared.sqrt()),
             Some(place) => entering = place,
         }
-        (support, count, before) = (sphere.support, sphere.count, sphere.square);
+        (support, count, before) = (sphere.support, sphere.count, sphere.radius_squared);
     }
     None
 }
@@ -91,13 +90,14 @@ fn entered<const D: usize>(support: &[[f64; D]], p: [f64; D]) -> Option<Sphere<D
 where
     [f64; D]: Through,
 {
-    let holds_all =
-        |center: [f64; D], r2: f64| support.iter().all(|&a| square(a, center) <= r2 * REACH);
+    let holds_all = |center: [f64; D], r2: f64| {
+        support.iter().all(|&a| square(a, center) <= r2 * SQUARED_SLACK)
+    };
     for &a in support {
         let center = std::array::from_fn(|axis| 0.5 * (a[axis] + p[axis]));
         let r2 = 0.25 * square(a, p);
         if holds_all(center, r2) {
-            return Some(Sphere { center, square: r2, support: [p, a, p, p], count: 2 });
+            return Some(Sphere { center, radius_squared: r2, support: [p, a, p, p], count: 2 });
         }
     }
     let mut best: Option<Sphere<D>> = None;
@@ -117,8 +117,8 @@ where
         let to_center = <[f64; D]>::to_center(&edges[..count])?;
         let r2 = square(to_center, [0.0; D]);
         let center = std::array::from_fn(|axis| p[axis] + to_center[axis]);
-        if best.is_none_or(|best| r2 < best.square) && holds_all(center, r2) {
-            best = Some(Sphere { center, square: r2, support: through, count: count + 1 });
+        if best.is_none_or(|best| r2 < best.radius_squared) && holds_all(center, r2) {
+            best = Some(Sphere { center, radius_squared: r2, support: through, count: count + 1 });
         }
     }
     best
@@ -183,7 +183,7 @@ mod tests {
     use super::*;
 
     /// Counts the sets for which the general method is left to do the work; all others have its radius.
-    fn left_to_others<const D: usize>(grid: bool) -> (usize, usize)
+    fn left_to_others<const D: usize>(grid: bool, scale: f64) -> (usize, usize)
     where
         [f64; D]: Through + Position,
     {
@@ -191,7 +191,7 @@ mod tests {
         let mut draw = || {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695);
             let value = (state >> 33) as f64 / 2f64.powi(31);
-            if grid { (value * 4.0).floor() } else { value }
+            scale * if grid { (value * 4.0).floor() } else { value }
         };
         let (mut left, mut all) = (0, 0);
         for round in 0..2000 {
@@ -202,7 +202,7 @@ mod tests {
             let (more, mut work) = (count as u32 - 1, Workspace::new(D));
             let ball = Ball::of_all(&items, &members, &mut work);
             if ball.holds(&items, more) {
-                assert_eq!(radius_with::<D, _>(&items, &ball, &members, more, 9.0), None);
+                assert_eq!(radius_with::<D, _>(&items, &ball, &members, more, 9.0 * scale), None);
                 continue;
             }
             let mut grown = ball.clone();
@@ -221,11 +221,21 @@ mod tests {
 
     #[test]
     fn radii_are_those_of_the_general_method() {
-        for (left, all) in [left_to_others::<2>(false), left_to_others::<3>(false)] {
-            assert!(all > 500 && left * 100 < all, "{left} of {all}");
+        for scale in [1.0, 1e-48, 1e48] {
+            for (left, all) in
+                [left_to_others::<2>(false, scale), left_to_others::<3>(false, scale)]
+            {
+                assert!(all > 500 && left * 100 < all, "{left} of {all}, {scale}");
+            }
+            for (left, all) in [left_to_others::<2>(true, scale), left_to_others::<3>(true, scale)]
+            {
+                assert!(all > 500 && left < all, "{left} of {all}, {scale}");
+            }
         }
-        for (left, all) in [left_to_others::<2>(true), left_to_others::<3>(true)] {
-            assert!(all > 500 && left < all, "{left} of {all}");
+        // Squares of edges leave the range in which products of three are safe.
+        for scale in [1e-60, 1e60, 1e-150] {
+            left_to_others::<2>(false, scale);
+            left_to_others::<3>(true, scale);
         }
     }
 }
