@@ -301,7 +301,12 @@ mod tests {
         let cluster = [Run::new(0, 0..4)];
         let mut work = Workspace::new(2);
         let ball = ball_of(&cloud, &cluster, &[number(1.0), number(-1.0)], &mut work);
-        assert!((ball.radius - (1.0 + 1.95e-7)).abs() < 1e-13, "{}", ball.radius);
+        let across = [number(1.0), number(-1.0)];
+        let others = (0..4).filter(|item| !across.contains(item));
+        let in_order: Vec<u32> = across.into_iter().chain(others).collect();
+        for ball in [ball, Ball::of_all(&cloud.items, &in_order, &mut work)] {
+            assert!((ball.radius - (1.0 + 1.95e-7)).abs() < 1e-13, "{}", ball.radius);
+        }
     }
 
     #[test]
