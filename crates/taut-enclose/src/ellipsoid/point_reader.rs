@@ -281,33 +281,29 @@ pub(super) struct TakenRows {
     pub(super) above: f64,
 }
 
-/// Returns what a pass over some rows in memory finds, which are numbered from 0 on. The calling thread measures them: another would take
-/// about as long to wake as most lists take to be measured.
-pub(super) fn pass_over(
-    dim: usize,
-    parts: &[Vec<f64>],
-    query: Query<'_>,
-) -> Result<PassResult, Error> {
-    let list = Mutex::new(Top::new(query.keep));
-    let bound = AtomicU64::new(query.above.to_bits());
-    let (mut first, mut largest, mut finite) = (0, 0.0f64, true);
-    for part in parts.iter().filter(|part| !part.is_empty()) {
-        let points = Points::new(part, dim).map_err(ReadError::from)?;
-        let report = block(query, &list, &bound, first, &points, false)?;
-        first += points.len() as u64;
-        largest = largest.max(report.largest);
-        finite &= report.finite;
+/// |M(x − c)|² of rows in memory, which stand in parts. The calling thread measures them: another would take about as long to wake as
+/// most lists take to be measured.
+pub(super) fn squares_of(dim: usize, parts: &[Vec<f64>], query: Query<'_>) -> Vec<f64> {
+    let mut squares = vec![0.0; parts.iter().map(Vec::len).sum::<usize>() / dim];
+    let (mut scratch, mut left) = (vec![], &mut squares[..]);
+    for part in parts {
+        let (of_part, rest) = left.split_at_mut(part.len() / dim);
+        for (rows, squares) in part.chunks(ROWS_AT_ONCE * dim).zip(of_part.chunks_mut(ROWS_AT_ONCE))
+        {
+            leverages(rows, query.matrix, query.center, &mut scratch, squares);
+        }
+        left = rest;
     }
-    let far = list.into_inner().unwrap_or_else(PoisonError::into_inner).into_sorted();
-    Ok(settled(query, if finite { largest } else { f64::INFINITY }, far))
+    squares
 }
 
-/// Returns what a pass over rows finds whose squares are known.
+/// Returns what a pass over rows finds whose squares are known; rows are in the order of their numbers.
 pub(super) fn pass_of_squares(ids: &[u64], squares: &[f64], query: Query<'_>) -> PassResult {
     let mut top = Top::new(query.keep);
     let far = ids.iter().zip(squares).map(|(&id, &reach2)| Far { id, reach2 });
     far.filter(|far| far.reach2 > query.above).for_each(|far| top.offer(far));
-    settled(query, squares.iter().copied().fold(0.0, f64::max), top.into_sorted())
+    let largest = if all_finite(squares) { largest(squares) } else { f64::INFINITY };
+    settled(query, largest, top.into_sorted())
 }
 
 /// Measures all blocks of a source; in a first pass they are hashed, too.

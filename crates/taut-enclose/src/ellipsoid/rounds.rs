@@ -108,7 +108,7 @@ pub(super) fn solve(
         let (found, all) = match &mut list {
             None => (reader.pass(query)?, true),
             Some(list) => {
-                let mut found = list.pass(query)?;
+                let mut found = list.pass(query, &whitener, doubt);
                 let mut others = list.others(&whitener, doubt);
                 idle = if found.largest < least { 0 } else { idle + 1 };
                 least = least.min(found.largest);

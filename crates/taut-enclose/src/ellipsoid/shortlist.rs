@@ -3,6 +3,7 @@
 //! *Idea.* A pass with the ellipsoid |M₀(x − c₀)|² lists all points beyond some b. For another ellipsoid, and any point
 //! that is not listed, M(x − c) = Tz + s with T = MM₀⁻¹, s = M(c₀ − c) and |z|² ≤ b. Where the largest of such lengths
 //! ([`reach2`]) is less than √d, a pass over the list tells as much as a pass over all points.
+//! Of the list itself, each pass over it leaves a shorter one in the same way.
 //! *Guarantee.* The bound holds with the rounding of M₀⁻¹ added to it; what is listed does not depend on threads.
 //! *Trap.* A list is of use only if M₀ is near the end: that of a covariance is for normal points, not for points near
 //! an ellipsoid. So the ellipsoid of a sample comes first.
@@ -10,7 +11,7 @@
 use taut_kernels::vector::dot;
 
 use super::dense::divide_rows;
-use super::point_reader::{PassResult, PointReader, Query, pass_of_squares, pass_over};
+use super::point_reader::{PassResult, PointReader, Query, pass_of_squares, squares_of};
 use super::sample::Sample;
 use super::whitener::Whitener;
 use super::working_set::{WorkingSet, rows_of_blocks};
@@ -26,6 +27,9 @@ const SAMPLE_RANK_MIN: usize = 10;
 /// A block gives at most this many times its share to a list, which bounds what the order of the points can do.
 const BLOCK_SHARE_MAX: f64 = 16.0;
 
+/// Beyond this share of a list, near points are not worth a list of their own.
+const NEAR_SHARE_MAX: f64 = 0.5;
+
 /// Rows of a source, and what is known of those that are not among them.
 pub(super) struct Shortlist {
     dim: usize,
@@ -35,6 +39,8 @@ pub(super) struct Shortlist {
     rows: Vec<Vec<f64>>,
     /// The ellipsoid that listed them, and the |y|² that no other point exceeds; `None` if they are but a sample.
     others: Option<(Whitener, f64)>,
+    /// Those of them that were near the border or outside when all were last measured; lists nest.
+    near: Option<Box<Shortlist>>,
 }
 
 impl Shortlist {
@@ -45,7 +51,13 @@ impl Shortlist {
         for row in rows.chunks_exact_mut(dim) {
             row.iter_mut().zip(&sample.origin).for_each(|(x, o)| *x += o);
         }
-        Shortlist { dim, ids: sample.set.ids().to_vec(), rows: vec![rows], others: None }
+        Shortlist {
+            dim,
+            ids: sample.set.ids().to_vec(),
+            rows: vec![rows],
+            others: None,
+            near: None,
+        }
     }
 
     /// One pass over all points, in which this whitener lists about a share of them, and what a pass over the list would find.
@@ -70,22 +82,53 @@ impl Shortlist {
             return Err(Error::Overflow);
         }
         let others = Some((whitener.clone(), taken.above));
-        let list = Shortlist { dim: reader.dim(), ids: taken.ids, rows: taken.rows, others };
-        let found = match taken.squares {
-            Some(squares) => pass_of_squares(&list.ids, &squares, query),
-            None => list.pass(query)?,
-        };
+        let (dim, ids, rows) = (reader.dim(), taken.ids, taken.rows);
+        let squares = taken.squares.unwrap_or_else(|| squares_of(dim, &rows, query));
+        let found = pass_of_squares(&ids, &squares, query);
+        let mut list = Shortlist { dim, ids, rows, others, near: None };
+        list.near = list.narrowed(&squares, found.largest, whitener);
         Ok((list, found))
     }
 
-    /// A pass over the list.
-    pub(super) fn pass(&self, query: Query<'_>) -> Result<PassResult, Error> {
-        let mut found = pass_over(self.dim, &self.rows, query)?;
-        // Positions ascend as row numbers do, so ties were decided alike.
-        for Far { id, .. } in &mut found.far {
-            *id = self.ids[*id as usize];
+    /// A pass over the list, or over those of it alone that can be above the threshold of the query.
+    pub(super) fn pass(&mut self, query: Query<'_>, whitener: &Whitener, doubt: f64) -> PassResult {
+        if let Some(near) = &mut self.near
+            && near.others(whitener, doubt) < query.above
+        {
+            return near.pass(query, whitener, doubt);
         }
-        Ok(found)
+        let squares = squares_of(self.dim, &self.rows, query);
+        let found = pass_of_squares(&self.ids, &squares, query);
+        self.near = self.narrowed(&squares, found.largest, whitener);
+        found
+    }
+
+    /// The points that can matter if the ellipsoid changes about as much as the farthest is outside, twice: squares change as the
+    /// largest does, by d/largest, and by as much again where the center moves. `None` where they are not few. With one factor, most lists
+    /// of normal points and of shells in ten dimensions were too short for the next pass; with two, hardly any.
+    fn narrowed(&self, squares: &[f64], largest: f64, whitener: &Whitener) -> Option<Box<Self>> {
+        if !largest.is_finite() {
+            return None;
+        }
+        let dim = self.dim;
+        let border = dim as f64;
+        let above = border * (border / largest).powi(2);
+        let near: Vec<usize> = (0..squares.len()).filter(|&i| squares[i] > above).collect();
+        if near.len() as f64 > NEAR_SHARE_MAX * squares.len() as f64 {
+            return None;
+        }
+        let ids = near.iter().map(|&i| self.ids[i]).collect();
+        let mut rows = Vec::with_capacity(near.len() * dim);
+        let (mut part, mut first) = (0, 0);
+        for i in near {
+            while i - first >= self.rows[part].len() / dim {
+                first += self.rows[part].len() / dim;
+                part += 1;
+            }
+            rows.extend_from_slice(&self.rows[part][(i - first) * dim..][..dim]);
+        }
+        let others = Some((whitener.clone(), above));
+        Some(Box::new(Shortlist { dim, ids, rows: vec![rows], others, near: None }))
     }
 
     /// A bound on |y|² under this whitener of the points that are not listed; `doubt` bounds the relative rounding of
@@ -195,7 +238,7 @@ mod tests {
             let (whitener, _) = sample.whitener(&sample.extents());
             let center = center_of(&sample.origin, &whitener);
             let query = Query { matrix: whitener.matrix(), center: &center, above: 1e9, keep: 10 };
-            let (list, _) =
+            let (mut list, _) =
                 Shortlist::of_pass(&mut reader, query, &whitener, &sample, 0.05).unwrap();
             assert!((600..1700).contains(&list.ids.len()), "{}", list.ids.len());
             // Steps to single points change shape and center.
@@ -210,10 +253,60 @@ mod tests {
                 let reached = found.far.iter().find(free).unwrap().reach2;
                 let bound = list.others(&other, 1e-12);
                 assert!(reached <= bound && bound <= 2.5 * reached, "{reached} {bound}");
-                let listed = list.pass(query).unwrap().far;
+                let listed = list.pass(query, &other, 1e-12).far;
                 let wanted: Vec<Far> = found.far.iter().filter(|far| !free(far)).copied().collect();
                 assert_eq!(listed, wanted);
             }
+        }
+    }
+
+    /// Passes over ever fewer points find what passes over all find, farthest points, largest square and threshold.
+    #[test]
+    fn nested_lists_miss_no_point_above_the_threshold() {
+        for dim in [2, 5, 10] {
+            let values: Vec<f64> = generate(Distribution::Normal, 20_000, dim, 9).unwrap();
+            let points = Points::new(&values, dim).unwrap();
+            let monitor = Monitor::silent();
+            let mut reader = PointReader::new(&points, &monitor).unwrap();
+            let sample = Sample::new(&reader).unwrap();
+            let (mut whitener, _) = sample.whitener(&sample.extents());
+            let mut list = Shortlist {
+                dim,
+                ids: (0..20_000).collect(),
+                rows: values.chunks(dim * 6000).map(<[f64]>::to_vec).collect(),
+                others: None,
+                near: None,
+            };
+            let mut shortest = list.ids.len();
+            for _ in 0..100 * dim {
+                let center = center_of(&sample.origin, &whitener);
+                let query = Query {
+                    matrix: whitener.matrix(),
+                    center: &center,
+                    above: dim as f64 * (1.0 - 1e-9),
+                    keep: 50,
+                };
+                let found = list.pass(query, &whitener, 1e-12);
+                let wanted = reader.pass(query).unwrap();
+                assert_eq!(found.far, wanted.far);
+                assert_eq!(found.largest, wanted.largest);
+                assert_eq!(found.listed_above, wanted.listed_above);
+                let mut innermost = &list;
+                while let Some(near) = &innermost.near {
+                    innermost = near;
+                }
+                shortest = shortest.min(innermost.ids.len());
+                // Khachiyan's step to the farthest point.
+                let (d, far) = (dim as f64, found.largest);
+                let beta = (far - d) / ((d + 1.0) * far);
+                let row: Vec<f64> = values[found.far[0].id as usize * dim..][..dim]
+                    .iter()
+                    .zip(&sample.origin)
+                    .map(|(x, o)| x - o)
+                    .collect();
+                whitener.step(&row, beta);
+            }
+            assert!(shortest < 2000, "{shortest}");
         }
     }
 }
