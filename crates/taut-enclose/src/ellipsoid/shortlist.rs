@@ -249,7 +249,8 @@ mod tests {
                 let query =
                     Query { matrix: other.matrix(), center: &center, above: 0.0, keep: 20_000 };
                 let found = reader.pass(query).unwrap();
-                let free = |far: &&Far| list.ids.binary_search(&far.id).is_err();
+                let ids = list.ids.clone();
+                let free = |far: &&Far| ids.binary_search(&far.id).is_err();
                 let reached = found.far.iter().find(free).unwrap().reach2;
                 let bound = list.others(&other, 1e-12);
                 assert!(reached <= bound && bound <= 2.5 * reached, "{reached} {bound}");

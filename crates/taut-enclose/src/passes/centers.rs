@@ -4,8 +4,8 @@ use taut_points::{
     BlockHash, ByteReader, ByteWriter, Elsewhere, Monitor, PartsError, PointSource, PointsHash,
 };
 
-use super::partial::{Body, Partial};
-use super::query::{Query, Question, among_all};
+use super::partial::Body;
+use super::query::{Question, among_all};
 use crate::Error;
 use crate::streaming::Reach;
 
@@ -24,8 +24,7 @@ pub(crate) fn ask_reach(
     reach: Reach,
 ) -> Result<(f64, PointsHash), Error> {
     let question = Question::Centers(CentersQuestion { centers: centers.to_vec(), reach });
-    let query = Query::new(source.len(), source.dim(), question);
-    let partial = Partial::from_bytes(&elsewhere.ask(&query.to_bytes())?)?;
+    let partial = question.ask(elsewhere, source)?;
     let hash = partial.hash()?;
     match partial.body {
         Body::Centers(reach) => Ok((reach, hash)),

@@ -8,8 +8,8 @@ use taut_points::{
     BlockHash, ByteReader, ByteWriter, Elsewhere, Monitor, PartsError, PointSource, PointsHash,
 };
 
-use super::partial::{Body, Partial};
-use super::query::{Query, Question};
+use super::partial::Body;
+use super::query::Question;
 use crate::Error;
 use crate::item_reader::{Found, Pass, Query as PassQuery, View, farther, spread};
 use crate::top::{Far, Top, TopByFace};
@@ -47,7 +47,7 @@ pub(crate) fn ask_first(
     view: &View,
     query: PassQuery<'_>,
 ) -> Result<FirstAnswer, Error> {
-    let partial = ask(elsewhere, source, ItemQuestion::of(view, query, true))?;
+    let partial = Question::Items(ItemQuestion::of(view, query, true)).ask(elsewhere, source)?;
     let hash = partial.hash()?;
     match partial.body {
         Body::Items(ItemBody::Farthest { found, first: Some(first), .. }) => {
@@ -64,7 +64,7 @@ pub(crate) fn ask_items(
     view: &View,
     query: PassQuery<'_>,
 ) -> Result<Found, Error> {
-    match ask(elsewhere, source, ItemQuestion::of(view, query, false))?.body {
+    match Question::Items(ItemQuestion::of(view, query, false)).ask(elsewhere, source)?.body {
         Body::Items(ItemBody::Farthest { found, .. }) => Ok(found),
         _ => Err(PartsError::Question.into()),
     }
@@ -78,19 +78,10 @@ pub(crate) fn ask_spread(
     center: &Center,
 ) -> Result<(f64, f64), Error> {
     let question = ItemQuestion { view: view.clone(), center: center.clone(), kind: Kind::Spread };
-    match ask(elsewhere, source, question)?.body {
+    match Question::Items(question).ask(elsewhere, source)?.body {
         Body::Items(ItemBody::Spread { spread, largest }) => Ok((spread, largest)),
         _ => Err(PartsError::Question.into()),
     }
-}
-
-fn ask(
-    elsewhere: &dyn Elsewhere,
-    source: &dyn PointSource,
-    question: ItemQuestion,
-) -> Result<Partial, Error> {
-    let query = Query::new(source.len(), source.dim(), Question::Items(question));
-    Ok(Partial::from_bytes(&elsewhere.ask(&query.to_bytes())?)?)
 }
 
 impl ItemQuestion {

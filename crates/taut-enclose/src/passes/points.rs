@@ -4,8 +4,8 @@ use taut_points::{
     BlockHash, ByteReader, ByteWriter, Elsewhere, Monitor, PartsError, PointSource, PointsHash,
 };
 
-use super::partial::{Body, Partial};
-use super::query::{Query, Question};
+use super::partial::Body;
+use super::query::Question;
 use crate::Error;
 use crate::ellipsoid::question as asked;
 use crate::ellipsoid::question::TakenIds;
@@ -32,8 +32,7 @@ pub(crate) fn ask_points(
     is_first: bool,
 ) -> Result<PointsAnswer, Error> {
     let question = Question::Points(PointQuestion { is_first, question });
-    let query = Query::new(source.len(), source.dim(), question);
-    let partial = Partial::from_bytes(&elsewhere.ask(&query.to_bytes())?)?;
+    let partial = question.ask(elsewhere, source)?;
     let hash = partial.hash()?;
     match partial.body {
         Body::Points(answer) => Ok(PointsAnswer { hash, answer }),

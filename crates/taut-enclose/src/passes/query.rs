@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use taut_points::{
-    BlockHash, BlockRuns, Blocks, ByteReader, ByteWriter, InputError, Monitor, PartsError,
-    PointSource, check_part, gather, instruction_set,
+    BlockHash, BlockRuns, Blocks, ByteReader, ByteWriter, Elsewhere, InputError, Monitor,
+    PartsError, PointSource, check_part, gather, instruction_set,
 };
 
 use super::centers::CentersQuestion;
@@ -32,6 +32,18 @@ pub(super) enum Question {
     Centers(CentersQuestion),
     Traversal(TraversalQuestion),
     Shells(ShellQuestion),
+}
+
+impl Question {
+    /// The answer for all rows of a source that are held elsewhere.
+    pub(super) fn ask(
+        self,
+        elsewhere: &dyn Elsewhere,
+        source: &dyn PointSource,
+    ) -> Result<Partial, Error> {
+        let query = Query::new(source.len(), source.dim(), self);
+        Ok(Partial::from_bytes(&elsewhere.ask(&query.to_bytes())?)?)
+    }
 }
 
 /// The word that bytes of a query begin with.

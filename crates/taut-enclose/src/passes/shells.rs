@@ -11,8 +11,8 @@ use taut_points::{
     PointsHash,
 };
 
-use super::partial::{Body, Partial};
-use super::query::{Query, Question, among_all};
+use super::partial::Body;
+use super::query::{Question, among_all};
 use super::traversal::{read_far, write_far};
 use crate::Error;
 use crate::ellipsoid::point_reader::visit;
@@ -49,7 +49,8 @@ pub(crate) fn ask_counts(
     is_first: bool,
 ) -> Result<(Vec<u64>, PointsHash), Error> {
     let kind = Kind::Count { low, width };
-    let partial = ask(elsewhere, source, ShellQuestion { is_first, metric: metric.clone(), kind })?;
+    let question = ShellQuestion { is_first, metric: metric.clone(), kind };
+    let partial = Question::Shells(question).ask(elsewhere, source)?;
     let hash = partial.hash()?;
     match partial.body {
         Body::Shells(ShellBody::Count(counts)) => Ok((counts, hash)),
@@ -66,22 +67,13 @@ pub(crate) fn ask_border(
 ) -> Result<(Moments, Vec<Far>), Error> {
     let kind = Kind::Border { low, high };
     let question = ShellQuestion { is_first: false, metric: metric.clone(), kind };
-    match ask(elsewhere, source, question)?.body {
+    match Question::Shells(question).ask(elsewhere, source)?.body {
         Body::Shells(ShellBody::Border { sums, mut border }) => {
             border.order_by(&|a, b| a.reach2.total_cmp(&b.reach2).then(a.id.cmp(&b.id)));
             Ok((sums.total(source.dim()), border))
         }
         _ => Err(PartsError::Question.into()),
     }
-}
-
-fn ask(
-    elsewhere: &dyn Elsewhere,
-    source: &dyn PointSource,
-    question: ShellQuestion,
-) -> Result<Partial, Error> {
-    let query = Query::new(source.len(), source.dim(), Question::Shells(question));
-    Ok(Partial::from_bytes(&elsewhere.ask(&query.to_bytes())?)?)
 }
 
 impl ShellQuestion {

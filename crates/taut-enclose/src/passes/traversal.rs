@@ -9,8 +9,8 @@ use taut_points::{
     Rows, Scalar, map_blocks,
 };
 
-use super::partial::{Body, Partial};
-use super::query::{Query, Question, among_all};
+use super::partial::Body;
+use super::query::{Question, among_all};
 use crate::Error;
 use crate::frame::{Extent, Frame, extent_and_hashes};
 use crate::streaming::nearest_squares;
@@ -29,7 +29,7 @@ pub(crate) fn ask_extent(
     elsewhere: &dyn Elsewhere,
     source: &dyn PointSource,
 ) -> Result<(Extent, PointsHash), Error> {
-    let partial = ask(elsewhere, source, TraversalQuestion::Extent)?;
+    let partial = Question::Traversal(TraversalQuestion::Extent).ask(elsewhere, source)?;
     let hash = partial.hash()?;
     match partial.body {
         Body::Traversal(TraversalBody::Extent(extent)) if extent.low.len() == source.dim() => {
@@ -49,19 +49,10 @@ pub(crate) fn ask_farthest(
 ) -> Result<Vec<Far>, Error> {
     let centers = centers.to_vec();
     let question = TraversalQuestion::Farthest { frame: frame.clone(), centers, keep };
-    match ask(elsewhere, source, question)?.body {
+    match Question::Traversal(question).ask(elsewhere, source)?.body {
         Body::Traversal(TraversalBody::Farthest { far, .. }) => Ok(far),
         _ => Err(PartsError::Question.into()),
     }
-}
-
-fn ask(
-    elsewhere: &dyn Elsewhere,
-    source: &dyn PointSource,
-    question: TraversalQuestion,
-) -> Result<Partial, Error> {
-    let query = Query::new(source.len(), source.dim(), Question::Traversal(question));
-    Ok(Partial::from_bytes(&elsewhere.ask(&query.to_bytes())?)?)
 }
 
 impl TraversalQuestion {
