@@ -28,7 +28,7 @@ const SAMPLE_RANK_MIN: usize = 10;
 const BLOCK_SHARE_MAX: f64 = 16.0;
 
 /// Beyond this share of a list, near points are not worth a list of their own.
-const NEAR_SHARE_MAX: f64 = 0.5;
+const NEAR_SHARE_MAX: f64 = 0.25;
 
 /// Rows of a source, and what is known of those that are not among them.
 pub(super) struct Shortlist {
@@ -113,19 +113,20 @@ impl Shortlist {
         let dim = self.dim;
         let border = dim as f64;
         let above = border * (border / largest).powi(2);
-        let near: Vec<usize> = (0..squares.len()).filter(|&i| squares[i] > above).collect();
-        if near.len() as f64 > NEAR_SHARE_MAX * squares.len() as f64 {
+        let count = squares.iter().filter(|&&square| square > above).count();
+        if count as f64 > NEAR_SHARE_MAX * squares.len() as f64 {
             return None;
         }
-        let ids = near.iter().map(|&i| self.ids[i]).collect();
-        let mut rows = Vec::with_capacity(near.len() * dim);
-        let (mut part, mut first) = (0, 0);
-        for i in near {
-            while i - first >= self.rows[part].len() / dim {
-                first += self.rows[part].len() / dim;
-                part += 1;
+        let mut ids = Vec::with_capacity(count);
+        let mut rows = Vec::with_capacity(count * dim);
+        let mut measured = self.ids.iter().zip(squares);
+        for part in &self.rows {
+            for (row, (&id, &square)) in part.chunks_exact(dim).zip(&mut measured) {
+                if square > above {
+                    ids.push(id);
+                    rows.extend_from_slice(row);
+                }
             }
-            rows.extend_from_slice(&self.rows[part][(i - first) * dim..][..dim]);
         }
         let others = Some((whitener.clone(), above));
         Some(Box::new(Shortlist { dim, ids, rows: vec![rows], others, near: None }))
