@@ -38,7 +38,7 @@ pub(super) struct Query<'q> {
 }
 
 pub(super) struct PassResult {
-    /// The largest |M(x − c)|²; infinite where a square is no `f64`.
+    /// The largest |M(x − c)|², or any lower number if none is above the threshold; infinite where a square is no `f64`.
     pub(super) largest: f64,
     /// Points above the threshold, the farthest first.
     pub(super) far: Vec<Far>,
@@ -281,7 +281,7 @@ pub(super) struct TakenRows {
     pub(super) above: f64,
 }
 
-/// |M(x − c)|² of rows in memory, which stand in parts. The calling thread measures them: another would take about as long to wake as
+/// Returns |M(x − c)|² of rows in memory, which stand in parts. The calling thread measures them: another would take about as long to wake as
 /// most lists take to be measured.
 pub(super) fn squares_of(dim: usize, parts: &[Vec<f64>], query: Query<'_>) -> Vec<f64> {
     let mut squares = vec![0.0; parts.iter().map(Vec::len).sum::<usize>() / dim];
@@ -297,7 +297,7 @@ pub(super) fn squares_of(dim: usize, parts: &[Vec<f64>], query: Query<'_>) -> Ve
     squares
 }
 
-/// Returns what a pass over rows finds whose squares are known; rows are in the order of their numbers.
+/// Returns what a pass over rows finds whose squares are known.
 pub(super) fn pass_of_squares(ids: &[u64], squares: &[f64], query: Query<'_>) -> PassResult {
     let mut top = Top::new(query.keep);
     let far = ids.iter().zip(squares).map(|(&id, &reach2)| Far { id, reach2 });

@@ -6,7 +6,8 @@
 //! Of many points in few dimensions the rounds are over the sample first, and then over the few points that a pass with
 //! its ellipsoid lists, as long as that list is known to hold every point outside ([`shortlist`]).
 //! *Guarantee.* The best lower bound is kept; bounds do not fall but where points leave a hard working set. One pass or two with a list; without, three to five on ordinary data and about a
-//! dozen where all points lie near one ellipsoid. The points in memory are those of the working set and of the list.
+//! dozen where all points lie near one ellipsoid. The points in memory are those of the working set and of the list, up to a third of
+//! these twice.
 //! *Trap.* The points farthest outside are often near-copies of each other, so each sector around the center may only
 //! give a few: a sector is a coordinate of the image and its sign.
 //! *Trap.* A point that lies very far outside gets weight at once: models are made at multipliers, and one of leverage

@@ -35,7 +35,7 @@ pub(super) enum Question {
 }
 
 impl Question {
-    /// The answer for all rows of a source that are held elsewhere.
+    /// Asks it of all rows of a source that are held elsewhere.
     pub(super) fn ask(
         self,
         elsewhere: &dyn Elsewhere,
