@@ -26,10 +26,11 @@ const SAMPLE_RANK_MIN: usize = 10;
 /// A block gives at most this many times its share to a list, which bounds what the order of the points can do.
 const BLOCK_SHARE_MAX: f64 = 16.0;
 
-/// Near points have a list of their own if they are at most this share of theirs. At a half, copies of 10⁵ × 10 normal points took as
-/// long as they saved.
+/// Near points have a list of their own if they are at most this share of theirs. A half made no difference in time that could be told
+/// from noise on 10⁵ × 10 normal points, and takes more memory.
 const NEAR_SHARE_MAX: f64 = 0.25;
-/// A list that is shorter is measured in the time that it takes to bound what another leaves out.
+/// A shorter list is measured in about the time that it takes to bound what another leaves out, by a count of operations in ten
+/// dimensions.
 const NARROWED_LIST_MIN: usize = 1024;
 /// Where the largest |y|² is more times d than this, near points reach so far down that roundings of their |y|² and of the border
 /// differ.
@@ -115,7 +116,7 @@ impl Shortlist {
     ///
     /// The ellipsoid is expected to change by at most (largest/d)², in |y|². That is a guess, on which no answer depends: of 10⁵ × 10
     /// normal points and points near an ellipsoid (example `ellipsoids`), lists by largest/d were too short for most passes, those by its
-    /// square for none but lists of samples.
+    /// square for few.
     fn narrowed(&self, squares: &[f64], largest: f64, whitener: &Whitener) -> Option<Box<Self>> {
         let dim = self.dim;
         let border = dim as f64;
