@@ -87,11 +87,8 @@ const CITIES: &[Task] = &[
         .radius(4306.44830458)
         .must(&[SECONDS.at_most(2.0), CORE_SET_GOAL, CHECK_GOAL])
         .aim(&[SECONDS.at_most(0.1)]),
-    task(GERMANY, 10, GAP_EXACT)
-        .radius(3725.69052411)
-        .must(&[SECONDS.at_most(10.0)])
-        .aim(&[SECONDS.at_most(1.0)]),
-    task(GERMANY, 12, GAP_EXACT).must(&[SECONDS.at_most(60.0)]).aim(&[SECONDS.at_most(5.0)]),
+    task(GERMANY, 10, GAP_EXACT).radius(3725.69052411).must(&[SECONDS.at_most(0.1)]).aim(QUICK_AIM),
+    task(GERMANY, 12, GAP_EXACT).must(&[SECONDS.at_most(0.5)]).aim(&[SECONDS.at_most(0.3)]),
     task(USA, 5, GAP_EXACT).radius(99986.80259875).must(&[
         SECONDS.at_most(0.2),
         CORE_SET_GOAL,
@@ -101,7 +98,7 @@ const CITIES: &[Task] = &[
 ];
 
 const CITIES_15: &[Task] = &[
-    task(GERMANY, 15, 0.01).must(&[SECONDS.at_most(300.0)]).aim(&[SECONDS.at_most(10.0)]),
+    task(GERMANY, 15, 0.01).must(&[SECONDS.at_most(1.2)]).aim(&[SECONDS.at_most(0.6)]),
     task(USA, 15, 0.01).must(&[SECONDS.at_most(100.0)]).aim(&[SECONDS.at_most(4.0)]),
 ];
 
@@ -109,12 +106,12 @@ const SPACE_TASKS: &[Task] = &[
     task(SPACE, 4, 0.01).must(&[SECONDS.at_most(0.1), CORE_SET_GOAL]).aim(&[SECONDS.at_most(0.01)]),
     task(SPACE, 6, 0.01).must(&[SECONDS.at_most(0.3), CORE_SET_GOAL]).aim(&[SECONDS.at_most(0.03)]),
     task(SPACE, 8, 0.01).must(&[SECONDS.at_most(3.0), CORE_SET_GOAL]).aim(&[SECONDS.at_most(0.2)]),
-    task(SPACE, 10, 0.01).must(&[SECONDS.at_most(40.0)]).aim(&[SECONDS.at_most(2.0)]),
+    task(SPACE, 10, 0.01).must(&[SECONDS.at_most(2.0)]).aim(&[SECONDS.at_most(1.0)]),
 ];
 
 const CITIES_20: &[Task] = &[
     task(GERMANY, 20, 0.05).must(&[SECONDS.at_most(300.0)]).once(),
-    task(GERMANY, 20, 0.01).aim(&[GAP.at_most(0.01), SECONDS.at_most(600.0)]).once(),
+    task(GERMANY, 20, 0.01).must(&[SECONDS.at_most(120.0)]).aim(&[SECONDS.at_most(60.0)]).once(),
 ];
 
 /// All sections; the longest is the last.

@@ -80,11 +80,8 @@ fn run_task(
     out.table(&what, table);
     let mut found = judgement::found(&judgements);
     found.median(SECONDS, Summary::of(&clocks), seconds);
-    let gap = GAP.at_most(task.epsilon);
     let radius = task.radius.map(|radius| RADIUS.near(radius, KNOWN_RADIUS_TOLERANCE));
-    // What is only hoped for is no must by its gap.
-    let gap = Some(gap).filter(|gap| !task.aim.contains(gap));
-    let known: Vec<Goal> = gap.into_iter().chain(radius).collect();
+    let known: Vec<Goal> = [GAP.at_most(task.epsilon)].into_iter().chain(radius).collect();
     out.judge_by([&known, &[]], &found);
     out.judge_by([task.must, task.aim], &found);
     out.close(&what);

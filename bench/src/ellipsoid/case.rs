@@ -52,15 +52,15 @@ const SHELLS: [Law; 3] = [Law::Shell(1e-2), Law::Shell(1e-4), Law::Shell(1e-8)];
 const SHELL_5_10: &[Goal] = &[SECONDS.at_most(0.09)];
 const SHELL_5_10_AIM: &[Goal] = &[SECONDS.at_most(0.03)];
 const SHELL_6_10: &[Goal] = &[SECONDS.at_most(0.5)];
-const SHELL_4_30: &[Goal] = &[SECONDS.at_most(1.5)];
-const SHELL_4_30_AIM: &[Goal] = &[SECONDS.at_most(0.4)];
+const SHELL_4_30: &[Goal] = &[SECONDS.at_most(0.5)];
+const SHELL_4_30_AIM: &[Goal] = &[SECONDS.at_most(0.3)];
 
 const NORMAL: &[Input] = &[
-    input(Law::Normal, 100_000, 10).goals(&[SECONDS.at_most(0.01)], &[SECONDS.at_most(0.003)]),
+    input(Law::Normal, 100_000, 10).goals(&[SECONDS.at_most(0.0035)], &[SECONDS.at_most(0.003)]),
     input(Law::Normal, 1_000_000, 10).goals(&[SECONDS.at_most(0.05)], &[SECONDS.at_most(0.015)]),
     input(Law::Normal, 100_000, 30).goals(&[SECONDS.at_most(0.09)], &[SECONDS.at_most(0.025)]),
     input(Law::Normal, 100_000, 50).goals(&[SECONDS.at_most(0.5)], &[SECONDS.at_most(0.12)]),
-    input(Law::Normal, 10_000, 100).goals(&[SECONDS.at_most(1.5)], &[SECONDS.at_most(0.3)]),
+    input(Law::Normal, 10_000, 100).goals(&[SECONDS.at_most(0.32)], &[SECONDS.at_most(0.25)]),
 ];
 
 const SHELL_INPUTS: &[Input] = &[
@@ -85,7 +85,7 @@ const TAILS: &[Input] = &[
 /// All sections; the longest is the last.
 pub(crate) const AREA: Area<Run> = Area {
     name: "ellipsoid",
-    runs: 5,
+    runs: 9,
     threads: &[1, 2],
     limit: 120,
     peer_budget: 60,

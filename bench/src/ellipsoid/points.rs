@@ -44,7 +44,7 @@ impl Solved {
     pub(super) fn found(&self) -> Found {
         let mut found = Found::proved(self.gap());
         found.add(PASSES, self.rounds.found.trace.passes as f64);
-        found.add_with_text(SECONDS, self.rounds.said());
+        found.median(SECONDS, Summary::of(self.rounds.walls()), seconds);
         let faster = self.rounds.peer().and_then(|peer| self.rounds.faster(peer));
         found.add(FASTER, faster.map(|(ratio, _)| ratio));
         found
