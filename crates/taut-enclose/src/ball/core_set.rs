@@ -23,7 +23,7 @@
 //! (`item_reader::row_bounds`).
 
 use taut_certify::{Items, PassBounds, Stop};
-use taut_kernels::{Center, relative_error};
+use taut_kernels::{Center, relative_error, squared_distances};
 use taut_points::{Cancelled, Monitor, ReadError};
 
 use super::active_set::{ActiveSet, VIOLATION_TOLERANCE};
@@ -232,15 +232,15 @@ pub(super) fn solve_working_set(
 
 /// r̄ + √(Σ λᵢ(|cᵢ − c|² − (rᵢ − r̄)²)), relative to the radius offset, for λ over the items named.
 pub(super) fn lower_bound(set: &WorkingSet, support: &[usize], lambda: &[f64]) -> f64 {
-    let center = set.combination(support, lambda);
+    let center = Center { high: set.combination(support, lambda), low: vec![] };
     let mean: f64 = support.iter().zip(lambda).map(|(&i, l)| l * set.radius(i)).sum();
     let inner: f64 = support
         .iter()
         .zip(lambda)
         .map(|(&i, l)| {
-            let distance2: f64 =
-                set.row(i).iter().zip(&center).map(|(x, c)| (x - c) * (x - c)).sum();
-            let distance = distance2.sqrt();
+            let mut distance2 = [0.0];
+            squared_distances(set.row(i), set.dim(), &center, &mut distance2);
+            let distance = distance2[0].sqrt();
             let radius = set.radius(i) - mean;
             l * (distance - radius) * (distance + radius)
         })

@@ -134,6 +134,7 @@ impl WorkingSet {
     pub(super) fn add(&mut self, ids: &[u64], rows: &[f64], with_radius: bool) {
         let before = self.len();
         let columns = self.dim + usize::from(with_radius);
+        self.rows.reserve(ids.len() * self.dim);
         for (&id, row) in ids.iter().zip(rows.chunks_exact(columns)) {
             debug_assert!(!self.contains(id));
             self.position.insert(id, self.ids.len());
