@@ -1,4 +1,4 @@
-//! Delaunay triangulations of a handful of points by their definition, in fractions: the judge of the checker.
+//! Delaunay triangulations of a handful of points by their definition, in whole numbers: the judge of the checker.
 //!
 //! The perturbation is carried out, not simulated: the lift of the k-th largest point is raised by δᵏ, for a fraction δ so
 //! small that no smaller one gives other signs.
@@ -7,6 +7,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 use taut_certify::{
@@ -43,15 +44,21 @@ impl Case {
     }
 }
 
-type Point = Vec<BigRational>;
+type Point = Vec<BigInt>;
 
-fn exact(values: &[f64]) -> Point {
-    values.iter().map(|&v| BigRational::from_float(v).expect("finite")).collect()
+/// The values in the largest unit of which all are multiples. With whole numbers nothing is spent on reducing fractions, which takes
+/// far more time than all else.
+fn whole(values: &[f64]) -> Vec<BigInt> {
+    let exact = values.iter().map(|&v| BigRational::from_float(v).expect("finite"));
+    let exact: Vec<BigRational> = exact.collect();
+    // All are powers of two.
+    let unit = exact.iter().map(BigRational::denom).max().cloned().unwrap_or_else(BigInt::one);
+    exact.iter().map(|x| x.numer() * (&unit / x.denom())).collect()
 }
 
-fn determinant(rows: &[Point]) -> BigRational {
+fn determinant(rows: &[Point]) -> BigInt {
     match rows.len() {
-        0 => BigRational::one(),
+        0 => BigInt::one(),
         n => (0..n)
             .map(|k| {
                 let rest: Vec<Point> = rows[1..]
@@ -77,30 +84,24 @@ struct Sites {
 
 impl Sites {
     fn of(points: Vec<Point>) -> Self {
-        // Whole numbers: determinants other than 0 are at least 1, and at most what δ makes up for.
-        let unit = points.iter().flatten().map(|x| x.denom()).max().cloned();
-        let unit = unit.map_or(BigRational::one(), BigRational::from_integer);
-        let points: Vec<Point> =
-            points.iter().map(|p| p.iter().map(|x| x * &unit).collect()).collect();
-        let largest = points.iter().flatten().map(|x| x.abs().to_integer().bits()).max();
-        let bits = largest.unwrap_or(0) as usize * 5 + 20;
-        let two = BigRational::one() + BigRational::one();
-        let one_by_delta = num_traits::pow(two, bits);
+        // Determinants of whole numbers other than 0 are at least 1, and at most what δ makes up for.
+        let largest = points.iter().flatten().map(BigInt::bits).max();
+        let one_by_delta = BigInt::one() << (largest.unwrap_or(0) * 5 + 20);
         let mut order: Vec<usize> = (0..points.len()).collect();
         order.sort_by(|&i, &j| points[i].cmp(&points[j]));
         let mut lifted = points.clone();
         // All lifts times δ⁻ⁿ, so that they are whole too.
         let all = num_traits::pow(one_by_delta.clone(), order.len());
-        let mut raise = BigRational::one();
+        let mut raise = BigInt::one();
         for i in order {
-            let square: BigRational = points[i].iter().map(|x| x * x).sum();
+            let square: BigInt = points[i].iter().map(|x| x * x).sum();
             lifted[i].push(square * &all + &raise);
             raise *= &one_by_delta;
         }
         Sites { points, lifted }
     }
 
-    fn orientation(&self, simplex: &[usize]) -> BigRational {
+    fn orientation(&self, simplex: &[usize]) -> BigInt {
         determinant(&edges(&simplex.iter().map(|&i| &self.points[i]).collect::<Vec<_>>()))
     }
 
@@ -139,7 +140,8 @@ fn subsets(n: usize, k: usize) -> impl Iterator<Item = Vec<usize>> {
 
 /// The answer, by trying every simplex.
 pub(crate) fn brute_force(values: &[f64], dimension: usize) -> Triangulation {
-    let rows: Vec<Point> = values.chunks(dimension).map(exact).collect();
+    let values = whole(values);
+    let rows: Vec<Point> = values.chunks(dimension).map(<[BigInt]>::to_vec).collect();
     let mut first: BTreeMap<&Point, usize> = BTreeMap::new();
     let mut duplicates = vec![];
     for (i, row) in rows.iter().enumerate() {
@@ -209,7 +211,7 @@ fn in_a_plane(points: &[Point]) -> Vec<Vec<usize>> {
     let mut with_apex = points.to_vec();
     for axis in 0..3 {
         let mut apex = points[0].clone();
-        apex[axis] += BigRational::one();
+        apex[axis] += 1;
         with_apex.push(apex);
         if rank(&with_apex) == Some(3) {
             break;

@@ -1,23 +1,39 @@
-//! The same questions in fractions, by other formulas.
+//! The same questions in whole numbers, by other formulas.
+//!
+//! Coordinates are taken in a unit of which all are multiples, and what is a quotient keeps its divisor beside it: to reduce fractions
+//! takes far more time than all else.
 
+use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{Signed, Zero};
+use num_traits::{One, Signed, Zero};
 use taut_certify::Apex;
 
 use super::Point;
 
-type Q = BigRational;
-type Vector = [Q; 3];
+type Vector = [BigInt; 3];
 
-fn exact(p: &Point) -> Vector {
-    p.map(|x| Q::from_float(x).expect("finite"))
+/// A point, times its positive or negative divisor, and that divisor.
+type Place = (Vector, BigInt);
+
+/// The points in the largest unit of which all coordinates are multiples.
+fn whole(points: &[Point]) -> Vec<Vector> {
+    let exact = |x: f64| BigRational::from_float(x).expect("finite");
+    let exact: Vec<[BigRational; 3]> = points.iter().map(|p| p.map(exact)).collect();
+    // All are powers of two.
+    let unit = exact.iter().flatten().map(BigRational::denom).max().cloned();
+    let unit = unit.unwrap_or_else(BigInt::one);
+    exact.iter().map(|p| p.each_ref().map(|x| x.numer() * (&unit / x.denom()))).collect()
 }
 
 fn minus(a: &Vector, b: &Vector) -> Vector {
     [0, 1, 2].map(|k| &a[k] - &b[k])
 }
 
-fn dot(a: &Vector, b: &Vector) -> Q {
+fn times(a: &Vector, factor: &BigInt) -> Vector {
+    a.each_ref().map(|x| x * factor)
+}
+
+fn dot(a: &Vector, b: &Vector) -> BigInt {
     (0..3).map(|k| &a[k] * &b[k]).sum()
 }
 
@@ -31,12 +47,19 @@ fn normal([a, b, c]: &[Vector; 3]) -> Vector {
 
 /// Tests whether a triangle has the ball named, and the ball holds no site strictly inside.
 pub(crate) fn is_empty(places: &[Point], sites: &[u32], triangle: [u32; 3], apex: Apex) -> bool {
-    let corners = triangle.map(|row| exact(&places[row as usize]));
+    let named = match apex {
+        Apex::Row(row) if sites.contains(&row) => Some(row),
+        Apex::Row(_) => return false,
+        Apex::Gabriel | Apex::Hull => None,
+    };
+    let rows = triangle.iter().chain(sites).chain(&named);
+    let points = whole(&rows.map(|&row| places[row as usize]).collect::<Vec<Point>>());
+    let corners: [Vector; 3] = [0, 1, 2].map(|k| points[k].clone());
     let (n, [a, b, c]) = (normal(&corners), &corners);
     if n.iter().all(Zero::is_zero) {
         return false;
     }
-    let others = || sites.iter().map(|&row| exact(&places[row as usize]));
+    let others = || points[3..3 + sites.len()].iter();
     let circle = |q: &Vector| {
         // The center by the weights of its corners.
         let weight = |p: &Vector, q: &Vector, r: &Vector| {
@@ -44,25 +67,21 @@ pub(crate) fn is_empty(places: &[Point], sites: &[u32], triangle: [u32; 3], apex
             square(q, r) * (square(p, q) + square(p, r) - square(q, r))
         };
         let weights = [weight(a, b, c), weight(b, c, a), weight(c, a, b)];
-        let sum: Q = weights.iter().sum();
-        let center: Vector =
-            [0, 1, 2].map(|k| (0..3).map(|i| &weights[i] * &corners[i][k]).sum::<Q>() / &sum);
-        is_nearer(q, a, &center)
+        let center =
+            [0, 1, 2].map(|k| (0..3).map(|i| &weights[i] * &corners[i][k]).sum::<BigInt>());
+        is_nearer(q, a, &(center, weights.iter().sum()))
     };
     match apex {
-        Apex::Gabriel => !others().any(|q| circle(&q)),
+        Apex::Gabriel => !others().any(circle),
         Apex::Hull => [1, -1].iter().any(|&sign| {
-            let height = |q: &Vector| dot(&n, &minus(q, a)) * Q::from_integer(sign.into());
-            !others().any(|q| height(&q).is_positive() || height(&q).is_zero() && circle(&q))
+            let height = |q: &Vector| -> BigInt { dot(&n, &minus(q, a)) * sign };
+            !others().any(|q| height(q).is_positive() || height(q).is_zero() && circle(q))
         }),
-        Apex::Row(row) => {
-            if !sites.contains(&row) {
-                return false;
-            }
+        Apex::Row(_) => {
             // The center x solves 2(p − a)·x = |p|² − |a|² for the three others, by Cramer's rule.
-            let d = exact(&places[row as usize]);
-            let lines = [b, c, &d].map(|p| minus(p, a));
-            let right = [b, c, &d].map(|p| (dot(p, p) - dot(a, a)) / Q::from_integer(2.into()));
+            let d = &points[3 + sites.len()];
+            let lines = [b, c, d].map(|p| times(&minus(p, a), &2.into()));
+            let right = [b, c, d].map(|p| dot(p, p) - dot(a, a));
             let determinant = dot(&cross(&lines[0], &lines[1]), &lines[2]);
             if determinant.is_zero() {
                 return false;
@@ -70,46 +89,48 @@ pub(crate) fn is_empty(places: &[Point], sites: &[u32], triangle: [u32; 3], apex
             let center = [0, 1, 2].map(|k| {
                 let mut replaced = lines.clone();
                 (0..3).for_each(|i| replaced[i][k] = right[i].clone());
-                dot(&cross(&replaced[0], &replaced[1]), &replaced[2]) / &determinant
+                dot(&cross(&replaced[0], &replaced[1]), &replaced[2])
             });
-            !others().any(|q| is_nearer(&q, a, &center))
+            !others().any(|q| is_nearer(q, a, &(center.clone(), determinant.clone())))
         }
     }
 }
 
-fn is_nearer(q: &Vector, a: &Vector, center: &Vector) -> bool {
-    let square = |p: &Vector| dot(&minus(p, center), &minus(p, center));
+fn is_nearer(q: &Vector, a: &Vector, (center, divisor): &Place) -> bool {
+    let square = |p: &Vector| {
+        let difference = minus(&times(p, divisor), center);
+        dot(&difference, &difference)
+    };
     square(q) < square(a)
 }
 
 /// Tests whether no triangle is flat, and no two share more than their common vertices and edges.
 pub(crate) fn is_embedded(places: &[Point], triangles: &[[u32; 3]]) -> bool {
-    let corners = |t: &[u32; 3]| t.map(|row| exact(&places[row as usize]));
-    let flat = |t: &[u32; 3]| normal(&corners(t)).iter().all(Zero::is_zero);
-    !triangles.iter().any(flat)
-        && triangles.iter().enumerate().all(|(i, one)| {
-            triangles[..i].iter().all(|other| {
-                let common: Vec<Vector> = one
-                    .iter()
-                    .filter(|row| other.contains(row))
-                    .map(|&row| exact(&places[row as usize]))
-                    .collect();
-                shared(&corners(one), &corners(other)).iter().all(|p| is_on(p, &common))
-            })
-        })
+    let rows = triangles.iter().flatten().map(|&row| places[row as usize]);
+    let points = whole(&rows.collect::<Vec<Point>>());
+    let corners = points.as_chunks::<3>().0;
+    let flat = |t: &[Vector; 3]| normal(t).iter().all(Zero::is_zero);
+    let is_common = |i: usize, j: usize, k: usize| triangles[j].contains(&triangles[i][k]);
+    let is_right = |i: usize, j: usize| {
+        let common = (0..3).filter(|&k| is_common(i, j, k)).map(|k| &corners[i][k]);
+        let common: Vec<&Vector> = common.collect();
+        shared(&corners[i], &corners[j]).iter().all(|p| is_on(p, &common))
+    };
+    !corners.iter().any(flat) && (0..triangles.len()).all(|i| (0..i).all(|j| is_right(i, j)))
 }
 
 /// The corners of what two triangles share: one is cut by the plane and by the sides of the other.
-fn shared(one: &[Vector; 3], other: &[Vector; 3]) -> Vec<Vector> {
+fn shared(one: &[Vector; 3], other: &[Vector; 3]) -> Vec<Place> {
     let n = normal(other);
     let mut cuts: Vec<(Vector, &Vector)> =
-        vec![(n.clone(), &other[0]), (n.clone().map(|x| -x), &other[0])];
+        vec![(n.clone(), &other[0]), (n.each_ref().map(|x| -x), &other[0])];
     for k in 0..3 {
         cuts.push((cross(&n, &minus(&other[(k + 1) % 3], &other[k])), &other[k]));
     }
-    let mut polygon = one.to_vec();
+    let mut polygon: Vec<Place> = one.iter().map(|p| (p.clone(), BigInt::one())).collect();
     for (inwards, at) in cuts {
-        let height = |p: &Vector| dot(&inwards, &minus(p, at));
+        // Times the divisor, which is positive here.
+        let height = |(p, divisor): &Place| dot(&inwards, &minus(p, &times(at, divisor)));
         let mut kept = vec![];
         for (p, q) in polygon.iter().zip(polygon.iter().cycle().skip(1)) {
             let (from, to) = (height(p), height(q));
@@ -117,8 +138,10 @@ fn shared(one: &[Vector; 3], other: &[Vector; 3]) -> Vec<Vector> {
                 kept.push(p.clone());
             }
             if (&from * &to).is_negative() {
-                let share = &from / (&from - &to);
-                kept.push([0, 1, 2].map(|k| &p[k] + &share * (&q[k] - &p[k])));
+                let point = minus(&times(&q.0, &from), &times(&p.0, &to));
+                let divisor = &from * &q.1 - &to * &p.1;
+                let sign = divisor.signum();
+                kept.push((times(&point, &sign), divisor * sign));
             }
         }
         polygon = kept;
@@ -127,15 +150,15 @@ fn shared(one: &[Vector; 3], other: &[Vector; 3]) -> Vec<Vector> {
 }
 
 /// Tests whether p is the common vertex, or on the common edge.
-fn is_on(p: &Vector, common: &[Vector]) -> bool {
+fn is_on((p, divisor): &Place, common: &[&Vector]) -> bool {
     match common {
-        [a] => p == a,
+        [a] => *p == times(a, divisor),
         [a, b] => {
-            let (edge, to) = (minus(b, a), minus(p, a));
+            let (edge, to) = (minus(b, a), minus(p, &times(a, divisor)));
             let along = dot(&edge, &to);
             cross(&edge, &to).iter().all(Zero::is_zero)
                 && !along.is_negative()
-                && along <= dot(&edge, &edge)
+                && along <= dot(&edge, &edge) * divisor
         }
         _ => false,
     }
@@ -143,12 +166,14 @@ fn is_on(p: &Vector, common: &[Vector]) -> bool {
 
 /// Where q is with respect to a tetrahedron: inside (1), on its surface (0) or outside (−1).
 pub(crate) fn place_in_tetrahedron(corners: &[Point; 4], q: &Point) -> i32 {
-    let (corners, q) = (corners.map(|p| exact(&p)), exact(q));
+    let all: Vec<Point> = corners.iter().chain([q]).copied().collect();
+    let points = whole(&all);
+    let (corners, q) = (&points[..4], &points[4]);
     let height = |k: usize, q: &Vector| {
         let [a, b, c] = [1, 2, 3].map(|i| corners[(k + i) % 4].clone());
         dot(&normal(&[a.clone(), b, c]), &minus(q, &a))
     };
-    let signs = (0..4).map(|k| (height(k, &q) * height(k, &corners[k])).signum());
+    let signs = (0..4).map(|k| (height(k, q) * height(k, &corners[k])).signum());
     let least = signs.min().expect("four signs");
     if least.is_positive() {
         1

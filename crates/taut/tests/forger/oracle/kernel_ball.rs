@@ -1,68 +1,49 @@
-//! Balls in the feature space of a kernel, in fractions.
+//! Balls in the feature space of a kernel, in exact numbers.
 //!
 //! *Decided.* Squared distances of all rows from the center, the objective of the answer, and the lower bound D/s of its multipliers,
 //! exactly but for the exponential function, which is found to 2⁻²⁰⁰ of 1 − e^{−z}. What differs by less than 2⁻¹⁵⁰ is taken as equal: no
 //! margin of the checker is so narrow. That D/s is a lower bound, is a theorem.
+//! *No fractions.* With s = Σλ, squared distances are worked out times 2s², of which all that is compared is a sum of products.
 
 use std::collections::BTreeMap;
 
-use num_bigint::BigInt;
-use num_rational::BigRational;
-use num_traits::{One, Signed, Zero};
 use taut::Solution;
 use taut::certify::{Kernel, KernelBall, KernelBallVerdict};
 
 use super::Truth;
+use super::dyadic::{Dyadic, distance_square, sum};
 
-/// Bits to which fractions are cut.
-const BITS: i64 = 320;
+/// Bits to which the exponential function is worked out.
+const BITS: u64 = 320;
 
 /// Knows the truth about the balls of kernels of one input.
 pub struct KernelBallOracle {
-    rows: Vec<Vec<BigRational>>,
+    rows: Vec<Vec<Dyadic>>,
     /// ρ between all rows, by kernel.
-    distances: BTreeMap<String, Vec<Vec<BigRational>>>,
+    distances: BTreeMap<String, Vec<Vec<Dyadic>>>,
 }
 
-fn exact(x: f64) -> BigRational {
-    BigRational::from_float(x).unwrap_or_else(BigRational::zero)
-}
-
-fn whole(x: u64) -> BigRational {
-    BigRational::from_integer(BigInt::from(x))
-}
-
-fn power_of_two(exponent: i64) -> BigRational {
-    let power = BigRational::from_integer(BigInt::one() << exponent.unsigned_abs());
-    if exponent < 0 { power.recip() } else { power }
-}
-
-/// The number to [`BITS`] bits.
-fn cut(x: &BigRational) -> BigRational {
-    if x.is_zero() {
-        return BigRational::zero();
-    }
-    let bits = x.numer().bits() as i64 - x.denom().bits() as i64;
-    let scale = power_of_two(BITS - bits);
-    (x * &scale).round() / scale
+fn exact(x: f64) -> Dyadic {
+    if x.is_finite() { Dyadic::of(x) } else { Dyadic::zero() }
 }
 
 /// 1 − e^{−z}.
-fn decay(z: &BigRational) -> BigRational {
-    if z > &whole(2000) {
-        return BigRational::one();
+fn decay(z: &Dyadic) -> Dyadic {
+    /// The series is that of z/2²⁴.
+    const HALVINGS: i64 = 24;
+    if z > &Dyadic::integer(2000) {
+        return Dyadic::integer(1);
     }
-    let z = cut(z);
     // (1 − e^{−y})/y by the series for y = z/2²⁴; the square of e^{−y} doubles y.
-    let y = &z / power_of_two(24);
-    let (mut term, mut sum) = (BigRational::one(), BigRational::zero());
-    for k in 1..40u64 {
-        sum += &term;
-        term = cut(&(-term * &y / whole(k + 1)));
+    let y = z.floored(BITS).scaled(-HALVINGS);
+    let (mut term, mut series) = (Dyadic::integer(1), Dyadic::zero());
+    for k in 1..40 {
+        series = &series + &term;
+        term = (&-&term * &y).quotient(&Dyadic::integer(k + 1), BITS).floored(BITS);
     }
-    let mut less = cut(&(sum * y));
-    for _ in 0..24 {
-        less = cut(&(&less * (whole(2) - &less)));
+    let mut less = (&series * &y).floored(BITS);
+    for _ in 0..HALVINGS {
+        less = (&less * &(&Dyadic::integer(2) - &less)).floored(BITS);
     }
     less
 }
@@ -74,27 +55,25 @@ impl KernelBallOracle {
         KernelBallOracle { rows: rows.collect(), distances: BTreeMap::new() }
     }
 
-    fn product(&self, kernel: Kernel, i: usize, j: usize) -> BigRational {
-        let dot =
-            || self.rows[i].iter().zip(&self.rows[j]).map(|(a, b)| a * b).sum::<BigRational>();
+    fn product(&self, kernel: Kernel, i: usize, j: usize) -> Dyadic {
+        let dot = || sum(self.rows[i].iter().zip(&self.rows[j]).map(|(a, b)| a * b));
         match kernel {
             Kernel::Polynomial { gamma, offset, degree } => {
-                let base = exact(gamma) * dot() + exact(offset);
-                (1..degree).fold(base.clone(), |power, _| power * &base)
+                let base = &(&exact(gamma) * &dot()) + &exact(offset);
+                (1..degree).fold(base.clone(), |power, _| &power * &base)
             }
             Kernel::Precomputed => self.rows[i][j].clone(),
             _ => dot(),
         }
     }
 
-    fn distance(&self, kernel: Kernel, i: usize, j: usize) -> BigRational {
+    fn distance(&self, kernel: Kernel, i: usize, j: usize) -> Dyadic {
         if let Kernel::Gaussian { gamma } = kernel {
-            let pairs = self.rows[i].iter().zip(&self.rows[j]);
-            let square: BigRational = pairs.map(|(a, b)| (a - b) * (a - b)).sum();
-            return whole(2) * decay(&(exact(gamma) * square));
+            let square = distance_square(&self.rows[i], &self.rows[j]);
+            return decay(&(&exact(gamma) * &square)).scaled(1);
         }
-        self.product(kernel, i, i) + self.product(kernel, j, j)
-            - whole(2) * self.product(kernel, i, j)
+        let [own, other] = [i, j].map(|k| self.product(kernel, k, k));
+        &(&own + &other) - &self.product(kernel, i, j).scaled(1)
     }
 
     /// Judges every claim of an accepted answer.
@@ -119,42 +98,47 @@ impl KernelBallOracle {
             self.distances.insert(key.clone(), all);
         }
         let distances = &self.distances[&key];
-        let lambda: Vec<BigRational> = ball.multipliers.iter().copied().map(exact).collect();
-        let sum: BigRational = lambda.iter().sum();
-        let mean = |k: usize| {
-            let terms = support.iter().zip(&lambda).map(|(&i, l)| l * &distances[k][i]);
-            terms.sum::<BigRational>() / &sum
+        let lambda: Vec<Dyadic> = ball.multipliers.iter().copied().map(exact).collect();
+        let total = sum(lambda.iter().cloned());
+        let unit = total.square().scaled(1);
+        let terms = |values: &dyn Fn(usize) -> Dyadic| -> Dyadic {
+            sum(support.iter().zip(&lambda).map(|(&i, l)| l * &values(i)))
         };
-        let means: Vec<BigRational> = (0..n).map(mean).collect();
-        let spread = support.iter().zip(&lambda).map(|(&i, l)| l * &means[i]).sum::<BigRational>()
-            / (whole(2) * &sum);
-        let squares: Vec<BigRational> = means.iter().map(|a| a - &spread).collect();
-        let slightly = power_of_two(-150);
-        let (more, less) = (BigRational::one() + &slightly, BigRational::one() - &slightly);
-        let radius = exact(ball.squared_radius);
-        let beyond = squares.iter().map(|square| square - &radius).filter(Signed::is_positive);
-        let beyond: Vec<BigRational> = beyond.collect();
-        let points = whole(n as u64);
-        let (objective, excess) = match ball.nu {
+        // Times s.
+        let means: Vec<Dyadic> = (0..n).map(|k| terms(&|i| distances[k][i].clone())).collect();
+        // From here on times 2s².
+        let spread = terms(&|i| means[i].clone());
+        let squares = means.iter().map(|mean| &(mean * &total).scaled(1) - &spread);
+        let squares: Vec<Dyadic> = squares.collect();
+        let radius = &exact(ball.squared_radius) * &unit;
+        let one = Dyadic::integer(1);
+        let slightly = Dyadic::power(-150);
+        let (more, less) = (&one + &slightly, &one - &slightly);
+        let beyond: Vec<Dyadic> =
+            squares.iter().map(|square| square - &radius).filter(|x| x.sign().is_gt()).collect();
+        // The objective times νn, and s times what the lower bound has to be divided by; both times 1 without ν.
+        let (objective, share, excess) = match ball.nu {
             None if beyond.iter().any(|x| x > &(&slightly * &radius)) => {
                 return wrong("a point is outside");
             }
-            None => (radius.clone(), BigRational::one()),
+            None => (radius.clone(), one.clone(), total.clone()),
             Some(nu) if !(nu > 0.0 && nu <= 1.0) => return wrong("ν is out of its range"),
             Some(nu) => {
-                let most = exact(nu) * &points;
-                let largest = lambda.iter().max().cloned().unwrap_or_else(BigRational::zero);
-                let excess = (largest / &sum * &most).max(BigRational::one());
-                (&radius + beyond.iter().sum::<BigRational>() / most, excess)
+                let most = &exact(nu) * &Dyadic::integer(n as i64);
+                let largest = lambda.iter().max().cloned().unwrap_or_else(Dyadic::zero);
+                let excess = (&largest * &most).max(total.clone());
+                (&(&radius * &most) + &sum(beyond), most, excess)
             }
         };
         let [lower, upper] = [verdict.lower, verdict.upper].map(exact);
         let gap = exact(verdict.gap);
-        let count = squares.iter().filter(|&square| square > &(&radius * &less)).count();
+        let inner = &radius * &less;
+        let count = squares.iter().filter(|&square| square > &inner).count();
+        let proved = &(&spread.max(Dyadic::zero()) * &total) * &more;
         let claims = [
-            (lower <= spread.max(BigRational::zero()) / excess * &more, "the lower bound is none"),
-            (objective * &less <= upper, "the objective is larger"),
-            (&upper * &less <= (&gap + BigRational::one()) * &lower, "the gap is larger"),
+            (&(&lower * &unit) * &excess <= proved, "the lower bound is none"),
+            (&objective * &less <= &(&upper * &unit) * &share, "the objective is larger"),
+            (&upper * &less <= &(&gap + &one) * &lower, "the gap is larger"),
             (verdict.outside as usize <= count, "fewer points are outside"),
             (
                 verdict.gap <= found.certificate.gap * 1.000_000_1 + 1e-15,
