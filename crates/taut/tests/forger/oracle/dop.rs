@@ -3,12 +3,15 @@
 //! *Decided, all of it exactly.* The offset of a facet is the least double that is at least u·p for all rows. The vertices are the
 //! points of three facets that all half-spaces hold. The volume is the sum of tetrahedra over the facets. Both are found once for
 //! each set of half-spaces.
+//! *Whole numbers* of the largest unit of which all coordinates are multiples, where there are many: to reduce fractions takes far more time
+//! than all else.
 
 use std::collections::BTreeMap;
+use std::ops::{Add, Mul, Sub};
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{Signed, Zero};
+use num_traits::{One, Signed, Zero};
 use taut::Solution;
 use taut::certify::{BoundingDop, DopVerdict};
 
@@ -21,7 +24,9 @@ type Shape = (Vec<(Vec<bool>, Point)>, BigRational);
 
 /// Knows the truth about the bounding dops of one input.
 pub struct DopOracle {
-    rows: Vec<Point>,
+    rows: Vec<[BigInt; 3]>,
+    /// One by the unit of the rows.
+    parts: BigInt,
     shapes: BTreeMap<String, Shape>,
 }
 
@@ -33,11 +38,26 @@ fn whole(x: i64) -> BigRational {
     BigRational::from_integer(BigInt::from(x))
 }
 
-fn dot(a: &Point, b: &Point) -> BigRational {
+/// The numbers in a unit of which all are multiples, and one by that unit, a power of two.
+fn in_units(values: &[f64]) -> (Vec<BigInt>, BigInt) {
+    let exact: Vec<BigRational> = values.iter().copied().map(exact).collect();
+    let parts = exact.iter().map(BigRational::denom).max().cloned().unwrap_or_else(BigInt::one);
+    (exact.iter().map(|x| x.numer() * (&parts / x.denom())).collect(), parts)
+}
+
+fn dot<T>(a: &[T; 3], b: &[T; 3]) -> T
+where
+    for<'a> &'a T: Mul<Output = T>,
+    T: Add<Output = T>,
+{
     &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
 }
 
-fn cross(a: &Point, b: &Point) -> Point {
+fn cross<T>(a: &[T; 3], b: &[T; 3]) -> [T; 3]
+where
+    for<'a> &'a T: Mul<Output = T>,
+    T: Sub<Output = T>,
+{
     let entry = |i: usize, j: usize| &a[i] * &b[j] - &a[j] * &b[i];
     [entry(1, 2), entry(2, 0), entry(0, 1)]
 }
@@ -49,8 +69,8 @@ fn minus(a: &Point, b: &Point) -> Point {
 impl DopOracle {
     /// Holds rows of space.
     pub fn new(values: &[f64], columns: usize) -> Self {
-        let rows = if columns == 3 { values.as_chunks::<3>().0 } else { &[] };
-        DopOracle { rows: rows.iter().map(|p| p.map(exact)).collect(), shapes: BTreeMap::new() }
+        let (values, parts) = in_units(if columns == 3 { values } else { &[] });
+        DopOracle { rows: values.as_chunks::<3>().0.to_vec(), parts, shapes: BTreeMap::new() }
     }
 
     /// Judges every claim of an accepted answer.
@@ -60,19 +80,18 @@ impl DopOracle {
         if verdict.facets != normals.len() as u64 || normals.len() != offsets.len() {
             return Truth::False("the number of facets is another one".into());
         }
-        let normals: Vec<Point> = normals.iter().map(|u| u.map(whole)).collect();
+        let normals: Vec<[BigInt; 3]> = normals.iter().map(|u| u.map(BigInt::from)).collect();
         for (u, &h) in normals.iter().zip(offsets) {
             let Some(most) = self.rows.iter().map(|p| dot(u, p)).max() else {
                 return Truth::False("there are no points".into());
             };
+            let most = BigRational::new(most, self.parts.clone());
             if most > exact(h) || most <= exact(h.next_down()) {
                 return Truth::False(format!("{h:?} is not the largest sum, rounded up"));
             }
         }
         let key = format!("{:?}", (&answer.normals, offsets));
-        let offsets: Vec<BigRational> = offsets.iter().map(|&h| exact(h)).collect();
-        let (vertices, volume) =
-            self.shapes.entry(key).or_insert_with(|| shape(&normals, &offsets));
+        let (vertices, volume) = self.shapes.entry(key).or_insert_with(|| shape(&normals, offsets));
         let side = |c: usize| {
             let along = vertices.iter().map(|(_, vertex)| &vertex[c]);
             along.clone().max().zip(along.min()).map(|(high, low)| high - low)
@@ -104,8 +123,9 @@ impl DopOracle {
     }
 }
 
-fn shape(normals: &[Point], offsets: &[BigRational]) -> Shape {
+fn shape(normals: &[[BigInt; 3]], offsets: &[f64]) -> Shape {
     let facets = normals.len();
+    let (offsets, parts) = in_units(offsets);
     let mut vertices: Vec<(Vec<bool>, Point)> = vec![];
     for i in 0..facets {
         for j in i + 1..facets {
@@ -116,13 +136,18 @@ fn shape(normals: &[Point], offsets: &[BigRational]) -> Shape {
                     continue;
                 }
                 let (jk, ki) = (cross(&normals[j], &normals[k]), cross(&normals[k], &normals[i]));
+                // Times |divisor|.
+                let sign = divisor.signum();
                 let at = [0, 1, 2].map(|c| {
-                    (&offsets[i] * &jk[c] + &offsets[j] * &ki[c] + &offsets[k] * &ij[c]) / &divisor
+                    (&offsets[i] * &jk[c] + &offsets[j] * &ki[c] + &offsets[k] * &ij[c]) * &sign
                 });
-                let beyond = normals.iter().zip(offsets).map(|(u, h)| dot(u, &at) - h);
-                let beyond: Vec<BigRational> = beyond.collect();
+                let divisor = divisor * sign;
+                let beyond = normals.iter().zip(&offsets).map(|(u, h)| dot(u, &at) - h * &divisor);
+                let beyond: Vec<BigInt> = beyond.collect();
                 if beyond.iter().all(|b| !b.is_positive()) {
-                    let on = beyond.iter().map(BigRational::is_zero).collect();
+                    let on = beyond.iter().map(BigInt::is_zero).collect();
+                    let whole = divisor * &parts;
+                    let at = at.map(|x| BigRational::new(x, whole.clone()));
                     if vertices.iter().all(|(_, other)| *other != at) {
                         vertices.push((on, at));
                     }
