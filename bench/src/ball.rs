@@ -23,5 +23,5 @@ use crate::prelude::*;
 use crate::raw;
 use crate::rounds::{Opponents, PeerRuns, Rounds, Seen};
 pub(crate) use case::AREA;
-use case::{BUDGET_STOPS, FASTER, OF_CAT, READS, SHARE, TWO_THREADS, UNEXPLAINED, stops};
+use case::{BUDGET_STOPS, FASTER, OF_CAT, READS, SHARE, SPEEDUP, UNEXPLAINED, stops};
 use paired::Paired;

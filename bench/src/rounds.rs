@@ -4,9 +4,9 @@ use crate::context::bound_pool;
 use crate::prelude::*;
 use crate::read::plain_read;
 
-/// Columns of times: the least by the clock with the last number of threads, the least of the processors for the same,
+/// Columns of times: the median and the least by the clock with the last number of threads, the least of the processors for the same,
 /// the least of the processor with one thread.
-pub(crate) const TIME_COLUMNS: &str = "clock:s | processors:s | one thread:s";
+pub(crate) const TIME_COLUMNS: &str = "median:s | least:s | processors:s | one thread:s";
 
 /// Times of taut with one number of threads, round by round.
 pub(crate) struct Timed {
@@ -165,18 +165,11 @@ impl<T> Rounds<T> {
         least(self.taut.iter().find(|timed| timed.threads == 1)?.cpu.iter().copied())
     }
 
-    /// The time by the clock as a goal asks for it, and beside it those of the processors.
-    pub(crate) fn said(&self) -> Option<(f64, String)> {
-        let shown = |time: Option<f64>| time.map_or("not measured".into(), seconds);
-        let [clock, all, one] = [self.clock(), self.processors(), self.one_thread()].map(shown);
-        let said = format!("{clock} (processors: {all} of all threads, {one} with one thread)");
-        self.clock().map(|clock| (clock, said))
-    }
-
     /// Cells under [`TIME_COLUMNS`].
     pub(crate) fn cells(&self) -> Value {
         json!({
-            "clock": self.clock(), "processors": self.processors(), "one thread": self.one_thread(),
+            "median": Summary::of(self.walls()).map(|times| times.median), "least": self.clock(),
+            "processors": self.processors(), "one thread": self.one_thread(),
         })
     }
 

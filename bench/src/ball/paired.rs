@@ -80,9 +80,11 @@ impl Paired {
         let reads = self.rounds.taut.last();
         let reads = reads.and_then(|timed| Summary::of_ratios(&timed.wall, &timed.reads));
         found.median(READS, reads, times);
-        let one_thread = self.rounds.taut.iter().find(|timed| timed.threads == 1);
-        let gain = one_thread.and_then(|one| Summary::of_ratios(&one.wall, self.rounds.walls()));
-        found.median(TWO_THREADS, gain, times);
+        let walls = |threads: usize| {
+            self.rounds.taut.iter().find(|timed| timed.threads == threads).map(|timed| &timed.wall)
+        };
+        let speedup = walls(1).zip(walls(2)).and_then(|(one, two)| Summary::of_ratios(one, two));
+        found.median(SPEEDUP, speedup, times);
         for goal in goals.into_iter().flatten() {
             // Goals that speak of one quantity speak of the same peers: the last of them counts.
             if !goal.peers.is_empty() {

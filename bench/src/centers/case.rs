@@ -85,8 +85,8 @@ const CITIES: &[Task] = &[
     task(GERMANY, 5, GAP_EXACT).radius(5818.46791619).must(PROVEN).aim(QUICK_AIM),
     task(GERMANY, 8, GAP_EXACT)
         .radius(4306.44830458)
-        .must(&[SECONDS.at_most(2.0), CORE_SET_GOAL, CHECK_GOAL])
-        .aim(&[SECONDS.at_most(0.1)]),
+        .must(&[SECONDS.at_most(0.1), CORE_SET_GOAL, CHECK_GOAL])
+        .aim(QUICK_AIM),
     task(GERMANY, 10, GAP_EXACT).radius(3725.69052411).must(&[SECONDS.at_most(0.1)]).aim(QUICK_AIM),
     task(GERMANY, 12, GAP_EXACT).must(&[SECONDS.at_most(0.5)]).aim(&[SECONDS.at_most(0.3)]),
     task(USA, 5, GAP_EXACT).radius(99986.80259875).must(&[
@@ -105,12 +105,12 @@ const CITIES_15: &[Task] = &[
 const SPACE_TASKS: &[Task] = &[
     task(SPACE, 4, 0.01).must(&[SECONDS.at_most(0.1), CORE_SET_GOAL]).aim(&[SECONDS.at_most(0.01)]),
     task(SPACE, 6, 0.01).must(&[SECONDS.at_most(0.3), CORE_SET_GOAL]).aim(&[SECONDS.at_most(0.03)]),
-    task(SPACE, 8, 0.01).must(&[SECONDS.at_most(3.0), CORE_SET_GOAL]).aim(&[SECONDS.at_most(0.2)]),
+    task(SPACE, 8, 0.01).must(&[SECONDS.at_most(0.3), CORE_SET_GOAL]).aim(&[SECONDS.at_most(0.1)]),
     task(SPACE, 10, 0.01).must(&[SECONDS.at_most(2.0)]).aim(&[SECONDS.at_most(1.0)]),
 ];
 
 const CITIES_20: &[Task] = &[
-    task(GERMANY, 20, 0.05).must(&[SECONDS.at_most(300.0)]).once(),
+    task(GERMANY, 20, 0.05).must(&[SECONDS.at_most(10.0)]).once(),
     task(GERMANY, 20, 0.01).must(&[SECONDS.at_most(120.0)]).aim(&[SECONDS.at_most(60.0)]).once(),
 ];
 

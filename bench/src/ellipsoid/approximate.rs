@@ -15,14 +15,14 @@ pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
         let solved = solve(context, context.runs, &values, d, &PEERS)?;
         let ours = solved.rounds.found.answer.log_volume;
         let mut table =
-            Table::new("program | clock:s | ÷ taut:x | volume ÷ least:8 | points outside");
+            Table::new("program | least:s | ÷ taut:x | volume ÷ least:8 | points outside");
         let time = solved.rounds.clock();
         table.push(json!(["taut", time, 1.0, 1.0, "none"]));
         for peer in &solved.rounds.peers {
             let answer = peer.answer.as_ref();
             let judged = answer.map(|answer| Judgement::of(&values, d, &answer.center, None));
             table.push(json!({
-                "program": peer.name, "clock": peer.least(),
+                "program": peer.name, "least": peer.least(),
                 "÷ taut": solved.rounds.faster(peer).map(|(ratio, _)| ratio),
                 "volume ÷ least": judged.map(|judged| (judged.log_volume - ours).exp()),
                 "points outside": judged.map_or(peer.said(), |judged| match judged.found.outside {

@@ -38,12 +38,12 @@ fn add<T: Send>(
         _ => (theirs - ours).exp_m1().abs(),
     });
     table.push(json!({
-        "input": what, "clock": rounds.clock(), "peer's clock": peer.least(),
+        "input": what, "least": rounds.clock(), "peer's least": peer.least(),
         "times faster": rounds.faster(peer).map(|(ratio, _)| ratio), "value": ours, "peer's": theirs,
         "differs": differs, "verified gap": shown_gap(&gap), "why": peer.silence, "times": rounds.json(),
     }));
     let mut found = Found::proved(gap);
-    found.add_with_text(SECONDS, rounds.said());
+    found.median(SECONDS, Summary::of(rounds.walls()), seconds);
     found.add(DIFFERS, differs);
     Ok(found)
 }
@@ -61,7 +61,7 @@ pub(super) fn run(context: &Context, out: &mut Outcome) -> Result<()> {
         ("smallest ball around 20 ellipsoids", BALL),
     ] {
         let mut table = Table::new(
-            "input | clock:s | peer's clock:s | times faster:x | value:10 | peer's:10 | differs:e | \
+            "input | least:s | peer's least:s | times faster:x | value:10 | peer's:10 | differs:e | \
              verified gap | why",
         );
         let mut found = Found::default();

@@ -24,7 +24,7 @@ pub(super) fn run(context: &Context, out: &mut Outcome, laws: &[Law]) -> Result<
             let (ellipse, support) = answer.center.split_at(NUMBERS.min(answer.center.len()));
             let judged = Judgement::of(&values, 2, ellipse, solved.verdict.as_ref().ok());
             table.push(json!({
-                "program": PEER, "clock": peer.least(), "support": answer.support, "answer": judged.to_string(),
+                "program": PEER, "least": peer.least(), "support": answer.support, "answer": judged.to_string(),
             }));
             rows_of(support, &values)
         });

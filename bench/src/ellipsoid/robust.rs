@@ -128,7 +128,7 @@ pub(super) fn run(context: &Context, out: &mut Outcome, cloud: Cloud) -> Result<
             // Fewer points have a smaller determinant: only subsets of one size can be compared.
             theirs = log_det(&values, D, &rows).filter(|_| rows.len() == kept.len());
             let why = if theirs.is_none() { "none for this h" } else { "" };
-            let tail = json!({ "clock": peer.least(), "why": why });
+            let tail = json!({ "least": peer.least(), "why": why });
             table.push(joined([row(PEER, &rows, theirs), tail]));
         } else {
             table.push(json!({ "seed": seed, "program": PEER, "why": peer.said() }));

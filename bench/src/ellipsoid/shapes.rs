@@ -41,7 +41,7 @@ fn add<T: Send>(
     table.push(joined([rounds.cells(), cells]));
     out.table(what, table);
     let mut found = Found::proved(gap);
-    found.add_with_text(SECONDS, rounds.said());
+    found.median(SECONDS, Summary::of(rounds.walls()), seconds);
     out.judge(&found);
     out.close(what);
     Ok(())

@@ -21,8 +21,10 @@ const REGISTERS: usize = POINTS / 8;
 /// Memory is asked for this many bytes before it is read: at 1e6 × 10 a pass takes half the time with it.
 const PREFETCH_BYTES: usize = 8192;
 
-/// Values of a cache line. A block that begins with one has every register in one line; elsewhere, each load and store takes two.
-const ALIGNED: usize = 8;
+/// If a block is not aligned to them, a group of eight values spans two cache lines.
+const CACHE_LINE_BYTES: usize = 64;
+/// Values of a cache line.
+const LINE_VALUES: usize = CACHE_LINE_BYTES / size_of::<f64>();
 
 /// A lower triangular matrix by rows, d × d, of which nothing above the diagonal is read, and a shift.
 #[derive(Clone, Copy, Debug)]
@@ -142,8 +144,8 @@ fn of_doubles(
     scratch.clear();
     // The second half is the shift, which is 0 here.
     let length = dim * POINTS + dim;
-    scratch.resize(length + ALIGNED - 1, 0.0);
-    let start = scratch.as_ptr().align_offset(64).min(ALIGNED - 1);
+    scratch.resize(length + LINE_VALUES - 1, 0.0);
+    let start = scratch.as_ptr().align_offset(CACHE_LINE_BYTES).min(LINE_VALUES - 1);
     let scratch = &mut scratch[start..start + length];
     dispatch(Leverages { values, matrix, center, scratch, out });
 }

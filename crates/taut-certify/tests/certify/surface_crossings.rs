@@ -1,4 +1,4 @@
-//! Triangles that meet, with balls claimed or not: what empty balls prove against brute force in fractions, and forged surfaces.
+//! Triangles that meet, with balls claimed or not: what empty balls prove against brute force in exact arithmetic, and forged surfaces.
 
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -78,9 +78,9 @@ fn with_balls(places: &[Point], numbers: &[usize]) -> (Vec<[u32; 3]>, Vec<Apex>)
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, cases: 300, ..ProptestConfig::default() })]
 
-    /// Triangles with empty balls are embedded just where fractions say so, whatever lies on their spheres.
+    /// Triangles with empty balls are embedded just where exact arithmetic says so, whatever lies on their spheres.
     #[test]
-    fn triangles_with_empty_balls_meet_where_fractions_say_so(
+    fn triangles_with_empty_balls_meet_where_exact_arithmetic_says_so(
         places in places(), numbers in vec(0usize..1000, 8..40),
     ) {
         prop_assume!(places.len() > 2);

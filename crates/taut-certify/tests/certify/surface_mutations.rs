@@ -143,7 +143,7 @@ fn numbers_that_are_changed_are_refused() {
     }
 }
 
-/// An apex is accepted just where fractions find its ball empty.
+/// An apex is accepted just where exact arithmetic finds its ball empty.
 #[test]
 fn apexes_that_are_changed_are_judged_again() {
     for (name, case) in valid() {

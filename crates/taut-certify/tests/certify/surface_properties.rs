@@ -1,4 +1,4 @@
-//! The checker of surfaces against brute force in fractions: balls, crossings, insides, topology.
+//! The checker of surfaces against brute force in exact arithmetic: balls, crossings, insides, topology.
 
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -43,9 +43,9 @@ fn triangles(rows: usize, numbers: &[usize]) -> Vec<[u32; 3]> {
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, cases: 1500, ..ProptestConfig::default() })]
 
-    /// Each ball of a triangle is accepted just where fractions find it empty.
+    /// Each ball of a triangle is accepted just where exact arithmetic finds it empty.
     #[test]
-    fn balls_are_empty_where_fractions_say_so(
+    fn balls_are_empty_where_exact_arithmetic_says_so(
         places in places(4..12, 4), left_out in vec(any::<bool>(), 12), numbers in vec(0usize..100, 3),
     ) {
         let Some(&triangle) = triangles(places.len(), &numbers).first() else { return Ok(()) };
@@ -74,9 +74,9 @@ proptest! {
         }
     }
 
-    /// A soup of triangles is embedded just where fractions say so, and its topology is that of another crate.
+    /// A soup of triangles is embedded just where exact arithmetic says so, and its topology is that of another crate.
     #[test]
-    fn soups_meet_where_fractions_say_so(
+    fn soups_meet_where_exact_arithmetic_says_so(
         places in places(3..9, 3), numbers in vec(0usize..100, 3..18),
     ) {
         let triangles = triangles(places.len(), &numbers);
@@ -105,7 +105,7 @@ proptest! {
 
     /// A tetrahedron faces outwards or not, and a point is inside, on it or outside.
     #[test]
-    fn insides_are_those_of_fractions(places in places(5..8, 4), turned in any::<bool>()) {
+    fn insides_are_those_of_exact_arithmetic(places in places(5..8, 4), turned in any::<bool>()) {
         let [a, b, c, d] = [0, 1, 2, 3];
         let mut sides = vec![[a, c, b], [a, b, d], [b, c, d], [c, a, d]];
         if turned {
@@ -141,7 +141,7 @@ proptest! {
 
 /// Rational arithmetic on its own: shapes of which everything is known.
 #[test]
-fn fractions_know_what_is_known() {
+fn exact_arithmetic_knows_what_is_known() {
     let cube = surface::cube();
     let (rows, triangles) = (&cube.rows, &cube.solution.answer.triangles);
     assert!(oracle::is_embedded(rows, triangles));

@@ -46,14 +46,13 @@ impl Case {
 
 type Point = Vec<BigInt>;
 
-/// The values in the largest unit of which all are multiples. With whole numbers nothing is spent on reducing fractions, which takes
-/// far more time than all else.
+/// Scales the values by their common denominator, a power of two, to integers. Reducing fractions would take most of the time.
 fn whole(values: &[f64]) -> Vec<BigInt> {
     let exact = values.iter().map(|&v| BigRational::from_float(v).expect("finite"));
     let exact: Vec<BigRational> = exact.collect();
-    // All are powers of two.
-    let unit = exact.iter().map(BigRational::denom).max().cloned().unwrap_or_else(BigInt::one);
-    exact.iter().map(|x| x.numer() * (&unit / x.denom())).collect()
+    let denominator = exact.iter().map(BigRational::denom).max().cloned();
+    let denominator = denominator.unwrap_or_else(BigInt::one);
+    exact.iter().map(|x| x.numer() * (&denominator / x.denom())).collect()
 }
 
 fn determinant(rows: &[Point]) -> BigInt {

@@ -1,7 +1,7 @@
 //! The same questions in whole numbers, by other formulas.
 //!
-//! Coordinates are taken in a unit of which all are multiples, and what is a quotient keeps its divisor beside it: to reduce fractions
-//! takes far more time than all else.
+//! Coordinates are scaled by their common denominator, and other points are in homogeneous coordinates: reducing fractions would take most
+//! of the time. All rows that are named must be finite.
 
 use num_bigint::BigInt;
 use num_rational::BigRational;
@@ -12,17 +12,16 @@ use super::Point;
 
 type Vector = [BigInt; 3];
 
-/// A point, times its positive or negative divisor, and that divisor.
-type Place = (Vector, BigInt);
+/// A point in homogeneous coordinates; the divisor is never 0.
+type Homogeneous = (Vector, BigInt);
 
-/// The points in the largest unit of which all coordinates are multiples.
+/// Scales the points by the common denominator of their coordinates, a power of two, to integers.
 fn whole(points: &[Point]) -> Vec<Vector> {
     let exact = |x: f64| BigRational::from_float(x).expect("finite");
     let exact: Vec<[BigRational; 3]> = points.iter().map(|p| p.map(exact)).collect();
-    // All are powers of two.
-    let unit = exact.iter().flatten().map(BigRational::denom).max().cloned();
-    let unit = unit.unwrap_or_else(BigInt::one);
-    exact.iter().map(|p| p.each_ref().map(|x| x.numer() * (&unit / x.denom()))).collect()
+    let denominator = exact.iter().flatten().map(BigRational::denom).max().cloned();
+    let denominator = denominator.unwrap_or_else(BigInt::one);
+    exact.iter().map(|p| p.each_ref().map(|x| x.numer() * (&denominator / x.denom()))).collect()
 }
 
 fn minus(a: &Vector, b: &Vector) -> Vector {
@@ -96,7 +95,7 @@ pub(crate) fn is_empty(places: &[Point], sites: &[u32], triangle: [u32; 3], apex
     }
 }
 
-fn is_nearer(q: &Vector, a: &Vector, (center, divisor): &Place) -> bool {
+fn is_nearer(q: &Vector, a: &Vector, (center, divisor): &Homogeneous) -> bool {
     let square = |p: &Vector| {
         let difference = minus(&times(p, divisor), center);
         dot(&difference, &difference)
@@ -119,18 +118,18 @@ pub(crate) fn is_embedded(places: &[Point], triangles: &[[u32; 3]]) -> bool {
     !corners.iter().any(flat) && (0..triangles.len()).all(|i| (0..i).all(|j| is_right(i, j)))
 }
 
-/// The corners of what two triangles share: one is cut by the plane and by the sides of the other.
-fn shared(one: &[Vector; 3], other: &[Vector; 3]) -> Vec<Place> {
+/// The corners of what two triangles share, with positive divisors: one is cut by the plane and by the sides of the other.
+fn shared(one: &[Vector; 3], other: &[Vector; 3]) -> Vec<Homogeneous> {
     let n = normal(other);
     let mut cuts: Vec<(Vector, &Vector)> =
         vec![(n.clone(), &other[0]), (n.each_ref().map(|x| -x), &other[0])];
     for k in 0..3 {
         cuts.push((cross(&n, &minus(&other[(k + 1) % 3], &other[k])), &other[k]));
     }
-    let mut polygon: Vec<Place> = one.iter().map(|p| (p.clone(), BigInt::one())).collect();
+    let mut polygon: Vec<Homogeneous> = one.iter().map(|p| (p.clone(), BigInt::one())).collect();
     for (inwards, at) in cuts {
-        // Times the divisor, which is positive here.
-        let height = |(p, divisor): &Place| dot(&inwards, &minus(p, &times(at, divisor)));
+        // Times the divisor.
+        let height = |(p, divisor): &Homogeneous| dot(&inwards, &minus(p, &times(at, divisor)));
         let mut kept = vec![];
         for (p, q) in polygon.iter().zip(polygon.iter().cycle().skip(1)) {
             let (from, to) = (height(p), height(q));
@@ -149,8 +148,8 @@ fn shared(one: &[Vector; 3], other: &[Vector; 3]) -> Vec<Place> {
     polygon
 }
 
-/// Tests whether p is the common vertex, or on the common edge.
-fn is_on((p, divisor): &Place, common: &[&Vector]) -> bool {
+/// Tests whether p, whose divisor is positive, is the common vertex, or on the common edge.
+fn is_on((p, divisor): &Homogeneous, common: &[&Vector]) -> bool {
     match common {
         [a] => *p == times(a, divisor),
         [a, b] => {

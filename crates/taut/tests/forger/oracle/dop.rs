@@ -1,10 +1,10 @@
-//! Bounding dops, in fractions.
+//! Bounding dops, in exact arithmetic.
 //!
 //! *Decided, all of it exactly.* The offset of a facet is the least double that is at least u·p for all rows. The vertices are the
 //! points of three facets that all half-spaces hold. The volume is the sum of tetrahedra over the facets. Both are found once for
 //! each set of half-spaces.
-//! *Whole numbers* of the largest unit of which all coordinates are multiples, where there are many: to reduce fractions takes far more time
-//! than all else.
+//! *Integers.* Rows and offsets are scaled by their common denominators, and half-spaces are tested in homogeneous coordinates: reducing
+//! fractions would take most of the time.
 
 use std::collections::BTreeMap;
 use std::ops::{Add, Mul, Sub};
@@ -25,8 +25,8 @@ type Shape = (Vec<(Vec<bool>, Point)>, BigRational);
 /// Knows the truth about the bounding dops of one input.
 pub struct DopOracle {
     rows: Vec<[BigInt; 3]>,
-    /// One by the unit of the rows.
-    parts: BigInt,
+    /// The common denominator of the rows.
+    denominator: BigInt,
     shapes: BTreeMap<String, Shape>,
 }
 
@@ -38,11 +38,12 @@ fn whole(x: i64) -> BigRational {
     BigRational::from_integer(BigInt::from(x))
 }
 
-/// The numbers in a unit of which all are multiples, and one by that unit, a power of two.
-fn in_units(values: &[f64]) -> (Vec<BigInt>, BigInt) {
+/// Scales the values by their common denominator, a power of two, to integers; returns it, too.
+fn scaled(values: &[f64]) -> (Vec<BigInt>, BigInt) {
     let exact: Vec<BigRational> = values.iter().copied().map(exact).collect();
-    let parts = exact.iter().map(BigRational::denom).max().cloned().unwrap_or_else(BigInt::one);
-    (exact.iter().map(|x| x.numer() * (&parts / x.denom())).collect(), parts)
+    let denominator = exact.iter().map(BigRational::denom).max().cloned();
+    let denominator = denominator.unwrap_or_else(BigInt::one);
+    (exact.iter().map(|x| x.numer() * (&denominator / x.denom())).collect(), denominator)
 }
 
 fn dot<T>(a: &[T; 3], b: &[T; 3]) -> T
@@ -69,8 +70,8 @@ fn minus(a: &Point, b: &Point) -> Point {
 impl DopOracle {
     /// Holds rows of space.
     pub fn new(values: &[f64], columns: usize) -> Self {
-        let (values, parts) = in_units(if columns == 3 { values } else { &[] });
-        DopOracle { rows: values.as_chunks::<3>().0.to_vec(), parts, shapes: BTreeMap::new() }
+        let (values, denominator) = scaled(if columns == 3 { values } else { &[] });
+        DopOracle { rows: values.as_chunks::<3>().0.to_vec(), denominator, shapes: BTreeMap::new() }
     }
 
     /// Judges every claim of an accepted answer.
@@ -85,7 +86,7 @@ impl DopOracle {
             let Some(most) = self.rows.iter().map(|p| dot(u, p)).max() else {
                 return Truth::False("there are no points".into());
             };
-            let most = BigRational::new(most, self.parts.clone());
+            let most = BigRational::new(most, self.denominator.clone());
             if most > exact(h) || most <= exact(h.next_down()) {
                 return Truth::False(format!("{h:?} is not the largest sum, rounded up"));
             }
@@ -125,7 +126,7 @@ impl DopOracle {
 
 fn shape(normals: &[[BigInt; 3]], offsets: &[f64]) -> Shape {
     let facets = normals.len();
-    let (offsets, parts) = in_units(offsets);
+    let (offsets, denominator) = scaled(offsets);
     let mut vertices: Vec<(Vec<bool>, Point)> = vec![];
     for i in 0..facets {
         for j in i + 1..facets {
@@ -146,8 +147,8 @@ fn shape(normals: &[[BigInt; 3]], offsets: &[f64]) -> Shape {
                 let beyond: Vec<BigInt> = beyond.collect();
                 if beyond.iter().all(|b| !b.is_positive()) {
                     let on = beyond.iter().map(BigInt::is_zero).collect();
-                    let whole = divisor * &parts;
-                    let at = at.map(|x| BigRational::new(x, whole.clone()));
+                    let divisor = divisor * &denominator;
+                    let at = at.map(|x| BigRational::new(x, divisor.clone()));
                     if vertices.iter().all(|(_, other)| *other != at) {
                         vertices.push((on, at));
                     }

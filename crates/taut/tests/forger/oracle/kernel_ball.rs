@@ -3,7 +3,7 @@
 //! *Decided.* Squared distances of all rows from the center, the objective of the answer, and the lower bound D/s of its multipliers,
 //! exactly but for the exponential function, which is found to 2⁻²⁰⁰ of 1 − e^{−z}. What differs by less than 2⁻¹⁵⁰ is taken as equal: no
 //! margin of the checker is so narrow. That D/s is a lower bound, is a theorem.
-//! *No fractions.* With s = Σλ, squared distances are worked out times 2s², of which all that is compared is a sum of products.
+//! *Exact.* No division is needed: with s = Σλ, each inequality is multiplied by 2s², and where necessary also by s or νn.
 
 use std::collections::BTreeMap;
 
@@ -88,8 +88,9 @@ impl KernelBallOracle {
         if support.iter().any(|&id| id >= n) || support.windows(2).any(|pair| pair[0] >= pair[1]) {
             return wrong("the support is no ascending list of rows");
         }
-        if ball.multipliers.iter().any(|l| l.is_nan() || *l <= 0.0) {
-            return wrong("a multiplier is not positive");
+        // Finite and positive, so that s > 0: every claim below is multiplied by powers of it.
+        if !ball.multipliers.iter().all(|l| l.is_finite() && *l > 0.0) {
+            return wrong("a multiplier is not a positive number");
         }
         let key = format!("{:?}", ball.kernel);
         if !self.distances.contains_key(&key) {
@@ -100,24 +101,26 @@ impl KernelBallOracle {
         let distances = &self.distances[&key];
         let lambda: Vec<Dyadic> = ball.multipliers.iter().copied().map(exact).collect();
         let total = sum(lambda.iter().cloned());
-        let unit = total.square().scaled(1);
-        let terms = |values: &dyn Fn(usize) -> Dyadic| -> Dyadic {
+        let scale = total.square().scaled(1);
+        let weighted_sum = |values: &dyn Fn(usize) -> Dyadic| -> Dyadic {
             sum(support.iter().zip(&lambda).map(|(&i, l)| l * &values(i)))
         };
         // Times s.
-        let means: Vec<Dyadic> = (0..n).map(|k| terms(&|i| distances[k][i].clone())).collect();
+        let means: Vec<Dyadic> =
+            (0..n).map(|k| weighted_sum(&|i| distances[k][i].clone())).collect();
         // From here on times 2s².
-        let spread = terms(&|i| means[i].clone());
+        let spread = weighted_sum(&|i| means[i].clone());
         let squares = means.iter().map(|mean| &(mean * &total).scaled(1) - &spread);
         let squares: Vec<Dyadic> = squares.collect();
-        let radius = &exact(ball.squared_radius) * &unit;
+        let radius = &exact(ball.squared_radius) * &scale;
         let one = Dyadic::integer(1);
         let slightly = Dyadic::power(-150);
         let (more, less) = (&one + &slightly, &one - &slightly);
         let beyond: Vec<Dyadic> =
             squares.iter().map(|square| square - &radius).filter(|x| x.sign().is_gt()).collect();
-        // The objective times νn, and s times what the lower bound has to be divided by; both times 1 without ν.
-        let (objective, share, excess) = match ball.nu {
+        // With w = νn, or 1 without ν: 2s²w times the objective; w; s times the divisor of the lower bound, which is max(1, w·λmax/s),
+        // or 1 without ν.
+        let (objective, weight, excess) = match ball.nu {
             None if beyond.iter().any(|x| x > &(&slightly * &radius)) => {
                 return wrong("a point is outside");
             }
@@ -134,10 +137,10 @@ impl KernelBallOracle {
         let gap = exact(verdict.gap);
         let inner = &radius * &less;
         let count = squares.iter().filter(|&square| square > &inner).count();
-        let proved = &(&spread.max(Dyadic::zero()) * &total) * &more;
+        let scaled_bound = &(&spread.max(Dyadic::zero()) * &total) * &more;
         let claims = [
-            (&(&lower * &unit) * &excess <= proved, "the lower bound is none"),
-            (&objective * &less <= &(&upper * &unit) * &share, "the objective is larger"),
+            (&(&lower * &scale) * &excess <= scaled_bound, "the lower bound is none"),
+            (&objective * &less <= &(&upper * &scale) * &weight, "the objective is larger"),
             (&upper * &less <= &(&gap + &one) * &lower, "the gap is larger"),
             (verdict.outside as usize <= count, "fewer points are outside"),
             (
