@@ -4,6 +4,7 @@
 pub(crate) mod centers;
 pub(crate) mod ellipsoids;
 
+use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
 use taut_certify::{Ball, BallCertificate, CheckError, Items, Solution, Trace, Verdict, Violation};
@@ -34,6 +35,14 @@ impl Case {
 
 pub(crate) fn exact(value: f64) -> BigRational {
     BigRational::from_float(value).unwrap()
+}
+
+/// Scales the values by their common denominator, a power of two, to integers. Reducing fractions would take most of the time.
+pub(crate) fn whole(values: &[f64]) -> Vec<BigInt> {
+    let exact: Vec<BigRational> = values.iter().copied().map(exact).collect();
+    let denominator = exact.iter().map(BigRational::denom).max().cloned();
+    let denominator = denominator.unwrap_or_else(|| 1.into());
+    exact.iter().map(|x| x.numer() * (&denominator / x.denom())).collect()
 }
 
 /// √value to about 1e-32, relatively, for values of ordinary size.

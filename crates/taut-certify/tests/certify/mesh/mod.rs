@@ -8,13 +8,14 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use num_bigint::BigInt;
-use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 use taut_certify::{
     NO_NEIGHBOR, Solution, Trace, Triangulation, TriangulationCertificate, TriangulationCounts,
     fingerprint,
 };
 use taut_points::{Monitor, Points, hash_points};
+
+use crate::common::whole;
 
 /// A triangulation with its points.
 #[derive(Clone, Debug)]
@@ -45,15 +46,6 @@ impl Case {
 }
 
 type Point = Vec<BigInt>;
-
-/// Scales the values by their common denominator, a power of two, to integers. Reducing fractions would take most of the time.
-fn whole(values: &[f64]) -> Vec<BigInt> {
-    let exact = values.iter().map(|&v| BigRational::from_float(v).expect("finite"));
-    let exact: Vec<BigRational> = exact.collect();
-    let denominator = exact.iter().map(BigRational::denom).max().cloned();
-    let denominator = denominator.unwrap_or_else(BigInt::one);
-    exact.iter().map(|x| x.numer() * (&denominator / x.denom())).collect()
-}
 
 fn determinant(rows: &[Point]) -> BigInt {
     match rows.len() {

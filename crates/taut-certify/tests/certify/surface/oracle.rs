@@ -4,7 +4,6 @@
 //! of the time. All rows that are named must be finite.
 
 use num_bigint::BigInt;
-use num_rational::BigRational;
 use num_traits::{One, Signed, Zero};
 use taut_certify::Apex;
 
@@ -15,13 +14,9 @@ type Vector = [BigInt; 3];
 /// A point in homogeneous coordinates; the divisor is never 0.
 type Homogeneous = (Vector, BigInt);
 
-/// Scales the points by the common denominator of their coordinates, a power of two, to integers.
+/// The points, scaled by the common denominator of their coordinates.
 fn whole(points: &[Point]) -> Vec<Vector> {
-    let exact = |x: f64| BigRational::from_float(x).expect("finite");
-    let exact: Vec<[BigRational; 3]> = points.iter().map(|p| p.map(exact)).collect();
-    let denominator = exact.iter().flatten().map(BigRational::denom).max().cloned();
-    let denominator = denominator.unwrap_or_else(BigInt::one);
-    exact.iter().map(|p| p.each_ref().map(|x| x.numer() * (&denominator / x.denom()))).collect()
+    crate::common::whole(points.as_flattened()).as_chunks::<3>().0.to_vec()
 }
 
 fn minus(a: &Vector, b: &Vector) -> Vector {

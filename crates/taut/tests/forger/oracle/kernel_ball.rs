@@ -152,3 +152,42 @@ impl KernelBallOracle {
         Truth::claim(lie.is_none(), || lie.map_or(String::new(), |(_, lie)| (*lie).into()))
     }
 }
+
+#[test]
+fn answers_of_the_solver_are_true_and_doctored_ones_are_false() {
+    use taut::Points;
+    use taut::enclose::{KernelBallOptions, kernel_ball};
+    type Change<'a> = &'a dyn Fn(&mut Solution<KernelBall>, &mut KernelBallVerdict);
+
+    let values = [0.0, 0.0, 3.0, 0.5, 1.0, 2.0, -1.0, 1.5, 0.5, -1.0, 9.0, 9.0];
+    let points = Points::new(&values, 2).unwrap();
+    let kernels = [
+        Kernel::Linear,
+        Kernel::Gaussian { gamma: 0.1 },
+        Kernel::Polynomial { gamma: 0.5, offset: 1.0, degree: 3 },
+    ];
+    for (kernel, nu) in kernels.into_iter().flat_map(|kernel| [(kernel, None), (kernel, Some(0.4))])
+    {
+        let options = KernelBallOptions { kernel, nu, ..Default::default() };
+        let found = kernel_ball(&points, &options).unwrap();
+        let verdict = found.check(&points).unwrap();
+        let mut oracle = KernelBallOracle::new(&values, 2);
+        assert!(matches!(oracle.judge(&found, &verdict), Truth::True), "{kernel:?} {nu:?}");
+        let mut is_false = |what: &str, change: Change<'_>| {
+            let (mut found, mut verdict) = (found.clone(), verdict);
+            change(&mut found, &mut verdict);
+            let truth = oracle.judge(&found, &verdict);
+            assert!(matches!(truth, Truth::False(_)), "{kernel:?} {nu:?}: {what}");
+        };
+        is_false("a smaller ball", &|found, _| found.answer.squared_radius *= 0.99);
+        is_false("a larger lower bound", &|_, verdict| verdict.lower *= 1.0001);
+        is_false("a smaller upper bound", &|_, verdict| verdict.upper *= 0.9999);
+        is_false("more points outside", &|_, verdict| verdict.outside += 6);
+        is_false("an infinite multiplier", &|found, _| found.answer.multipliers[0] = f64::INFINITY);
+        is_false("other multipliers", &|found, _| found.answer.multipliers[0] *= 3.0);
+        is_false("no support", &|found, _| {
+            found.answer.support.clear();
+            found.answer.multipliers.clear();
+        });
+    }
+}
