@@ -77,6 +77,11 @@ pub(super) trait Lanes: Copy {
     /// # Safety
     /// See [`zero`](Self::zero).
     unsafe fn split(first: Self, second: Self) -> (Self, Self);
+    /// The first values at eight places, and the second ones.
+    ///
+    /// # Safety
+    /// Two values must be readable at each place.
+    unsafe fn pairs(starts: [*const f64; 8]) -> (Self, Self);
     /// Lane i of result j is lane j of row i.
     ///
     /// # Safety

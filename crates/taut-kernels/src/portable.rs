@@ -96,6 +96,14 @@ impl Lanes for Portable {
     }
 
     #[cfg_attr(not(target_arch = "x86_64"), inline(always))]
+    unsafe fn pairs(starts: [*const f64; 8]) -> (Self, Self) {
+        // SAFETY: the caller's promise.
+        unsafe {
+            (Portable(starts.map(|start| *start)), Portable(starts.map(|start| *start.add(1))))
+        }
+    }
+
+    #[cfg_attr(not(target_arch = "x86_64"), inline(always))]
     unsafe fn transpose(rows: [Self; 8]) -> [Self; 8] {
         std::array::from_fn(|j| Portable(std::array::from_fn(|i| rows[i].0[j])))
     }

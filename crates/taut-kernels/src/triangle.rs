@@ -434,6 +434,17 @@ unsafe fn arrange<L: Lanes>(values: &[f64], center: &Center, x: &mut [f64]) {
         // SAFETY: features are the caller's promise.
         unsafe { L::prefetch(ahead.wrapping_add(line)) };
     }
+    if dim == 1 {
+        for group in 0..REGISTERS {
+            let mut column = [0.0; 8];
+            for (i, value) in column.iter_mut().enumerate() {
+                *value = values[(8 * group + i).min(rows - 1)];
+            }
+            // SAFETY: there is room for [`POINTS`] values at `x`.
+            unsafe { less(L::load(column.as_ptr()), center, 0).store(x.add(8 * group)) };
+        }
+        return;
+    }
     if dim == 2 && rows == POINTS {
         for group in 0..REGISTERS {
             // SAFETY: `values` holds 64 values, of which these are 16; there is room for as many at `x`.
@@ -453,20 +464,27 @@ unsafe fn arrange<L: Lanes>(values: &[f64], center: &Center, x: &mut [f64]) {
             for (i, start) in starts.iter_mut().enumerate() {
                 *start = start.add((group * 8 + i).min(rows - 1) * dim);
             }
-            for j in (0..dim).step_by(8) {
-                let count = (dim - j).min(8);
+            let eights = dim / 8 * 8;
+            for j in (0..eights).step_by(8) {
                 let mut eight = [L::zero(); 8];
                 for i in 0..8 {
-                    eight[i] = if count == 8 {
-                        L::load(starts[i].add(j))
-                    } else {
-                        L::load_first(starts[i].add(j), count)
-                    };
+                    eight[i] = L::load(starts[i].add(j));
                 }
                 let columns = L::transpose(eight);
-                for k in 0..count {
+                for k in 0..8 {
                     less(columns[k], center, j + k).store(x.add((j + k) * POINTS + 8 * group));
                 }
+            }
+            for j in (eights..dim).step_by(2) {
+                // The last of an odd number comes with the one before it, which is stored once more.
+                let j = j.min(dim - 2);
+                let mut places = starts;
+                for place in &mut places {
+                    *place = place.add(j);
+                }
+                let (first, second) = L::pairs(places);
+                less(first, center, j).store(x.add(j * POINTS + 8 * group));
+                less(second, center, j + 1).store(x.add((j + 1) * POINTS + 8 * group));
             }
         }
     }

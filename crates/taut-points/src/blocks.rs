@@ -4,6 +4,7 @@ use std::ops::Range;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
+use crate::helpers::share;
 use crate::{Monitor, PointSource, ReadError, Rows, Scratch};
 
 /// The partition of n rows of dimension d into blocks; it depends on n and d alone.
@@ -113,11 +114,7 @@ fn for_each_block(source: &dyn PointSource, monitor: &Monitor<'_>, work: &Work<'
             failed.fetch_or(!one(&mut scratch, block), Ordering::Relaxed);
         }
     };
-    // The calling thread takes part: from outside of the pool it would wait for one thread to wake, which then wakes the others.
-    rayon::in_place_scope(|scope| {
-        (1..workers).for_each(|_| scope.spawn(|_| worker()));
-        worker();
-    });
+    share(workers as usize, &worker);
 }
 
 #[cfg(test)]

@@ -28,6 +28,7 @@ mod display;
 mod error;
 pub mod generate;
 mod hash;
+mod helpers;
 mod monitor;
 mod ordered;
 pub mod parallel;

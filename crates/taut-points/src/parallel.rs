@@ -15,6 +15,8 @@ use std::sync::atomic::AtomicUsize;
 use std::sync::atomic::Ordering::Relaxed;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
+use crate::helpers::share;
+
 mod adapters;
 mod collect;
 mod items;
@@ -28,8 +30,7 @@ pub use items::{Borrowed, Chunks, IntoParallel, Numbers, Owned, ParallelSlice};
 /// Most tasks of a loop that names no least number of items: eight for each of 128 threads.
 const TASKS_MAX: usize = 1 << 10;
 
-/// Calls `task` with each number below `count`, on all threads. The calling thread takes part: it need not wait for another to wake. Outside of
-/// a pool a loop within a loop can so keep one thread more busy than the pool has.
+/// Calls `task` with each number below `count`, on all threads.
 fn run_tasks(count: usize, task: &(dyn Fn(usize) + Sync)) {
     match count {
         0 => {}
@@ -45,11 +46,7 @@ fn run_tasks(count: usize, task: &(dyn Fn(usize) + Sync)) {
                     task(number);
                 }
             };
-            rayon::in_place_scope(|scope| {
-                (1..count.min(rayon::current_num_threads()))
-                    .for_each(|_| scope.spawn(|_| worker()));
-                worker();
-            });
+            share(count, &worker);
         }
     }
 }

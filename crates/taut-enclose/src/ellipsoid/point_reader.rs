@@ -103,13 +103,14 @@ impl<'a> PointReader<'a> {
 
     /// The rows with the given numbers. Far apart, each is a wait for memory: many are read on all threads.
     pub(crate) fn rows(&self, ids: &[u64]) -> Result<Vec<f64>, Error> {
-        /// One task reads this many.
-        const ROWS_OF_TASK: usize = 512;
-        if self.source.elsewhere().is_some() || ids.len() <= ROWS_OF_TASK {
+        /// One task reads about this many coordinates: what is read before another thread has begun is not worth waking it.
+        const TASK_VALUES: usize = 1 << 16;
+        let rows_of_task = TASK_VALUES.div_ceil(self.dim());
+        if self.source.elsewhere().is_some() || ids.len() <= rows_of_task {
             return Ok(gather(self.source, ids)?);
         }
         let parts: Result<Vec<Vec<f64>>, ReadError> =
-            ids.par_chunks(ROWS_OF_TASK).map(|ids| gather(self.source, ids)).collect();
+            ids.par_chunks(rows_of_task).map(|ids| gather(self.source, ids)).collect();
         Ok(parts?.concat())
     }
 

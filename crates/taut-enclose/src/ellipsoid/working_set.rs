@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
+use std::sync::OnceLock;
 
 use taut_kernels::triangle::POINTS;
 
@@ -11,12 +12,16 @@ pub(super) const fn basis_max(dim: usize) -> usize {
     (dim + 1) * (dim + 2) / 2
 }
 
+/// Where points stand, by row number.
+type Positions = HashMap<u64, usize, BuildHasherDefault<IdHasher>>;
+
 /// Points relative to an origin, in the order the kernels want, and their multipliers u.
 #[derive(Clone, Debug)]
 pub(super) struct WorkingSet {
     dim: usize,
     ids: Vec<u64>,
-    positions: HashMap<u64, usize, BuildHasherDefault<IdHasher>>,
+    /// Where each point stands; made when it is first asked for.
+    positions: OnceLock<Positions>,
     /// Coordinate j of point i stands at (i / 32)·32d + 32j + i % 32; the last block is filled with zeros.
     blocks: Vec<f64>,
     /// u, and zeros up to the end of the last block.
@@ -25,13 +30,7 @@ pub(super) struct WorkingSet {
 
 impl WorkingSet {
     pub(super) fn new(dim: usize) -> Self {
-        WorkingSet {
-            dim,
-            ids: vec![],
-            positions: HashMap::default(),
-            blocks: vec![],
-            weights: vec![],
-        }
+        WorkingSet { dim, ids: vec![], positions: OnceLock::new(), blocks: vec![], weights: vec![] }
     }
 
     /// Points of equal multipliers, whose numbers differ.
@@ -47,8 +46,7 @@ impl WorkingSet {
             }
         }
         weights[..count].fill(1.0 / count as f64);
-        let positions = ids.iter().copied().zip(0..).collect();
-        WorkingSet { dim, ids, positions, blocks, weights }
+        WorkingSet { dim, ids, positions: OnceLock::new(), blocks, weights }
     }
 
     pub(super) fn dim(&self) -> usize {
@@ -64,12 +62,16 @@ impl WorkingSet {
     }
 
     pub(super) fn contains(&self, id: u64) -> bool {
-        self.positions.contains_key(&id)
+        self.positions().contains_key(&id)
+    }
+
+    fn positions(&self) -> &Positions {
+        self.positions.get_or_init(|| self.ids.iter().copied().zip(0..).collect())
     }
 
     /// Where a point stands.
     pub(super) fn position(&self, id: u64) -> Option<usize> {
-        self.positions.get(&id).copied()
+        self.positions().get(&id).copied()
     }
 
     pub(super) fn blocks(&self) -> &[f64] {
@@ -101,7 +103,9 @@ impl WorkingSet {
         if self.contains(id) {
             return;
         }
-        self.positions.insert(id, i);
+        if let Some(positions) = self.positions.get_mut() {
+            positions.insert(id, i);
+        }
         if i.is_multiple_of(POINTS) {
             self.blocks.resize(self.blocks.len() + POINTS * self.dim, 0.0);
             self.weights.resize(self.weights.len() + POINTS, 0.0);

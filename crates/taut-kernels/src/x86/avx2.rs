@@ -45,6 +45,13 @@ macro_rules! square {
     }};
 }
 
+/// Two values at each of two places.
+macro_rules! two {
+    ($a:expr, $b:expr) => {
+        _mm256_insertf128_pd::<1>(_mm256_castpd128_pd256(_mm_loadu_pd($a)), _mm_loadu_pd($b))
+    };
+}
+
 #[derive(Clone, Copy)]
 pub(super) struct Avx2(__m256d, __m256d);
 
@@ -183,6 +190,20 @@ impl Lanes for Avx2 {
                     in_order!(_mm256_unpackhi_pd(first.0, first.1)),
                     in_order!(_mm256_unpackhi_pd(second.0, second.1)),
                 ),
+            )
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn pairs(starts: [*const f64; 8]) -> (Self, Self) {
+        // SAFETY: see above.
+        unsafe {
+            // Rows 0, 2, 1, 3 of four: interleaved with the other two they are in order.
+            let (first, last) = (two!(starts[0], starts[2]), two!(starts[4], starts[6]));
+            let (second, fourth) = (two!(starts[1], starts[3]), two!(starts[5], starts[7]));
+            (
+                Avx2(_mm256_unpacklo_pd(first, second), _mm256_unpacklo_pd(last, fourth)),
+                Avx2(_mm256_unpackhi_pd(first, second), _mm256_unpackhi_pd(last, fourth)),
             )
         }
     }

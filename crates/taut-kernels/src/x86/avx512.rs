@@ -38,6 +38,21 @@ macro_rules! quarters {
     }};
 }
 
+/// Two values at each of four places. A load that is broadcast to one quarter needs no shuffle.
+macro_rules! four_pairs {
+    ($a:expr, $b:expr, $c:expr, $d:expr) => {{
+        macro_rules! at {
+            ($place:expr) => {
+                _mm_castpd_ps(_mm_loadu_pd($place))
+            };
+        }
+        let mut all = _mm512_castps128_ps512(at!($a));
+        all = _mm512_mask_broadcast_f32x4(all, 0x00f0, at!($b));
+        all = _mm512_mask_broadcast_f32x4(all, 0x0f00, at!($c));
+        _mm512_castps_pd(_mm512_mask_broadcast_f32x4(all, 0xf000, at!($d)))
+    }};
+}
+
 #[derive(Clone, Copy)]
 pub(super) struct Avx512(__m512d);
 
@@ -152,6 +167,17 @@ impl Lanes for Avx512 {
                 Avx512(_mm512_permutex2var_pd(first.0, even, second.0)),
                 Avx512(_mm512_permutex2var_pd(first.0, odd, second.0)),
             )
+        }
+    }
+
+    /// Each row is put into its quarter as it is loaded.
+    #[inline(always)]
+    unsafe fn pairs(starts: [*const f64; 8]) -> (Self, Self) {
+        // SAFETY: see above.
+        unsafe {
+            let first = four_pairs!(starts[0], starts[1], starts[2], starts[3]);
+            let second = four_pairs!(starts[4], starts[5], starts[6], starts[7]);
+            Self::split(Avx512(first), Avx512(second))
         }
     }
 
