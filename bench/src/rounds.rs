@@ -83,9 +83,13 @@ pub(crate) fn run<T: Send>(
                 timed.reads.extend(beside.reads.map(|bytes| plain_read(bytes, pool)));
                 // Only one answer is held, as with a peer.
                 drop(found.take());
-                let meter = Meter::start();
-                let answer = pool.install(&solve)?;
-                let cost = meter.stop();
+                // On a thread of the pool, as with peers in their processes: to wake that thread is no part of a solver.
+                let (answer, cost) = pool.install(|| {
+                    let meter = Meter::start();
+                    let answer = solve();
+                    (answer, meter.stop())
+                });
+                let answer = answer?;
                 timed.wall.push(cost.wall);
                 timed.cpu.push(cost.cpu);
                 see(Seen::Ours(&answer))?;

@@ -53,6 +53,11 @@ const STALE_PASSES_MAX: u32 = 3;
 /// Below this gap, rounding may be what keeps passes from improving it.
 const SMALL_GAP: f64 = 1e-6;
 
+/// The ellipsoid of a sample, which is but to make a list, need not be nearer than where the largest |y|² of its working set is this many
+/// times d: that of all points is about twice. 1.05 takes a tenth longer on 10⁵ × 10 normal points, 1.5 as long, and lists fall short as
+/// often with 1.002 and 1.1.
+const SAMPLE_LARGEST_RATIO: f64 = 1.2;
+
 /// Points of the first working set, and points that may join after a pass.
 fn sizes(dim: usize, n: u64) -> (usize, usize) {
     let p = basis_max(dim);
@@ -91,7 +96,11 @@ pub(super) fn solve(
     let mut later = later;
     // With all points in the working set there is nothing to come.
     let whole = set.len() as u64 == reader.len();
-    let first = if whole { 0.6 * wanted } else { 1e-2 };
+    let first = match list {
+        _ if whole => 0.6 * wanted,
+        Some(_) => gap(dim, SAMPLE_LARGEST_RATIO * dim as f64),
+        None => 1e-2,
+    };
     let mut tolerance = Tolerance { easy: first, hard: first, basis: whole };
     let mut last = f64::INFINITY;
     // The least gap of a round, and true once an answer on fewer points has been sought.

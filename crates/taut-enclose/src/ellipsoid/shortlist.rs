@@ -202,7 +202,7 @@ fn reach2(terms: &[(f64, f64)], b: f64) -> f64 {
 /// outside. The list has to hold several times as many.
 pub(super) fn share(dim: usize, sample: &WorkingSet, n: u64) -> Option<f64> {
     /// The list has this many times the points that determine the ellipsoid. Of 65,536 and 300,000 points in 2 to 10 dimensions (normal,
-    /// in a cube, in clusters, near a sphere; 1344 sets) it fell short for 2.5 %, which takes a second pass; with 6 for 11 %, with 9 for
+    /// in a cube, in clusters, near a sphere; 1344 sets) it fell short for 2 %, which takes a second pass; with 6 for 11 %, with 9 for
     /// 1.6 %, with 12 for 0.4 %. But 10⁵ × 10 normal points take a tenth longer with 12.
     const LIST_FACTOR: f64 = 8.0;
     /// Beyond this share of all points, a pass over the list costs a good part of one over all.
