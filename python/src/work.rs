@@ -51,9 +51,9 @@ fn run(py: Python<'_>, work: &mut (dyn FnMut(&Monitor<'_>) + Send)) -> PyResult<
 /// Runs `work` in a pool whose threads live in this process.
 ///
 /// *Trap.* A forked child, as `multiprocessing` makes them, inherits rayon's global pool without its threads, and
-/// would wait for them endlessly. So the process that works first keeps that pool, and each of its forks builds one for
-/// each call: that costs the start of its threads. One kept for longer would need a lock, and a lock can be inherited
-/// locked.
+/// would wait for them endlessly; nor has it the helpers that `taut_points` has for loops outside of a pool. So the process
+/// that works first keeps that pool, and each of its forks builds one for each call: that costs the start of its threads.
+/// One kept for longer would need a lock, and a lock can be inherited locked.
 fn with_living_threads(work: &mut (dyn FnMut() + Send)) -> Result<(), ThreadPoolBuildError> {
     /// The process whose global pool it is; no process has the number 0.
     static OWNER: AtomicU32 = AtomicU32::new(0);

@@ -458,7 +458,7 @@ unsafe fn arrange<L: Lanes>(values: &[f64], center: &Center, x: &mut [f64]) {
         return;
     }
     for group in 0..REGISTERS {
-        // SAFETY: each start is that of a row within `values`; coordinates j .. j + count stay below dim.
+        // SAFETY: each start is that of a row within `values`; eights end at or below dim, and a pair at j and j + 1 < dim, which is at least 2.
         unsafe {
             let mut starts = [values.as_ptr(); 8];
             for (i, start) in starts.iter_mut().enumerate() {

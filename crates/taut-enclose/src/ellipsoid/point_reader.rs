@@ -101,11 +101,12 @@ impl<'a> PointReader<'a> {
         self.hash.expect("the first pass hashes the rows")
     }
 
-    /// The rows with the given numbers. Far apart, each is a wait for memory: many are read on all threads.
+    /// The rows with the given numbers. Far apart, each is a wait for memory: of many coordinates on all threads.
     pub(crate) fn rows(&self, ids: &[u64]) -> Result<Vec<f64>, Error> {
         /// One task reads about this many coordinates: what is read before another thread has begun is not worth waking it.
         const TASK_VALUES: usize = 1 << 16;
-        let rows_of_task = TASK_VALUES.div_ceil(self.dim());
+        // A row waits for a cache line at least.
+        let rows_of_task = TASK_VALUES.div_ceil(self.dim().max(8));
         if self.source.elsewhere().is_some() || ids.len() <= rows_of_task {
             return Ok(gather(self.source, ids)?);
         }

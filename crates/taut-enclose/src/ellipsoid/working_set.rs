@@ -103,9 +103,7 @@ impl WorkingSet {
         if self.contains(id) {
             return;
         }
-        if let Some(positions) = self.positions.get_mut() {
-            positions.insert(id, i);
-        }
+        self.positions.get_mut().expect("`contains` has made them").insert(id, i);
         if i.is_multiple_of(POINTS) {
             self.blocks.resize(self.blocks.len() + POINTS * self.dim, 0.0);
             self.weights.resize(self.weights.len() + POINTS, 0.0);
