@@ -9,7 +9,7 @@
 //! error (most rows are told by it, but to make it takes as long as the reading that it saves); rows read in four parts, as far as a bound
 //! on the rest asks for (a half to three quarters of the coordinates are read, but memory delivers pieces no faster); a first pass
 //! whose later rows are measured from the ball of the first ones (the rows of both have to be read again); and for 10⁵ × 1500 of `f32`, a
-//! bound in single precision that leaves a 200th of the rows to be measured (the pass takes as long, as memory delivers no faster).
+//! bound in single precision, after which few rows have to be measured (the pass takes as long, as memory delivers no faster).
 
 use taut_kernels::{Center, relative_error};
 
