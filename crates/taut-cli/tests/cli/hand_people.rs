@@ -124,7 +124,9 @@ fn a_key_from_the_environment_serves_as_well() {
 #[test]
 fn a_matcher_is_learned_from_a_folder() {
     let folder = TestFolder::new();
-    folder.taut("hand synthesize scans --people 8 --scans 3 --clean --seed 4 --quiet").ends(0);
+    folder
+        .taut("hand synthesize scans --people 8 --scans 3 --dpi 60 --clean --seed 4 --quiet")
+        .ends(0);
     folder
         .taut("hand train scans -o matcher.json --scans 1 --fmr 0.2 --source tests")
         .ends(0)
@@ -148,9 +150,11 @@ fn a_matcher_is_learned_from_a_folder() {
 #[test]
 fn a_matcher_of_both_hands_says_so() {
     let folder = TestFolder::new();
-    folder.taut("hand synthesize scans --people 8 --scans 3 --clean --seed 4 --quiet").ends(0);
     folder
-        .taut("hand synthesize left --left --people 8 --scans 3 --clean --seed 4 --quiet")
+        .taut("hand synthesize scans --people 8 --scans 3 --dpi 60 --clean --seed 4 --quiet")
+        .ends(0);
+    folder
+        .taut("hand synthesize left --left --people 8 --scans 3 --dpi 60 --clean --seed 4 --quiet")
         .ends(0);
     for person in 0..8 {
         let name =

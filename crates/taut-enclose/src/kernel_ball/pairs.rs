@@ -174,10 +174,13 @@ impl Pairs {
         for (k, ((&a, &lambda), &rho)) in self.mean.iter().zip(&self.lambda).zip(column).enumerate()
         {
             let excess = highest - a;
-            // In this order, so that the square of a small excess does not vanish.
-            let gain = excess * (excess / rho);
-            if lambda > 0.0 && excess > 0.0 && gain > best.0 {
-                best = (gain, Some(k));
+            // Tested before the division, which for most takes longer than all else.
+            if lambda > 0.0 && excess > 0.0 {
+                // In this order, so that the square of a small excess does not vanish.
+                let gain = excess * (excess / rho);
+                if gain > best.0 {
+                    best = (gain, Some(k));
+                }
             }
         }
         best.1

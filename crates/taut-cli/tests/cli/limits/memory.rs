@@ -19,8 +19,8 @@ fn zeros(folder: &TestFolder, name: &str, kind: &str, rows: u64) {
 #[test]
 fn points_that_outgrow_the_memory_of_the_process_are_an_error_with_a_remedy() {
     let folder = TestFolder::new();
-    // 320 MB of values that must be turned around, so they are decoded to memory.
-    zeros(&folder, "big.npy", ">f8", 20_000_000);
+    // 192 MB of values that must be turned around, so they are decoded to memory.
+    zeros(&folder, "big.npy", ">f8", 12_000_000);
     folder
         .shell("ulimit -d 150000; taut ball big.npy --threads 1")
         .ends(2)

@@ -15,6 +15,14 @@ pub(super) struct Radius {
 const ROUNDED_UP: f64 = 1.0 + 4.0 * f64::EPSILON;
 const ROUNDED_DOWN: f64 = 1.0 - 4.0 * f64::EPSILON;
 
+/// What the exponent of 1 is stored as.
+const EXPONENT_BIAS: u64 = 1023;
+
+/// 2⁻ᵏ for k below 1000.
+fn inverse_power(k: u64) -> f64 {
+    f64::from_bits((EXPONENT_BIAS - k) << 52)
+}
+
 impl Radius {
     pub(super) const ZERO: Radius = Radius { value: 0.0, exponent: 0 };
 
@@ -31,8 +39,9 @@ impl Radius {
         if value == 0.0 {
             return Radius::ZERO;
         }
-        let k = ((value.to_bits() >> 52) & 0x7ff) as i64 - 1023;
-        Radius { value: value * 2f64.powi(-k as i32), exponent: exponent + k }
+        let (field, fraction) = (value.to_bits() >> 52, value.to_bits() & ((1 << 52) - 1));
+        let value = f64::from_bits(EXPONENT_BIAS << 52 | fraction);
+        Radius { value, exponent: exponent + field as i64 - EXPONENT_BIAS as i64 }
     }
 
     /// The leading 53 bits of |m| and how many bits follow.
@@ -69,8 +78,8 @@ impl Radius {
         }
         let (large, small) =
             if self.exponent >= other.exponent { (self, other) } else { (other, self) };
-        let apart = (large.exponent - small.exponent).min(60) as i32;
-        Radius::of((large.value + small.value * 2f64.powi(-apart)) * ROUNDED_UP, large.exponent)
+        let apart = (large.exponent - small.exponent).min(60) as u64;
+        Radius::of((large.value + small.value * inverse_power(apart)) * ROUNDED_UP, large.exponent)
     }
 
     /// Rounded up.
@@ -98,8 +107,8 @@ impl Radius {
         if self.is_zero() || self.exponent < other.exponent {
             return None;
         }
-        let apart = (self.exponent - other.exponent).min(60) as i32;
-        let rest = self.value * ROUNDED_DOWN - other.value * ROUNDED_UP * 2f64.powi(-apart);
+        let apart = (self.exponent - other.exponent).min(60) as u64;
+        let rest = self.value * ROUNDED_DOWN - other.value * ROUNDED_UP * inverse_power(apart);
         (rest > 0.0).then(|| Radius::of(rest * ROUNDED_DOWN, self.exponent))
     }
 
