@@ -8,7 +8,8 @@
 //! *Tried without gain* for the second pass, on 10⁴ × 300 to 1000: a copy of the rows in one byte per coordinate with a bound on its
 //! error (most rows are told by it, but to make it takes as long as the reading that it saves); rows read in four parts, as far as a bound
 //! on the rest asks for (a half to three quarters of the coordinates are read, but memory delivers pieces no faster); a first pass
-//! whose later rows are measured from the ball of the first ones (the rows of both have to be read again); and for 10⁵ × 1500 of `f32`, a
+//! whose later rows are measured from the ball of the first ones (the rows of both have to be read again); the
+//! blocks from the last to the first, as the end of the pass before may still be in cache; and for 10⁵ × 1500 of `f32`, a
 //! bound in single precision, after which few rows have to be measured (the pass takes as long, as memory delivers no faster).
 
 use taut_kernels::{Center, relative_error};

@@ -34,7 +34,7 @@ impl Radius {
         self.value == 0.0
     }
 
-    /// Brings a value of moderate size to [1, 2).
+    /// Brings a value of at least 0, of moderate size and so not subnormal, to [1, 2).
     fn of(value: f64, exponent: i64) -> Self {
         if value == 0.0 {
             return Radius::ZERO;
