@@ -18,6 +18,7 @@ pub mod compensated;
 mod exact;
 pub mod extremes;
 mod lanes;
+pub mod matrix;
 mod portable;
 pub mod substitution;
 pub mod triangle;

@@ -212,7 +212,7 @@ pub enum HandError {
 }
 
 impl Hand {
-    /// Measures the hand in an image file in PNG, JPEG or TIFF.
+    /// Measures the hand in an image file in PNG, or with the feature `photographs` in JPEG or TIFF.
     ///
     /// # Errors
     /// [`HandError`]: the file or the options are not as they should be, or the hand cannot be measured.
@@ -236,7 +236,7 @@ impl Hand {
         Self::from_image(&bytes, options)
     }
 
-    /// Measures the hand in the bytes of an image file in PNG, JPEG or TIFF.
+    /// Measures the hand in the bytes of an image file in PNG, or with the feature `photographs` in JPEG or TIFF.
     ///
     /// # Errors
     /// [`HandError`]: the image or the options are not as they should be, or the hand cannot be measured.

@@ -137,9 +137,10 @@
 //! façade can be used on its own. Files are read and written by `taut-io`, pictures drawn by `taut-draw`, and the command `taut`
 //! is the crate `taut-cli`.
 //!
-//! Three cargo features, all on by default, switch areas off: `reconstruct` (curves and surfaces), `recognize` (classifiers,
-//! their evaluation, and hands) and `conic` (inscribed ellipsoids and the methods of the thesis for balls, which need a conic
-//! solver). A fourth one, `store`, is off by default: the encrypted store of people in [mod@recognize], for which SQLite is compiled.
+//! Four cargo features, all on by default, switch areas off: `reconstruct` (curves and surfaces), `recognize` (classifiers,
+//! their evaluation, and hands), `photographs` (images of hands in JPEG and TIFF; those in PNG are always read) and `conic`
+//! (inscribed ellipsoids and the methods of the thesis for balls, which need a conic solver). A fifth one, `store`, is off by
+//! default: the encrypted store of people in [mod@recognize], for which SQLite is compiled.
 //!
 //! Not for: distances other than Euclidean, or weights other than those of centers.
 #![forbid(unsafe_code)]

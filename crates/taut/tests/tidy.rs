@@ -171,6 +171,34 @@ fn arrows_only_go_down() {
     }
 }
 
+/// `cargo run` at the root builds the command with all features that one of the default members asks for.
+#[test]
+fn no_default_member_asks_for_default_features() {
+    needs_repository!();
+    let metadata = metadata();
+    let list = |value: &Value| value.as_array().expect("a list").clone();
+    let packages = list(&metadata["packages"]);
+    let has_defaults = |name: &Value| {
+        let package = packages.iter().find(|package| package["name"] == *name);
+        package.is_some_and(|p| !p["features"]["default"].as_array().is_none_or(Vec::is_empty))
+    };
+    let members = list(&metadata["workspace_default_members"]);
+    let mut count = 0;
+    for package in packages.iter().filter(|package| members.contains(&package["id"])) {
+        let dependencies = list(&package["dependencies"]);
+        for named in dependencies.iter().filter(|d| d["kind"].is_null() && has_defaults(&d["name"]))
+        {
+            count += 1;
+            assert_eq!(
+                named["uses_default_features"], false,
+                "{}: {}",
+                package["name"], named["name"]
+            );
+        }
+    }
+    assert!(count >= 5, "{count}");
+}
+
 #[test]
 fn checkers_import_no_solver() {
     needs_repository!();

@@ -4,4 +4,5 @@ mod any_bytes;
 mod canonical;
 mod golden;
 mod query;
+mod test_length;
 mod wrong_ids;

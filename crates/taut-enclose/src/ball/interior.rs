@@ -11,8 +11,7 @@
 //! *Trap.* Accuracy ends at a gap of about 1e-14, and no multiplier is zero: an active set finishes the work.
 //! *Reference.* Mehrotra, SIAM J. Optim. 2(4), 1992; leaving out rows: Tits, Absil and Woessner, SIAM J. Optim. 17(1), 2006.
 
-use faer::linalg::matmul::matmul;
-use faer::{Accum, MatMut, MatRef, Par};
+use taut_kernels::matrix::{Matrix, MatrixMut, set_product};
 use taut_kernels::vector::{add_combination, dot};
 use taut_points::parallel::ParallelSlice;
 use taut_points::{Cancelled, Monitor};
@@ -264,16 +263,15 @@ impl Rows {
                 row[self.dim] = root;
             }
         });
-        let all = MatRef::from_row_major_slice(&scaled, kept.len(), p);
+        let all = Matrix::from_rows(&scaled, kept.len(), p);
         let mut normal = vec![0.0; p * p];
         normal.par_chunks_mut(TILE_COLUMNS * p).enumerate().for_each(|(tile, rows)| {
             let (first, count) = (tile * TILE_COLUMNS, rows.len() / p);
             // Only what is right of the diagonal of the tile.
-            let (left, right) = (all.subcols(first, count), all.subcols(first, p - first));
-            // Not `from_row_major_slice_with_stride_mut`, which faer 0.24.4 takes for columns.
-            let target = MatMut::from_row_major_slice_mut(rows, count, p);
-            let target = target.subcols_mut(first, p - first);
-            matmul(target, Accum::Replace, left.transpose(), right, 1.0, Par::Seq);
+            let (left, right) =
+                (all.column_range(first..first + count), all.column_range(first..p));
+            let target = MatrixMut::from_rows(rows, count, p).columns_from(first);
+            set_product(target, left.transpose(), right);
         });
         for j in 0..self.dim {
             normal[j * p + j] += 2.0;

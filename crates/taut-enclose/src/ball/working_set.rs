@@ -6,8 +6,7 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use faer::linalg::matmul::matmul;
-use faer::{Accum, MatMut, MatRef, Par};
+use taut_kernels::matrix::{Matrix, MatrixMut, set_product};
 use taut_kernels::vector::{add_combination, add_scaled_exactly};
 use taut_kernels::{Center, DoubleDouble};
 use taut_points::parallel::IntoParallel;
@@ -167,15 +166,14 @@ impl WorkingSet {
         let columns = tile_columns(k);
         let rows = |range: Range<usize>| {
             let count = range.len();
-            MatRef::from_row_major_slice(&self.rows[range.start * dim..range.end * dim], count, dim)
+            Matrix::from_rows(&self.rows[range.start * dim..range.end * dim], count, dim)
         };
         // Of rows that are new as columns are, those before them have been multiplied by an earlier tile.
         let tile = |first: usize| {
             let (end, start) = (k.min(first + columns), before.max(first));
             let mut product = vec![0.0; (k - start) * (end - first)];
-            let target = MatMut::from_row_major_slice_mut(&mut product, k - start, end - first);
-            let other = rows(first..end).transpose();
-            matmul(target, Accum::Replace, rows(start..k), other, 1.0, Par::Seq);
+            let target = MatrixMut::from_rows(&mut product, k - start, end - first);
+            set_product(target, rows(start..k), rows(first..end).transpose());
             (first..end, start, product)
         };
         let firsts: Vec<usize> = (0..k).step_by(columns).collect();

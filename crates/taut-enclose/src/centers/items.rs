@@ -5,6 +5,8 @@
 
 use std::marker::PhantomData;
 
+use super::tree::Search;
+
 /// d coordinates: an array where d is known, else a vector.
 pub(super) trait Position: Clone + Send + Sync + AsRef<[f64]> + AsMut<[f64]> {
     /// The origin.
@@ -12,17 +14,38 @@ pub(super) trait Position: Clone + Send + Sync + AsRef<[f64]> + AsMut<[f64]> {
 
     /// d, known to the compiler for arrays.
     fn width(dim: usize) -> usize;
+
+    /// Returns the search if it is one of the plane; nogoods are recorded there alone.
+    fn in_plane<'s, 'c>(_: &'s mut Search<'c, Self>) -> Option<&'s mut Search<'c, [f64; 2]>> {
+        None
+    }
 }
 
-impl<const D: usize> Position for [f64; D] {
+impl Position for [f64; 2] {
     #[inline(always)]
     fn zeros(_: usize) -> Self {
-        [0.0; D]
+        [0.0; 2]
     }
 
     #[inline(always)]
     fn width(_: usize) -> usize {
-        D
+        2
+    }
+
+    fn in_plane<'s, 'c>(search: &'s mut Search<'c, Self>) -> Option<&'s mut Search<'c, [f64; 2]>> {
+        Some(search)
+    }
+}
+
+impl Position for [f64; 3] {
+    #[inline(always)]
+    fn zeros(_: usize) -> Self {
+        [0.0; 3]
+    }
+
+    #[inline(always)]
+    fn width(_: usize) -> usize {
+        3
     }
 }
 

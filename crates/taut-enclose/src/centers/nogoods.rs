@@ -95,12 +95,12 @@ pub(super) enum End {
 }
 
 /// A search and what it has found so far.
-pub(super) struct NogoodSearch<'c, P, const WORDS: usize> {
-    task: &'c Task<'c, P>,
+pub(super) struct NogoodSearch<'c, const WORDS: usize> {
+    task: &'c Task<'c, Place>,
     gap: f64,
     /// Items by their number in the cloud.
     pub(super) core_set: Vec<u32>,
-    pub(super) best: Incumbent<P>,
+    pub(super) best: Incumbent<Place>,
     pub(super) nodes: u64,
     pub(super) scans: u64,
     max_nodes: u64,
@@ -141,11 +141,11 @@ pub(super) fn applies<P: Position>(task: &Task<'_, P>, items: usize, gap: f64) -
         && gap >= GAP_MIN
 }
 
-impl<'c, P: Position, const WORDS: usize> NogoodSearch<'c, P, WORDS> {
+impl<'c, const WORDS: usize> NogoodSearch<'c, WORDS> {
     pub(super) fn new(
-        task: &'c Task<'c, P>,
+        task: &'c Task<'c, Place>,
         core_set: &[u32],
-        best: &Incumbent<P>,
+        best: &Incumbent<Place>,
         gap: f64,
         max_nodes: u64,
     ) -> Self {
@@ -191,7 +191,7 @@ impl<'c, P: Position, const WORDS: usize> NogoodSearch<'c, P, WORDS> {
                 Outcome::Held(centers) => centers,
             };
             let before = self.best.radius;
-            let far = self.read_all_items(&centers)?;
+            let far = self.read_all_items(centers)?;
             if self.best.radius < before {
                 self.make_discs();
             }
@@ -240,14 +240,8 @@ impl<'c, P: Position, const WORDS: usize> NogoodSearch<'c, P, WORDS> {
     }
 
     /// Reads all items from these centers; returns the farthest.
-    fn read_all_items(&mut self, centers: &[Place]) -> Result<u32, Error> {
+    fn read_all_items(&mut self, centers: Vec<Place>) -> Result<u32, Error> {
         let Task { cloud, monitor, k, z } = *self.task;
-        let center = |place: &Place| {
-            let mut center = P::zeros(2);
-            center.as_mut().copy_from_slice(place);
-            center
-        };
-        let centers: Vec<P> = centers.iter().map(center).collect();
         let far = cloud.farthest(&centers, 1)[0];
         self.scans += 1;
         let mut seen = Incumbent { centers, radius: far.reach };

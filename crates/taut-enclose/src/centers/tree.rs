@@ -98,7 +98,7 @@ impl From<Error> for Halt {
     }
 }
 
-struct Search<'c, P> {
+pub(super) struct Search<'c, P> {
     task: Task<'c, P>,
     core_set: Vec<u32>,
     best: Incumbent<P>,
@@ -200,62 +200,16 @@ impl<P: Position> Search<'_, P> {
                     run *= 2;
                 }
                 Err(Halt::Large) => {
-                    if let Some(threshold) = self.record_nogoods()? {
+                    let Some(search) = P::in_plane(self) else {
+                        self.is_full = true;
+                        continue;
+                    };
+                    if let Some(threshold) = search.record_nogoods()? {
                         return Ok(threshold);
                     }
                 }
                 Err(halt) => return Err(halt),
                 Ok(()) => return Ok(self.best.radius / (1.0 + self.gap)),
-            }
-        }
-    }
-
-    /// Searches for balls by nogoods; the radius below which none were found, or `None` where that takes too many items.
-    fn record_nogoods(&mut self) -> Result<Option<f64>, Halt> {
-        // Wide sets take longer to compare, and a search that turns out to need wider ones starts again.
-        for words in [8, 16, 24, 32] {
-            if self.core_set.len() as f64 * nogoods::CORE_SET_GROWTH > 64.0 * words as f64 {
-                continue;
-            }
-            let threshold = match words {
-                8 => self.record_nogoods_in::<8>()?,
-                16 => self.record_nogoods_in::<16>()?,
-                24 => self.record_nogoods_in::<24>()?,
-                _ => self.record_nogoods_in::<32>()?,
-            };
-            if threshold.is_some() {
-                return Ok(threshold);
-            }
-            if self.is_full {
-                break;
-            }
-        }
-        self.is_full = true;
-        Ok(None)
-    }
-
-    /// The same with sets of so many words; `None` where these are too short, or nogoods cannot be checked.
-    fn record_nogoods_in<const WORDS: usize>(&mut self) -> Result<Option<f64>, Halt> {
-        let task = Task { ..self.task };
-        let nodes_left = self.max_nodes.saturating_sub(self.nodes);
-        let mut search =
-            NogoodSearch::<_, WORDS>::new(&task, &self.core_set, &self.best, self.gap, nodes_left);
-        let end = search.go_on()?;
-        self.nodes += search.nodes;
-        self.scans += search.scans;
-        self.best = search.best;
-        self.core_set = search.core_set;
-        match end {
-            nogoods::End::Budget => Err(Halt::Budget),
-            nogoods::End::ManyItems => Ok(None),
-            nogoods::End::Full => {
-                self.is_full = true;
-                Ok(None)
-            }
-            nogoods::End::Refuted(refutation) => {
-                let threshold = self.best.radius / (1.0 + self.gap);
-                self.refuted = Some((threshold, refutation));
-                Ok(Some(threshold))
             }
         }
     }
@@ -333,6 +287,58 @@ impl<P: Position> Search<'_, P> {
         for subsearch in subsearches {
             subsearch.learn(&self.core_set);
             subsearch.offer(&self.best);
+        }
+    }
+}
+
+impl Search<'_, [f64; 2]> {
+    /// Searches for balls by nogoods; the radius below which none were found, or `None` where that takes too many items.
+    fn record_nogoods(&mut self) -> Result<Option<f64>, Halt> {
+        // Wide sets take longer to compare, and a search that turns out to need wider ones starts again.
+        for words in [8, 16, 24, 32] {
+            if self.core_set.len() as f64 * nogoods::CORE_SET_GROWTH > 64.0 * words as f64 {
+                continue;
+            }
+            let threshold = match words {
+                8 => self.record_nogoods_in::<8>()?,
+                16 => self.record_nogoods_in::<16>()?,
+                24 => self.record_nogoods_in::<24>()?,
+                _ => self.record_nogoods_in::<32>()?,
+            };
+            if threshold.is_some() {
+                return Ok(threshold);
+            }
+            if self.is_full {
+                break;
+            }
+        }
+        self.is_full = true;
+        Ok(None)
+    }
+
+    /// The same with sets of so many words; `None` where these are too short, or nogoods cannot be checked.
+    fn record_nogoods_in<const WORDS: usize>(&mut self) -> Result<Option<f64>, Halt> {
+        let task = Task { ..self.task };
+        let nodes_left = self.max_nodes.saturating_sub(self.nodes);
+        let mut search =
+            NogoodSearch::<WORDS>::new(&task, &self.core_set, &self.best, self.gap, nodes_left);
+        let end = search.go_on()?;
+        self.nodes += search.nodes;
+        self.scans += search.scans;
+        self.best = search.best;
+        self.core_set = search.core_set;
+        match end {
+            nogoods::End::Budget => Err(Halt::Budget),
+            nogoods::End::ManyItems => Ok(None),
+            nogoods::End::Full => {
+                self.is_full = true;
+                Ok(None)
+            }
+            nogoods::End::Refuted(refutation) => {
+                let threshold = self.best.radius / (1.0 + self.gap);
+                self.refuted = Some((threshold, refutation));
+                Ok(Some(threshold))
+            }
         }
     }
 }

@@ -6,17 +6,15 @@
 //! factored in blocks, by matrix products on all threads: tiles are fixed, so that the factor does not depend on these.
 //! *Reference.* Golub and Van Loan, Matrix Computations, 6.5 (updating a Cholesky factor).
 
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::cholesky::llt::factor::{cholesky_in_place, cholesky_in_place_scratch};
-use faer::linalg::matmul::matmul;
-use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
-use faer::{Accum, MatMut, MatRef, Par};
+use taut_kernels::matrix::{Matrix, MatrixMut, add_product};
 use taut_kernels::substitution;
-use taut_kernels::vector::{dot, rotate};
+use taut_kernels::vector::{add_combination, dot, rotate};
 use taut_points::parallel::ParallelSlice;
 
 /// Rows of R that are made at once.
 const BLOCK_ROWS: usize = 96;
+/// Rows of R that are made one after the other; more of them are halved, and the second half is reduced by a product.
+const PANEL_ROWS: usize = 16;
 /// One task takes a block of rows of R from so many rows of what is left.
 const TILE_ROWS: usize = 64;
 
@@ -62,6 +60,25 @@ impl Factor {
         z
     }
 
+    /// Solves R′z = a for several a at once, the rows of `z`, block by block of the rows of R.
+    fn forward_all(&self, z: &mut [f64]) {
+        let (s, stride) = (self.size, self.stride);
+        let count = z.len() / s;
+        let all = Matrix::from_rows(&self.rows, stride, stride);
+        for first in (0..s).step_by(BLOCK_ROWS) {
+            let end = s.min(first + BLOCK_ROWS);
+            let mut solved = Vec::with_capacity(count * (end - first));
+            for z in z.chunks_exact_mut(s) {
+                let z = &mut z[first..end];
+                substitution::forward(&self.rows[first * stride + first..], stride, z);
+                solved.extend_from_slice(z);
+            }
+            let solved = Matrix::from_rows(&solved, count, end - first);
+            let target = MatrixMut::from_rows(z, count, s).columns_from(end);
+            add_product(target, -1.0, solved, all.row_range(first..end).column_range(end..s));
+        }
+    }
+
     /// y with Ry = z.
     pub(crate) fn back(&self, mut z: Vec<f64>) -> Vec<f64> {
         substitution::back(&self.rows, self.stride, &mut z);
@@ -101,18 +118,11 @@ impl Factor {
     ) -> bool {
         let (s, count) = (self.size, b.len());
         debug_assert!(s > 0 && count > 0);
-        let lower = MatRef::from_row_major_slice(&self.rows, self.stride, self.stride)
-            .submatrix(0, 0, s, s)
-            .transpose();
-        z.par_chunks_mut(TILE_ROWS * s).for_each(|z| {
-            let columns = z.len() / s;
-            let target = MatMut::from_column_major_slice_mut(z, s, columns);
-            solve_lower_triangular_in_place(lower, target, Par::Seq);
-        });
+        z.par_chunks_mut(TILE_ROWS * s).for_each(|z| self.forward_all(z));
         let diagonal: Vec<f64> = (0..count).map(|i| square[i * count + i]).collect();
-        let explained = MatRef::from_row_major_slice(&z, count, s);
-        let target = MatMut::from_row_major_slice_mut(&mut square, count, count);
-        matmul(target, Accum::Add, explained, explained.transpose(), -1.0, Par::Seq);
+        let explained = Matrix::from_rows(&z, count, s);
+        let target = MatrixMut::from_rows(&mut square, count, count);
+        add_product(target, -1.0, explained, explained.transpose());
         if factor_block(&mut square, count, 0, count).is_none() {
             return false;
         }
@@ -182,26 +192,53 @@ fn factor_block(rows: &mut [f64], size: usize, first: usize, most: usize) -> Opt
     let end = size.min(first + most);
     let count = end - first;
     let (block, rest) = rows[first * size..].split_at_mut(count * size);
-    let (square, right) = MatMut::from_row_major_slice_mut(&mut *block, count, size)
-        .subcols_mut(first, size - first)
-        .split_at_col_mut(count);
-    // A lower triangle by columns is an upper one by rows.
-    let mut lower = square.transpose_mut();
-    let room = cholesky_in_place_scratch::<f64>(count, Par::Seq, Default::default());
-    let mut memory = MemBuffer::new(room);
-    let stack = MemStack::new(&mut memory);
-    cholesky_in_place(lower.as_mut(), Default::default(), Par::Seq, stack, Default::default())
-        .ok()?;
-    solve_lower_triangular_in_place(lower.as_ref(), right, Par::Seq);
-    let block = MatRef::from_row_major_slice(block, count, size);
+    factor_panel(&mut block[first..], count, size - first, size)?;
+    let block = Matrix::from_rows(block, count, size);
     rest.par_chunks_mut(TILE_ROWS * size).enumerate().for_each(|(tile, rows)| {
         let (from, count) = (end + tile * TILE_ROWS, rows.len() / size);
         // Only what is right of the diagonal of the tile.
-        let target =
-            MatMut::from_row_major_slice_mut(rows, count, size).subcols_mut(from, size - from);
-        let left = block.subcols(from, count).transpose();
-        matmul(target, Accum::Add, left, block.subcols(from, size - from), -1.0, Par::Seq);
+        let target = MatrixMut::from_rows(rows, count, size).columns_from(from);
+        let left = block.column_range(from..from + count).transpose();
+        add_product(target, -1.0, left, block.column_range(from..size));
     });
+    Some(())
+}
+
+/// Makes R of the first `count` rows of H in place; each has `width` entries from the column of the first diagonal entry on. `None`
+/// where a pivot is not positive.
+fn factor_panel(rows: &mut [f64], count: usize, width: usize, stride: usize) -> Option<()> {
+    if count <= PANEL_ROWS {
+        return factor_rows(rows, count, width, stride);
+    }
+    // A multiple of the rows of a panel.
+    let half = (count / 2).next_multiple_of(PANEL_ROWS);
+    factor_panel(rows, half, width, stride)?;
+    let (above, below) = rows.split_at_mut(half * stride);
+    let below = &mut below[half..];
+    let (count, width) = (count - half, width - half);
+    let above = Matrix::with_stride(&above[half..], half, width, stride);
+    let target = MatrixMut::with_stride(below, count, width, stride);
+    add_product(target, -1.0, above.column_range(0..count).transpose(), above);
+    factor_panel(below, count, width, stride)
+}
+
+/// Makes the same row by row.
+fn factor_rows(rows: &mut [f64], count: usize, width: usize, stride: usize) -> Option<()> {
+    let mut factors = Vec::with_capacity(count);
+    for k in 0..count {
+        let (above, row) = rows.split_at_mut(k * stride);
+        let row = &mut row[k..width];
+        factors.clear();
+        factors.extend((0..k).map(|i| -above[i * stride + k]));
+        add_combination(row, &factors, |i| &above[i * stride + k..i * stride + width]);
+        // Not a number is no pivot either.
+        if row[0].is_nan() || row[0] <= 0.0 {
+            return None;
+        }
+        let (pivot, rest) = row.split_first_mut().expect("the diagonal");
+        *pivot = pivot.sqrt();
+        rest.iter_mut().for_each(|r| *r /= *pivot);
+    }
     Some(())
 }
 

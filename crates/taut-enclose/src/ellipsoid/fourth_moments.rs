@@ -6,8 +6,7 @@
 //! *Guarantee.* Sums are over points in their order, and products are of fixed shapes: nothing depends on threads.
 //! *Evidence.* 2000 points in thirty dimensions: a third of the products that the upper triangle takes, and nothing of the size of F.
 
-use faer::linalg::matmul::matmul;
-use faer::{Accum, MatMut, MatRef, Par};
+use taut_kernels::matrix::{Matrix, MatrixMut, add_product};
 use taut_kernels::triangle::POINTS;
 use taut_points::parallel::ParallelSlice;
 
@@ -121,10 +120,10 @@ fn add(group: &mut Group, m: usize, blocks: &[f64], weights: &[f64]) {
         }
     }
     let (rows, columns) = (group.rows(), group.columns);
-    let left = MatRef::from_row_major_slice(&left, rows, count);
-    let right = MatRef::from_row_major_slice(&right, columns, count);
-    let target = MatMut::from_row_major_slice_mut(&mut group.moments, rows, columns);
-    matmul(target, Accum::Add, left, right.transpose(), 1.0, Par::Seq);
+    let left = Matrix::from_rows(&left, rows, count);
+    let right = Matrix::from_rows(&right, columns, count);
+    let target = MatrixMut::from_rows(&mut group.moments, rows, columns);
+    add_product(target, 1.0, left, right.transpose());
 }
 
 #[cfg(test)]

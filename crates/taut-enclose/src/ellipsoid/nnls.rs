@@ -17,8 +17,7 @@
 
 use std::collections::HashSet;
 
-use faer::linalg::matmul::matmul;
-use faer::{Accum, MatMut, MatRef, Par};
+use taut_kernels::matrix::{Matrix, MatrixMut, set_product};
 use taut_kernels::substitution::products;
 use taut_kernels::triangle::{POINTS, moments};
 use taut_kernels::vector::dot;
@@ -177,13 +176,13 @@ impl<'a> ActiveSet<'a> {
     fn gram(&self, rows: &[f64]) -> Vec<f64> {
         let s = rows.len() / self.stride;
         let mut gram = vec![0.0; s * s];
-        let matrix = MatRef::from_row_major_slice(rows, s, self.stride);
+        let matrix = Matrix::from_rows(rows, s, self.stride);
         gram.par_chunks_mut(TILE_ROWS * s).enumerate().for_each(|(tile, rows)| {
             let (first, count) = (tile * TILE_ROWS, rows.len() / s);
-            let (left, right) = (matrix.subrows(first, count), matrix.subrows(first, s - first));
-            let target = MatMut::from_row_major_slice_mut(&mut *rows, count, s)
-                .subcols_mut(first, s - first);
-            matmul(target, Accum::Replace, left, right.transpose(), 1.0, Par::Seq);
+            let (left, right) =
+                (matrix.row_range(first..first + count), matrix.row_range(first..s));
+            let target = MatrixMut::from_rows(rows, count, s).columns_from(first);
+            set_product(target, left, right.transpose());
             for row in rows.chunks_exact_mut(s) {
                 row[first..].iter_mut().for_each(|h| *h *= *h);
             }
@@ -280,16 +279,15 @@ impl<'a> ActiveSet<'a> {
         let (s, count) = (self.members.len(), points.len());
         let rows: Vec<f64> = points.iter().flat_map(|&j| self.row(j)).collect();
         let b: Vec<f64> = points.iter().map(|&j| self.b(j)).collect();
-        let members = MatRef::from_row_major_slice(&self.rows, s, self.stride);
+        let members = Matrix::from_rows(&self.rows, s, self.stride).transpose();
         let mut columns = vec![0.0; count * s];
         columns
             .par_chunks_mut(TILE_ROWS * s)
             .zip(rows.par_chunks(TILE_ROWS * self.stride))
             .for_each(|(columns, rows)| {
                 let count = columns.len() / s;
-                let left = MatRef::from_row_major_slice(rows, count, self.stride);
-                let target = MatMut::from_row_major_slice_mut(&mut *columns, count, s);
-                matmul(target, Accum::Replace, left, members.transpose(), 1.0, Par::Seq);
+                let left = Matrix::from_rows(rows, count, self.stride);
+                set_product(MatrixMut::from_rows(columns, count, s), left, members);
                 columns.iter_mut().for_each(|h| *h *= *h);
             });
         if !self.factor.append_all(columns, self.gram(&rows), &b, DEPENDENT_RATIO) {

@@ -122,7 +122,7 @@ fn strips_thinner_than_the_digits_of_coordinates_end() {
     assert!(matches!(solve(&strip).unwrap_err(), Error::TooThin));
     let (next, width) = (1.0 + f64::EPSILON, 2e-16);
     let slanted = [[0.0, 0.0], [1.0, 1.0], [1.0, next], [0.0, width]];
-    let options = CircleOptions { max_cells: long_or(210_000, 10_000), ..Default::default() };
+    let options = CircleOptions { max_cells: long_or(210_000, 4000), ..Default::default() };
     let found = solve_with(&slanted, &options).unwrap();
     let verdict = verify(&found, &slanted);
     assert_eq!(found.trace.stop, Stop::NodeBudget);

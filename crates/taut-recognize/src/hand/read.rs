@@ -1,14 +1,16 @@
-//! Images from files: PNG, JPEG and TIFF, with limits on memory, turned upright, with their resolution.
+//! Images from files: PNG, and with the feature `photographs` JPEG and TIFF, with limits on memory, turned upright, with
+//! their resolution.
 //!
 //! 16-bit channels are rounded to 8, gray becomes RGB, CMYK is converted by the decoder, and transparency is laid over
 //! white. Color profiles are not applied: values are taken as sRGB.
 
+mod exif;
+#[cfg(feature = "photographs")]
+mod photograph;
+mod png;
 mod resolution;
 
-use std::io::Cursor;
 use std::path::PathBuf;
-
-use image::{DynamicImage, ImageDecoder, ImageReader, Limits};
 
 /// An image of three bytes for each pixel, by rows, in sRGB.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,6 +38,11 @@ pub enum ImageError {
     /// The bytes are of no format that is read.
     #[error("not an image in PNG, JPEG or TIFF")]
     UnknownFormat,
+    /// This build does not read JPEG or TIFF.
+    #[error(
+        "this build does not read {0}: enable the cargo feature `photographs`, or convert the image to PNG"
+    )]
+    NotBuilt(&'static str),
     /// The image is damaged or of a kind that the decoder does not know.
     #[error("the image cannot be decoded: {0}")]
     Decode(String),
@@ -115,40 +122,10 @@ impl RgbImage {
     /// # Errors
     /// [`ImageError`]: the bytes are no image, or one that is too large or damaged.
     pub fn decode(bytes: &[u8], pixels_max: u64) -> Result<Self, ImageError> {
-        /// Bytes of a decoded pixel at most, 16 bits in four channels, and as much again while it is converted.
-        const PIXEL_BYTES_MAX: u64 = 16;
-        /// What a decoder needs beside its pixels.
-        const DECODER_BYTES: u64 = 32 << 20;
-        let decode = |error: image::ImageError| ImageError::Decode(error.to_string());
-        let mut reader = ImageReader::new(Cursor::new(bytes))
-            .with_guessed_format()
-            .map_err(|error| ImageError::Decode(error.to_string()))?;
-        if reader.format().is_none() {
-            return Err(ImageError::UnknownFormat);
-        }
-        let mut limits = Limits::default();
-        limits.max_alloc =
-            Some(pixels_max.saturating_mul(PIXEL_BYTES_MAX).saturating_add(DECODER_BYTES));
-        reader.limits(limits);
-        let mut decoder = reader.into_decoder().map_err(decode)?;
-        let (width, height) = decoder.dimensions();
-        if width == 0 || height == 0 {
-            return Err(ImageError::Empty);
-        }
-        if u64::from(width) * u64::from(height) > pixels_max {
-            return Err(ImageError::TooLarge { width, height, limit: pixels_max });
-        }
-        let exif = decoder.exif_metadata().ok().flatten();
-        let orientation = decoder.orientation().map_err(decode)?;
-        let mut decoded = DynamicImage::from_decoder(decoder).map_err(decode)?;
-        decoded.apply_orientation(orientation);
-        let (dots_per_inch, implausible) = resolution::find(bytes, exif.as_deref());
-        let (width, height) = (decoded.width() as usize, decoded.height() as usize);
-        let pixels = if decoded.color().has_alpha() {
-            over_white(decoded.into_rgba8().into_raw())
-        } else {
-            decoded.into_rgb8().into_raw()
-        };
+        let decoded = decode(bytes, pixels_max)?;
+        let (dots_per_inch, implausible) = resolution::find(bytes, decoded.exif.as_deref());
+        let Decoded { pixels, width, height, orientation, .. } = decoded;
+        let (pixels, width, height) = turned(pixels, width, height, orientation);
         Ok(Self { implausible, ..Self::new(pixels, width, height, dots_per_inch)? })
     }
 
@@ -193,15 +170,109 @@ impl RgbImage {
     }
 }
 
+/// A decoded image with its metadata.
+struct Decoded {
+    /// Red, green and blue of each pixel, by rows.
+    pixels: Vec<u8>,
+    width: usize,
+    height: usize,
+    /// How the image is to be turned, as EXIF counts: from 1, upright, to 8.
+    orientation: u8,
+    exif: Option<Vec<u8>>,
+}
+
+fn decode(bytes: &[u8], pixels_max: u64) -> Result<Decoded, ImageError> {
+    if bytes.starts_with(png::SIGNATURE) {
+        return png::decode(bytes, pixels_max);
+    }
+    #[cfg(feature = "photographs")]
+    return photograph::decode(bytes, pixels_max);
+    #[cfg(not(feature = "photographs"))]
+    Err(not_built(bytes))
+}
+
+/// What a build without photographs says of a file that is no PNG.
+#[cfg(any(test, not(feature = "photographs")))]
+fn not_built(bytes: &[u8]) -> ImageError {
+    match bytes {
+        [0xff, 0xd8, 0xff, ..] => ImageError::NotBuilt("JPEG"),
+        [b'I', b'I', 42, 0, ..] | [b'M', b'M', 0, 42, ..] => ImageError::NotBuilt("TIFF"),
+        _ => ImageError::UnknownFormat,
+    }
+}
+
+/// Bytes that a decoder may take for so many pixels.
+fn memory_max(pixels_max: u64) -> u64 {
+    /// Bytes of a decoded pixel at most, 16 bits in four channels, and as much again while it is converted.
+    const PIXEL_BYTES_MAX: u64 = 16;
+    /// What a decoder needs beside its pixels.
+    const DECODER_BYTES: u64 = 32 << 20;
+    pixels_max.saturating_mul(PIXEL_BYTES_MAX).saturating_add(DECODER_BYTES)
+}
+
+fn check_size(width: u32, height: u32, pixels_max: u64) -> Result<(), ImageError> {
+    if width == 0 || height == 0 {
+        return Err(ImageError::Empty);
+    }
+    if u64::from(width) * u64::from(height) > pixels_max {
+        return Err(ImageError::TooLarge { width, height, limit: pixels_max });
+    }
+    Ok(())
+}
+
 /// Lays pixels of red, green, blue and opacity over white.
-fn over_white(rgba: Vec<u8>) -> Vec<u8> {
+fn over_white(rgba: &[u8]) -> Vec<u8> {
     let blend = |value: u8, opacity: u8| {
         let (value, opacity) = (u32::from(value), u32::from(opacity));
         ((value * opacity + 255 * (255 - opacity) + 127) / 255) as u8
     };
     let mut rgb = Vec::with_capacity(rgba.len() / 4 * 3);
-    for pixel in rgba.chunks_exact(4) {
+    for pixel in rgba.as_chunks::<4>().0 {
         rgb.extend(pixel[..3].iter().map(|&value| blend(value, pixel[3])));
     }
     rgb
+}
+
+/// Turns and mirrors an image as its file asks for, and returns its new width and height.
+fn turned(
+    pixels: Vec<u8>,
+    width: usize,
+    height: usize,
+    orientation: u8,
+) -> (Vec<u8>, usize, usize) {
+    if orientation == 1 {
+        return (pixels, width, height);
+    }
+    let is_upright = orientation < 5;
+    let (columns, rows) = if is_upright { (width, height) } else { (height, width) };
+    let (right, bottom) = (width - 1, height - 1);
+    let source = |x: usize, y: usize| match orientation {
+        2 => (right - x, y),
+        3 => (right - x, bottom - y),
+        4 => (x, bottom - y),
+        5 => (y, x),
+        6 => (y, bottom - x),
+        7 => (right - y, bottom - x),
+        8 => (right - y, x),
+        _ => (x, y),
+    };
+    let mut turned = Vec::with_capacity(pixels.len());
+    for (y, x) in (0..rows).flat_map(|y| (0..columns).map(move |x| (y, x))) {
+        let (x, y) = source(x, y);
+        turned.extend_from_slice(&pixels[3 * (y * width + x)..][..3]);
+    }
+    (turned, columns, rows)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_not_built_says_so() {
+        assert_eq!(not_built(b"\xff\xd8\xff\xe0 and more"), ImageError::NotBuilt("JPEG"));
+        assert_eq!(not_built(b"II\x2a\0 and more"), ImageError::NotBuilt("TIFF"));
+        assert_eq!(not_built(b"MM\0\x2a and more"), ImageError::NotBuilt("TIFF"));
+        assert_eq!(not_built(b"no image"), ImageError::UnknownFormat);
+    }
 }

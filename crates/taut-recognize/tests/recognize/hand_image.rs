@@ -21,20 +21,25 @@ fn sample() -> image::RgbImage {
     image::RgbImage::from_fn(4, 2, |x, y| image::Rgb([10 * x as u8, 100 + y as u8, 200]))
 }
 
-/// Puts a chunk pHYs behind the header of a PNG; its checksum is that of its type and data.
+/// Puts a chunk of a type and data behind the header of a PNG, with the checksum of both.
+fn with_chunk(png: &[u8], body: &[u8]) -> Vec<u8> {
+    let mut checksum = flate2::Crc::new();
+    checksum.update(body);
+    let mut bytes = png[..33].to_vec();
+    bytes.extend((body.len() as u32 - 4).to_be_bytes());
+    bytes.extend(body);
+    bytes.extend(checksum.sum().to_be_bytes());
+    bytes.extend(&png[33..]);
+    bytes
+}
+
+/// Puts a chunk pHYs behind the header of a PNG.
 fn with_density(png: &[u8], x: u32, y: u32, unit: u8) -> Vec<u8> {
     let mut body = b"pHYs".to_vec();
     body.extend(x.to_be_bytes());
     body.extend(y.to_be_bytes());
     body.push(unit);
-    let mut checksum = flate2::Crc::new();
-    checksum.update(&body);
-    let mut bytes = png[..33].to_vec();
-    bytes.extend(9u32.to_be_bytes());
-    bytes.extend(&body);
-    bytes.extend(checksum.sum().to_be_bytes());
-    bytes.extend(&png[33..]);
-    bytes
+    with_chunk(png, &body)
 }
 
 #[test]
@@ -104,6 +109,98 @@ fn exif_turns_the_image_and_gives_a_resolution() {
     let found = RgbImage::decode(&bytes, LIMIT).expect("a JPEG with EXIF is read");
     assert_eq!((found.width(), found.height()), (2, 4));
     assert_eq!(found.dots_per_inch(), Some(300.0));
+}
+
+/// Puts EXIF data of one tag, the orientation, behind the header of a PNG.
+fn with_orientation(png: &[u8], orientation: u8) -> Vec<u8> {
+    let mut body = b"eXIfMM\0\x2a\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0".to_vec();
+    body.extend([orientation, 0, 0, 0, 0, 0, 0]);
+    with_chunk(png, &body)
+}
+
+#[test]
+fn a_png_is_turned_as_its_exif_data_say() {
+    use image::metadata::Orientation;
+    let png = encode(&DynamicImage::from(sample()), ImageFormat::Png);
+    for orientation in 1..=8 {
+        let found = RgbImage::decode(&with_orientation(&png, orientation), LIMIT).expect("a PNG");
+        let mut expected = DynamicImage::from(sample());
+        expected.apply_orientation(Orientation::from_exif(orientation).expect("one of eight"));
+        assert_eq!(found.pixels(), expected.as_bytes(), "{orientation}");
+        assert_eq!(found.width(), expected.width() as usize);
+    }
+    // The first entry with one number of 16 bits counts: neither a long one nor a second one.
+    let entry = |kind: u8, value: u8| [1, 0x12, 0, kind, 0, 0, 0, 1, 0, value, 0, 0];
+    for (entries, turned) in [
+        (vec![entry(4, 6)], false),
+        (vec![entry(3, 6), entry(3, 1)], true),
+        (vec![entry(4, 1), entry(3, 6)], true),
+    ] {
+        let mut body = b"eXIfMM\0\x2a\0\0\0\x08\0".to_vec();
+        body.push(entries.len() as u8);
+        body.extend(entries.as_flattened());
+        let found = RgbImage::decode(&with_chunk(&png, &body), LIMIT).expect("a PNG");
+        assert_eq!(found.width() == 2, turned, "{entries:?}");
+    }
+    // No orientation of EXIF.
+    for orientation in [0, 9, 255] {
+        let found = RgbImage::decode(&with_orientation(&png, orientation), LIMIT).expect("a PNG");
+        assert_eq!(found.pixels(), sample().as_raw().as_slice(), "{orientation}");
+    }
+}
+
+/// Every kind of channels and bits, transparent colors and palettes: the pixels are those of the crate `image`.
+#[test]
+fn every_kind_of_png_is_read_as_by_another_reader() {
+    use png::{BitDepth, ColorType, Encoder};
+    let (width, height) = (5u32, 3u32);
+    let kinds = [
+        (ColorType::Grayscale, &[1, 2, 4, 8, 16][..]),
+        (ColorType::GrayscaleAlpha, &[8, 16]),
+        (ColorType::Rgb, &[8, 16]),
+        (ColorType::Rgba, &[8, 16]),
+        (ColorType::Indexed, &[1, 2, 4, 8]),
+    ];
+    let mut count = 0;
+    for (color, depths) in kinds {
+        for (&bits, has_transparent) in depths.iter().flat_map(|bits| [(bits, false), (bits, true)])
+        {
+            let has_alpha = matches!(color, ColorType::GrayscaleAlpha | ColorType::Rgba);
+            if has_alpha && has_transparent {
+                continue;
+            }
+            let row = (width as usize * color.samples() * bits).div_ceil(8);
+            let data: Vec<u8> = (0..row * height as usize).map(|at| (at * 73 + 29) as u8).collect();
+            let mut bytes = vec![];
+            let mut encoder = Encoder::new(&mut bytes, width, height);
+            encoder.set_color(color);
+            encoder.set_depth(BitDepth::from_u8(bits as u8).expect("a depth of PNG"));
+            if color == ColorType::Indexed {
+                encoder.set_palette((0..768).map(|at| (at * 31 % 251) as u8).collect::<Vec<_>>());
+            }
+            if has_transparent {
+                let of_colors: &[u8] = match color {
+                    ColorType::Indexed => &[0, 128, 255, 7],
+                    ColorType::Grayscale => &[0, 1],
+                    _ => &[0, 29, 0, 102, 0, 175],
+                };
+                encoder.set_trns(of_colors);
+            }
+            let mut writer = encoder.write_header().expect("a header");
+            writer.write_image_data(&data).expect("pixels");
+            drop(writer);
+            let found = RgbImage::decode(&bytes, LIMIT).expect("a PNG");
+            let other = image::load_from_memory(&bytes).expect("a PNG");
+            let over_white = |pixel: &image::Rgba<u8>| {
+                let [r, g, b, opacity] = pixel.0.map(u32::from);
+                [r, g, b].map(|v| ((v * opacity + 255 * (255 - opacity) + 127) / 255) as u8)
+            };
+            let expected: Vec<u8> = other.to_rgba8().pixels().flat_map(over_white).collect();
+            assert_eq!(found.pixels(), expected, "{color:?}, {bits} bits, {has_transparent}");
+            count += 1;
+        }
+    }
+    assert_eq!(count, 26);
 }
 
 /// A JPEG of one block of 8 × 8 pixels in Adobe's CMYK, which stores 255 less each ink.

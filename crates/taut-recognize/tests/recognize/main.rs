@@ -6,7 +6,7 @@ mod evaluate;
 mod hand_distance;
 #[cfg(feature = "hand")]
 mod hand_help;
-#[cfg(feature = "hand")]
+#[cfg(feature = "photographs")]
 mod hand_image;
 #[cfg(feature = "hand")]
 mod hand_masks;

@@ -25,8 +25,7 @@ fn solved(values: &[f64], k: usize, gap: f64) -> Solution<Centers> {
     let start = start(&cloud, k, 0, &monitor).unwrap();
     let task = Task { cloud: &cloud, monitor: &monitor, k, z: 0 };
     // The worst centers, so that better ones have to be found.
-    let mut search =
-        NogoodSearch::<_, 4>::new(&task, &start.traversal, &start.plain, gap, u64::MAX);
+    let mut search = NogoodSearch::<4>::new(&task, &start.traversal, &start.plain, gap, u64::MAX);
     let End::Refuted(refutation) = search.go_on().unwrap() else { panic!("it did not end") };
     let proof = Proof::by_nogoods(search.best.radius / (1.0 + gap), &refutation);
     let answered = answer(&table, &cloud, &search.best.centers, 0, false).unwrap();

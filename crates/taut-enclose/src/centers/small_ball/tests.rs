@@ -81,7 +81,7 @@ fn sets<P: Position>(dim: usize) {
 
 #[test]
 fn balls_prove_themselves() {
-    sets::<[f64; 1]>(1);
+    sets::<Vec<f64>>(1);
     sets::<[f64; 2]>(2);
     sets::<[f64; 3]>(3);
     sets::<Vec<f64>>(2);

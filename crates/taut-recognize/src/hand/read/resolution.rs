@@ -1,5 +1,7 @@
 //! The resolution that an image file gives: pHYs of PNG, JFIF and EXIF of JPEG, the tags of TIFF.
 
+use super::exif::Tags;
+
 /// Dots per inch that a scan of a hand can have.
 const PLAUSIBLE: std::ops::RangeInclusive<f64> = 20.0..=2400.0;
 
@@ -10,8 +12,9 @@ const INCHES_PER_METER: f64 = 1000.0 / 25.4;
 
 /// Finds the resolution in dots per inch, if the file gives it, or else what it gives that no scan of a hand has.
 pub(super) fn find(bytes: &[u8], exif: Option<&[u8]>) -> (Option<f64>, Option<[f64; 2]>) {
+    let tags = |bytes| Tags::of(bytes).and_then(Tags::resolution);
     let found =
-        png(bytes).or_else(|| jpeg(bytes)).or_else(|| tiff(bytes)).or_else(|| exif.and_then(tiff));
+        png(bytes).or_else(|| jpeg(bytes)).or_else(|| tags(bytes)).or_else(|| exif.and_then(tags));
     let Some([horizontal, vertical]) = found else { return (None, None) };
     let ratio = horizontal / vertical;
     if !(PLAUSIBLE.contains(&horizontal) && (1.0 / RATIO_MAX..=RATIO_MAX).contains(&ratio)) {
@@ -33,7 +36,7 @@ fn big_endian_16(bytes: &[u8], at: usize) -> Option<u16> {
 /// Reads the chunk pHYs of a PNG: pixels per meter.
 fn png(bytes: &[u8]) -> Option<[f64; 2]> {
     let mut at = 8;
-    if !bytes.starts_with(b"\x89PNG\r\n\x1a\n") {
+    if !bytes.starts_with(super::png::SIGNATURE) {
         return None;
     }
     loop {
@@ -78,45 +81,4 @@ fn jpeg(bytes: &[u8]) -> Option<[f64; 2]> {
             _ => at = at.checked_add(length)?.checked_add(2)?,
         }
     }
-}
-
-/// Reads the tags of a TIFF, or of EXIF data, which have the same form.
-fn tiff(bytes: &[u8]) -> Option<[f64; 2]> {
-    const HORIZONTAL: u16 = 0x011a;
-    const VERTICAL: u16 = 0x011b;
-    const UNIT: u16 = 0x0128;
-    let is_little = match bytes.get(..4)? {
-        [b'I', b'I', 42, 0] => true,
-        [b'M', b'M', 0, 42] => false,
-        _ => return None,
-    };
-    let short = |at: usize| {
-        let value = big_endian_16(bytes, at)?;
-        Some(if is_little { value.swap_bytes() } else { value })
-    };
-    let long = |at: usize| {
-        let value = big_endian_32(bytes, at)?;
-        Some(if is_little { value.swap_bytes() } else { value })
-    };
-    let ratio = |at: usize| {
-        let (numerator, denominator) = (long(at)?, long(at.checked_add(4)?)?);
-        (denominator > 0).then(|| f64::from(numerator) / f64::from(denominator))
-    };
-    let directory = long(4)? as usize;
-    let (mut x, mut y, mut unit) = (None, None, 2);
-    for entry in 0..usize::from(short(directory)?) {
-        let at = directory.checked_add(2 + 12 * entry)?;
-        match short(at)? {
-            HORIZONTAL => x = ratio(long(at + 8)? as usize),
-            VERTICAL => y = ratio(long(at + 8)? as usize),
-            UNIT => unit = short(at + 8)?,
-            _ => {}
-        }
-    }
-    let scale = match unit {
-        2 => 1.0,
-        3 => 2.54,
-        _ => return None,
-    };
-    Some([x? * scale, y? * scale])
 }
