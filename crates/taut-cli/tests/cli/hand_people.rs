@@ -7,7 +7,9 @@ use crate::test_folder::TestFolder;
 /// A folder with scans of three people, a key, and a store with two of them.
 fn folder() -> TestFolder {
     let folder = TestFolder::new();
-    folder.taut("hand synthesize scans --people 3 --scans 4 --clean --seed 3 --quiet").ends(0);
+    folder
+        .taut("hand synthesize scans --people 3 --scans 4 --dpi 60 --clean --seed 3 --quiet")
+        .ends(0);
     folder.taut("hand key -o key").ends(0);
     folder
         .taut(&format!("hand enroll --create --failures 2 {STORE} --person Ada {}", scans(0)))

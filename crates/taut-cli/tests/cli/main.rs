@@ -44,6 +44,7 @@ mod stream;
 mod surface;
 mod tables;
 mod test_folder;
+mod test_length;
 mod threads;
 mod usps;
 mod verify;

@@ -1,6 +1,7 @@
 //! `taut draw`, `taut ball --draw` and `taut tour`.
 
 use crate::test_folder::TestFolder;
+use crate::test_length::long_or;
 
 fn solved() -> TestFolder {
     let folder = TestFolder::new();
@@ -157,11 +158,11 @@ fn the_tour_shows_and_verifies_every_tool() {
             folder.taut(&format!("{tool} samples/{words} --quiet")).ends(0);
         }
     }
-    let run = folder.taut("tour -o -").ends(0);
-    assert_eq!((run.out.as_str(), run.err.as_str()), (page.as_str(), ""));
-    let again = TestFolder::new();
-    again.taut("tour --threads 1 --quiet").ends(0);
-    assert_eq!(again.text("tour.html"), page);
+    // To standard output, and on one thread.
+    for options in long_or(&["--threads 1", ""][..], &["--threads 1"]) {
+        let run = folder.taut(&format!("tour -o - {options}")).ends(0);
+        assert_eq!((run.out.as_str(), run.err.as_str()), (page.as_str(), ""));
+    }
 }
 
 /// The largest page of 10⁴ points.
@@ -205,7 +206,7 @@ fn a_page_of_ten_thousand_points_is_below_a_megabyte() {
         "inscribe bodies torus.ply --max-events 1000",
         "inscribe circle ring.csv --epsilon 0.1",
     ];
-    if std::env::var_os("TAUT_LONG_TESTS").is_some() {
+    if long_or(true, false) {
         commands.extend([
             "ellipsoid plane.npy --robust mcd",
             "ellipsoid sphere.npy --robust mcd",

@@ -9,9 +9,9 @@ use rayon::prelude::*;
 use crate::common::bytes;
 use crate::test_length::long_or;
 
-/// Cases of each kind; in the long tests 1700 times as many, which are at least half a million.
+/// Cases of each kind; in the long tests 3400 times as many, which are at least half a million.
 fn cases(few: u64) -> u64 {
-    long_or(1700 * few, few)
+    long_or(3400 * few, few)
 }
 
 /// The bytes of a case: the numbers of SplitMix64.
@@ -48,7 +48,7 @@ fn answered(kind: &str, count: u64, is_answered: impl Fn(u64) -> bool + Sync) ->
 
 #[test]
 fn rings_of_any_bytes() {
-    let count = cases(600);
+    let count = cases(300);
     let length = |case: u64| 8 + (case % 45) as usize;
     let answered = answered("rings", count, |case| bytes::rings(&bytes_of(case, length(case))));
     assert!(answered > count / 8, "{answered} of {count}");
@@ -56,7 +56,7 @@ fn rings_of_any_bytes() {
 
 #[test]
 fn meshes_of_any_bytes() {
-    let count = cases(300);
+    let count = cases(150);
     // One mesh in four gets as many bytes as several tetrahedra need.
     let length = |case: u64| {
         if case.is_multiple_of(4) { 41 + (case % 96) as usize } else { (case % 41) as usize }

@@ -83,7 +83,7 @@ fn single_precision_points_have_the_circle_of_their_copies() {
 
 #[test]
 fn needles_are_solved_to_the_gap() {
-    for &height in long_or(&[1e-3, 1e-6, 1e-9, 1e-12, 1e-15][..], &[1e-3, 1e-15]) {
+    for &height in long_or(&[1e-3, 1e-6, 1e-9, 1e-12, 1e-15][..], &[1e-15]) {
         let (found, _) = proved(&[[0.0, 0.0], [1.0, 0.0], [0.5, height]]);
         // Area over half the perimeter.
         let expected = height / (1.0 + 2.0 * 0.5f64.hypot(height));
@@ -122,7 +122,7 @@ fn strips_thinner_than_the_digits_of_coordinates_end() {
     assert!(matches!(solve(&strip).unwrap_err(), Error::TooThin));
     let (next, width) = (1.0 + f64::EPSILON, 2e-16);
     let slanted = [[0.0, 0.0], [1.0, 1.0], [1.0, next], [0.0, width]];
-    let options = CircleOptions { max_cells: long_or(210_000, 4000), ..Default::default() };
+    let options = CircleOptions { max_cells: long_or(210_000, 1000), ..Default::default() };
     let found = solve_with(&slanted, &options).unwrap();
     let verdict = verify(&found, &slanted);
     assert_eq!(found.trace.stop, Stop::NodeBudget);

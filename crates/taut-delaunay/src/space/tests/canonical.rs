@@ -1,6 +1,7 @@
 //! The mesh is a function of the set of sites: brute force over insertion orders of the most degenerate sets.
 
 use super::*;
+use crate::test_length::long_or;
 
 /// Each order of the points, on each path of the signs in turn, as integers and not, must give `expected`.
 fn all_orders(points: &[[f64; 3]], expected: &[[u32; 4]], levels: &[Level]) {
@@ -52,7 +53,7 @@ fn every_order_of_the_cube_and_of_subsets_of_grids() {
     let mut numbers = Numbers(7);
     let mut sets: Vec<Vec<[f64; 3]>> =
         (0..8).map(|out| [&cube[..out], &cube[out + 1..]].concat()).collect();
-    while sets.len() < 59 {
+    while sets.len() < long_or(59, 30) {
         let all = grid(3);
         let set: Vec<[f64; 3]> =
             numbers.shuffled(27)[..7].iter().map(|&i| all[i as usize]).collect();

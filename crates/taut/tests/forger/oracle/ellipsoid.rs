@@ -313,7 +313,11 @@ fn enclosed(claims: &mut Claims, exactly: &Exact, bodies: &[Body], matrix: &[Vec
     };
     let one = Interval::integer(1);
     let limit = one.plus(&exactly.excess).square();
-    let limit_of_matrix = one.plus(&exactly.matrix_excess);
+    let deviation = match bodies.iter().any(|body| body.shape.is_some()) {
+        true => deviation(&exactly.factor, &matrix),
+        false => vec![],
+    };
+    let quadric = Quadric { matrix, deviation, limit: one.plus(&exactly.matrix_excess) };
     for (row, body) in bodies.iter().enumerate() {
         // The narrowest shape must be enclosed, whichever of those that rounding explains is meant.
         let framed = Framed::of(&exactly.factor, &exactly.center, body);
@@ -321,8 +325,28 @@ fn enclosed(claims: &mut Claims, exactly: &Exact, bodies: &[Body], matrix: &[Vec
             let norm = squared_length(&framed.g).rounded().sqrt();
             format!("row {row} lies outside (its center at {norm:?})")
         });
-        matrix_claim(claims, exactly, row, body, &matrix, &limit, &limit_of_matrix);
+        matrix_claim(claims, exactly, row, body, &quadric, &limit);
     }
+}
+
+/// {x : (x − c)ᵀQ(x − c) ≤ limit}.
+struct Quadric {
+    /// Q.
+    matrix: Matrix,
+    /// |Q − FᵀF|, entry by entry; empty if all items are points.
+    deviation: Matrix,
+    limit: Interval,
+}
+
+/// |Q − FᵀF|, entry by entry.
+fn deviation(factor: &[Vector], matrix: &[Vector]) -> Matrix {
+    let entry = |j: usize, k: usize, q: &Interval| {
+        let products = factor.iter().map(|f| f[j].times(&f[k]));
+        q.minus(&products.fold(Interval::zero(), |sum, p| sum.plus(&p))).absolute()
+    };
+    let row =
+        |(j, row): (usize, &Vector)| row.iter().enumerate().map(|(k, q)| entry(j, k, q)).collect();
+    matrix.iter().enumerate().map(row).collect()
 }
 
 /// (x − c)ᵀQ(x − c) = |F(x − c)|² + (x − c)ᵀ(Q − FᵀF)(x − c), the second part bounded by how far the item reaches along the axes.
@@ -331,10 +355,10 @@ fn matrix_claim(
     exactly: &Exact,
     row: usize,
     body: &Body,
-    matrix: &Matrix,
+    quadric: &Quadric,
     within: &Interval,
-    limit: &Interval,
 ) {
+    let Quadric { matrix, deviation, limit } = quadric;
     let offset = difference(&body.center, &exactly.center);
     let at_center = dot(&offset, &image(matrix, &offset));
     let Some(shape) = &body.shape else {
@@ -349,11 +373,9 @@ fn matrix_claim(
         .collect();
     let Some(reach) = reach else { return claims.undecided(format!("row {row} has no width")) };
     let mut bound = within.clone();
-    for (j, row) in matrix.iter().enumerate() {
-        for (k, q) in row.iter().enumerate() {
-            let products = exactly.factor.iter().map(|f| f[j].times(&f[k]));
-            let found = products.fold(Interval::zero(), |sum, p| sum.plus(&p));
-            bound = bound.plus(&q.minus(&found).absolute().times(&reach[j]).times(&reach[k]));
+    for (off, of_row) in deviation.iter().zip(&reach) {
+        for (off, of_column) in off.iter().zip(&reach) {
+            bound = bound.plus(&off.times(of_row).times(of_column));
         }
     }
     let mut holds = bound.at_most(limit).filter(|&holds| holds);

@@ -8,6 +8,7 @@ use taut::{Points, Solution, SurfaceOptions, surface};
 use super::super::Truth;
 use super::super::numbers::numbers;
 use super::{Point, SurfaceOracle};
+use crate::test_length::long_or;
 
 type Solved = (Solution<Surface>, SurfaceVerdict);
 
@@ -296,7 +297,7 @@ fn answers_in_turn_are_judged_as_each_alone() {
     let honest = found.check(&points).expect("accepted");
     let in_turn = SurfaceOracle::new(&values, 3);
     let [mut kept, mut refused] = [0, 0];
-    for row in 0..30 {
+    for row in (0..30).step_by(long_or(1, 3)) {
         for factor in [0.0, 0.5, 0.99, 1.0, 1.01, 1.5, 4.0] {
             let mut moved = found.clone();
             moved.answer.vertices[row] = moved.answer.vertices[row].map(|x| x * factor);
@@ -308,7 +309,8 @@ fn answers_in_turn_are_judged_as_each_alone() {
             *(if alone == Truth::True { &mut kept } else { &mut refused }) += 1;
         }
     }
-    assert!(kept > 60 && refused > 60, "{kept} {refused}");
+    let least = long_or(60, 20);
+    assert!(kept > least && refused > least, "{kept} {refused}");
 }
 
 /// The band of Möbius, a pinched pair of pyramids, an edge of three triangles and a bottle of Klein, by their topology.
