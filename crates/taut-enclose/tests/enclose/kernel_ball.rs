@@ -161,7 +161,7 @@ fn turned_scaled_and_repeated_points_have_the_same_ball() {
 #[test]
 fn a_circle_far_from_the_origin_is_proved() {
     for &(x, y) in long_or(&[(1e10, -3e9), (5e5, 5e6)][..], &[(1e10, -3e9)]) {
-        let circle: Vec<f64> = (0..long_or(2000, 120))
+        let circle: Vec<f64> = (0..long_or(2000, 250))
             .flat_map(|i| {
                 let (sin, cos) = (i as f64 * 0.618).sin_cos();
                 [x + cos, y + sin]

@@ -3,6 +3,22 @@
 use std::f64::consts::TAU;
 
 use crate::numbers::numbers;
+use crate::test_length::long_or;
+
+/// All sets in the long tests; else the small ones, and every second of the others, from the first or the next.
+pub(super) fn some<const D: usize>(
+    sets: Vec<(&'static str, Vec<[f64; D]>)>,
+    first: usize,
+) -> impl Iterator<Item = (&'static str, Vec<[f64; D]>)> {
+    let is_taken = move |place: usize, points: usize| {
+        points <= SMALL_SET_POINTS_MAX || place % long_or(1, 2) == first % long_or(1, 2)
+    };
+    let sets = sets.into_iter().enumerate();
+    sets.filter(move |(place, set)| is_taken(*place, set.1.len())).map(|(_, set)| set)
+}
+
+/// Sets of up to so many points take no time.
+const SMALL_SET_POINTS_MAX: usize = 500;
 
 /// Independent numbers in the unit square or cube.
 pub(super) fn uniform<const D: usize>(count: usize, seed: u64) -> Vec<[f64; D]> {

@@ -329,7 +329,7 @@ fn enclosed(claims: &mut Claims, exactly: &Exact, bodies: &[Body], matrix: &[Vec
     }
 }
 
-/// {x : (x − c)ᵀQ(x − c) ≤ limit}.
+/// The set {x : (x − c)ᵀQ(x − c) ≤ limit}.
 struct Quadric {
     /// Q.
     matrix: Matrix,
@@ -338,7 +338,7 @@ struct Quadric {
     limit: Interval,
 }
 
-/// |Q − FᵀF|, entry by entry.
+/// Returns |Q − FᵀF|, entry by entry.
 fn deviation(factor: &[Vector], matrix: &[Vector]) -> Matrix {
     let entry = |j: usize, k: usize, q: &Interval| {
         let products = factor.iter().map(|f| f[j].times(&f[k]));
@@ -373,9 +373,9 @@ fn matrix_claim(
         .collect();
     let Some(reach) = reach else { return claims.undecided(format!("row {row} has no width")) };
     let mut bound = within.clone();
-    for (off, of_row) in deviation.iter().zip(&reach) {
-        for (off, of_column) in off.iter().zip(&reach) {
-            bound = bound.plus(&off.times(of_row).times(of_column));
+    for (row, along_row) in deviation.iter().zip(&reach) {
+        for (entry, along_column) in row.iter().zip(&reach) {
+            bound = bound.plus(&entry.times(along_row).times(along_column));
         }
     }
     let mut holds = bound.at_most(limit).filter(|&holds| holds);
