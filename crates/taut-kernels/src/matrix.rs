@@ -147,7 +147,7 @@ impl<'a> MatrixMut<'a> {
     }
 }
 
-/// C ← AB.
+/// C ← AB with A of m×k, B of k×n and the target C of m×n entries, in m·n·k multiplications.
 ///
 /// # Panics
 /// If the shapes do not fit.
@@ -155,7 +155,7 @@ pub fn set_product(target: MatrixMut<'_>, left: Matrix<'_>, right: Matrix<'_>) {
     product(target, false, 1.0, left, right);
 }
 
-/// C ← C + a·AB.
+/// C ← C + a·AB, with shapes and cost as in [`set_product`].
 ///
 /// # Panics
 /// If the shapes do not fit.

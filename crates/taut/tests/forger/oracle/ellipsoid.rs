@@ -313,10 +313,7 @@ fn enclosed(claims: &mut Claims, exactly: &Exact, bodies: &[Body], matrix: &[Vec
     };
     let one = Interval::integer(1);
     let limit = one.plus(&exactly.excess).square();
-    let deviation = match bodies.iter().any(|body| body.shape.is_some()) {
-        true => deviation(&exactly.factor, &matrix),
-        false => vec![],
-    };
+    let deviation = deviation(&exactly.factor, &matrix);
     let quadric = Quadric { matrix, deviation, limit: one.plus(&exactly.matrix_excess) };
     for (row, body) in bodies.iter().enumerate() {
         // The narrowest shape must be enclosed, whichever of those that rounding explains is meant.
@@ -333,7 +330,7 @@ fn enclosed(claims: &mut Claims, exactly: &Exact, bodies: &[Body], matrix: &[Vec
 struct Quadric {
     /// Q.
     matrix: Matrix,
-    /// |Q − FᵀF|, entry by entry; empty if all items are points.
+    /// |Q − FᵀF|, entry by entry.
     deviation: Matrix,
     limit: Interval,
 }
