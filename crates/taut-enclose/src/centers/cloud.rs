@@ -25,6 +25,8 @@ use crate::Error;
 const LEAF_SIZE: usize = 32;
 /// Covers the roundings of a bound.
 const BOUND_FACTOR: f64 = 1.0 + 1e-12;
+/// Distances whose squares are normal numbers are longer than this.
+const SQUARES_MIN: f64 = 1e-150;
 /// Up to here a list of the farthest items is kept in order; longer ones are selected from all.
 const SHORT_LIST: usize = 256;
 
@@ -195,24 +197,23 @@ impl<P: Position> Cloud<P> {
             all.order_by(&|a, b| self.order(*a, *b));
             return all;
         }
-        let mut bounds: Vec<f64> =
-            self.cells.iter().map(|cell| cell.bound(&self.items, centers)).collect();
+        let bounds = self.cells.iter().map(|cell| cell.bound(&self.items, centers));
+        let mut open: Vec<(f64, u32)> = bounds.zip(0..).collect();
         let mut list: Vec<Far> = Vec::with_capacity(count + 1);
         let mut near = Near::default();
         loop {
             let (mut widest, mut bound) = (0, f64::NEG_INFINITY);
-            for (at, &value) in bounds.iter().enumerate() {
+            for (at, &(value, _)) in open.iter().enumerate() {
                 if value > bound {
                     (widest, bound) = (at, value);
                 }
             }
-            let is_full = list.len() == count;
-            if bound == f64::NEG_INFINITY || is_full && bound < list[count - 1].reach {
+            if bound == f64::NEG_INFINITY {
                 return list;
             }
-            bounds[widest] = f64::NEG_INFINITY;
-            near.find(&self.cells[widest], centers);
-            for item in self.cells[widest].range.clone() {
+            let cell = &self.cells[open.remove(widest).1 as usize];
+            near.find(cell, centers);
+            for item in cell.range.clone() {
                 let (_, distance) = near.nearest(self.items.at(item), centers);
                 let far = Far { item: item as u32, reach: self.items.reach_at(item, distance) };
                 if list.len() == count {
@@ -223,6 +224,11 @@ impl<P: Position> Cloud<P> {
                 }
                 let place = list.partition_point(|other| self.order(*other, far).is_lt());
                 list.insert(place, far);
+            }
+            // After the first look most cells cannot hold a farther item.
+            if list.len() == count {
+                let least = list[count - 1].reach;
+                open.retain(|&(bound, _)| bound >= least);
             }
         }
     }
@@ -384,23 +390,31 @@ impl<P: Position> Cloud<P> {
     }
 }
 
+/// The lesser of two numbers, none of which is NaN: one instruction, where `f64::min` has several.
+#[inline(always)]
+fn lesser(a: f64, b: f64) -> f64 {
+    if b < a { b } else { a }
+}
+
 /// The centers that can be the nearest for an item of some cell.
 #[derive(Default)]
 struct Near {
     centers: Vec<usize>,
-    /// Of all centers, from the middle of the cell.
-    distances: Vec<f64>,
+    /// Squared distances of all centers from the middle of the cell.
+    squares: Vec<f64>,
 }
 
 impl Near {
     fn find<P: Position>(&mut self, cell: &Cell<P>, centers: &[P]) {
         let middle = cell.middle.as_ref();
-        self.distances.clear();
-        self.distances.extend(centers.iter().map(|center| distance(middle, center.as_ref())));
-        let least = self.distances.iter().copied().fold(f64::INFINITY, f64::min);
+        self.squares.clear();
+        self.squares.extend(centers.iter().map(|center| square(middle, center.as_ref())));
+        let least = self.squares.iter().copied().fold(f64::INFINITY, lesser).sqrt();
         let cut = (least + 2.0 * cell.spread) * BOUND_FACTOR;
+        // Squares below the normal numbers tell nothing.
+        let cut = if cut > SQUARES_MIN { cut * cut * BOUND_FACTOR } else { f64::INFINITY };
         self.centers.clear();
-        self.centers.extend((0..centers.len()).filter(|&j| self.distances[j] <= cut));
+        self.centers.extend((0..centers.len()).filter(|&j| self.squares[j] <= cut));
     }
 
     /// The nearest center to a place of the cell, the first of several, and its distance; infinite where there is none.
@@ -442,11 +456,8 @@ impl<P: Position> Cell<P> {
 
     /// No item of this cell reaches farther from the nearest center.
     fn bound(&self, items: &ItemSet<P>, centers: &[P]) -> f64 {
-        let nearest = centers
-            .iter()
-            .map(|center| square(self.middle.as_ref(), center.as_ref()))
-            .fold(f64::INFINITY, f64::min)
-            .sqrt();
+        let squares = centers.iter().map(|center| square(self.middle.as_ref(), center.as_ref()));
+        let nearest = squares.fold(f64::INFINITY, lesser).sqrt();
         let bound = match items.shape() {
             Shape::Weighted => self.weight * (nearest + self.spread),
             Shape::Points | Shape::Balls => nearest + self.reach,

@@ -9,25 +9,39 @@
 //! of its items does.
 //! *Points left out* lie in no ball. In the plane an item is also infeasible where each ball with it would hold one of these
 //! ([`super::avoiding_ball`]), and a cluster each of whose balls does so is a dead end.
+//! *Counts.* Into how many clusters each item fits is kept from one decision to the next ([`fit_counts`]). In a search, a decision that takes the
+//! last place of an item is a dead end at once, and the rest of that cluster's items is not asked. A proof does not do so: there the exact
+//! ball has the last word, and may leave open what a search has refuted.
 //! *Choice.* The item that fits in the fewest clusters; of equals, the one that makes them grow most. Items that fit in none
 //! need an empty cluster each, if no two of them fit in one: a clique.
 
 mod apart_pairs;
 mod conflicts;
+mod fit_counts;
 mod proving;
+#[cfg(test)]
+mod tests;
 
 use std::sync::Arc;
 
 use self::apart_pairs::ApartPairs;
+use self::fit_counts::FitCounts;
 use super::avoiding_ball::AvoidingBall;
 use super::cloud::Cloud;
 use super::depth_first::{Place, State};
-use super::items::{ItemSet, Position, Shape, distance};
+use super::items::{ItemSet, Position, Shape, distance, square};
 use super::links::{Home, Links, cluster_of};
 use super::small_ball::{Ball, Workspace};
 
 /// Cliques are sought from every item that fits nowhere if there are at most so many, else from the first so many.
 const CLIQUE_STARTS: usize = 24;
+/// A radius that is accurate to 1e-13 has a center that is accurate to the root of twice that, 5e-7 of the radius.
+const CENTER_ERROR: f64 = 1e-6;
+/// Distances from a center are accurate to this where they are no smaller beside its coordinates than [`f64::EPSILON`] is beside it; in smaller
+/// ones the rounding of the coordinates shows.
+const DISTANCE_ERROR: f64 = 1e-9;
+/// Thresholds from this to its inverse have squares that neither vanish nor overflow, nor lose digits as subnormal numbers do.
+const SQUARES_MIN: f64 = 1e-140;
 /// Comparisons of pairs that a search for a large clique may make, about 0.1 s: beyond, it starts from fewer items.
 const CLIQUE_PAIRS: usize = 20_000_000;
 
@@ -126,12 +140,24 @@ pub(super) struct Clusters<P> {
     clique: Vec<u32>,
     /// In a dead end: items that need more empty clusters than there are, if any.
     conflicting: Vec<u32>,
+    /// True if a decision that takes the last place of an item ends its branch at once.
+    ends_early: bool,
+    /// An item that fits into no cluster since the last decision. The list of the cluster that this changed then stops before that item, and
+    /// the counts are still those of the state before.
+    placeless: Option<u32>,
+    /// How items fit that each stand for themselves; of no meaning where there are groups.
+    fit_counts: FitCounts,
+    /// By how much items make clusters grow.
+    rises: Vec<f64>,
+    /// How each item of a group fits.
     fits: Vec<Fit>,
     /// The fits of groups, and for each the number of items that the cluster at hand has room for and holds.
     group_fits: Vec<Fit>,
     counts: Vec<[u32; 2]>,
     /// Lists that are not in use.
     lists: Vec<Vec<FeasibleItem>>,
+    /// Balls that are not in use.
+    balls: Vec<Ball<P>>,
 }
 
 impl<P: Position> Clusters<P> {
@@ -144,6 +170,7 @@ impl<P: Position> Clusters<P> {
     ) -> Self {
         let (left_out, levels) = (vec![false; items.len()], vec![0; items.len()]);
         let work = Workspace::new(items.dim());
+        let fit_counts = FitCounts::new(items.len(), threshold);
         Clusters {
             items,
             clusters: vec![],
@@ -160,11 +187,23 @@ impl<P: Position> Clusters<P> {
             unplaced: vec![],
             clique: vec![],
             conflicting: vec![],
+            ends_early: false,
+            placeless: None,
+            fit_counts,
+            rises: vec![],
             fits: vec![],
             group_fits: vec![],
             counts: vec![],
             lists: vec![],
+            balls: vec![],
         }
+    }
+
+    /// From now on a decision that takes the last place of an item ends its branch at once.
+    ///
+    /// What is below such a decision must not be asked for: the next step is to take it back.
+    pub(super) fn end_early(&mut self) {
+        self.ends_early = true;
     }
 
     /// Adds an item to the core-set, of this group if items are in groups.
@@ -175,6 +214,7 @@ impl<P: Position> Clusters<P> {
         }
         self.left_out.push(false);
         self.levels.push(0);
+        self.fit_counts.push();
     }
 
     /// Clusters that are still empty.
@@ -215,31 +255,81 @@ impl<P: Position> Clusters<P> {
                     self.avoided.push(item);
                     let all = self.clusters.iter();
                     before.extend(all.map(|cluster| (cluster.feasible.clone(), cluster.asked)));
-                    (0..self.clusters.len()).for_each(|at| self.avoid_left_out(at));
+                    for at in 0..self.clusters.len() {
+                        self.uncount(at);
+                        self.avoid_left_out(at);
+                        self.count(at);
+                    }
                 }
                 Undo::LeaveOut { item, before }
             }
             Place::Into(at) => {
+                let asked_by_all = self.asked_by_all();
+                let spare = self.balls.pop();
                 let (items, work) = (&self.items, &mut self.work);
                 let cluster = &mut self.clusters[at];
-                let ball = cluster.ball.clone();
+                let ball = cluster.ball.copied_into(spare);
                 cluster.ball.grow(items, &cluster.members, item, f64::INFINITY, work);
                 cluster.members.push(item);
                 let mut feasible = self.lists.pop().unwrap_or_default();
                 feasible.clear();
                 let old = std::mem::take(&mut cluster.feasible);
+                feasible.reserve(old.len());
                 for candidate in old.iter().filter(|candidate| candidate.radius < self.threshold) {
-                    let radius =
-                        cluster.radius_with(items, candidate.item, &[item], self.threshold, work);
+                    let other = candidate.item;
+                    let radius = cluster.radius_with(items, other, &[item], self.threshold, work);
                     if radius < self.threshold {
-                        feasible.push(FeasibleItem { radius, ..*candidate });
+                        feasible.push(FeasibleItem { item: other, radius });
+                    } else if other < asked_by_all
+                        && self.fit_counts.is_only_place(candidate, ball.radius)
+                        && !self.left_out[other as usize]
+                    {
+                        self.placeless = Some(other);
+                        break;
                     }
                 }
-                cluster.feasible = feasible;
                 let asked = cluster.asked;
-                self.avoid_left_out(at);
+                cluster.feasible = feasible;
+                if self.placeless.is_none() {
+                    self.avoid_left_out(at);
+                    if self.links.is_none() {
+                        self.fit_counts.remove(&old, ball.radius);
+                        self.count(at);
+                    }
+                }
                 Undo::Into { cluster: at, ball, feasible: old, asked }
             }
+        }
+    }
+
+    /// Returns n such that a search is at a dead end once an item below n loses its last cluster: no cluster is empty, no outlier is left, and
+    /// every cluster was asked about it. Returns 0 where that cannot be told, or is not wanted.
+    fn asked_by_all(&self) -> u32 {
+        let has_room = self.empty() > 0 || self.outliers_left > 0;
+        let is_plain = self.ends_early
+            && self.links.is_none()
+            && self.avoided.is_empty()
+            && self.items.shape() != Shape::Balls
+            && self.fit_counts.threshold == self.threshold;
+        if has_room || !is_plain {
+            return 0;
+        }
+        self.clusters.iter().map(|cluster| cluster.asked as u32).min().unwrap_or(0)
+    }
+
+    /// Counts how items fit into a cluster.
+    fn count(&mut self, at: usize) {
+        if self.links.is_none() {
+            let cluster = &self.clusters[at];
+            self.fit_counts.add(&cluster.feasible, cluster.ball.radius);
+        }
+    }
+
+    /// Takes back what was counted of a cluster, before it changes.
+    fn uncount(&mut self, at: usize) {
+        if self.links.is_none() {
+            let cluster = &self.clusters[at];
+            self.fit_counts.remove(&cluster.feasible, cluster.ball.radius);
         }
     }
 
@@ -276,6 +366,7 @@ impl<P: Position> Clusters<P> {
     /// Asks each cluster of the items that the core-set has won.
     fn ask_new_items(&mut self) {
         for cluster in &mut self.clusters {
+            let known = cluster.feasible.len();
             for item in cluster.asked as u32..self.items.len() as u32 {
                 let radius = cluster.radius_with(
                     &self.items,
@@ -289,23 +380,23 @@ impl<P: Position> Clusters<P> {
                 }
             }
             cluster.asked = self.items.len();
+            if self.links.is_none() {
+                self.fit_counts.add(&cluster.feasible[known..], cluster.ball.radius);
+            }
         }
     }
 
     /// Determines how each item fits into the clusters; one whose group has a cluster, into that alone.
     fn update_fits(&mut self) {
-        self.fits.clear();
-        self.fits.resize(self.items.len(), Fit::default());
         if self.links.is_none() {
-            let (fits, threshold) = (&mut self.fits[..], self.threshold);
-            for cluster in &self.clusters {
-                let radius = cluster.ball.radius;
-                for candidate in &cluster.feasible {
-                    fits[candidate.item as usize].count(candidate.radius, radius, threshold);
-                }
+            if self.fit_counts.threshold != self.threshold {
+                self.fit_counts.clear(self.threshold);
+                (0..self.clusters.len()).for_each(|at| self.count(at));
             }
             return;
         }
+        self.fits.clear();
+        self.fits.resize(self.items.len(), Fit::default());
         for (at, cluster) in self.clusters.iter().enumerate() {
             let radius = cluster.ball.radius;
             for candidate in &cluster.feasible {
@@ -346,13 +437,17 @@ impl<P: Position> Clusters<P> {
         }
     }
 
-    /// How an item fits; `None` if its group has another item that stands for it: of a group without a cluster, the item that fits
-    /// in the fewest clusters does.
+    /// How an item fits that no ball holds. Where each item stands for itself, its rise is left at 0, as [`FitCounts::steepest`] finds it for
+    /// few. Returns `None` if another item of the group stands for it: of a group without a cluster, the item that fits in the fewest clusters
+    /// does.
     fn fit(&self, item: u32) -> Option<Fit> {
-        let alone = self.fits[item as usize];
-        let Some(links) = self.links.as_ref().filter(|links| links.home(item).is_none()) else {
-            return Some(alone);
+        let Some(links) = &self.links else {
+            let places = self.fit_counts.places(item as usize);
+            return Some(Fit { places, ..Fit::default() });
         };
+        if links.home(item).is_some() {
+            return Some(self.fits[item as usize]);
+        }
         let linked = links.linked(item);
         let first = linked.iter().copied().min_by_key(|&other| self.fits[other as usize].places);
         (first == Some(item)).then(|| self.group_fits[links.group(item)])
@@ -382,13 +477,13 @@ impl<P: Position> Clusters<P> {
         Some(grouping.farthest_in(&cloud.items, group as usize, center, f64::INFINITY).0)
     }
 
-    /// The first item from this on that may be in no ball. Most items are inside one, and nothing else is asked of them.
-    fn next_uncovered(&self, from: usize) -> Option<usize> {
+    /// The first item from this on that may be in no ball and, where each item stands for itself, fits into at most so many clusters.
+    fn next_uncovered(&self, from: usize, places: u32) -> Option<usize> {
         if self.links.is_some() {
             return (from < self.items.len()).then_some(from);
         }
-        let rest = self.fits[from..].iter();
-        rest.enumerate().find(|(_, fit)| !fit.is_covered).map(|(step, _)| from + step)
+        // A ball too large for any cluster fits into none, so its count is 0 and it is not passed over.
+        self.fit_counts.next_uncovered(from, places)
     }
 
     /// Returns true if it is decided that an item is in no cluster.
@@ -412,13 +507,19 @@ impl<P: Position> Clusters<P> {
         if self.held_out.is_some() {
             return NodeState::Stuck;
         }
+        if let Some(item) = self.placeless {
+            debug_assert!(!chains, "a proof is asked what is below each decision");
+            self.conflicting.push(item);
+            return NodeState::Stuck;
+        }
         self.ask_new_items();
         self.update_fits();
         let capacity = self.empty() + self.outliers_left as usize;
         self.unplaced.clear();
-        let mut best: Option<(u32, f64, u32)> = None;
+        // The fewest places, the number of items that have so many, and the one of these that makes clusters grow most.
+        let (mut fewest, mut ties, mut most, mut best) = (u32::MAX, 0, f64::NEG_INFINITY, None);
         let mut next = 0;
-        while let Some(item) = self.next_uncovered(next) {
+        while let Some(item) = self.next_uncovered(next, fewest) {
             next = item + 1;
             if self.is_left_out(item as u32) {
                 continue;
@@ -443,16 +544,23 @@ impl<P: Position> Clusters<P> {
                 }
                 self.unplaced.push(item as u32);
             }
-            let is_better = match best {
-                Some((fewest, most, _)) => places < fewest || places == fewest && rise > most,
-                None => true,
-            };
-            if is_better {
-                best = Some((places, rise, item as u32));
+            if places < fewest {
+                (fewest, ties, most, best) = (places, 1, rise, Some(item as u32));
+            } else if places == fewest {
+                ties += 1;
+                if rise > most {
+                    (most, best) = (rise, Some(item as u32));
+                }
             }
         }
-        let Some((_, _, item)) = best else { return NodeState::StreamingReport };
+        let Some(mut item) = best else { return NodeState::StreamingReport };
         if self.unplaced.is_empty() {
+            if self.links.is_none() && ties > 1 {
+                let (counts, rises) = (&self.fit_counts, &mut self.rises);
+                let first = item as usize;
+                let clusters = &self.clusters;
+                item = counts.steepest(clusters, fewest, first, &self.left_out, rises) as u32;
+            }
             return NodeState::Branch(item);
         }
         self.find_clique(capacity);
@@ -602,6 +710,7 @@ impl<P: Position> State for Clusters<P> {
         }
         match undo {
             Undo::Open => {
+                self.uncount(self.clusters.len() - 1);
                 let cluster = self.clusters.pop().expect("it was opened");
                 self.lists.push(cluster.feasible);
             }
@@ -611,23 +720,47 @@ impl<P: Position> State for Clusters<P> {
                 if self.avoided.last() == Some(&item) {
                     self.avoided.pop();
                 }
-                for (cluster, (feasible, asked)) in self.clusters.iter_mut().zip(before) {
+                for (at, (feasible, asked)) in before.into_iter().enumerate() {
+                    self.uncount(at);
+                    let cluster = &mut self.clusters[at];
                     cluster.asked = asked;
                     self.lists.push(std::mem::replace(&mut cluster.feasible, feasible));
+                    self.count(at);
                 }
             }
-            Undo::Into { cluster, ball, feasible, asked } => {
-                let cluster = &mut self.clusters[cluster];
+            Undo::Into { cluster: at, ball, feasible, asked } => {
+                let was_counted = self.placeless.take().is_none();
+                if was_counted {
+                    self.uncount(at);
+                }
+                let cluster = &mut self.clusters[at];
                 cluster.members.pop();
-                cluster.ball = ball;
+                self.balls.push(std::mem::replace(&mut cluster.ball, ball));
                 cluster.asked = asked;
                 self.lists.push(std::mem::replace(&mut cluster.feasible, feasible));
+                if was_counted {
+                    self.count(at);
+                }
             }
         }
     }
 }
 
 impl<P: Position> Cluster<P> {
+    /// Returns what the radius with one point more is at least, whatever rounding has done to the ball: (D² + r²)/2D, less
+    /// [`CENTER_ERROR`] of it. Returns −∞ for a point in the ball, or so near that rounding may be more than that.
+    fn radius_at_least(&self, items: &ItemSet<P>, item: u32) -> f64 {
+        let r = self.ball.radius;
+        let d = distance(items.at(item as usize), self.ball.center.as_ref());
+        let coordinates = self.ball.center.as_ref().iter();
+        let largest = coordinates.fold(0.0, |largest: f64, x| largest.max(x.abs()));
+        let is_accurate = d * DISTANCE_ERROR >= f64::EPSILON * largest;
+        match items.shape() {
+            Shape::Points if d > r && is_accurate => 0.5 * (d + r * (r / d)) * (1.0 - CENTER_ERROR),
+            _ => f64::NEG_INFINITY,
+        }
+    }
+
     /// The radius with one item more, ∞ if it is not below the threshold; `others` are the members to which the item may be too far
     /// for any ball.
     #[inline(always)]
@@ -640,17 +773,37 @@ impl<P: Position> Cluster<P> {
         work: &mut Workspace<P>,
     ) -> f64 {
         let at = item as usize;
-        let d = distance(items.at(at), self.ball.center.as_ref());
-        if items.reach_at(at, d) <= self.ball.radius * (1.0 + super::small_ball::REACH_TOLERANCE) {
-            return self.ball.radius;
-        }
         let r = self.ball.radius;
-        if items.shape() == Shape::Points && d * d + r * r >= 2.0 * d * threshold {
-            return f64::INFINITY;
-        }
-        for &other in others {
-            if items.pair_radius(other as usize, at) >= threshold {
-                return f64::INFINITY;
+        let inside = r * (1.0 + super::small_ball::REACH_TOLERANCE);
+        let squared = square(items.at(at), self.ball.center.as_ref());
+        match items.shape() {
+            // Squares spare the roots of most items.
+            Shape::Points if (SQUARES_MIN..1.0 / SQUARES_MIN).contains(&threshold) => {
+                if squared <= inside * inside {
+                    return r;
+                }
+                if squared + r * r >= 2.0 * squared.sqrt() * threshold {
+                    return f64::INFINITY;
+                }
+                let is_far =
+                    |&other: &u32| items.square(other as usize, at) >= 4.0 * threshold * threshold;
+                if others.iter().any(is_far) {
+                    return f64::INFINITY;
+                }
+            }
+            _ => {
+                let d = squared.sqrt();
+                if items.reach_at(at, d) <= inside {
+                    return r;
+                }
+                if items.shape() == Shape::Points && d * d + r * r >= 2.0 * d * threshold {
+                    return f64::INFINITY;
+                }
+                for &other in others {
+                    if items.pair_radius(other as usize, at) >= threshold {
+                        return f64::INFINITY;
+                    }
+                }
             }
         }
         match self.members[..] {

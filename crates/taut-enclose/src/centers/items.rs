@@ -161,6 +161,12 @@ impl<P: Position> ItemSet<P> {
         self.reach_at(item, square(self.at(item), center.as_ref()).sqrt())
     }
 
+    /// The squared distance of the positions of two items.
+    #[inline(always)]
+    pub(super) fn square(&self, a: usize, b: usize) -> f64 {
+        square(self.at(a), self.at(b))
+    }
+
     /// The radius of the smallest ball of two items: half their distance D; vwD/(v + w) for weights v and w; for balls,
     /// half of D and both radii, but no less than one of them.
     #[inline(always)]

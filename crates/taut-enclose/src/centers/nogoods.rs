@@ -31,6 +31,7 @@ mod record;
 mod subset_index;
 #[cfg(test)]
 mod tests;
+mod transpose;
 
 use taut_certify::Nogood;
 use taut_points::ReadError;

@@ -55,6 +55,16 @@ impl<P: Position> Ball<P> {
         ball
     }
 
+    /// A copy, in the memory of a ball that is not needed any more, if there is one.
+    pub(super) fn copied_into(&self, spare: Option<Self>) -> Self {
+        let Some(mut copy) = spare else { return self.clone() };
+        copy.center.clone_from(&self.center);
+        copy.radius = self.radius;
+        copy.support.clone_from(&self.support);
+        copy.shares.clone_from(&self.shares);
+        copy
+    }
+
     /// Returns true if an item is inside, but for rounding.
     #[inline(always)]
     pub(super) fn holds(&self, items: &ItemSet<P>, item: u32) -> bool {

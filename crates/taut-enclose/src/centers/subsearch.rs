@@ -95,6 +95,7 @@ impl<'c, P: Position> Subsearch<'c, P> {
         let threshold = best.radius / (1.0 + gap);
         let links = task.cloud.links(core_set);
         let mut state = Clusters::new(items, links, task.k, task.z as u64, threshold);
+        state.end_early();
         let capacity = task.k.saturating_add(task.z);
         let clique = state.large_clique(capacity);
         if clique.len() > capacity {

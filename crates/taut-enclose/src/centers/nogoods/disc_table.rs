@@ -8,6 +8,7 @@
 //! 0.7 times as long; to make all of a table again whenever a point near by came was a sixth of it.
 
 use super::item_set::ItemSet;
+use super::transpose::transpose;
 
 /// Discs of which a word has a bit each.
 const SIDE_BY_SIDE: usize = u64::BITS as usize;
@@ -94,7 +95,7 @@ impl<const WORDS: usize> DiscTable<WORDS> {
         if is_full || old.len() < self.discs.len() / 2 {
             // Some of it is for discs that come later.
             *self = DiscTable::with_room(numbers.len() + numbers.len() / 8, points);
-            numbers.iter().for_each(|&number| self.add(number, held(number)));
+            self.add_all(numbers, held);
             return;
         }
         let new_points = self.rows.len() as u32..points as u32;
@@ -112,7 +113,37 @@ impl<const WORDS: usize> DiscTable<WORDS> {
                 .filter(|&item| held.contains(item))
                 .for_each(|item| self.insert(item, at));
         }
-        new.iter().for_each(|&number| self.add(number, held(number)));
+        self.add_all(new, held);
+    }
+
+    /// Takes more discs, by their numbers, where there is room for them: those of one word at once.
+    pub(super) fn add_all<'d>(
+        &mut self,
+        mut numbers: &[u32],
+        held: impl Fn(u32) -> &'d ItemSet<WORDS>,
+    ) {
+        while !numbers.is_empty() {
+            let first = self.discs.len();
+            let offset = first % SIDE_BY_SIDE;
+            let (some, rest) = numbers.split_at(numbers.len().min(SIDE_BY_SIDE - offset));
+            for word in 0..WORDS {
+                let mut bits = [0; SIDE_BY_SIDE];
+                for (bits, &number) in bits[offset..].iter_mut().zip(some) {
+                    *bits = held(number).word(word);
+                }
+                if bits == [0; SIDE_BY_SIDE] {
+                    continue;
+                }
+                transpose(&mut bits);
+                for (item, &discs) in bits.iter().enumerate().filter(|&(_, &discs)| discs != 0) {
+                    let from = self.row_or_new((SIDE_BY_SIDE * word + item) as u32);
+                    self.holders[from + first / SIDE_BY_SIDE] |= discs;
+                }
+            }
+            (first..first + some.len()).for_each(|at| self.all.insert(at));
+            self.discs.extend_from_slice(some);
+            numbers = rest;
+        }
     }
 
     /// Takes one disc more, where there is room for it.
@@ -125,13 +156,18 @@ impl<const WORDS: usize> DiscTable<WORDS> {
 
     /// Notes that a disc holds a point.
     fn insert(&mut self, item: u32, disc: usize) {
+        let from = self.row_or_new(item);
+        self.holders[from + disc / SIDE_BY_SIDE] |= 1 << (disc % SIDE_BY_SIDE);
+    }
+
+    /// Where the discs that hold a point begin; a point that none has held yet gets a row of its own, the last.
+    fn row_or_new(&mut self, item: u32) -> usize {
         if !self.near.contains(item) {
             self.rows[item as usize] = self.near.len() as u16;
             self.near.insert(item);
             self.holders.resize(self.holders.len() + self.words, 0);
         }
-        let from = self.words * usize::from(self.rows[item as usize]);
-        self.holders[from + disc / SIDE_BY_SIDE] |= 1 << (disc % SIDE_BY_SIDE);
+        self.words * usize::from(self.rows[item as usize])
     }
 
     /// The discs that hold a point, which must be one of those that any of them holds.
@@ -300,6 +336,31 @@ mod tests {
         }
         // More than a word of discs, and some that are gone.
         assert!(most > 128 && gone > 100, "{most} {gone}");
+    }
+
+    /// Discs taken at once, from any place of a word and over several words, are as one after the other.
+    #[test]
+    fn discs_at_once_are_as_one_by_one() {
+        let mut state = 5u64;
+        let mut draw = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695);
+            (state >> 40) as u32
+        };
+        let held: Vec<ItemSet<4>> =
+            (0..300).map(|_| (0..250).filter(|_| draw() % 20 == 0).collect()).collect();
+        for (before, count) in [(0, 1), (1, 62), (1, 63), (1, 64), (63, 130), (64, 64), (65, 200)] {
+            let mut one_by_one = DiscTable::with_room(300, 250);
+            (0..before + count).for_each(|at| one_by_one.add(at, &held[at as usize]));
+            let mut at_once = DiscTable::with_room(300, 250);
+            (0..before).for_each(|at| at_once.add(at, &held[at as usize]));
+            let numbers: Vec<u32> = (before..before + count).collect();
+            at_once.add_all(&numbers, |at| &held[at as usize]);
+            assert_eq!((&at_once.discs, &at_once.all), (&one_by_one.discs, &one_by_one.all));
+            assert_eq!(at_once.near, one_by_one.near);
+            for item in at_once.near.items() {
+                assert_eq!(at_once.row(item), one_by_one.row(item), "{before}, {count}, {item}");
+            }
+        }
     }
 
     /// Sums of up to 2048 words of few and of many ones are those of their bits.

@@ -139,7 +139,7 @@ impl<const WORDS: usize> Discs<WORDS> {
         new.sort_by_key(|disc| std::cmp::Reverse(disc.held.len()));
         let room = self.of(last).len() + new.len();
         let mut table = DiscTable::with_room(room, self.len());
-        self.of(last).iter().for_each(|&at| table.add(at, &self.disc(at).held));
+        table.add_all(self.of(last), |at| &self.disc(at).held);
         let only_last = ItemSet::of_one(last);
         let (first_new, mut needless) = (self.discs.len() as u32, vec![]);
         for disc in new {

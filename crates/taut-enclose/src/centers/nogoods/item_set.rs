@@ -34,6 +34,11 @@ impl<const WORDS: usize> ItemSet<WORDS> {
         self.0[item as usize / 64] >> (item % 64) & 1 == 1
     }
 
+    /// The items from 64 times this number on, a bit each.
+    pub(super) fn word(&self, at: usize) -> u64 {
+        self.0[at]
+    }
+
     pub(super) fn is_empty(&self) -> bool {
         self.0.iter().all(|&word| word == 0)
     }

@@ -20,6 +20,13 @@ const SQUARES: std::ops::RangeInclusive<f64> = 1e-100..=1e100;
 /// A squared distance may exceed that of a radius by this factor, which covers rounding.
 const SQUARED_SLACK: f64 = (1.0 + REACH_TOLERANCE) * (1.0 + REACH_TOLERANCE);
 
+/// Relative error of a squared radius, but for nearly dependent points. Spheres smaller than a known one by more than this do not hold its
+/// support; to pass over others would leave a larger one than need be.
+const SQUARED_ROUNDING: f64 = 1e-6;
+
+/// Radii that are a smaller part of the coordinates of their center are left to the general method.
+const LENGTH_MIN: f64 = 1e-7;
+
 /// A sphere, and the points that determine it.
 #[derive(Clone, Copy)]
 struct Sphere<const D: usize> {
@@ -52,6 +59,11 @@ where
         std::array::from_fn(|axis| at[axis])
     };
     let center: [f64; D] = std::array::from_fn(|axis| ball.center.as_ref()[axis]);
+    // Far from the origin, the rounding of coordinates is more than what is allowed for here.
+    let largest = center.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    if ball.radius < LENGTH_MIN * largest {
+        return None;
+    }
     let is_inside = square(place(more), center) <= ball.radius * ball.radius * SQUARED_SLACK;
     if is_inside || ball.support.len() > D + 1 {
         return None;
@@ -61,7 +73,7 @@ where
     let (mut count, mut entering) = (ball.support.len(), place(more));
     let mut before = ball.radius * ball.radius;
     for _ in 0..ROUNDS_MAX {
-        let sphere = entered(&support[..count], entering)?;
+        let sphere = entered(&support[..count], entering, before)?;
         if sphere.radius_squared.sqrt() >= limit {
             return Some(f64::INFINITY);
         }
@@ -70,12 +82,15 @@ where
         }
         let mut most = sphere.radius_squared * SQUARED_SLACK;
         let mut farthest = None;
-        for &item in members.iter().chain(&[more]) {
-            let reach = square(place(item), sphere.center);
+        let mut look_at = |item: u32| {
+            let place = place(item);
+            let reach = square(place, sphere.center);
             if reach > most {
-                (farthest, most) = (Some(place(item)), reach);
+                (farthest, most) = (Some(place), reach);
             }
-        }
+        };
+        members.iter().for_each(|&item| look_at(item));
+        look_at(more);
         match farthest {
             None => return Some(sphere.radius_squared.sqrt()),
             Some(place) => entering = place,
@@ -85,43 +100,110 @@ where
     None
 }
 
-/// The smallest sphere that holds a support and a point outside of its ball.
-fn entered<const D: usize>(support: &[[f64; D]], p: [f64; D]) -> Option<Sphere<D>>
+/// The smallest sphere that holds a support and a point outside of its ball, whose squared radius is given.
+#[inline(always)]
+fn entered<const D: usize>(support: &[[f64; D]], p: [f64; D], before: f64) -> Option<Sphere<D>>
+where
+    [f64; D]: Through,
+{
+    match *support {
+        [a] => Some(across(p, a)),
+        [a, b] => of_triangle(p, a, b),
+        _ => of_more(support, p, before),
+    }
+}
+
+/// The sphere of which two points are a diameter.
+fn across<const D: usize>(p: [f64; D], a: [f64; D]) -> Sphere<D> {
+    let center = std::array::from_fn(|axis| 0.5 * (a[axis] + p[axis]));
+    Sphere { center, radius_squared: 0.25 * square(a, p), support: [p, a, p, p], count: 2 }
+}
+
+/// The smallest sphere that holds a point and two others, in the diameter of which it does not lie.
+fn of_triangle<const D: usize>(p: [f64; D], a: [f64; D], b: [f64; D]) -> Option<Sphere<D>>
+where
+    [f64; D]: Through,
+{
+    let edges: [[f64; D]; 2] = [a, b].map(|end| std::array::from_fn(|axis| end[axis] - p[axis]));
+    let [uu, vv] = edges.map(|edge| square(edge, [0.0; D]));
+    if !SQUARES.contains(&uu) || !SQUARES.contains(&vv) {
+        return None;
+    }
+    let uv: f64 = (0..D).map(|axis| edges[0][axis] * edges[1][axis]).sum();
+    // The angle at a, or at b, is not acute, so that point lies in the ball whose diameter is from p to the other one.
+    if uu <= uv {
+        return Some(across(p, b));
+    }
+    if vv <= uv {
+        return Some(across(p, a));
+    }
+    let to_center = <[f64; D]>::to_center(&edges)?;
+    let radius_squared = square(to_center, [0.0; D]);
+    let center = std::array::from_fn(|axis| p[axis] + to_center[axis]);
+    Some(Sphere { center, radius_squared, support: [p, a, b, p], count: 3 })
+}
+
+/// The smallest of the spheres through the point that enters and some of three or more others.
+fn of_more<const D: usize>(support: &[[f64; D]], p: [f64; D], before: f64) -> Option<Sphere<D>>
 where
     [f64; D]: Through,
 {
     let holds_all = |center: [f64; D], r2: f64| {
         support.iter().all(|&a| square(a, center) <= r2 * SQUARED_SLACK)
     };
+    // Smaller spheres do not hold the support.
+    let least = before * (1.0 - SQUARED_ROUNDING);
     for &a in support {
-        let center = std::array::from_fn(|axis| 0.5 * (a[axis] + p[axis]));
-        let r2 = 0.25 * square(a, p);
-        if holds_all(center, r2) {
-            return Some(Sphere { center, radius_squared: r2, support: [p, a, p, p], count: 2 });
+        let sphere = across(p, a);
+        if sphere.radius_squared >= least && holds_all(sphere.center, sphere.radius_squared) {
+            return Some(sphere);
         }
     }
-    let mut best: Option<Sphere<D>> = None;
-    for subset in (0..1usize << support.len()).filter(|s| (2..=D as u32).contains(&s.count_ones()))
-    {
-        let (mut through, mut edges, mut count) = ([p; 4], [[0.0; D]; 3], 0);
-        for (at, a) in support.iter().enumerate() {
-            if subset >> at & 1 == 1 {
-                through[count + 1] = *a;
-                edges[count] = std::array::from_fn(|axis| a[axis] - p[axis]);
-                count += 1;
-            }
-        }
-        if edges[..count].iter().any(|&edge| !SQUARES.contains(&square(edge, [0.0; D]))) {
-            return None;
-        }
-        let to_center = <[f64; D]>::to_center(&edges[..count])?;
+    let mut edges = [[0.0; D]; 4];
+    for (edge, a) in edges.iter_mut().zip(support) {
+        *edge = std::array::from_fn(|axis| a[axis] - p[axis]);
+    }
+    if edges[..support.len()].iter().any(|&edge| !SQUARES.contains(&square(edge, [0.0; D]))) {
+        return None;
+    }
+    let mut best: Option<(Sphere<D>, &[usize])> = None;
+    for &with in subsets(D, support.len()) {
+        let mut chosen = [[0.0; D]; 3];
+        chosen.iter_mut().zip(with).for_each(|(to, &at)| *to = edges[at]);
+        let to_center = <[f64; D]>::to_center(&chosen[..with.len()])?;
         let r2 = square(to_center, [0.0; D]);
+        let is_best = r2 >= least && best.is_none_or(|(best, _)| r2 < best.radius_squared);
         let center = std::array::from_fn(|axis| p[axis] + to_center[axis]);
-        if best.is_none_or(|best| r2 < best.radius_squared) && holds_all(center, r2) {
-            best = Some(Sphere { center, radius_squared: r2, support: through, count: count + 1 });
+        if is_best && holds_all(center, r2) {
+            let sphere =
+                Sphere { center, radius_squared: r2, support: [p; 4], count: with.len() + 1 };
+            best = Some((sphere, with));
         }
     }
-    best
+    let (mut sphere, with) = best?;
+    sphere.support[1..].iter_mut().zip(with).for_each(|(to, &at)| *to = support[at]);
+    Some(sphere)
+}
+
+/// The sets of two to d of three or more points.
+fn subsets(dim: usize, points: usize) -> &'static [&'static [usize]] {
+    match (dim, points) {
+        (2, 3) => &[&[0, 1], &[0, 2], &[1, 2]],
+        (3, 3) => &[&[0, 1], &[0, 2], &[1, 2], &[0, 1, 2]],
+        (3, 4) => &[
+            &[0, 1],
+            &[0, 2],
+            &[1, 2],
+            &[0, 1, 2],
+            &[0, 3],
+            &[1, 3],
+            &[0, 1, 3],
+            &[2, 3],
+            &[0, 2, 3],
+            &[1, 2, 3],
+        ],
+        _ => &[],
+    }
 }
 
 impl Through for [f64; 2] {
@@ -217,6 +299,26 @@ mod tests {
             assert!(limited.is_none_or(|radius| radius == f64::INFINITY));
         }
         (left, all)
+    }
+
+    #[test]
+    fn triangles_that_are_none_have_the_diameter_that_holds_all() {
+        let radius = |p: [f64; 2], a: [f64; 2], b: [f64; 2]| {
+            of_triangle(p, a, b).map(|sphere| (sphere.radius_squared.sqrt(), sphere.count))
+        };
+        // A right angle at a, or at b; the third point on the line of the others; twice the same.
+        assert_eq!(radius([2.0, 0.0], [0.0, 0.0], [0.0, 2.0]), Some((2f64.sqrt(), 2)));
+        assert_eq!(radius([2.0, 0.0], [0.0, 2.0], [0.0, 0.0]), Some((2f64.sqrt(), 2)));
+        assert_eq!(radius([4.0, 0.0], [0.0, 0.0], [1.0, 0.0]), Some((2.0, 2)));
+        assert_eq!(radius([4.0, 0.0], [1.0, 0.0], [0.0, 0.0]), Some((2.0, 2)));
+        assert_eq!(radius([3.0, 0.0], [1.0, 0.0], [1.0, 0.0]), Some((1.0, 2)));
+        // Three on a circle, and edges whose products leave the range of numbers.
+        let (found, count) = radius([0.0, 5.0], [-4.0, -3.0], [4.0, -3.0]).unwrap();
+        assert!((found - 5.0).abs() < 1e-14 && count == 3);
+        for scale in [1e-170, 1e160] {
+            let place = |x: f64, y: f64| [scale * x, scale * y];
+            assert_eq!(radius(place(0.0, 5.0), place(-4.0, -3.0), place(4.0, -3.0)), None);
+        }
     }
 
     #[test]
