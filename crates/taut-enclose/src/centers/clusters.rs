@@ -19,6 +19,7 @@ mod apart_pairs;
 mod conflicts;
 mod fit_counts;
 mod proving;
+mod radius;
 #[cfg(test)]
 mod tests;
 
@@ -29,19 +30,12 @@ use self::fit_counts::FitCounts;
 use super::avoiding_ball::AvoidingBall;
 use super::cloud::Cloud;
 use super::depth_first::{Place, State};
-use super::items::{ItemSet, Position, Shape, distance, square};
+use super::items::{ItemSet, Position, Shape};
 use super::links::{Home, Links, cluster_of};
 use super::small_ball::{Ball, Workspace};
 
 /// Cliques are sought from every item that fits nowhere if there are at most so many, else from the first so many.
 const CLIQUE_STARTS: usize = 24;
-/// A radius that is accurate to 1e-13 has a center that is accurate to the root of twice that, 5e-7 of the radius.
-const CENTER_ERROR: f64 = 1e-6;
-/// Distances from a center are accurate to this where they are no smaller beside its coordinates than [`f64::EPSILON`] is beside it; in smaller
-/// ones the rounding of the coordinates shows.
-const DISTANCE_ERROR: f64 = 1e-9;
-/// Thresholds from this to its inverse have squares that neither vanish nor overflow, nor lose digits as subnormal numbers do.
-const SQUARES_MIN: f64 = 1e-140;
 /// Comparisons of pairs that a search for a large clique may make, about 0.1 s: beyond, it starts from fewer items.
 const CLIQUE_PAIRS: usize = 20_000_000;
 
@@ -742,73 +736,6 @@ impl<P: Position> State for Clusters<P> {
                     self.count(at);
                 }
             }
-        }
-    }
-}
-
-impl<P: Position> Cluster<P> {
-    /// Returns what the radius with one point more is at least, whatever rounding has done to the ball: (D² + r²)/2D, less
-    /// [`CENTER_ERROR`] of it. Returns −∞ for a point in the ball, or so near that rounding may be more than that.
-    fn radius_at_least(&self, items: &ItemSet<P>, item: u32) -> f64 {
-        let r = self.ball.radius;
-        let d = distance(items.at(item as usize), self.ball.center.as_ref());
-        let coordinates = self.ball.center.as_ref().iter();
-        let largest = coordinates.fold(0.0, |largest: f64, x| largest.max(x.abs()));
-        let is_accurate = d * DISTANCE_ERROR >= f64::EPSILON * largest;
-        match items.shape() {
-            Shape::Points if d > r && is_accurate => 0.5 * (d + r * (r / d)) * (1.0 - CENTER_ERROR),
-            _ => f64::NEG_INFINITY,
-        }
-    }
-
-    /// The radius with one item more, ∞ if it is not below the threshold; `others` are the members to which the item may be too far
-    /// for any ball.
-    #[inline(always)]
-    fn radius_with(
-        &self,
-        items: &ItemSet<P>,
-        item: u32,
-        others: &[u32],
-        threshold: f64,
-        work: &mut Workspace<P>,
-    ) -> f64 {
-        let at = item as usize;
-        let r = self.ball.radius;
-        let inside = r * (1.0 + super::small_ball::REACH_TOLERANCE);
-        let squared = square(items.at(at), self.ball.center.as_ref());
-        match items.shape() {
-            // Squares spare the roots of most items.
-            Shape::Points if (SQUARES_MIN..1.0 / SQUARES_MIN).contains(&threshold) => {
-                if squared <= inside * inside {
-                    return r;
-                }
-                if squared + r * r >= 2.0 * squared.sqrt() * threshold {
-                    return f64::INFINITY;
-                }
-                let is_far =
-                    |&other: &u32| items.square(other as usize, at) >= 4.0 * threshold * threshold;
-                if others.iter().any(is_far) {
-                    return f64::INFINITY;
-                }
-            }
-            _ => {
-                let d = squared.sqrt();
-                if items.reach_at(at, d) <= inside {
-                    return r;
-                }
-                if items.shape() == Shape::Points && d * d + r * r >= 2.0 * d * threshold {
-                    return f64::INFINITY;
-                }
-                for &other in others {
-                    if items.pair_radius(other as usize, at) >= threshold {
-                        return f64::INFINITY;
-                    }
-                }
-            }
-        }
-        match self.members[..] {
-            [only] => items.pair_radius(only as usize, at),
-            _ => work.radius_with(items, &self.ball, &self.members, item, threshold),
         }
     }
 }

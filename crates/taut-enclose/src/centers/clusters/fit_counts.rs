@@ -1,7 +1,7 @@
 //! Into how many clusters each item fits, and how many balls hold it, kept up to date as clusters change.
 //!
 //! *Idea.* A decision changes one cluster, and most decisions lead to a dead end, which an item that fits into no cluster shows. So what
-//! the cluster was before is taken out of the counts and what it is now is added, where to count anew would read the feasible items of
+//! the cluster was before is taken out of the counts and what it is now is added, where to count all again would read the feasible items of
 //! all clusters. By how much an item makes balls grow is asked of few
 //! ([`FitCounts::steepest`]).
 //! *Invariant.* A count is the sum, over the clusters, of the codes of their feasible items under one threshold.

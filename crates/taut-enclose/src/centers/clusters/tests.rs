@@ -16,8 +16,8 @@ impl Draws {
     }
 }
 
-/// The state without anything that is kept from one decision to the next: its fits are counted anew.
-fn counted_anew<P: Position>(state: &Clusters<P>) -> Clusters<P> {
+/// The state without anything that is kept from one decision to the next: its fits are counted again.
+fn recounted<P: Position>(state: &Clusters<P>) -> Clusters<P> {
     let mut fresh = state.clone();
     fresh.fit_counts = FitCounts::new(fresh.items.len(), fresh.threshold);
     fresh.placeless = None;
@@ -67,7 +67,7 @@ fn walk(shape: Shape, z: u64, grid: f64, seed: u64) -> usize {
             state.threshold *= 0.98;
         }
         let was_told = state.placeless.is_some();
-        let mut fresh = counted_anew(&state);
+        let mut fresh = recounted(&state);
         let found = next(&mut state);
         if was_told {
             early += 1;
@@ -75,20 +75,20 @@ fn walk(shape: Shape, z: u64, grid: f64, seed: u64) -> usize {
             assert_eq!(found.0, None, "{shape:?}, {seed}, step {step}");
             let mut copy = state.clone();
             copy.undo(undos.last().expect("it was decided").clone());
-            let anew = format!("{:?}", counted_anew(&copy).fit_counts);
+            let again = format!("{:?}", recounted(&copy).fit_counts);
             if copy.fit_counts.threshold == copy.threshold {
                 assert_eq!(
                     format!("{:?}", copy.fit_counts),
-                    anew,
+                    again,
                     "{shape:?}, {seed}, step {step}"
                 );
             }
         } else {
             assert_eq!(found, next(&mut fresh), "{shape:?}, {seed}, step {step}");
             if state.fit_counts.threshold == state.threshold {
-                let (kept, anew) = (&state.fit_counts, &counted_anew(&state).fit_counts);
+                let (kept, again) = (&state.fit_counts, &recounted(&state).fit_counts);
                 let what = format!("{shape:?}, {seed}, step {step}");
-                assert_eq!(format!("{kept:?}"), format!("{anew:?}"), "{what}");
+                assert_eq!(format!("{kept:?}"), format!("{again:?}"), "{what}");
             }
         }
         let item = match found.0 {
@@ -114,7 +114,7 @@ fn walk(shape: Shape, z: u64, grid: f64, seed: u64) -> usize {
         undos.push(state.put_at(item, place, undos.len() as u32 + 1));
         if let (Some(told), Place::Into(at)) = (state.placeless, place) {
             put_in_full(&mut in_full, item, at);
-            let (branch, conflicting) = next(&mut counted_anew(&in_full));
+            let (branch, conflicting) = next(&mut recounted(&in_full));
             assert_eq!((branch, conflicting), (None, vec![told]), "{shape:?}, {seed}, step {step}");
             // The threshold may come down before the dead end is asked for.
             state.threshold *= if draws.next() < 0.02 { 0.999 } else { 1.0 };
@@ -128,7 +128,7 @@ fn walk(shape: Shape, z: u64, grid: f64, seed: u64) -> usize {
 }
 
 #[test]
-fn fits_are_counted_as_anew_and_dead_ends_told_early_are_dead_ends() {
+fn fits_are_counted_as_if_recounted_and_dead_ends_told_early_are_dead_ends() {
     let mut early = 0;
     for seed in 1..=12 {
         for grid in [6.0, 1e9] {
