@@ -6,11 +6,12 @@ use crate::centers::small_ball::{REACH_TOLERANCE, Workspace};
 
 /// A radius that is accurate to 1e-13 has a center that is accurate to the root of twice that, 5e-7 of the radius.
 const CENTER_ERROR: f64 = 1e-6;
-/// Distances from a center are accurate to this where they are no smaller beside its coordinates than [`f64::EPSILON`] is beside it; in smaller
-/// ones the rounding of the coordinates shows.
+/// Relative error of a distance from a center that is at least 2e-7, [`f64::EPSILON`] over this, of the largest coordinate of the center. In smaller
+/// distances the rounding of the coordinates shows.
 const DISTANCE_ERROR: f64 = 1e-9;
 /// Thresholds from this to its inverse have squares that neither vanish nor overflow, nor lose digits as subnormal numbers do.
 const SQUARES_MIN: f64 = 1e-140;
+
 impl<P: Position> Cluster<P> {
     /// Returns what the radius with one point more is at least, whatever rounding has done to the ball: (D² + r²)/2D, less
     /// [`CENTER_ERROR`] of it. Returns −∞ for a point in the ball, or so near that rounding may be more than that.

@@ -119,7 +119,8 @@ fn across<const D: usize>(p: [f64; D], a: [f64; D]) -> Sphere<D> {
     Sphere { center, radius_squared: 0.25 * square(a, p), support: [p, a, p, p], count: 2 }
 }
 
-/// The smallest sphere that holds a point and two others, in the diameter of which it does not lie.
+/// The smallest sphere that holds a point p and two others, where p lies outside of the ball whose diameter these are. Returns `None` where
+/// squares of edges leave [`SQUARES`], or the triangle is flat.
 fn of_triangle<const D: usize>(p: [f64; D], a: [f64; D], b: [f64; D]) -> Option<Sphere<D>>
 where
     [f64; D]: Through,
