@@ -5,12 +5,14 @@
 //! *Idea.* Symmetric M ≻ 0, slacks sᵢ = 1 − wᵢ′Mwᵢ and multipliers zᵢ follow the path M⁻¹ = Σ zᵢwᵢwᵢ′, zᵢsᵢ = μ → 0.
 //! With F the rows svec(wᵢwᵢ′), beside the diagonal times √2, a Newton step is (K + F′ diag(z/s) F) ΔM = svec(M⁻¹) −
 //! F′(g/s), K the symmetric Kronecker square of M⁻¹: p unknowns however many points. Predictor and corrector after
-//! Mehrotra, g = 0 and then g = σμ − Δs·Δz. F is never made: its products are forms and moments of the points ([`FourthMoments`]).
+//! Mehrotra, g = 0 and then g = σμ − Δs·Δz, and up to two centerings after Gondzio. F is never made: its products are forms and moments of the points ([`FourthMoments`]).
 //! The start is the ellipsoid of the round before, a little larger: from there it takes five steps, from one at a gap of 1 it takes ten.
 //! *Guarantee.* The best multipliers met after a step are handed back.
 //! *Trap.* It puts multipliers on all points, and accuracy ends at a gap of 1e-11 to 1e-13: the active set finishes, from the p − 1
 //! largest.
-//! *Reference.* Mehrotra, SIAM J. Optim. 2(4), 1992; for this problem Sun and Freund, Operations Research 52(5), 2004.
+//! *Reference.* Mehrotra, SIAM J. Optim. 2(4), 1992; Gondzio, Computational Optimization and Applications 6, 1996; for this problem Sun and Freund, Operations Research 52(5), 2004.
+
+use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
 
 use taut_kernels::triangle::moments;
 use taut_kernels::vector::dot;
@@ -39,11 +41,23 @@ const STEP_FRACTION: f64 = 0.98;
 const START_SLACK: f64 = 3.0;
 /// The least slack of a start where all points are inside: rounding of slacks is to be far below it.
 const START_SLACK_MIN: f64 = 1e-11;
+/// The relative excess of a leverage below which the slack of a start is far larger, so that a start goes back before it gets ahead: such
+/// sets are left to the active set.
+pub(super) const EXCESS_MIN: f64 = START_SLACK_MIN / START_SLACK;
 /// The largest: where points are farther outside, the multipliers tell little of the optimum.
 const START_SLACK_MAX: f64 = 0.1;
 /// Until a whole step has been made, μ falls by no more than this: M would follow a path of multipliers that are none yet, and each
 /// step becomes shorter. With 0.1 and with 0.5 the worst of a hundred starts took twice as many steps.
 const SIGMA_MIN: f64 = 0.3;
+/// A step is centered at most this often. Two make steps fewer by a quarter, of shells of thickness 1e-8 and 1e-4; three and four no fewer
+/// than two. Each costs about a twentieth of a step, of 1500 points in thirty dimensions.
+const CENTERINGS_MAX: usize = 2;
+/// By centering, a step is hoped to become longer by this much. 0.15 to 0.5 serve equally well.
+const LENGTH_HOPED: f64 = 0.3;
+/// By at least this much, as the sum of both lengths, or the step before is taken.
+const LENGTH_GAIN_MIN: f64 = 0.03;
+/// The products zs of a centered step are to be at least this part of their aim, and at most so many times as large. 0.03 to 0.3 serve equally well.
+const PRODUCT_RATIO_MIN: f64 = 0.1;
 /// One task makes this many rows of the normal matrix.
 const TILE_ROWS: usize = 16;
 
@@ -134,8 +148,9 @@ impl State {
         let slack =
             (START_SLACK * (largest / m as f64 - 1.0)).clamp(START_SLACK_MIN, START_SLACK_MAX);
         let start = 1.0 / ((1.0 + slack) * largest);
-        let mut matrix = vec![0.0; p];
-        (0..m).for_each(|a| matrix[a * (a + 1) / 2 + a] = start);
+        let mut identity = vec![0.0; m * m];
+        (0..m).for_each(|a| identity[a * m + a] = start);
+        let matrix = svec(&identity, m);
         let s: Vec<f64> = whitened.leverages.iter().map(|l| 1.0 - start * (1.0 + l)).collect();
         let mu = m as f64 / s.iter().map(|s| 1.0 / s).sum::<f64>();
         let of_weight = |(u, s): (&f64, &f64)| 0.5 * (u * m as f64 + mu / s);
@@ -149,7 +164,7 @@ impl State {
         weights
     }
 
-    /// One predictor and corrector; false when rounding has taken the last digit.
+    /// One predictor and its correctors; false when rounding has taken the last digit.
     fn step(&mut self) -> bool {
         let k = self.s.len();
         let Some(inverse) = inverse(&self.matrix, self.m) else { return false };
@@ -157,28 +172,24 @@ impl State {
         let normal = self.normal(&inverse, &ratio);
         let mu = dot(&self.z, &self.s) / k as f64;
         let Some(solver) = Factor::of(normal, &svec(&inverse, self.m), 0.0) else { return false };
-        let predictor = self.direction(&solver.solution(), &vec![0.0; k], &ratio);
+        let predictor = self.direction(&solver.solution(), vec![0.0; k], &ratio);
         let (primal, dual) =
             (self.primal_length(&predictor, 1.0), self.dual_length(&predictor, 1.0));
         let ahead = (0..k)
             .map(|i| (self.z[i] + dual * predictor.z[i]) * (self.s[i] + primal * predictor.s[i]));
         let sigma = (ahead.sum::<f64>() / (k as f64 * mu)).max(0.0).powi(3);
         let sigma = if self.feasible { sigma } else { sigma.max(SIGMA_MIN) };
-        let target: Vec<f64> =
-            (0..k).map(|i| sigma * mu - predictor.s[i] * predictor.z[i]).collect();
-        let factors = (0..k).map(|i| target[i] / self.s[i]).collect();
-        let pull = moments(self.m - 1, &self.whitened.blocks, &self.padded(factors));
-        let mut right = svec(&inverse, self.m);
-        right.iter_mut().zip(svec(&pull, self.m)).for_each(|(r, f)| *r -= f);
-        let corrector = self.direction(&solver.back(solver.forward(&right)), &target, &ratio);
-        let primal = self.primal_length(&corrector, STEP_FRACTION);
-        let dual = self.dual_length(&corrector, STEP_FRACTION);
+        let aim = sigma * mu;
+        let target: Vec<f64> = (0..k).map(|i| aim - predictor.s[i] * predictor.z[i]).collect();
+        let first = self.corrected(&solver, &inverse, target, &ratio);
+        let Step { direction, primal, dual } =
+            self.centered(first, aim, |target| self.corrected(&solver, &inverse, target, &ratio));
         if !(primal > 1e-10 && dual > 1e-10) {
             return false;
         }
-        self.matrix.iter_mut().zip(&corrector.matrix).for_each(|(m, d)| *m += primal * d);
-        self.s.iter_mut().zip(&corrector.s).for_each(|(s, d)| *s += primal * d);
-        self.z.iter_mut().zip(&corrector.z).for_each(|(z, d)| *z += dual * d);
+        self.matrix.iter_mut().zip(&direction.matrix).for_each(|(m, d)| *m += primal * d);
+        self.s.iter_mut().zip(&direction.s).for_each(|(s, d)| *s += primal * d);
+        self.z.iter_mut().zip(&direction.z).for_each(|(z, d)| *z += dual * d);
         self.feasible |= dual == 1.0;
         self.s.iter().chain(&self.z).all(|v| v.is_finite() && *v > 0.0)
     }
@@ -189,29 +200,65 @@ impl State {
         let weights = self.padded(ratio.to_vec());
         self.fourth.fill(&self.whitened.blocks, &weights);
         let fourth = &self.fourth;
-        let pairs: Vec<[usize; 2]> = (0..m).flat_map(|b| (0..=b).map(move |a| [a, b])).collect();
-        let root = |[a, b]: [usize; 2]| if a == b { 1.0 } else { std::f64::consts::SQRT_2 };
-        let v = |i: usize, j: usize| inverse[i * m + j];
+        let pairs: Vec<[usize; 2]> = (0..m).flat_map(|a| (a..m).map(move |b| [a, b])).collect();
         let mut normal = vec![0.0; p * p];
         normal.par_chunks_mut(TILE_ROWS * p).enumerate().for_each(|(tile, rows)| {
-            for (i, row) in (tile * TILE_ROWS..).zip(rows.chunks_exact_mut(p)) {
-                let [a, b] = pairs[i];
-                for (entry, &[c, d]) in row.iter_mut().zip(&pairs).skip(i) {
-                    let kronecker = 0.5 * (v(a, c) * v(b, d) + v(a, d) * v(b, c));
-                    let sum = fourth.of([a, b], [c, d]) + kronecker;
-                    *entry = root([a, b]) * root([c, d]) * sum;
-                }
+            let places = tile * TILE_ROWS..;
+            for ((place, row), &[a, b]) in
+                places.clone().zip(rows.chunks_exact_mut(p)).zip(&pairs[places.start..])
+            {
+                fill_row(&mut row[place..], m, [a, b], inverse, fourth);
             }
         });
         normal
     }
 
+    /// The step to the products zs wanted.
+    fn corrected(&self, solver: &Factor, inverse: &[f64], target: Vec<f64>, ratio: &[f64]) -> Step {
+        let factors = target.iter().zip(&self.s).map(|(target, s)| target / s).collect();
+        let pull = moments(self.m - 1, &self.whitened.blocks, &self.padded(factors));
+        let mut right = svec(inverse, self.m);
+        right.iter_mut().zip(svec(&pull, self.m)).for_each(|(r, f)| *r -= f);
+        let solution = solver.back(solver.forward(&right));
+        let direction = self.direction(&solution, target, ratio);
+        let primal = self.primal_length(&direction, STEP_FRACTION);
+        let dual = self.dual_length(&direction, STEP_FRACTION);
+        Step { direction, primal, dual }
+    }
+
+    /// The last of a few steps, each longer than the one before: where a step as long as is hoped for would leave a product zs far from
+    /// `aim`, more or less is asked of it.
+    fn centered(&self, mut step: Step, aim: f64, corrected: impl Fn(Vec<f64>) -> Step) -> Step {
+        for _ in 0..CENTERINGS_MAX {
+            let Step { direction, primal, dual } = &step;
+            // Both are 1 at most.
+            if primal + dual + LENGTH_GAIN_MIN > 2.0 {
+                break;
+            }
+            let hope = |length: f64| (length + LENGTH_HOPED).min(1.0);
+            let (primal_hoped, dual_hoped) = (hope(*primal), hope(*dual));
+            let centered = |(i, target): (usize, &f64)| {
+                let s = self.s[i] + primal_hoped * direction.s[i];
+                let z = self.z[i] + dual_hoped * direction.z[i];
+                // Not `clamp`, which panics where the aim has become no number.
+                let wanted = (s * z).max(PRODUCT_RATIO_MIN * aim).min(aim / PRODUCT_RATIO_MIN);
+                target + (wanted - s * z).max(-aim / PRODUCT_RATIO_MIN)
+            };
+            let next = corrected(direction.target.iter().enumerate().map(centered).collect());
+            if next.primal + next.dual < primal + dual + LENGTH_GAIN_MIN {
+                break;
+            }
+            step = next;
+        }
+        step
+    }
+
     /// Δs and Δz that belong to ΔM and the products zs wanted.
-    fn direction(&self, matrix: &[f64], target: &[f64], ratio: &[f64]) -> Direction {
+    fn direction(&self, matrix: &[f64], target: Vec<f64>, ratio: &[f64]) -> Direction {
         let forms = self.whitened.forms(&smat(matrix, self.m));
         let s: Vec<f64> = forms.into_iter().map(|form| -form).collect();
         let z = (0..s.len()).map(|i| target[i] / self.s[i] - self.z[i] - ratio[i] * s[i]).collect();
-        Direction { matrix: matrix.to_vec(), s, z }
+        Direction { matrix: matrix.to_vec(), s, z, target }
     }
 
     /// Returns how far M and s can go, at most 1, and `fraction` of the way to their border.
@@ -237,6 +284,15 @@ struct Direction {
     matrix: Vec<f64>,
     s: Vec<f64>,
     z: Vec<f64>,
+    /// The products zs wanted, less those that are there.
+    target: Vec<f64>,
+}
+
+/// A direction, and how far M and s go along it, and z.
+struct Step {
+    direction: Direction,
+    primal: f64,
+    dual: f64,
 }
 
 /// The largest step ≤ 1 that goes at most `fraction` of the way to where a value becomes 0.
@@ -245,12 +301,45 @@ fn longest(values: &[f64], direction: &[f64], fraction: f64) -> f64 {
     values.iter().zip(direction).map(bound).fold(1.0, f64::min)
 }
 
-/// The lower triangle by rows, beside the diagonal times √2, of a symmetric matrix.
+/// Row (a, b) of the normal matrix from its diagonal entry on.
+fn fill_row(
+    row: &mut [f64],
+    m: usize,
+    [a, b]: [usize; 2],
+    inverse: &[f64],
+    fourth: &FourthMoments,
+) {
+    let root = if a == b { 1.0 } else { SQRT_2 };
+    let of_a = &inverse[a * m..(a + 1) * m];
+    let of_b = &inverse[b * m..(b + 1) * m];
+    let mut rest = row;
+    for c in a..m {
+        let first = if c == a { b } else { c };
+        let (entries, later) = std::mem::take(&mut rest).split_at_mut(m - first);
+        rest = later;
+        // The moments of a, b, c, d in order: d ≤ b first, then the others, which are side by side.
+        let between = b.saturating_sub(first);
+        for (entry, d) in entries[..between].iter_mut().zip(first..) {
+            *entry = fourth.of([a, c, d])[b - d];
+        }
+        let others = if c <= b { [a, c, b] } else { [a, b, c] };
+        entries[between..].copy_from_slice(fourth.of(others));
+        let (ac, bc) = (0.5 * of_a[c], 0.5 * of_b[c]);
+        for ((entry, ad), bd) in entries.iter_mut().zip(&of_a[first..]).zip(&of_b[first..]) {
+            *entry = SQRT_2 * root * (*entry + (ac * bd + ad * bc));
+        }
+        if first == c {
+            entries[0] *= FRAC_1_SQRT_2;
+        }
+    }
+}
+
+/// The upper triangle by rows, beside the diagonal times √2, of a symmetric matrix whose lower triangle is read.
 fn svec(matrix: &[f64], m: usize) -> Vec<f64> {
     let mut vector = Vec::with_capacity(m * (m + 1) / 2);
     for a in 0..m {
-        vector.extend((0..a).map(|b| matrix[a * m + b] * std::f64::consts::SQRT_2));
         vector.push(matrix[a * m + a]);
+        vector.extend((a + 1..m).map(|b| matrix[b * m + a] * SQRT_2));
     }
     vector
 }
@@ -260,8 +349,8 @@ fn smat(vector: &[f64], m: usize) -> Vec<f64> {
     let mut matrix = vec![0.0; m * m];
     let mut entries = vector.iter();
     for a in 0..m {
-        for (b, &entry) in entries.by_ref().take(a + 1).enumerate() {
-            let value = if a == b { entry } else { entry / std::f64::consts::SQRT_2 };
+        for (b, &entry) in (a..m).zip(entries.by_ref()) {
+            let value = if a == b { entry } else { entry / SQRT_2 };
             (matrix[a * m + b], matrix[b * m + a]) = (value, value);
         }
     }

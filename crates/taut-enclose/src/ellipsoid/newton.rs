@@ -84,7 +84,8 @@ pub(super) fn solve(
     if full {
         let outside = gap(dim, whitener.apply(set).largest());
         full = outside < START_GAP_MAX;
-        if full && outside > tolerance.hard {
+        let nearest = gap(dim, dim as f64 * (1.0 + interior::EXCESS_MIN));
+        if full && outside > tolerance.hard.max(nearest) {
             interior::solve(set, whitener, interior_tolerance, counters, monitor)?;
         }
     }
