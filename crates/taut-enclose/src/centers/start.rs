@@ -42,9 +42,15 @@ pub(super) fn start<P: Position>(
 ) -> Result<Start<P>, Error> {
     let count = (2 * k).saturating_add(z).saturating_add(cloud.items.dim());
     let (far, near) = extremes(cloud);
-    let from = |first: u32| -> Result<Start<P>, Error> {
+    let first = cloud.traverse(far, count, monitor)?.items;
+    let others = std::iter::once(near).chain(first.iter().copied().skip(1).take(2));
+    let firsts: Vec<u32> = std::iter::once(far).chain(others).collect();
+    let from = |&item: &u32| -> Result<Start<P>, Error> {
         monitor.check().map_err(ReadError::from)?;
-        let traversal = cloud.traverse(first, count, monitor)?.items;
+        let traversal = match item == far {
+            true => first.clone(),
+            false => cloud.traverse(item, count, monitor)?.items,
+        };
         let plain = heaviest(cloud, &traversal, k, z);
         let incumbent = improve(cloud, plain.clone(), k, z, monitor)?;
         let separated: Vec<u32> =
@@ -53,12 +59,9 @@ pub(super) fn start<P: Position>(
         let lower = least_pair_radius(cloud, &separated, monitor)?;
         Ok(Start { incumbent, plain, lower, separated, traversal })
     };
-    let mut best = from(far)?;
-    let others: Vec<u32> =
-        std::iter::once(near).chain(best.traversal.iter().copied().skip(1).take(2)).collect();
-    let others: Vec<Start<P>> =
-        others.par_iter().map(|&first| from(first)).collect::<Result<_, Error>>()?;
-    for other in others {
+    let mut starts = firsts.par_iter().map(from).collect::<Result<Vec<_>, Error>>()?.into_iter();
+    let mut best = starts.next().expect("one of the first item");
+    for other in starts {
         if other.incumbent.radius < best.incumbent.radius {
             best.incumbent = other.incumbent;
         }
