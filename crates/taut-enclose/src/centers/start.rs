@@ -42,13 +42,13 @@ pub(super) fn start<P: Position>(
 ) -> Result<Start<P>, Error> {
     let count = (2 * k).saturating_add(z).saturating_add(cloud.items.dim());
     let (far, near) = extremes(cloud);
-    let first = cloud.traverse(far, count, monitor)?.items;
-    let others = std::iter::once(near).chain(first.iter().copied().skip(1).take(2));
-    let firsts: Vec<u32> = std::iter::once(far).chain(others).collect();
+    let traversal_of_far = cloud.traverse(far, count, monitor)?.items;
+    let others = std::iter::once(near).chain(traversal_of_far.iter().copied().skip(1).take(2));
+    let first_items: Vec<u32> = std::iter::once(far).chain(others).collect();
     let from = |&item: &u32| -> Result<Start<P>, Error> {
         monitor.check().map_err(ReadError::from)?;
         let traversal = match item == far {
-            true => first.clone(),
+            true => traversal_of_far.clone(),
             false => cloud.traverse(item, count, monitor)?.items,
         };
         let plain = heaviest(cloud, &traversal, k, z);
@@ -59,8 +59,9 @@ pub(super) fn start<P: Position>(
         let lower = least_pair_radius(cloud, &separated, monitor)?;
         Ok(Start { incumbent, plain, lower, separated, traversal })
     };
-    let mut starts = firsts.par_iter().map(from).collect::<Result<Vec<_>, Error>>()?.into_iter();
-    let mut best = starts.next().expect("one of the first item");
+    let mut starts =
+        first_items.par_iter().map(from).collect::<Result<Vec<_>, Error>>()?.into_iter();
+    let mut best = starts.next().expect("there are four");
     for other in starts {
         if other.incumbent.radius < best.incumbent.radius {
             best.incumbent = other.incumbent;

@@ -5,12 +5,14 @@
 //! *Idea.* Symmetric M ≻ 0, slacks sᵢ = 1 − wᵢ′Mwᵢ and multipliers zᵢ follow the path M⁻¹ = Σ zᵢwᵢwᵢ′, zᵢsᵢ = μ → 0.
 //! With F the rows svec(wᵢwᵢ′), beside the diagonal times √2, a Newton step is (K + F′ diag(z/s) F) ΔM = svec(M⁻¹) −
 //! F′(g/s), K the symmetric Kronecker square of M⁻¹: p unknowns however many points. Predictor and corrector after
-//! Mehrotra, g = 0 and then g = σμ − Δs·Δz, and up to two centerings after Gondzio. F is never made: its products are forms and moments of the points ([`FourthMoments`]).
+//! Mehrotra, g = 0 and then g = σμ − Δs·Δz, and up to two of Gondzio's centrality correctors. F is never held whole: its products are forms
+//! and moments of the points ([`FourthMoments`]).
 //! The start is the ellipsoid of the round before, a little larger: from there it takes five steps, from one at a gap of 1 it takes ten.
 //! *Guarantee.* The best multipliers met after a step are handed back.
 //! *Trap.* It puts multipliers on all points, and accuracy ends at a gap of 1e-11 to 1e-13: the active set finishes, from the p − 1
 //! largest.
-//! *Reference.* Mehrotra, SIAM J. Optim. 2(4), 1992; Gondzio, Computational Optimization and Applications 6, 1996; for this problem Sun and Freund, Operations Research 52(5), 2004.
+//! *Reference.* Mehrotra, SIAM J. Optim. 2(4), 1992; Gondzio, Computational Optimization and Applications 6, 1996; for this problem Sun and
+//! Freund, Operations Research 52(5), 2004.
 
 use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
 
@@ -41,22 +43,22 @@ const STEP_FRACTION: f64 = 0.98;
 const START_SLACK: f64 = 3.0;
 /// The least slack of a start where all points are inside: rounding of slacks is to be far below it.
 const START_SLACK_MIN: f64 = 1e-11;
-/// The relative excess of a leverage below which the slack of a start is far larger, so that a start goes back before it gets ahead: such
-/// sets are left to the active set.
-pub(super) const EXCESS_MIN: f64 = START_SLACK_MIN / START_SLACK;
-/// The largest: where points are farther outside, the multipliers tell little of the optimum.
+/// The largest slack of a start: where points are farther outside, the multipliers tell little of the optimum.
 const START_SLACK_MAX: f64 = 0.1;
 /// Until a whole step has been made, μ falls by no more than this: M would follow a path of multipliers that are none yet, and each
 /// step becomes shorter. With 0.1 and with 0.5 the worst of a hundred starts took twice as many steps.
 const SIGMA_MIN: f64 = 0.3;
-/// A step is centered at most this often. Two make steps fewer by a quarter, of shells of thickness 1e-8 and 1e-4; three and four no fewer
-/// than two. Each costs about a twentieth of a step, of 1500 points in thirty dimensions.
-const CENTERINGS_MAX: usize = 2;
-/// By centering, a step is hoped to become longer by this much. 0.15 to 0.5 serve equally well.
+/// Centrality correctors of a step, at most. On shells of 10⁴ points in thirty dimensions (example `ellipsoids`) one or two save a quarter to
+/// a third of the steps for thickness 1e-8 and 12 to 18 % of them for 1e-4; three and four save no more.
+const CORRECTORS_MAX: usize = 2;
+/// Gondzio's δ: a corrector is to make lengths longer by this much. On the same shells 0.15 and 0.5 take as many steps.
 const LENGTH_HOPED: f64 = 0.3;
-/// By at least this much, as the sum of both lengths, or the step before is taken.
+/// Gondzio's γδ: a corrector counts if the sum of both lengths gains this much. He asks it of each.
 const LENGTH_GAIN_MIN: f64 = 0.03;
-/// The products zs of a centered step are to be at least this part of their aim, and at most so many times as large. 0.03 to 0.3 serve equally well.
+/// The part of a length that a corrector must leave, where it makes the other one longer.
+const LENGTH_KEPT_MIN: f64 = 0.9;
+/// Gondzio's β_min: products after a corrector should lie between this times their aim and their aim over this. On the same shells 0.03 and
+/// 0.3 take as many steps.
 const PRODUCT_RATIO_MIN: f64 = 0.1;
 /// One task makes this many rows of the normal matrix.
 const TILE_ROWS: usize = 16;
@@ -123,6 +125,16 @@ pub(super) fn largest_first(weights: &[f64]) -> Vec<usize> {
     order
 }
 
+/// The least slack of a start from an ellipsoid in which |y|² is at most `largest`, before it is bounded.
+fn start_slack(m: usize, largest: f64) -> f64 {
+    START_SLACK * ((1.0 + largest) / m as f64 - 1.0)
+}
+
+/// Tests whether a start would come nearer: where its slack would be less than [`START_SLACK_MIN`] it would be worse than the multipliers at hand.
+pub(super) fn can_start(dim: usize, largest: f64) -> bool {
+    start_slack(dim + 1, largest) > START_SLACK_MIN
+}
+
 struct State {
     m: usize,
     p: usize,
@@ -145,8 +157,7 @@ impl State {
         let p = m * (m + 1) / 2;
         let whitened = whitener.apply(set);
         let largest = 1.0 + whitened.largest();
-        let slack =
-            (START_SLACK * (largest / m as f64 - 1.0)).clamp(START_SLACK_MIN, START_SLACK_MAX);
+        let slack = start_slack(m, whitened.largest()).clamp(START_SLACK_MIN, START_SLACK_MAX);
         let start = 1.0 / ((1.0 + slack) * largest);
         let mut identity = vec![0.0; m * m];
         (0..m).for_each(|a| identity[a * m + a] = start);
@@ -180,10 +191,9 @@ impl State {
         let sigma = (ahead.sum::<f64>() / (k as f64 * mu)).max(0.0).powi(3);
         let sigma = if self.feasible { sigma } else { sigma.max(SIGMA_MIN) };
         let aim = sigma * mu;
-        let target: Vec<f64> = (0..k).map(|i| aim - predictor.s[i] * predictor.z[i]).collect();
-        let first = self.corrected(&solver, &inverse, target, &ratio);
-        let Step { direction, primal, dual } =
-            self.centered(first, aim, |target| self.corrected(&solver, &inverse, target, &ratio));
+        let g: Vec<f64> = (0..k).map(|i| aim - predictor.s[i] * predictor.z[i]).collect();
+        let corrected = |g| self.corrected(&solver, &inverse, g, &ratio);
+        let Step { direction, primal, dual } = self.centered(corrected(g), aim, corrected);
         if !(primal > 1e-10 && dual > 1e-10) {
             return false;
         }
@@ -203,33 +213,30 @@ impl State {
         let pairs: Vec<[usize; 2]> = (0..m).flat_map(|a| (a..m).map(move |b| [a, b])).collect();
         let mut normal = vec![0.0; p * p];
         normal.par_chunks_mut(TILE_ROWS * p).enumerate().for_each(|(tile, rows)| {
-            let places = tile * TILE_ROWS..;
-            for ((place, row), &[a, b]) in
-                places.clone().zip(rows.chunks_exact_mut(p)).zip(&pairs[places.start..])
-            {
-                fill_row(&mut row[place..], m, [a, b], inverse, fourth);
+            for (i, row) in (tile * TILE_ROWS..).zip(rows.chunks_exact_mut(p)) {
+                fill_row(&mut row[i..], m, pairs[i], inverse, fourth);
             }
         });
         normal
     }
 
-    /// The step to the products zs wanted.
-    fn corrected(&self, solver: &Factor, inverse: &[f64], target: Vec<f64>, ratio: &[f64]) -> Step {
-        let factors = target.iter().zip(&self.s).map(|(target, s)| target / s).collect();
+    /// The step of one right-hand side.
+    fn corrected(&self, solver: &Factor, inverse: &[f64], g: Vec<f64>, ratio: &[f64]) -> Step {
+        let factors = g.iter().zip(&self.s).map(|(g, s)| g / s).collect();
         let pull = moments(self.m - 1, &self.whitened.blocks, &self.padded(factors));
         let mut right = svec(inverse, self.m);
         right.iter_mut().zip(svec(&pull, self.m)).for_each(|(r, f)| *r -= f);
         let solution = solver.back(solver.forward(&right));
-        let direction = self.direction(&solution, target, ratio);
+        let direction = self.direction(&solution, g, ratio);
         let primal = self.primal_length(&direction, STEP_FRACTION);
         let dual = self.dual_length(&direction, STEP_FRACTION);
         Step { direction, primal, dual }
     }
 
-    /// The last of a few steps, each longer than the one before: where a step as long as is hoped for would leave a product zs far from
-    /// `aim`, more or less is asked of it.
+    /// A step after a few centrality correctors: where a step as long as is hoped for would leave a product zs far from `aim`, its g asks
+    /// for more or for less.
     fn centered(&self, mut step: Step, aim: f64, corrected: impl Fn(Vec<f64>) -> Step) -> Step {
-        for _ in 0..CENTERINGS_MAX {
+        for _ in 0..CORRECTORS_MAX {
             let Step { direction, primal, dual } = &step;
             // Both are 1 at most.
             if primal + dual + LENGTH_GAIN_MIN > 2.0 {
@@ -237,15 +244,20 @@ impl State {
             }
             let hope = |length: f64| (length + LENGTH_HOPED).min(1.0);
             let (primal_hoped, dual_hoped) = (hope(*primal), hope(*dual));
-            let centered = |(i, target): (usize, &f64)| {
+            let centered_g = |(i, g): (usize, &f64)| {
                 let s = self.s[i] + primal_hoped * direction.s[i];
                 let z = self.z[i] + dual_hoped * direction.z[i];
                 // Not `clamp`, which panics where the aim has become no number.
                 let wanted = (s * z).max(PRODUCT_RATIO_MIN * aim).min(aim / PRODUCT_RATIO_MIN);
-                target + (wanted - s * z).max(-aim / PRODUCT_RATIO_MIN)
+                g + (wanted - s * z).max(-aim / PRODUCT_RATIO_MIN)
             };
-            let next = corrected(direction.target.iter().enumerate().map(centered).collect());
-            if next.primal + next.dual < primal + dual + LENGTH_GAIN_MIN {
+            let next = corrected(direction.g.iter().enumerate().map(centered_g).collect());
+            let is_longer = next.primal + next.dual >= primal + dual + LENGTH_GAIN_MIN;
+            let is_kept =
+                next.primal >= LENGTH_KEPT_MIN * primal && next.dual >= LENGTH_KEPT_MIN * dual;
+            // A first whole step of the multipliers makes them feasible.
+            let is_first_whole = !self.feasible && *dual == 1.0;
+            if !is_longer || !is_kept || is_first_whole && next.dual < 1.0 {
                 break;
             }
             step = next;
@@ -253,12 +265,12 @@ impl State {
         step
     }
 
-    /// Δs and Δz that belong to ΔM and the products zs wanted.
-    fn direction(&self, matrix: &[f64], target: Vec<f64>, ratio: &[f64]) -> Direction {
+    /// Δs and Δz that belong to ΔM and g.
+    fn direction(&self, matrix: &[f64], g: Vec<f64>, ratio: &[f64]) -> Direction {
         let forms = self.whitened.forms(&smat(matrix, self.m));
         let s: Vec<f64> = forms.into_iter().map(|form| -form).collect();
-        let z = (0..s.len()).map(|i| target[i] / self.s[i] - self.z[i] - ratio[i] * s[i]).collect();
-        Direction { matrix: matrix.to_vec(), s, z, target }
+        let z = (0..s.len()).map(|i| g[i] / self.s[i] - self.z[i] - ratio[i] * s[i]).collect();
+        Direction { matrix: matrix.to_vec(), s, z, g }
     }
 
     /// Returns how far M and s can go, at most 1, and `fraction` of the way to their border.
@@ -284,8 +296,8 @@ struct Direction {
     matrix: Vec<f64>,
     s: Vec<f64>,
     z: Vec<f64>,
-    /// The products zs wanted, less those that are there.
-    target: Vec<f64>,
+    /// The right-hand side: sᵢΔzᵢ + zᵢΔsᵢ = gᵢ − sᵢzᵢ.
+    g: Vec<f64>,
 }
 
 /// A direction, and how far M and s go along it, and z.
@@ -317,7 +329,7 @@ fn fill_row(
         let first = if c == a { b } else { c };
         let (entries, later) = std::mem::take(&mut rest).split_at_mut(m - first);
         rest = later;
-        // The moments of a, b, c, d in order: d ≤ b first, then the others, which are side by side.
+        // In order a, b, c, d are a, c, d, b for d < b, one by one, and from d = b on side by side.
         let between = b.saturating_sub(first);
         for (entry, d) in entries[..between].iter_mut().zip(first..) {
             *entry = fourth.of([a, c, d])[b - d];
@@ -328,6 +340,7 @@ fn fill_row(
         for ((entry, ad), bd) in entries.iter_mut().zip(&of_a[first..]).zip(&of_b[first..]) {
             *entry = SQRT_2 * root * (*entry + (ac * bd + ad * bc));
         }
+        // The entry of c = d has no √2.
         if first == c {
             entries[0] *= FRAC_1_SQRT_2;
         }
@@ -428,21 +441,20 @@ mod tests {
         assert!(steps[1] + 2 <= steps[0] && steps[1] <= 7, "{steps:?}");
     }
 
-    /// K + F′ diag(r) F from the rows svec(ww′) of F and the columns of K: of a symmetric X that is svec(½(V₁XV₂′ + V₂XV₁′)), V₁ = V₂ = M⁻¹.
+    /// From the rows svec(ww′) of F and K svec(X) = svec(M⁻¹XM⁻¹).
     #[test]
     fn the_normal_matrix_is_that_of_the_definition() {
         for (n, dim) in [(40, 1), (90, 4), (200, 9)] {
             let rows: Vec<f64> = generate(Distribution::Normal, n, dim, 3).unwrap();
-            let mut set = WorkingSet::new(dim);
-            for (i, row) in rows.chunks_exact(dim).enumerate() {
-                set.push(i as u64, row, 1.0 / n as f64);
-            }
+            let set = WorkingSet::of_rows(dim, (0..n as u64).collect(), &rows);
             let mut whitener = Whitener::of_scales(&vec![1.0; dim]);
             assert_eq!(whitener.rebase(&set, REBASE_TOLERANCE), Rebased::Plainly);
             let mut state = State::new(&set, &whitener);
             let (m, p) = (state.m, state.p);
             let ratio: Vec<f64> = (0..n).map(|i| 0.5 + (i % 7) as f64).collect();
-            let entry = |i: usize, j: usize| if i == j { 2.0 + i as f64 } else { 0.1 };
+            let entry = |i: usize, j: usize| {
+                if i == j { 2.0 + i as f64 } else { 0.1 / (1.0 + (i * j) as f64) }
+            };
             let inverse: Vec<f64> = (0..m * m).map(|at| entry(at / m, at % m)).collect();
             let normal = state.normal(&inverse, &ratio);
             let product = |x: &[f64], y: &[f64]| -> Vec<f64> {
@@ -477,23 +489,54 @@ mod tests {
         }
     }
 
-    /// Steps to where the products are centered are longer: without it this takes 15 steps and not 12.
+    /// A thin shell after so many points of it, with equal multipliers, and its whitener.
+    fn shell(thickness: f64, n: usize, dim: usize) -> (WorkingSet, Whitener) {
+        let rows: Vec<f64> = generate(Distribution::Shell { thickness }, n, dim, 4).unwrap();
+        let set = WorkingSet::of_rows(dim, (0..n as u64).collect(), &rows);
+        let mut whitener = Whitener::of_scales(&vec![1.0; dim]);
+        assert_eq!(whitener.rebase(&set, REBASE_TOLERANCE), Rebased::Plainly);
+        (set, whitener)
+    }
+
+    /// Without centrality correctors this takes 15 steps, with them 12.
     #[test]
     fn centered_steps_are_few() {
-        let (n, dim) = (600, 8);
-        let shell = Distribution::Shell { thickness: 1e-5 };
-        let rows: Vec<f64> = generate(shell, n, dim, 4).unwrap();
-        let mut set = WorkingSet::new(dim);
-        for (i, row) in rows.chunks_exact(dim).enumerate() {
-            set.push(i as u64, row, 1.0 / n as f64);
-        }
-        let mut whitener = Whitener::of_scales(&[1.0; 8]);
+        let (mut set, mut whitener) = shell(1e-5, 600, 8);
         let mut counters = Counters::default();
-        assert_eq!(whitener.rebase(&set, REBASE_TOLERANCE), Rebased::Plainly);
         solve(&mut set, &whitener, 1e-10, &mut counters, &Monitor::silent()).unwrap();
         whitener.rebase(&set, REBASE_TOLERANCE);
-        assert!(gap(dim, whitener.apply(&set).largest()) <= 1.1e-10);
+        assert!(gap(8, whitener.apply(&set).largest()) <= 1.1e-10);
         assert!(counters.interior <= 13, "{}", counters.interior);
+    }
+
+    /// Correctors that gain are taken, others are not, and neither is one that asks for no number.
+    #[test]
+    fn a_centered_step_is_no_shorter() {
+        let (set, whitener) = shell(1e-5, 60, 3);
+        let mut state = State::new(&set, &whitener);
+        let step = |primal: f64, dual: f64| {
+            let zeros = vec![0.0; set.len()];
+            let direction =
+                Direction { matrix: vec![], s: zeros.clone(), z: zeros.clone(), g: zeros };
+            Step { direction, primal, dual }
+        };
+        for is_feasible in [false, true] {
+            state.feasible = is_feasible;
+            let lengths = |first: (f64, f64), next: (f64, f64)| {
+                let found = state.centered(step(first.0, first.1), 1e-9, |_| step(next.0, next.1));
+                (found.primal, found.dual)
+            };
+            assert_eq!(lengths((0.5, 0.5), (0.7, 0.6)), (0.7, 0.6));
+            assert_eq!(lengths((0.5, 0.5), (0.5, 0.51)), (0.5, 0.5));
+            assert_eq!(lengths((0.5, 0.5), (0.1, 1.0)), (0.5, 0.5));
+            assert_eq!(lengths((0.5, 0.5), (f64::NAN, 1.0)), (0.5, 0.5));
+            let whole = if is_feasible { (0.9, 0.95) } else { (0.5, 1.0) };
+            assert_eq!(lengths((0.5, 1.0), (0.9, 0.95)), whole);
+        }
+        state.centered(step(0.1, 0.1), f64::NAN, |g| {
+            assert_eq!(g.len(), 60);
+            step(0.0, 0.0)
+        });
     }
 
     #[test]

@@ -81,12 +81,16 @@ pub(super) fn solve(
     let interior_tolerance = INTERIOR_RATIO * tolerance.hard;
     // True while the multipliers are those of the interior-point method, on all points.
     let mut full = interior_steps > 0 && !interior::is_basis(set);
+    let mut is_too_near = false;
     if full {
-        let outside = gap(dim, whitener.apply(set).largest());
+        let largest = whitener.apply(set).largest();
+        let outside = gap(dim, largest);
         full = outside < START_GAP_MAX;
-        let nearest = gap(dim, dim as f64 * (1.0 + interior::EXCESS_MIN));
-        if full && outside > tolerance.hard.max(nearest) {
-            interior::solve(set, whitener, interior_tolerance, counters, monitor)?;
+        if full && outside > tolerance.hard {
+            is_too_near = !interior::can_start(dim, largest);
+            if !is_too_near {
+                interior::solve(set, whitener, interior_tolerance, counters, monitor)?;
+            }
         }
     }
     for _ in 0..STEPS_MAX {
@@ -100,7 +104,7 @@ pub(super) fn solve(
             best = Some((largest, set.weights().to_vec()));
         }
         let best_gap = best.as_ref().map_or(f64::INFINITY, |(largest, _)| gap(dim, *largest));
-        let tried = counters.interior > interior_steps;
+        let tried = is_too_near || counters.interior > interior_steps;
         let enough = if full || tried { tolerance.hard } else { tolerance.easy };
         if full && (tolerance.basis || best_gap > enough) {
             interior::keep_basis(set);
@@ -175,6 +179,8 @@ fn length(matrix: &[f64], m: usize) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use taut_points::{Distribution, generate};
+
     use super::*;
 
     fn solved(rows: &[f64], dim: usize) -> (WorkingSet, f64) {
@@ -205,6 +211,26 @@ mod tests {
         assert!(gap(1, largest) <= 1e-13);
         assert!(set.weights()[..2].iter().all(|u| (u - 0.5).abs() < 1e-15));
         assert_eq!(set.weights()[2..], [0.0, 0.0]);
+    }
+
+    /// Where a start of the interior-point method would go back, the active set comes nearer by itself.
+    #[test]
+    fn a_set_that_is_nearly_solved_is_left_to_the_active_set() {
+        let (n, dim) = (300, 5);
+        let shell = Distribution::Shell { thickness: 1e-8 };
+        let rows: Vec<f64> = generate(shell, n, dim, 6).unwrap();
+        let mut set = WorkingSet::of_rows(dim, (0..n as u64).collect(), &rows);
+        let mut whitener = Whitener::of_scales(&vec![1.0; dim]);
+        let (mut counters, monitor) = (Counters::default(), Monitor::silent());
+        assert_eq!(whitener.rebase(&set, REBASE_TOLERANCE), Rebased::Plainly);
+        interior::solve(&mut set, &whitener, 1e-12, &mut counters, &monitor).unwrap();
+        whitener.rebase(&set, REBASE_TOLERANCE);
+        let (before, steps) = (whitener.apply(&set).largest(), counters.interior);
+        assert!(!interior::can_start(dim, before) && !interior::is_basis(&set));
+        let tolerance = Tolerance { easy: 0.0, hard: 0.5 * gap(dim, before), basis: true };
+        let largest = solve(&mut set, &mut whitener, tolerance, &mut counters, &monitor).unwrap();
+        assert_eq!(counters.interior, steps);
+        assert!(largest <= before && counters.steps > 0, "{largest} {before}");
     }
 
     #[test]
