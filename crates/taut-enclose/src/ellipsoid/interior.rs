@@ -49,7 +49,7 @@ const START_SLACK_MAX: f64 = 0.1;
 /// step becomes shorter. With 0.1 and with 0.5 the worst of a hundred starts took twice as many steps.
 const SIGMA_MIN: f64 = 0.3;
 /// Centrality correctors of a step, at most. On shells of 10⁴ points in thirty dimensions (example `ellipsoids`) one or two save a quarter to
-/// a third of the steps for thickness 1e-8 and 12 to 18 % of them for 1e-4; three and four save no more.
+/// a third of the steps for thickness 1e-8 and 10 to 14 % of them for 1e-4; three and four as many for 1e-8 and 16 to 20 % for 1e-4.
 const CORRECTORS_MAX: usize = 2;
 /// Gondzio's δ: a corrector is to make lengths longer by this much. On the same shells 0.15 and 0.5 take as many steps.
 const LENGTH_HOPED: f64 = 0.3;
