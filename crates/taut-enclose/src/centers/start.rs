@@ -61,7 +61,7 @@ pub(super) fn start<P: Position>(
     };
     let mut starts =
         first_items.par_iter().map(from).collect::<Result<Vec<_>, Error>>()?.into_iter();
-    let mut best = starts.next().expect("there are four");
+    let mut best = starts.next().expect("that of the farthest item");
     for other in starts {
         if other.incumbent.radius < best.incumbent.radius {
             best.incumbent = other.incumbent;

@@ -98,6 +98,7 @@ impl FourthMoments {
         }
     }
 
+    /// Copies blocks of so many points to `coordinates`.
     fn put_coordinates(&mut self, blocks: &[f64], count: usize) {
         let dim = self.m - 1;
         // The last one is 1.

@@ -81,6 +81,7 @@ pub(super) fn solve(
     let interior_tolerance = INTERIOR_RATIO * tolerance.hard;
     // True while the multipliers are those of the interior-point method, on all points.
     let mut full = interior_steps > 0 && !interior::is_basis(set);
+    // True where these are so good that a start of that method would go back.
     let mut is_too_near = false;
     if full {
         let largest = whitener.apply(set).largest();
