@@ -48,6 +48,12 @@ const HARD_SPARE: usize = 1;
 /// excepted.
 const SMALL_SHARE: f64 = 1e-2;
 
+/// Where at most this many points join a working set of the interior-point method, the next round is probably the last, and goes to the
+/// wanted gap at once: that spares a pass, and exchanges between its multipliers and those of few points. Of shells of 10⁴ points in
+/// thirty dimensions, rounds that always stop early take up to 1.8 times as long for single seeds, in the mean 1.19, 1.06, 1.02 and 1.05
+/// times for thickness 1e-8, 1e-4, 1e-6 and 1e-10; in twenty dimensions 0.93 times. 8 points serve nearly as well.
+const LAST_JOINING_MAX: usize = 16;
+
 /// This many passes without a better gap show that rounding is in the way, of gaps below [`SMALL_GAP`].
 const STALE_PASSES_MAX: u32 = 3;
 /// Below this gap, rounding may be what keeps passes from improving it.
@@ -199,6 +205,8 @@ pub(super) fn solve(
             (1e-2 * reached).max(0.6 * wanted)
         };
         let basis = hard <= 0.6 * wanted;
+        let is_last = counters.interior > 0 && added <= LAST_JOINING_MAX;
+        let hard = if is_last { 0.6 * wanted } else { hard };
         tolerance = match added {
             0 if tolerance.easy.max(tolerance.hard) <= 0.6 * wanted => Tolerance::NONE,
             0 => Tolerance { easy: 0.6 * wanted, hard: 0.6 * wanted, basis: true },
@@ -382,4 +390,28 @@ fn jump(set: &mut WorkingSet, added: usize) {
         *u = if i + added < k { *u / 2.0 } else { 0.5 / added as f64 };
     }
     set.normalize();
+}
+
+#[cfg(test)]
+mod tests {
+    use taut_points::{Distribution, Points, generate};
+
+    use crate::{EllipsoidOptions, ellipsoid};
+
+    /// Without a round that goes all the way once few points join, these take 27 passes.
+    #[test]
+    fn hard_working_sets_spare_a_pass_at_the_end() {
+        let options = EllipsoidOptions { epsilon: 1e-12, ..Default::default() };
+        let mut passes = 0;
+        for seed in 1..=3 {
+            let shell = Distribution::Shell { thickness: 1e-8 };
+            let rows: Vec<f64> = generate(shell, 2000, 20, seed).unwrap();
+            let points = Points::new(&rows, 20).unwrap();
+            let found = ellipsoid(&points, &options).unwrap();
+            let verdict = found.check(&points).unwrap();
+            assert!(verdict.gap <= 1e-12, "{}", verdict.gap);
+            passes += found.trace.passes;
+        }
+        assert!(passes <= 24, "{passes}");
+    }
 }
