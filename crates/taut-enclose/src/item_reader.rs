@@ -255,7 +255,7 @@ impl<'a> ItemReader<'a> {
     /// The mean of up to 256 rows at equal distances: an origin near the middle of the points.
     fn sample_mean(&self) -> Result<Center, Error> {
         let count = SAMPLE_ROWS.min(self.len());
-        let rows = self.sample(count)?;
+        let ids = self.sample_ids(count);
         let columns = self.source.dim();
         // Divided first, so that the sum cannot overflow. A power of two, which the count mostly is, divides as its inverse multiplies, to the
         // last bit and in a third of the time.
@@ -263,13 +263,20 @@ impl<'a> ItemReader<'a> {
         let share = |value: f64| {
             if count.is_power_of_two() { value * inverse } else { value / count as f64 }
         };
-        let first = &rows[..self.view.dim];
-        let first_shares: Vec<f64> = first.iter().map(|&value| share(value)).collect();
-        let mut mean = first.to_vec();
-        for row in rows.chunks_exact(columns) {
-            for ((mean, &value), first) in mean.iter_mut().zip(row).zip(&first_shares) {
-                // From the first row on, so that the mean of equal coordinates is that coordinate, to the last bit.
-                *mean += share(value) - first;
+        let (mut mean, mut first_shares) = (vec![], vec![]);
+        // A copy of few rows stays in the cache. From elsewhere they come at once.
+        let rows_at_once = if self.source.in_memory().is_some() { 32 } else { ids.len() };
+        for ids in ids.chunks(rows_at_once) {
+            let rows = self.rows(ids)?;
+            if mean.is_empty() {
+                mean.extend_from_slice(&rows[..self.view.dim]);
+                first_shares.extend(mean.iter().map(|&value| share(value)));
+            }
+            for row in rows.chunks_exact(columns) {
+                for ((mean, &value), first) in mean.iter_mut().zip(row).zip(&first_shares) {
+                    // From the first row on, so that the mean of equal coordinates is that coordinate, to the last bit.
+                    *mean += share(value) - first;
+                }
             }
         }
         Ok(Center { high: mean, low: vec![] })
@@ -277,8 +284,11 @@ impl<'a> ItemReader<'a> {
 
     /// So many rows at equal distances, in the units of this reader.
     pub(crate) fn sample(&self, count: u64) -> Result<Vec<f64>, Error> {
-        let ids: Vec<u64> = (0..count).map(|k| k * (self.len() / count)).collect();
-        self.rows(&ids)
+        self.rows(&self.sample_ids(count))
+    }
+
+    fn sample_ids(&self, count: u64) -> Vec<u64> {
+        (0..count).map(|k| k * (self.len() / count)).collect()
     }
 
     /// A pass for the largest |xⱼ − cⱼ|, and the scale from it; false when all items are one point.

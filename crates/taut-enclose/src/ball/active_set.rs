@@ -16,8 +16,8 @@
 //! *Reference.* Active sets on this dual: Gärtner and Schönherr, SoCG 2000; Fischer, Gärtner and Kutz, ESA 2003, walk
 //! the same path in d dimensions.
 
+use taut_kernels::Center;
 use taut_kernels::vector::{add_combination, add_scaled, dot};
-use taut_kernels::{Center, squared_distances};
 use taut_points::parallel::ParallelSlice;
 use taut_points::{Cancelled, Monitor};
 
@@ -467,11 +467,9 @@ impl ActiveSet {
 
     /// One correction of λ from distances taken in the coordinates: evens them out to the last digits.
     pub(super) fn refine(&mut self, set: &WorkingSet) {
-        let center = set.combination(&self.support, &self.lambda);
-        let rows: Vec<f64> = self.support.iter().flat_map(|&i| set.row(i)).copied().collect();
-        let mut halves = vec![0.0; self.support.len()];
-        let origin_center = Center { high: center, low: vec![] };
-        squared_distances(&rows, set.dim(), &origin_center, &mut halves);
+        let center = Center { high: set.combination(&self.support, &self.lambda), low: vec![] };
+        let mut halves: Vec<f64> =
+            self.support.iter().map(|&i| set.squared_distance(i, &center)).collect();
         for (value, &i) in halves.iter_mut().zip(&self.support) {
             let r = set.radius(i);
             *value = (*value + (2.0 * self.radius - r) * r) / 2.0;

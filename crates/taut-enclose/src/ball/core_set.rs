@@ -23,7 +23,7 @@
 //! (`item_reader::row_bounds`).
 
 use taut_certify::{Items, PassBounds, Stop};
-use taut_kernels::{Center, relative_error, squared_distances};
+use taut_kernels::{Center, relative_error};
 use taut_points::{Cancelled, Monitor, ReadError};
 
 use super::active_set::{ActiveSet, VIOLATION_TOLERANCE};
@@ -238,9 +238,7 @@ pub(super) fn lower_bound(set: &WorkingSet, support: &[usize], lambda: &[f64]) -
         .iter()
         .zip(lambda)
         .map(|(&i, l)| {
-            let mut distance2 = [0.0];
-            squared_distances(set.row(i), set.dim(), &center, &mut distance2);
-            let distance = distance2[0].sqrt();
+            let distance = set.squared_distance(i, &center).sqrt();
             let radius = set.radius(i) - mean;
             l * (distance - radius) * (distance + radius)
         })

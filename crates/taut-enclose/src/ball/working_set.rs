@@ -8,7 +8,7 @@ use std::ops::Range;
 
 use taut_kernels::matrix::{Matrix, MatrixMut, set_product};
 use taut_kernels::vector::{add_combination, add_scaled_exactly};
-use taut_kernels::{Center, DoubleDouble};
+use taut_kernels::{Center, DoubleDouble, squared_distances};
 use taut_points::parallel::IntoParallel;
 
 /// One task multiplies this many columns of the Gram matrix, which depends on the size of the set only: so the result does not depend on
@@ -99,6 +99,13 @@ impl WorkingSet {
     /// The squared norm of item `i`.
     pub(super) fn norm2(&self, i: usize) -> f64 {
         self.gram[i * self.stride + i]
+    }
+
+    /// The squared distance of item `i` from a center relative to the origin.
+    pub(super) fn squared_distance(&self, i: usize, center: &Center) -> f64 {
+        let mut squared = [0.0];
+        squared_distances(self.row(i), self.dim, center, &mut squared);
+        squared[0]
     }
 
     /// Σ λᵢ·rowᵢ over the items named.
