@@ -206,6 +206,7 @@ pub(super) fn solve(
             (1e-2 * reached).max(0.6 * wanted)
         };
         let basis = hard <= 0.6 * wanted;
+        // Such a round asks for no basis by itself: the one after it does, from multipliers that are sharp.
         let is_last = all && counters.interior > 0 && far.len() <= LAST_OUTSIDE_MAX;
         let (easy, hard) = if is_last { (0.6 * wanted, 0.6 * wanted) } else { (easy, hard) };
         let was_sharp = tolerance.easy.max(tolerance.hard) <= 0.6 * wanted;
