@@ -104,7 +104,8 @@ fn solve(
     match flat::decide_rank(&mut reader, options)? {
         RankResult::Flat(found) => Ok(*found),
         RankResult::Full(sample, whitener) => {
-            let outcome = method(&mut reader, &sample, whitener, options)?;
+            let outcome =
+                reader.hash_beside(|reader| method(reader, &sample, whitener, options))?;
             proof::prove(&mut reader, outcome, options)
         }
     }

@@ -7,6 +7,8 @@ use super::Center;
 
 /// Eight `f64` values worked on together.
 pub(super) trait Lanes: Copy {
+    /// How many of them the registers of the processor hold.
+    const IN_REGISTERS: usize;
     /// All zero.
     ///
     /// # Safety

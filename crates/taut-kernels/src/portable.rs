@@ -12,6 +12,8 @@ use super::lanes::Lanes;
 pub(super) struct Portable([f64; 8]);
 
 impl Lanes for Portable {
+    const IN_REGISTERS: usize = 8;
+
     #[cfg_attr(not(target_arch = "x86_64"), inline(always))]
     unsafe fn zero() -> Self {
         Portable([0.0; 8])

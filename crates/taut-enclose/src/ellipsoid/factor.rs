@@ -56,8 +56,13 @@ impl Factor {
     /// z with R′z = a.
     pub(crate) fn forward(&self, a: &[f64]) -> Vec<f64> {
         let mut z = a.to_vec();
-        substitution::forward(&self.rows, self.stride, &mut z);
+        self.forward_in_place(&mut z);
         z
+    }
+
+    /// a ← R⁻ᵀa.
+    pub(super) fn forward_in_place(&self, a: &mut [f64]) {
+        substitution::forward(&self.rows, self.stride, a);
     }
 
     /// Solves R′z = a for several a at once, the rows of `z`, block by block of the rows of R.
@@ -93,6 +98,12 @@ impl Factor {
     /// v with Hv = b.
     pub(crate) fn solution(&self) -> Vec<f64> {
         self.back(self.right.clone())
+    }
+
+    /// Writes v with Hv = b.
+    pub(super) fn solution_into(&self, v: &mut Vec<f64>) {
+        v.clone_from(&self.right);
+        substitution::back(&self.rows, self.stride, v);
     }
 
     /// Appends a point with column z = R⁻ᵀh, pivot √(h_jj − |z|²) and entry b of the right-hand side.
@@ -152,7 +163,17 @@ impl Factor {
         }
         // A little at a time: most factors of many points are made at once, and gain few.
         let spare = (self.stride / 8).max(16).max(more);
-        let stride = (self.stride + spare).next_multiple_of(8);
+        self.widen((self.stride + spare).next_multiple_of(8));
+    }
+
+    /// Makes room for so many points in all.
+    pub(super) fn reserve(&mut self, count: usize) {
+        if count > self.stride {
+            self.widen(count.next_multiple_of(8));
+        }
+    }
+
+    fn widen(&mut self, stride: usize) {
         let mut rows = vec![0.0; stride * stride];
         for i in 0..self.size {
             rows[i * stride + i..i * stride + self.size].copy_from_slice(self.row(i));

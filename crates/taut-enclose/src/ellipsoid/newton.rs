@@ -18,7 +18,7 @@ use super::counters::Counters;
 use super::dense::line_search;
 use super::interior;
 use super::nnls::{self, Outcome};
-use super::whitener::{Rebased, Whitener};
+use super::whitener::{Rebased, Whitened, Whitener};
 use super::working_set::WorkingSet;
 use crate::Error;
 
@@ -94,12 +94,13 @@ pub(super) fn solve(
             }
         }
     }
+    let mut whitened = Whitened::default();
     for _ in 0..STEPS_MAX {
         monitor.check().map_err(ReadError::from)?;
         if whitener.rebase(set, REBASE_TOLERANCE) == Rebased::Never {
             break;
         }
-        let whitened = whitener.apply(set);
+        whitener.apply_in_place(set, &mut whitened);
         let largest = whitened.largest();
         if best.as_ref().is_none_or(|(least, _)| largest < *least) {
             best = Some((largest, set.weights().to_vec()));

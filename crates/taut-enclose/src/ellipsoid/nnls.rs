@@ -39,6 +39,8 @@ const CANDIDATE_RATIO_MIN: f64 = 0.3;
 const BLOCKED_FACTOR_MIN: usize = 96;
 /// From this size p = m(m + 1)/2 of a model on, a cold start guesses the points in use. Below, guessing gains nothing.
 const GUESSED_START_MIN: usize = 300;
+/// A cold start that guesses nothing has room for so many points, or for p.
+const COLD_ROOM_MAX: usize = 64;
 
 /// Fewer points than this enter one by one.
 const TOGETHER_MIN: usize = 8;
@@ -84,6 +86,8 @@ pub(super) fn solve(
         set.start(&used, &used.iter().map(|&i| u[i]).collect::<Vec<_>>(), counters);
     } else if p >= GUESSED_START_MIN {
         set.crash(3 * p / 5, counters);
+    } else {
+        set.reserve(p.min(COLD_ROOM_MAX));
     }
     let (pivots, exchanges) = (counters.pivots, counters.exchanges);
     let mut tabu = HashSet::new();
@@ -125,6 +129,18 @@ pub(super) fn patience(k: usize, dim: usize, tried: bool) -> (u64, u64) {
     (64 + exchanges as u64, pivots as u64)
 }
 
+/// A point that may become a member: memory that one after the other uses.
+#[derive(Default)]
+struct Candidate {
+    point: usize,
+    /// Its w, as in the rows of the members.
+    row: Vec<f64>,
+    /// Its column of H over the members.
+    column: Vec<f64>,
+    /// R⁻ᵀ times that.
+    reduced: Vec<f64>,
+}
+
 struct ActiveSet<'a> {
     dim: usize,
     whitened: &'a Whitened,
@@ -156,20 +172,31 @@ impl<'a> ActiveSet<'a> {
         2.0 * self.whitened.leverages[i] + 1.0 - self.dim as f64
     }
 
-    fn row(&self, i: usize) -> Vec<f64> {
-        let mut row = vec![0.0; self.stride];
-        copy_row(&self.whitened.blocks, self.dim, i, &mut row[..self.dim]);
-        row[self.dim] = 1.0;
-        row
+    /// Writes the w of a point, `stride` numbers.
+    fn copy_row(&self, i: usize, row: &mut [f64]) {
+        let (y, rest) = row.split_at_mut(self.dim);
+        copy_row(&self.whitened.blocks, self.dim, i, y);
+        rest.fill(0.0);
+        rest[0] = 1.0;
     }
 
-    /// The column of H of point j over the members, and its w.
-    fn column(&self, j: usize) -> (Vec<f64>, Vec<f64>) {
-        let row = self.row(j);
-        let mut column = vec![0.0; self.members.len()];
-        products(&self.rows, self.stride, &row, &mut column);
-        column.iter_mut().for_each(|h| *h *= *h);
-        (column, row)
+    /// The w of several points.
+    fn rows_of(&self, points: &[usize]) -> Vec<f64> {
+        let mut rows = vec![0.0; points.len() * self.stride];
+        for (&i, row) in points.iter().zip(rows.chunks_exact_mut(self.stride)) {
+            self.copy_row(i, row);
+        }
+        rows
+    }
+
+    /// Makes point j the candidate: its w, and its column of H.
+    fn nominate(&self, j: usize, candidate: &mut Candidate) {
+        candidate.point = j;
+        candidate.row.resize(self.stride, 0.0);
+        self.copy_row(j, &mut candidate.row);
+        candidate.column.resize(self.members.len(), 0.0);
+        products(&self.rows, self.stride, &candidate.row, &mut candidate.column);
+        candidate.column.iter_mut().for_each(|h| *h *= *h);
     }
 
     /// H over the given points, whose rows these are: the upper triangle, which is what a factor reads.
@@ -197,10 +224,12 @@ impl<'a> ActiveSet<'a> {
             self.settle(counters);
             return;
         }
+        self.reserve(points.len());
+        let mut candidate = Candidate::default();
         for (&j, &v) in points.iter().zip(v) {
-            let (column, row) = self.column(j);
-            if let (z, Some(pivot)) = self.pivot(j, &column) {
-                self.append(j, v, &z, pivot, row);
+            self.nominate(j, &mut candidate);
+            if let Some(pivot) = self.pivot(&mut candidate) {
+                self.append(&candidate, v, pivot);
             }
         }
         self.settle(counters);
@@ -208,7 +237,7 @@ impl<'a> ActiveSet<'a> {
 
     /// Replaces the members; returns false, with all as it was, if one of them depends on the others.
     fn take_up(&mut self, points: &[usize], v: &[f64]) -> bool {
-        let rows: Vec<f64> = points.iter().flat_map(|&i| self.row(i)).collect();
+        let rows = self.rows_of(points);
         let b: Vec<f64> = points.iter().map(|&i| self.b(i)).collect();
         let Some(factor) = Factor::of(self.gram(&rows), &b, DEPENDENT_RATIO) else { return false };
         (self.members, self.v, self.rows) = (points.to_vec(), v.to_vec(), rows);
@@ -225,7 +254,7 @@ impl<'a> ActiveSet<'a> {
         points.order_by(&|a, b| leverage(b).total_cmp(&leverage(a)).then(a.cmp(b)));
         points.truncate(count);
         for _ in 0..GUESS_ROUNDS_MAX {
-            let rows: Vec<f64> = points.iter().flat_map(|&i| self.row(i)).collect();
+            let rows = self.rows_of(&points);
             let b: Vec<f64> = points.iter().map(|&i| self.b(i)).collect();
             let mut gram = self.gram(&rows);
             // Copies of a point would leave no factor: the ridge shares the weight among them.
@@ -243,19 +272,30 @@ impl<'a> ActiveSet<'a> {
         self.start(&points, &guess, counters);
     }
 
-    /// R⁻ᵀh of a point, and its pivot unless its column depends on those of the members.
-    fn pivot(&self, j: usize, column: &[f64]) -> (Vec<f64>, Option<f64>) {
-        let z = self.factor.forward(column);
-        let kappa = 1.0 + self.whitened.leverages[j];
-        let rho2 = kappa * kappa - dot(&z, &z);
-        (z, (rho2 > DEPENDENT_RATIO * kappa * kappa).then(|| rho2.sqrt()))
+    /// Reduces the column of the candidate; its pivot, unless the column depends on those of the members.
+    fn pivot(&self, candidate: &mut Candidate) -> Option<f64> {
+        candidate.reduced.clone_from(&candidate.column);
+        self.factor.forward_in_place(&mut candidate.reduced);
+        let kappa = 1.0 + self.whitened.leverages[candidate.point];
+        let rho2 = kappa * kappa - dot(&candidate.reduced, &candidate.reduced);
+        (rho2 > DEPENDENT_RATIO * kappa * kappa).then(|| rho2.sqrt())
     }
 
-    fn append(&mut self, j: usize, v: f64, z: &[f64], pivot: f64, row: Vec<f64>) {
-        self.factor.append(z, pivot, self.b(j));
-        self.members.push(j);
+    /// Makes room for so many members in all, and for some more.
+    fn reserve(&mut self, count: usize) {
+        let room = count + count / 8 + 8;
+        self.factor.reserve(room);
+        self.members.reserve(room);
+        self.v.reserve(room);
+        self.rows.reserve(room * self.stride);
+    }
+
+    /// Makes the candidate a member.
+    fn append(&mut self, candidate: &Candidate, v: f64, pivot: f64) {
+        self.factor.append(&candidate.reduced, pivot, self.b(candidate.point));
+        self.members.push(candidate.point);
         self.v.push(v);
-        self.rows.extend(row);
+        self.rows.extend_from_slice(&candidate.row);
     }
 
     fn delete(&mut self, position: usize) {
@@ -277,7 +317,7 @@ impl<'a> ActiveSet<'a> {
     /// Makes several points members at once; returns false, with all as it was, if one of them depends on the others.
     fn enter_all(&mut self, points: &[usize], counters: &mut Counters) -> bool {
         let (s, count) = (self.members.len(), points.len());
-        let rows: Vec<f64> = points.iter().flat_map(|&j| self.row(j)).collect();
+        let rows = self.rows_of(points);
         let b: Vec<f64> = points.iter().map(|&j| self.b(j)).collect();
         let members = Matrix::from_rows(&self.rows, s, self.stride).transpose();
         let mut columns = vec![0.0; count * s];
@@ -309,16 +349,17 @@ impl<'a> ActiveSet<'a> {
         counters: &mut Counters,
     ) {
         let best = batch[0];
+        let mut candidate = Candidate::default();
         for j in batch {
-            let (column, row) = self.column(j);
-            if self.b(j) - dot(&column, &self.v) < CANDIDATE_RATIO_MIN * largest {
+            self.nominate(j, &mut candidate);
+            if self.b(j) - dot(&candidate.column, &self.v) < CANDIDATE_RATIO_MIN * largest {
                 // The best can only have lost its gradient to rounding.
                 if j == best {
                     tabu.insert(j);
                 }
                 continue;
             }
-            self.enter(j, column, row, counters);
+            self.enter(&mut candidate, counters);
             self.settle(counters);
             if !self.members.contains(&j) {
                 tabu.insert(j);
@@ -326,17 +367,16 @@ impl<'a> ActiveSet<'a> {
         }
     }
 
-    /// Makes point j a member, by exchanges as long as it depends on the members.
-    fn enter(&mut self, j: usize, mut column: Vec<f64>, row: Vec<f64>, counters: &mut Counters) {
+    /// Makes the candidate a member, by exchanges as long as it depends on the members.
+    fn enter(&mut self, candidate: &mut Candidate, counters: &mut Counters) {
         let mut weight = 0.0;
         loop {
-            let (z, pivot) = self.pivot(j, &column);
-            if let Some(pivot) = pivot {
-                self.append(j, weight, &z, pivot, row);
+            if let Some(pivot) = self.pivot(candidate) {
+                self.append(candidate, weight, pivot);
                 counters.pivots += 1;
                 return;
             }
-            let y = self.factor.back(z);
+            let y = self.factor.back(candidate.reduced.clone());
             let bound = (0..y.len())
                 .filter(|&i| y[i] > DIRECTION_MIN)
                 .map(|i| (self.v[i] / y[i], i))
@@ -346,15 +386,16 @@ impl<'a> ActiveSet<'a> {
             self.v.iter_mut().zip(&y).for_each(|(v, y)| *v = (*v - t * y).max(0.0));
             weight += t;
             self.delete(blocker);
-            column.remove(blocker);
+            candidate.column.remove(blocker);
             counters.exchanges += 1;
         }
     }
 
     /// Goes to the maximizer of the model over the members, or as far as v ≥ 0 lets it, dropping who is in the way.
     fn settle(&mut self, counters: &mut Counters) {
+        let mut z = vec![];
         loop {
-            let z = self.factor.solution();
+            self.factor.solution_into(&mut z);
             let mut step = 1.0;
             let mut blocker = None;
             for (i, (&v, &z)) in self.v.iter().zip(&z).enumerate() {

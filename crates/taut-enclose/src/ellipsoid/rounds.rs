@@ -238,13 +238,12 @@ fn working_set_of_sample(sample: &Sample, whitener: &Whitener, size: usize) -> W
         order.truncate(size);
         order.sort_unstable();
     }
-    let mut set = WorkingSet::new(sample.set.dim());
-    let mut row = vec![0.0; sample.set.dim()];
     let spread = sample.spread(&images.blocks, &order);
-    for i in order.into_iter().chain(spread) {
-        sample.set.copy_row(i, &mut row);
-        set.push(sample.set.ids()[i], &row, 1.0);
-    }
+    let mut is_chosen = vec![false; sample.set.len()];
+    order.iter().for_each(|&i| is_chosen[i] = true);
+    order.extend(spread.into_iter().filter(|&i| !std::mem::replace(&mut is_chosen[i], true)));
+    let mut set = sample.set.select(&order);
+    set.weights_mut().fill(1.0);
     set.normalize();
     set
 }

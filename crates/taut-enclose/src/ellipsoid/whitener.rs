@@ -42,6 +42,7 @@ pub(super) struct Whitener {
 }
 
 /// The images of a working set.
+#[derive(Default)]
 pub(super) struct Whitened {
     /// y, in blocks as the working set.
     pub(super) blocks: Vec<f64>,
@@ -104,21 +105,28 @@ impl Whitener {
 
     /// The images of all points of a working set.
     pub(super) fn apply(&self, set: &WorkingSet) -> Whitened {
-        let mut whitened = self.apply_to(set.blocks());
-        whitened.leverages.truncate(set.len());
+        let mut whitened = Whitened::default();
+        self.apply_in_place(set, &mut whitened);
         whitened
     }
 
-    fn apply_to(&self, points: &[f64]) -> Whitened {
+    /// The same, in the memory of images of before.
+    pub(super) fn apply_in_place(&self, set: &WorkingSet, whitened: &mut Whitened) {
+        self.apply_to(set.blocks(), whitened);
+        whitened.leverages.truncate(set.len());
+    }
+
+    fn apply_to(&self, points: &[f64], whitened: &mut Whitened) {
         let size = POINTS * self.dim;
-        let mut blocks = vec![0.0; points.len()];
-        let mut leverages = Vec::with_capacity(points.len() / self.dim);
+        let Whitened { blocks, leverages } = whitened;
+        blocks.resize(points.len(), 0.0);
+        leverages.clear();
+        leverages.reserve(points.len() / self.dim);
         let mut out = [0.0; POINTS];
         for (x, y) in points.chunks_exact(size).zip(blocks.chunks_exact_mut(size)) {
             images(Triangle { matrix: &self.matrix, shift: &self.shift }, x, y, &mut out);
             leverages.extend(out);
         }
-        Whitened { blocks, leverages }
     }
 
     /// Follows a step of weight β to the point x, in coordinates in which the covariance is the identity.
@@ -153,8 +161,9 @@ impl Whitener {
         let (dim, m) = (self.dim, self.dim + 1);
         let mut how = Rebased::Plainly;
         let (points, weights) = set.support();
+        let mut images = Whitened::default();
         for _ in 0..TURNS_MAX {
-            let images = self.apply_to(&points);
+            self.apply_to(&points, &mut images);
             let moments = moments(dim, &images.blocks, &weights);
             let total = moments[m * m - 1];
             let mean: Vec<f64> = moments[dim * m..][..dim].iter().map(|s| s / total).collect();

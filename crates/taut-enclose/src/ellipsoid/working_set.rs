@@ -125,15 +125,29 @@ impl WorkingSet {
         copy_row(&self.blocks, self.dim, i, row);
     }
 
+    /// The points at these positions, none of which comes twice, and their multipliers.
+    pub(super) fn select(&self, positions: &[usize]) -> WorkingSet {
+        let (blocks, weights) = self.select_blocks(positions);
+        let ids = positions.iter().map(|&i| self.ids[i]).collect();
+        WorkingSet { dim: self.dim, ids, positions: OnceLock::new(), blocks, weights }
+    }
+
+    fn select_blocks(&self, positions: &[usize]) -> (Vec<f64>, Vec<f64>) {
+        let size = positions.len().next_multiple_of(POINTS);
+        let (mut blocks, mut weights) = (vec![0.0; size * self.dim], vec![0.0; size]);
+        for (k, &i) in positions.iter().enumerate() {
+            weights[k] = self.weights[i];
+            for j in 0..self.dim {
+                blocks[place(self.dim, k, j)] = self.blocks[place(self.dim, i, j)];
+            }
+        }
+        (blocks, weights)
+    }
+
     /// The same points but for those that `keep` says no to.
     pub(super) fn retain(&mut self, keep: impl Fn(usize) -> bool) {
-        let mut kept = WorkingSet::new(self.dim);
-        let mut row = vec![0.0; self.dim];
-        for i in (0..self.len()).filter(|&i| keep(i)) {
-            self.copy_row(i, &mut row);
-            kept.push(self.ids[i], &row, self.weights[i]);
-        }
-        *self = kept;
+        let kept: Vec<usize> = (0..self.len()).filter(|&i| keep(i)).collect();
+        *self = self.select(&kept);
     }
 
     /// The blocks and padded weights of the points with a multiplier alone.
@@ -142,14 +156,7 @@ impl WorkingSet {
             return (Cow::Borrowed(&self.blocks), Cow::Borrowed(&self.weights));
         }
         let used: Vec<usize> = (0..self.len()).filter(|&i| self.weights[i] > 0.0).collect();
-        let size = used.len().next_multiple_of(POINTS);
-        let (mut blocks, mut weights) = (vec![0.0; size * self.dim], vec![0.0; size]);
-        for (k, &i) in used.iter().enumerate() {
-            weights[k] = self.weights[i];
-            for j in 0..self.dim {
-                blocks[place(self.dim, k, j)] = self.blocks[place(self.dim, i, j)];
-            }
-        }
+        let (blocks, weights) = self.select_blocks(&used);
         (Cow::Owned(blocks), Cow::Owned(weights))
     }
 }

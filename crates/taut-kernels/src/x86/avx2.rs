@@ -58,6 +58,8 @@ pub(super) struct Avx2(__m256d, __m256d);
 // SAFETY (all blocks of this implementation): the caller promises AVX2 and FMA, and readable memory where one is
 // given. `T` is f32 or f64 and nothing else (the trait is sealed), so a cast guided by `KIND` keeps the type.
 impl Lanes for Avx2 {
+    const IN_REGISTERS: usize = 8;
+
     #[inline(always)]
     unsafe fn zero() -> Self {
         // SAFETY: see above.

@@ -59,6 +59,8 @@ pub(super) struct Avx512(__m512d);
 // SAFETY (all blocks of this implementation): the caller promises AVX-512F, and readable memory where one is given.
 // `T` is f32 or f64 and nothing else (the trait is sealed), so a cast guided by `KIND` keeps the type.
 impl Lanes for Avx512 {
+    const IN_REGISTERS: usize = 32;
+
     #[inline(always)]
     unsafe fn zero() -> Self {
         // SAFETY: see above.
