@@ -126,6 +126,20 @@ impl<'a> Edges<'a> {
         (self.accurate(p, edge) - self.error(p, edge)) * (1.0 - 32.0 * U)
     }
 
+    /// Half of the width of all edges across the line from a vertex to the one farthest from it: no circle between them has a larger
+    /// radius. It is off by some units of 2⁻¹⁰⁶.
+    pub(super) fn half_width(&self) -> f64 {
+        let Some(&[first, _]) = self.scaled.first() else { return 0.0 };
+        let from_first = |p: [f64; 2]| [minus(p[0], first[0]), minus(p[1], first[1])];
+        let length = |p: [f64; 2]| (p[0] - first[0]).hypot(p[1] - first[1]);
+        let vertices = || self.scaled.iter().map(|edge| edge[0]);
+        let far = vertices().max_by(|&p, &q| length(p).total_cmp(&length(q))).unwrap_or(first);
+        let along = from_first(far);
+        let heights = vertices().map(|p| cross(from_first(p), along) / length(far));
+        let (least, most) = heights.fold((0.0, 0.0), |(a, b), h| (h.min(a), h.max(b)));
+        0.5 * (most - least)
+    }
+
     /// Returns what products of differences may be off by in the checker as well, relative to the length of an edge.
     pub(super) fn error(&self, p: [f64; 2], edge: u32) -> f64 {
         let [a, b] = self.scaled[edge as usize];
@@ -157,6 +171,24 @@ mod tests {
         let edges = Edges::of(&loops.segments, &runs);
         let expected = width * std::f64::consts::SQRT_2;
         assert!((edges.accurate([width, -width], 0) - expected).abs() <= 1e-15 * expected);
+    }
+
+    #[test]
+    fn the_half_width_bounds_a_circle() {
+        let of_ring = |ring: &[[f64; 2]]| {
+            let loops = Loops::of_ring(ring);
+            let runs = Runs::of(&loops.segments);
+            Edges::of(&loops.segments, &runs).half_width()
+        };
+        // A rhombus on a diagonal, scaled by 1/2, and one of which doubles alone would see no width.
+        let rhombus = |w: f64| [[-1.0, -1.0], [w, -w], [1.0, 1.0], [-w, w]];
+        for width in [0.25, 2f64.powi(-60), 2f64.powi(-95)] {
+            let expected = width * std::f64::consts::SQRT_2;
+            let found = of_ring(&rhombus(width));
+            assert!((found - expected).abs() <= 1e-14 * expected, "{found:e}, {expected:e}");
+        }
+        // The farthest vertex is across: the width along the diagonal is twice that of the strip.
+        assert_eq!(of_ring(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1e-300], [0.0, 1e-300]]), 1e-300);
     }
 
     #[test]

@@ -78,6 +78,10 @@ pub(super) fn search(
 ) -> Result<SearchResult, Cancelled> {
     let monitor = &options.monitor;
     let mut search = Search { edges, monitor, center: None, radius: 0.0, cells: 0, list: vec![] };
+    // With room for rounding: no radius is claimed that is not `RADIUS_LEAST` after the errors of a checker.
+    if edges.half_width() < 0.5 * RADIUS_LEAST {
+        return Ok(search.refused(0, options.epsilon));
+    }
     let first = search.best_first(options.epsilon)?;
     let (mut gap, mut stop, mut searches) = (options.epsilon, Stop::Converged, 1);
     let mut gap_reached = 0.0;
@@ -95,10 +99,7 @@ pub(super) fn search(
         let before = search.radius;
         let Some((log, upper)) = search.depth_first(gap, options.max_cells)? else {
             if search.center.is_none() || search.radius < RADIUS_LEAST {
-                search.center = None;
-                let upper = f64::INFINITY;
-                let (log, stop, epsilon) = (Log::default(), Stop::NodeBudget, options.epsilon);
-                return Ok(search.result(log, upper, stop, searches, epsilon));
+                return Ok(search.refused(searches, options.epsilon));
             }
             (gap, stop) = (gap * GAP_GROWTH, Stop::NodeBudget);
             if gap_reached > GAP_OF_USE_MAX {
@@ -174,6 +175,12 @@ impl PartialEq for Waiting {
 impl Eq for Waiting {}
 
 impl Search<'_> {
+    /// The result where no circle is large enough for a checker.
+    fn refused(mut self, searches: u64, epsilon: f64) -> SearchResult {
+        self.center = None;
+        self.result(Log::default(), f64::INFINITY, Stop::NodeBudget, searches, epsilon)
+    }
+
     /// Opens the cell of the largest bound until that is within the gap.
     fn best_first(&mut self, gap: f64) -> Result<First, Cancelled> {
         let (mut nodes, mut heap) = (vec![], BinaryHeap::new());
