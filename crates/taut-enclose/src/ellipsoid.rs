@@ -104,8 +104,7 @@ fn solve(
     match flat::decide_rank(&mut reader, options)? {
         RankResult::Flat(found) => Ok(*found),
         RankResult::Full(sample, whitener) => {
-            let outcome =
-                reader.hash_beside(|reader| method(reader, &sample, whitener, options))?;
+            let outcome = method(&mut reader, &sample, whitener, options)?;
             proof::prove(&mut reader, outcome, options)
         }
     }

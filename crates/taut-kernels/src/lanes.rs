@@ -7,7 +7,7 @@ use super::Center;
 
 /// Eight `f64` values worked on together.
 pub(super) trait Lanes: Copy {
-    /// How many of them the registers of the processor hold.
+    /// How many values of this type fit in the vector registers, for the choice of how much to keep in them.
     const IN_REGISTERS: usize;
     /// All zero.
     ///

@@ -12,6 +12,7 @@ use super::lanes::Lanes;
 pub(super) struct Portable([f64; 8]);
 
 impl Lanes for Portable {
+    // Of AArch64; it only chooses how much is worked on together.
     const IN_REGISTERS: usize = 8;
 
     #[cfg_attr(not(target_arch = "x86_64"), inline(always))]

@@ -199,6 +199,48 @@ fn leverages_agree_with_double_double() {
     }
 }
 
+/// Images, their squares and the forms of a block.
+type Block = (Vec<f64>, [f64; triangle::POINTS], [f64; triangle::POINTS]);
+
+/// Those by the best kind of lanes, and by every kind.
+fn blocks_of_each(triangle: triangle::Triangle<'_>, x: &[f64]) -> Vec<Block> {
+    let empty = || (vec![0.0; x.len()], [0.0; triangle::POINTS], [0.0; triangle::POINTS]);
+    let mut chosen = empty();
+    triangle::images(triangle, x, &mut chosen.0, &mut chosen.1);
+    triangle::forms(triangle, x, &mut chosen.2);
+    let mut results = vec![chosen];
+    let images = |(z, out, _): &mut Block, run: &dyn Fn(triangle::Images<'_>) -> bool| {
+        run(triangle::Images { triangle, x: x.as_ptr(), z: z.as_mut_ptr(), out })
+    };
+    let forms = |(_, _, out): &mut Block, run: &dyn Fn(triangle::Forms<'_>) -> bool| {
+        run(triangle::Forms { triangle, x: x.as_ptr(), out })
+    };
+    let mut portable = empty();
+    // SAFETY: the portable lanes need no feature; lengths match.
+    #[allow(unsafe_code)]
+    unsafe {
+        images(&mut portable, &|work| {
+            triangle::Work::run::<portable::Portable>(work);
+            true
+        });
+        forms(&mut portable, &|work| {
+            triangle::Work::run::<portable::Portable>(work);
+            true
+        });
+    }
+    results.push(portable);
+    #[cfg(target_arch = "x86_64")]
+    for set in [x86::Set::Avx512, x86::Set::Avx2] {
+        let mut block = empty();
+        if images(&mut block, &|work| x86::run_as(set, work).is_none())
+            && forms(&mut block, &|work| x86::run_as(set, work).is_none())
+        {
+            results.push(block);
+        }
+    }
+    results
+}
+
 #[test]
 fn images_forms_and_moments_agree_with_plain_loops() {
     for dim in [1, 2, 3, 8, 9, 20] {
@@ -214,11 +256,10 @@ fn images_forms_and_moments_agree_with_plain_loops() {
         let center = Center { high: vec![0.0; dim], low: vec![] };
         let weights: Vec<f64> = (0..points).map(|i| (i % 5) as f64).collect();
         let triangle = triangle::Triangle { matrix: &matrix, shift: &shift };
-        let (mut z, mut out) = (vec![0.0; 32 * dim], [0.0; 32]);
-        for (k, block) in blocks.chunks_exact(32 * dim).enumerate() {
-            triangle::images(triangle, block, &mut z, &mut out);
-            let mut forms = [0.0; 32];
-            triangle::forms(triangle, block, &mut forms);
+        let each = blocks.chunks_exact(32 * dim).enumerate();
+        for (k, (z, out, forms)) in each.flat_map(|(k, block)| {
+            blocks_of_each(triangle, block).into_iter().map(move |found| (k, found))
+        }) {
             for i in 0..32 {
                 let row = &rows[(32 * k + i) * dim..][..dim];
                 let wanted = image(&matrix, row, &center, &shift);
@@ -332,4 +373,9 @@ fn lengths_that_wrap_around_are_refused() {
         let empty = Center { high: vec![], low: vec![] };
         triangle::leverages::<f64>(&[], &[], &empty, &mut vec![], &mut []);
     }));
+    let none = triangle::Triangle { matrix: &[], shift: &[] };
+    assert!(
+        std::panic::catch_unwind(|| triangle::images(none, &[], &mut [], &mut [0.0; 32])).is_err()
+    );
+    assert!(std::panic::catch_unwind(|| triangle::forms(none, &[], &mut [0.0; 32])).is_err());
 }

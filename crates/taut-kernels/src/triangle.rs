@@ -2,8 +2,8 @@
 //!
 //! *Problem.* For a lower triangular T and a shift t: z = Tx − t for many points x, and |z|² or x·z for each.
 //! *Idea.* [`POINTS`] points stand coordinate by coordinate, so that a register holds one coordinate of eight of them.
-//! Two rows of T are worked on together: each load of points serves both, and eight accumulators hide the latency of
-//! the multiply-add. Rows of a block of points are brought into that order, eight by eight, in registers.
+//! Two rows of T are worked on together: each load of points serves both, and eight accumulators, four with AVX2, hide the
+//! latency of the multiply-add. Rows of a block of points are brought into that order, eight by eight, in registers.
 //! *Guarantee.* What a point gets depends on it and on T, t alone, not on its neighbors.
 //! *Trap.* The center is subtracted first: T(x − c), never Tx − Tc, which loses all digits far from the origin.
 #![allow(unsafe_code)]
@@ -49,10 +49,10 @@ fn is_product(product: usize, a: usize, b: usize) -> bool {
 /// z = Tx − t for the points of a block, and |z|² of each.
 ///
 /// # Panics
-/// If the lengths do not fit.
+/// If the lengths do not fit, or there are no coordinates.
 pub fn images(triangle: Triangle<'_>, x: &[f64], z: &mut [f64], out: &mut [f64; POINTS]) {
     let dim = triangle.dim();
-    assert!(is_product(triangle.matrix.len(), dim, dim));
+    assert!(dim > 0 && is_product(triangle.matrix.len(), dim, dim));
     assert!(is_product(x.len(), dim, POINTS) && z.len() == x.len());
     let z = z.as_mut_ptr();
     dispatch(Images { triangle, x: x.as_ptr(), z, out });
@@ -61,10 +61,11 @@ pub fn images(triangle: Triangle<'_>, x: &[f64], z: &mut [f64], out: &mut [f64; 
 /// x·(Tx − t) for each point of a block.
 ///
 /// # Panics
-/// If the lengths do not fit.
+/// If the lengths do not fit, or there are no coordinates.
 pub fn forms(triangle: Triangle<'_>, x: &[f64], out: &mut [f64; POINTS]) {
     let dim = triangle.dim();
-    assert!(is_product(triangle.matrix.len(), dim, dim) && is_product(x.len(), dim, POINTS));
+    assert!(dim > 0 && is_product(triangle.matrix.len(), dim, dim));
+    assert!(is_product(x.len(), dim, POINTS));
     dispatch(Forms { triangle, x: x.as_ptr(), out });
 }
 
@@ -174,11 +175,11 @@ pub(super) fn dispatch(work: impl Work) {
     unsafe { work.run::<portable::Portable>() }
 }
 
-struct Images<'a> {
-    triangle: Triangle<'a>,
-    x: *const f64,
-    z: *mut f64,
-    out: &'a mut [f64; POINTS],
+pub(super) struct Images<'a> {
+    pub(super) triangle: Triangle<'a>,
+    pub(super) x: *const f64,
+    pub(super) z: *mut f64,
+    pub(super) out: &'a mut [f64; POINTS],
 }
 
 impl Work for Images<'_> {
@@ -189,10 +190,10 @@ impl Work for Images<'_> {
     }
 }
 
-struct Forms<'a> {
-    triangle: Triangle<'a>,
-    x: *const f64,
-    out: &'a mut [f64; POINTS],
+pub(super) struct Forms<'a> {
+    pub(super) triangle: Triangle<'a>,
+    pub(super) x: *const f64,
+    pub(super) out: &'a mut [f64; POINTS],
 }
 
 impl Work for Forms<'_> {
@@ -345,15 +346,15 @@ unsafe fn block<L: Lanes, const STORE: bool, const FORM: bool>(
     z: *mut f64,
     out: &mut [f64; POINTS],
 ) {
-    const HALF: usize = POINTS / 2;
+    const HALF_BLOCK: usize = POINTS / 2;
     // SAFETY: passed on; both halves are parts of the block.
     unsafe {
         if L::IN_REGISTERS > 3 * REGISTERS {
             part::<L, REGISTERS, STORE, FORM>(triangle, x, z, out);
         } else {
-            let (first, second) = out.split_at_mut(HALF);
+            let (first, second) = out.split_at_mut(HALF_BLOCK);
             part::<L, { REGISTERS / 2 }, STORE, FORM>(triangle, x, z, first);
-            let (x, z) = (x.add(HALF), z.wrapping_add(HALF));
+            let (x, z) = (x.add(HALF_BLOCK), z.wrapping_add(HALF_BLOCK));
             part::<L, { REGISTERS / 2 }, STORE, FORM>(triangle, x, z, second);
         }
     }
@@ -362,7 +363,8 @@ unsafe fn block<L: Lanes, const STORE: bool, const FORM: bool>(
 /// The same for eight points of a block for each of the `R`, of which `x` and `z` are the first.
 ///
 /// # Safety
-/// See [`block`].
+/// The processor has the features of `L`; T is d × d for a shift of length d; for each j < d, 8·`R` values can be read at
+/// x + [`POINTS`]·j and, if `STORE`, written at z + [`POINTS`]·j; `out` has room for 8·`R`.
 #[inline(always)]
 unsafe fn part<L: Lanes, const R: usize, const STORE: bool, const FORM: bool>(
     triangle: Triangle<'_>,

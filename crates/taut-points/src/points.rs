@@ -179,17 +179,50 @@ impl Rows<'_> {
     pub fn first_non_finite(&self) -> Option<(usize, usize, f64)> {
         fn find<T: Scalar>(points: &Points<'_, T>) -> Option<(usize, usize, f64)> {
             /// Tested without a branch for each.
-            const TOGETHER: usize = 64;
+            const CHUNK_VALUES: usize = 64;
             let is_finite = |&value: &T| value.into().is_finite();
             let all = |values: &[T]| values.iter().fold(true, |all, value| all & is_finite(value));
-            let chunk = points.values().chunks(TOGETHER).position(|values| !all(values))?;
-            let at = points.values()[chunk * TOGETHER..].iter().position(|value| !is_finite(value));
-            let at = chunk * TOGETHER + at?;
+            let chunk = points.values().chunks(CHUNK_VALUES).position(|values| !all(values))?;
+            let at =
+                points.values()[chunk * CHUNK_VALUES..].iter().position(|value| !is_finite(value));
+            let at = chunk * CHUNK_VALUES + at?;
             Some((at / points.dim(), at % points.dim(), points.values()[at].into()))
         }
         match self {
             Rows::F32(points) => find(points),
             Rows::F64(points) => find(points),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Points, Scalar};
+
+    fn first<T: Scalar>(values: &[T]) -> Option<(usize, usize)> {
+        let points = Points::new(values, 1).unwrap();
+        T::rows(points).first_non_finite().map(|(row, column, _)| (row, column))
+    }
+
+    #[test]
+    fn the_first_value_that_is_not_finite_is_found_anywhere() {
+        for n in [1usize, 63, 64, 65, 200] {
+            let mut values: Vec<f64> = (0..n).map(|i| i as f64 * 1e300).collect();
+            assert_eq!(first(&values), None);
+            for at in 0..n {
+                let finite = values[at];
+                for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                    values[at] = bad;
+                    values[n - 1] = if at + 1 < n { f64::NAN } else { bad };
+                    assert_eq!(first(&values), Some((at, 0)), "{n}");
+                }
+                values[n - 1] = (n - 1) as f64 * 1e300;
+                values[at] = finite;
+            }
+        }
+        assert_eq!(first(&[1.0f32, f32::MAX, f32::INFINITY]), Some((2, 0)));
+        let pairs = Points::new(&[0.0, 1.0, 2.0, f64::NAN], 2).unwrap();
+        let (row, column, value) = f64::rows(pairs).first_non_finite().unwrap();
+        assert!((row, column) == (1, 1) && value.is_nan());
     }
 }

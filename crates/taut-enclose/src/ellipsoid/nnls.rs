@@ -39,7 +39,7 @@ const CANDIDATE_RATIO_MIN: f64 = 0.3;
 const BLOCKED_FACTOR_MIN: usize = 96;
 /// From this size p = m(m + 1)/2 of a model on, a cold start guesses the points in use. Below, guessing gains nothing.
 const GUESSED_START_MIN: usize = 300;
-/// A cold start that guesses nothing has room for so many points, or for p.
+/// A cold start that guesses nothing reserves memory for at most this many members.
 const COLD_ROOM_MAX: usize = 64;
 
 /// Fewer points than this enter one by one.
@@ -129,9 +129,9 @@ pub(super) fn patience(k: usize, dim: usize, tried: bool) -> (u64, u64) {
     (64 + exchanges as u64, pivots as u64)
 }
 
-/// A point that may become a member: memory that one after the other uses.
+/// A point that may become a member. One point after the other uses the same memory.
 #[derive(Default)]
-struct Candidate {
+struct EnteringPoint {
     point: usize,
     /// Its w, as in the rows of the members.
     row: Vec<f64>,
@@ -189,14 +189,14 @@ impl<'a> ActiveSet<'a> {
         rows
     }
 
-    /// Makes point j the candidate: its w, and its column of H.
-    fn nominate(&self, j: usize, candidate: &mut Candidate) {
-        candidate.point = j;
-        candidate.row.resize(self.stride, 0.0);
-        self.copy_row(j, &mut candidate.row);
-        candidate.column.resize(self.members.len(), 0.0);
-        products(&self.rows, self.stride, &candidate.row, &mut candidate.column);
-        candidate.column.iter_mut().for_each(|h| *h *= *h);
+    /// Writes the w of point j and its column of H.
+    fn prepare(&self, j: usize, entering: &mut EnteringPoint) {
+        entering.point = j;
+        entering.row.resize(self.stride, 0.0);
+        self.copy_row(j, &mut entering.row);
+        entering.column.resize(self.members.len(), 0.0);
+        products(&self.rows, self.stride, &entering.row, &mut entering.column);
+        entering.column.iter_mut().for_each(|h| *h *= *h);
     }
 
     /// H over the given points, whose rows these are: the upper triangle, which is what a factor reads.
@@ -225,11 +225,11 @@ impl<'a> ActiveSet<'a> {
             return;
         }
         self.reserve(points.len());
-        let mut candidate = Candidate::default();
+        let mut entering = EnteringPoint::default();
         for (&j, &v) in points.iter().zip(v) {
-            self.nominate(j, &mut candidate);
-            if let Some(pivot) = self.pivot(&mut candidate) {
-                self.append(&candidate, v, pivot);
+            self.prepare(j, &mut entering);
+            if let Some(pivot) = self.pivot(&mut entering) {
+                self.append(&entering, v, pivot);
             }
         }
         self.settle(counters);
@@ -272,16 +272,16 @@ impl<'a> ActiveSet<'a> {
         self.start(&points, &guess, counters);
     }
 
-    /// Reduces the column of the candidate; its pivot, unless the column depends on those of the members.
-    fn pivot(&self, candidate: &mut Candidate) -> Option<f64> {
-        candidate.reduced.clone_from(&candidate.column);
-        self.factor.forward_in_place(&mut candidate.reduced);
-        let kappa = 1.0 + self.whitened.leverages[candidate.point];
-        let rho2 = kappa * kappa - dot(&candidate.reduced, &candidate.reduced);
+    /// Reduces the column of the point. Returns its pivot, or `None` if the column depends on those of the members.
+    fn pivot(&self, entering: &mut EnteringPoint) -> Option<f64> {
+        entering.reduced.clone_from(&entering.column);
+        self.factor.forward_in_place(&mut entering.reduced);
+        let kappa = 1.0 + self.whitened.leverages[entering.point];
+        let rho2 = kappa * kappa - dot(&entering.reduced, &entering.reduced);
         (rho2 > DEPENDENT_RATIO * kappa * kappa).then(|| rho2.sqrt())
     }
 
-    /// Makes room for so many members in all, and for some more.
+    /// Makes room for so many members, of which there are none yet, and for some more.
     fn reserve(&mut self, count: usize) {
         let room = count + count / 8 + 8;
         self.factor.reserve(room);
@@ -290,12 +290,12 @@ impl<'a> ActiveSet<'a> {
         self.rows.reserve(room * self.stride);
     }
 
-    /// Makes the candidate a member.
-    fn append(&mut self, candidate: &Candidate, v: f64, pivot: f64) {
-        self.factor.append(&candidate.reduced, pivot, self.b(candidate.point));
-        self.members.push(candidate.point);
+    /// Makes the point a member.
+    fn append(&mut self, entering: &EnteringPoint, v: f64, pivot: f64) {
+        self.factor.append(&entering.reduced, pivot, self.b(entering.point));
+        self.members.push(entering.point);
         self.v.push(v);
-        self.rows.extend_from_slice(&candidate.row);
+        self.rows.extend_from_slice(&entering.row);
     }
 
     fn delete(&mut self, position: usize) {
@@ -349,17 +349,17 @@ impl<'a> ActiveSet<'a> {
         counters: &mut Counters,
     ) {
         let best = batch[0];
-        let mut candidate = Candidate::default();
+        let mut entering = EnteringPoint::default();
         for j in batch {
-            self.nominate(j, &mut candidate);
-            if self.b(j) - dot(&candidate.column, &self.v) < CANDIDATE_RATIO_MIN * largest {
+            self.prepare(j, &mut entering);
+            if self.b(j) - dot(&entering.column, &self.v) < CANDIDATE_RATIO_MIN * largest {
                 // The best can only have lost its gradient to rounding.
                 if j == best {
                     tabu.insert(j);
                 }
                 continue;
             }
-            self.enter(&mut candidate, counters);
+            self.enter(&mut entering, counters);
             self.settle(counters);
             if !self.members.contains(&j) {
                 tabu.insert(j);
@@ -367,16 +367,16 @@ impl<'a> ActiveSet<'a> {
         }
     }
 
-    /// Makes the candidate a member, by exchanges as long as it depends on the members.
-    fn enter(&mut self, candidate: &mut Candidate, counters: &mut Counters) {
+    /// Makes the point a member, by exchanges as long as it depends on the members.
+    fn enter(&mut self, entering: &mut EnteringPoint, counters: &mut Counters) {
         let mut weight = 0.0;
         loop {
-            if let Some(pivot) = self.pivot(candidate) {
-                self.append(candidate, weight, pivot);
+            if let Some(pivot) = self.pivot(entering) {
+                self.append(entering, weight, pivot);
                 counters.pivots += 1;
                 return;
             }
-            let y = self.factor.back(candidate.reduced.clone());
+            let y = self.factor.back(entering.reduced.clone());
             let bound = (0..y.len())
                 .filter(|&i| y[i] > DIRECTION_MIN)
                 .map(|i| (self.v[i] / y[i], i))
@@ -386,7 +386,7 @@ impl<'a> ActiveSet<'a> {
             self.v.iter_mut().zip(&y).for_each(|(v, y)| *v = (*v - t * y).max(0.0));
             weight += t;
             self.delete(blocker);
-            candidate.column.remove(blocker);
+            entering.column.remove(blocker);
             counters.exchanges += 1;
         }
     }

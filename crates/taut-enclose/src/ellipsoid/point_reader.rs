@@ -3,7 +3,6 @@
 //! A pass is one read of the source in fixed blocks on all threads. It lists points under a total order, so the result
 //! does not depend on how threads meet them. The first pass also hashes the points and refuses what is not finite.
 
-use std::ops::RangeInclusive;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
@@ -12,8 +11,8 @@ use taut_kernels::extremes::{all_finite, largest};
 use taut_kernels::triangle::{POINTS, above, leverages};
 use taut_points::parallel::ParallelSlice;
 use taut_points::{
-    BlockHash, Blocks, InputError, Monitor, OrderBy, PointSource, Points, PointsHash, ReadError,
-    Rows, Scalar, Scratch, gather, hash_block, map_blocks,
+    BlockHash, InputError, Monitor, OrderBy, PointSource, Points, PointsHash, ReadError, Rows,
+    Scalar, gather, hash_block, map_blocks,
 };
 
 use super::question::{Kind, Question, TakenIds};
@@ -53,8 +52,6 @@ pub(crate) struct PointReader<'a> {
     monitor: &'a Monitor<'a>,
     passes: u64,
     hash: Option<PointsHash>,
-    /// True while another thread hashes the rows, so that no pass has to.
-    hashed_beside: bool,
 }
 
 struct BlockReport {
@@ -71,7 +68,7 @@ impl<'a> PointReader<'a> {
         if source.is_empty() {
             return Err(Error::Empty);
         }
-        Ok(PointReader { source, monitor, passes: 0, hash: None, hashed_beside: false })
+        Ok(PointReader { source, monitor, passes: 0, hash: None })
     }
 
     pub(crate) fn dim(&self) -> usize {
@@ -127,36 +124,11 @@ impl<'a> PointReader<'a> {
         Ok(rows)
     }
 
-    /// Does some work, whose first part is that of one thread, while another thread hashes the rows and refuses what is not
-    /// finite; else the first pass does.
-    ///
-    /// Only rows in memory, and not so many that the first pass would wait. Of 10⁵ × 10 points that takes a twentieth off the time of
-    /// two threads.
-    pub(super) fn hash_beside<R: Send>(
-        &mut self,
-        work: impl FnOnce(&mut Self) -> Result<R, Error> + Send,
-    ) -> Result<R, Error> {
-        /// Coordinates: with fewer, to wake a thread takes as long as to hash them.
-        const VALUES: RangeInclusive<u64> = 1 << 18..=1 << 21;
-        let values = self.len().saturating_mul(self.dim() as u64);
-        let is_worth = VALUES.contains(&values) && rayon::current_num_threads() > 1;
-        if self.hash.is_some() || !is_worth || self.source.in_memory().is_none() {
-            return work(self);
-        }
-        let (source, monitor) = (self.source, self.monitor);
-        self.hashed_beside = true;
-        let (result, hash) = rayon::join(|| work(self), || hash_in_order(source, monitor));
-        self.hashed_beside = false;
-        // A row that is not finite says more than what it has led to.
-        self.hash = Some(hash?);
-        result
-    }
-
-    /// Counts a pass; returns true if it is the first, and nobody else hashes the rows.
+    /// Counts a pass; returns true if it is the first.
     fn begin_pass(&mut self) -> bool {
         self.passes += 1;
         self.monitor.pass(self.passes, self.len());
-        self.hash.is_none() && !self.hashed_beside
+        self.hash.is_none()
     }
 
     /// One pass of another kind: calls `work` with the number of the first row and the rows of each block.
@@ -172,7 +144,7 @@ impl<'a> PointReader<'a> {
 
     /// Keeps the hash, if this was the first pass.
     fn keep_hash(&mut self, hashes: impl Iterator<Item = Option<BlockHash>>) {
-        if self.hash.is_none() && !self.hashed_beside {
+        if self.hash.is_none() {
             let hashes = hashes.flatten();
             self.hash = Some(PointsHash::of_blocks(self.len(), self.dim(), hashes));
         }
@@ -232,19 +204,6 @@ impl<'a> PointReader<'a> {
         self.keep_hash(hashes.into_iter());
         Ok(taken)
     }
-}
-
-/// The hash of rows in memory, all of which have to be finite, by one thread.
-fn hash_in_order(source: &dyn PointSource, monitor: &Monitor<'_>) -> Result<PointsHash, Error> {
-    let blocks = Blocks::of(source);
-    let mut hashes = vec![];
-    let mut scratch = Scratch::new();
-    for range in (0..blocks.count()).map(|block| blocks.range(block)) {
-        monitor.check().map_err(ReadError::from)?;
-        let first = range.start;
-        hashes.push(hash_finite(first, &source.read(range, &mut scratch)?)?);
-    }
-    Ok(PointsHash::of_blocks(source.len(), source.dim(), hashes))
 }
 
 /// The hash of a block, or an error that names the first coordinate that is not finite.
@@ -494,54 +453,27 @@ fn block<T: Scalar>(
 
 #[cfg(test)]
 mod tests {
-    use taut_points::{Distribution, generate, hash_points, on_threads};
+    use taut_points::{Distribution, generate};
 
     use super::*;
     use crate::{EllipsoidOptions, ellipsoid};
 
-    /// As many that they are hashed by another thread, and a few too few for that.
-    const SIZES: [usize; 2] = [30_000, 20_000];
-
+    /// By a pass over all rows first, and by one that takes rows for a list.
     #[test]
-    fn rows_hashed_beside_other_work_have_their_hash() {
-        let monitor = Monitor::silent();
-        for (n, beside) in SIZES.into_iter().zip([true, false]) {
-            let values: Vec<f64> = generate(Distribution::Normal, n, 10, 5).unwrap();
-            let points = Points::new(&values, 10).unwrap();
-            let wanted = hash_points(&points, &monitor).unwrap();
-            let mut solutions = vec![];
-            for threads in [1, 2] {
-                let mut reader = PointReader::new(&points, &monitor).unwrap();
-                let beside = beside && threads > 1;
-                let was_hashed = on_threads(Some(threads), || {
-                    reader.hash_beside(|reader| Ok(!reader.begin_pass()))
-                });
-                assert_eq!(was_hashed.unwrap(), beside, "{n} rows, {threads} threads");
-                if beside {
-                    assert_eq!(reader.hash(), wanted);
-                }
-                let options = EllipsoidOptions { threads: Some(threads), ..Default::default() };
-                let found = ellipsoid(&points, &options).unwrap();
-                assert_eq!(found.certificate.points_hash, wanted);
-                solutions.push((found.answer, found.certificate));
-            }
-            assert_eq!(solutions[0], solutions[1]);
-        }
-    }
-
-    #[test]
-    fn rows_that_are_not_finite_are_named_by_whoever_hashes_them() {
-        for n in SIZES {
+    fn rows_that_are_not_finite_are_named() {
+        for n in [20_000, 70_000] {
             let mut values: Vec<f64> = generate(Distribution::Normal, n, 10, 5).unwrap();
             // Neither is in the sample of 4096.
             (values[123_458], values[190_003]) = (f64::NAN, f64::INFINITY);
-            let points = Points::new(&values, 10).unwrap();
+            let narrow: Vec<f32> = values.iter().map(|&value| value as f32).collect();
+            let wanted =
+                Error::Input(InputError::NonFinite { row: 12_345, column: 8, value: f64::NAN });
             for threads in [1, 2] {
                 let options = EllipsoidOptions { threads: Some(threads), ..Default::default() };
-                let said = ellipsoid(&points, &options).unwrap_err().to_string();
-                let wanted =
-                    Error::Input(InputError::NonFinite { row: 12_345, column: 8, value: f64::NAN });
-                assert_eq!(said, wanted.to_string());
+                let wide = ellipsoid(&Points::new(&values, 10).unwrap(), &options);
+                assert_eq!(wide.unwrap_err().to_string(), wanted.to_string());
+                let narrow = ellipsoid(&Points::new(&narrow, 10).unwrap(), &options);
+                assert_eq!(narrow.unwrap_err().to_string(), wanted.to_string());
             }
         }
     }

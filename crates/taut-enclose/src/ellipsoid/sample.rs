@@ -90,13 +90,13 @@ impl Sample {
     pub(super) fn spread(&self, blocks: &[f64], chosen: &[usize]) -> Vec<usize> {
         let dim = self.set.dim();
         let mut spread = extreme(blocks, dim, self.set.len());
-        // Some of the chosen do, nearly always, which takes less time.
-        let some = &chosen[..chosen.len().min(BASIS_CHOSEN_MAX)];
-        let is_held = [some, chosen].into_iter().any(|chosen| {
+        let holds = |chosen: &[usize]| {
             let held: Vec<usize> = chosen.iter().chain(&spread).copied().collect();
             holds_basis(blocks, dim, &held)
-        });
-        if !is_held {
+        };
+        // The first of many chosen points nearly always hold one, and to test them takes less time.
+        let some = chosen.get(..BASIS_CHOSEN_MAX).is_some_and(holds);
+        if !some && !holds(chosen) {
             spread.extend(affine_basis(rows_of_blocks(blocks, dim, self.set.len()), dim).0);
         }
         spread

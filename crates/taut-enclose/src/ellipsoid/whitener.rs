@@ -110,7 +110,7 @@ impl Whitener {
         whitened
     }
 
-    /// The same, in the memory of images of before.
+    /// Writes the images of all points of a working set into the memory of earlier ones.
     pub(super) fn apply_in_place(&self, set: &WorkingSet, whitened: &mut Whitened) {
         self.apply_to(set.blocks(), whitened);
         whitened.leverages.truncate(set.len());

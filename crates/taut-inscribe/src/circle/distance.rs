@@ -126,18 +126,41 @@ impl<'a> Edges<'a> {
         (self.accurate(p, edge) - self.error(p, edge)) * (1.0 - 32.0 * U)
     }
 
-    /// Half of the width of all edges across the line from a vertex to the one farthest from it: no circle between them has a larger
-    /// radius. It is off by some units of 2⁻¹⁰⁶.
-    pub(super) fn half_width(&self) -> f64 {
-        let Some(&[first, _]) = self.scaled.first() else { return 0.0 };
-        let from_first = |p: [f64; 2]| [minus(p[0], first[0]), minus(p[1], first[1])];
-        let length = |p: [f64; 2]| (p[0] - first[0]).hypot(p[1] - first[1]);
+    /// Tests whether the polygon is so thin that no radius can be claimed: wherever a point is inside, some edge is nearer to it than
+    /// the error of its distance from that edge.
+    ///
+    /// The width is measured across the line from a vertex to the farthest one, and each part of that line has to lie beside an edge
+    /// that is long enough for such an error. A polygon that is thin but has no straight direction is not recognized.
+    pub(super) fn are_too_near(&self) -> bool {
+        /// Leaves room for the rounding of the width.
+        const MARGIN: f64 = 2.0;
+        let Some(&[first, _]) = self.scaled.first() else { return false };
+        let square = |p: [f64; 2]| (p[0] - first[0]).powi(2) + (p[1] - first[1]).powi(2);
         let vertices = || self.scaled.iter().map(|edge| edge[0]);
-        let far = vertices().max_by(|&p, &q| length(p).total_cmp(&length(q))).unwrap_or(first);
-        let along = from_first(far);
-        let heights = vertices().map(|p| cross(from_first(p), along) / length(far));
+        let far = vertices().max_by(|&p, &q| square(p).total_cmp(&square(q))).unwrap_or(first);
+        let length = square(far).sqrt();
+        let from_first = |p: [f64; 2]| [minus(p[0], first[0]), minus(p[1], first[1])];
+        let heights = vertices().map(|p| cross(from_first(p), from_first(far)) / length);
         let (least, most) = heights.fold((0.0, 0.0), |(a, b), h| (h.min(a), h.max(b)));
-        0.5 * (most - least)
+        let long = MARGIN * (most - least) / PRODUCT_ERROR;
+        // Nearly always.
+        if long.is_nan() || long > length {
+            return false;
+        }
+        let along = |p: [f64; 2]| {
+            ((p[0] - first[0]) * (far[0] - first[0]) + (p[1] - first[1]) * (far[1] - first[1]))
+                / length
+        };
+        let long_edges =
+            self.scaled.iter().filter(|[a, b]| (b[0] - a[0]).hypot(b[1] - a[1]) > long);
+        let mut shadows: Vec<[f64; 2]> =
+            long_edges.map(|&[a, b]| [along(a).min(along(b)), along(a).max(along(b))]).collect();
+        shadows.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]));
+        let ends = vertices().map(along).fold([0.0, 0.0], |[a, b], x| [x.min(a), x.max(b)]);
+        let reached = shadows.iter().try_fold(ends[0], |reached, &[from, to]| {
+            if from > reached { Err(reached) } else { Ok(to.max(reached)) }
+        });
+        reached.is_ok_and(|reached| reached >= ends[1])
     }
 
     /// Returns what products of differences may be off by in the checker as well, relative to the length of an edge.
@@ -174,21 +197,32 @@ mod tests {
     }
 
     #[test]
-    fn the_half_width_bounds_a_circle() {
+    fn a_strip_is_too_thin_beside_long_edges_alone() {
         let of_ring = |ring: &[[f64; 2]]| {
             let loops = Loops::of_ring(ring);
             let runs = Runs::of(&loops.segments);
-            Edges::of(&loops.segments, &runs).half_width()
+            Edges::of(&loops.segments, &runs).are_too_near()
         };
-        // A rhombus on a diagonal, scaled by 1/2, and one of which doubles alone would see no width.
+        let strip = |from: f64, to: f64, height: f64| {
+            [[from, 0.0], [to, 0.0], [to, height], [from, height]]
+        };
+        assert!(of_ring(&strip(0.0, 1.0, 1e-300)) && of_ring(&strip(0.0, 1.0, 1e-29)));
+        assert!(!of_ring(&strip(0.0, 1.0, 1e-27)) && !of_ring(&strip(0.0, 1.0, 1.0)));
+        // Far from the origin, errors are those of the differences.
+        let end = 1.0 + 2f64.powi(-40);
+        assert!(!of_ring(&strip(1.0, end, 2f64.powi(-100))));
+        assert!(of_ring(&strip(1.0, end, 2f64.powi(-136))));
+        // Along a diagonal, where plain doubles would see no width.
         let rhombus = |w: f64| [[-1.0, -1.0], [w, -w], [1.0, 1.0], [-w, w]];
-        for width in [0.25, 2f64.powi(-60), 2f64.powi(-95)] {
-            let expected = width * std::f64::consts::SQRT_2;
-            let found = of_ring(&rhombus(width));
-            assert!((found - expected).abs() <= 1e-14 * expected, "{found:e}, {expected:e}");
-        }
-        // The farthest vertex is across: the width along the diagonal is twice that of the strip.
-        assert_eq!(of_ring(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1e-300], [0.0, 1e-300]]), 1e-300);
+        assert!(!of_ring(&rhombus(2f64.powi(-60))) && of_ring(&rhombus(2f64.powi(-97))));
+        // Between short edges distances have small errors.
+        let mut ring = strip(0.0, 1.0, 1e-30).to_vec();
+        ring.insert(1, [0.5, 0.0]);
+        ring.insert(4, [0.5, 1e-30]);
+        assert!(of_ring(&ring));
+        ring.splice(1..2, [[0.5, 0.0], [0.5 + 1e-9, 0.0]]);
+        ring.splice(5..6, [[0.5 + 1e-9, 1e-30], [0.5, 1e-30]]);
+        assert!(!of_ring(&ring));
     }
 
     #[test]

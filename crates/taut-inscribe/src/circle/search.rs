@@ -78,8 +78,7 @@ pub(super) fn search(
 ) -> Result<SearchResult, Cancelled> {
     let monitor = &options.monitor;
     let mut search = Search { edges, monitor, center: None, radius: 0.0, cells: 0, list: vec![] };
-    // With room for rounding: no radius is claimed that is not `RADIUS_LEAST` after the errors of a checker.
-    if edges.half_width() < 0.5 * RADIUS_LEAST {
+    if edges.are_too_near() {
         return Ok(search.refused(0, options.epsilon));
     }
     let first = search.best_first(options.epsilon)?;
@@ -175,7 +174,7 @@ impl PartialEq for Waiting {
 impl Eq for Waiting {}
 
 impl Search<'_> {
-    /// The result where no circle is large enough for a checker.
+    /// Returns the result for a polygon in which no circle is large enough for a checker.
     fn refused(mut self, searches: u64, epsilon: f64) -> SearchResult {
         self.center = None;
         self.result(Log::default(), f64::INFINITY, Stop::NodeBudget, searches, epsilon)

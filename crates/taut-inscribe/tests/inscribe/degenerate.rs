@@ -126,7 +126,7 @@ fn a_polygon_without_a_point_inside_is_refused() {
 fn strips_thinner_than_the_digits_of_coordinates_end() {
     let strip = [[0.0, 0.0], [1.0, 0.0], [1.0, 1e-300], [0.0, 1e-300]];
     assert_too_thin(&strip);
-    // A corner of two such strips, wide in every direction: only a search finds no circle.
+    // A corner of two such strips is wide in every direction: only a search can tell that there is no circle.
     let corner = [[0.0, 0.0], [1.0, 0.0], [1.0, 1e-40], [1e-40, 1e-40], [1e-40, 1.0], [0.0, 1.0]];
     let options = CircleOptions { max_cells: long_or(1_000_000, 1000), ..Default::default() };
     let refused = solve_with(&corner, &options);
