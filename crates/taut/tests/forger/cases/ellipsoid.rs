@@ -4,15 +4,18 @@ use taut::enclose::EllipsoidMethod;
 use taut::{EllipsoidOptions, Items, Monitor, ellipsoid};
 
 use super::{Case, Input, Solved, ball, cases, clouds, document, hand};
-
 use crate::random::Random;
+use crate::test_length::long_or;
+
 /// Returns the cases of the minimum-volume enclosing ellipsoid.
 pub fn all() -> Vec<Case> {
     let mut found = vec![];
     for (dim, count) in [(1, 5), (2, 12), (3, 10), (5, 10)] {
         let mut inputs = clouds::points(dim, count);
         inputs.extend([1e-5, 1e-9].map(|width| skew(dim, count, width)));
-        found.extend(around(inputs, dim, Items::Points));
+        // The exact optima of inputs in five dimensions take half of the time of the attack.
+        let step = if dim == 5 { long_or(1, 3) } else { 1 };
+        found.extend(around(inputs.into_iter().step_by(step).collect(), dim, Items::Points));
     }
     for dim in 2..=3 {
         found.extend(around(ball::balls(dim), dim, Items::Balls));
