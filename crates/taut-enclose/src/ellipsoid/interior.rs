@@ -156,9 +156,9 @@ impl State {
         let m = set.dim() + 1;
         let p = m * (m + 1) / 2;
         let whitened = whitener.apply(set);
-        let largest = 1.0 + whitened.largest();
-        let slack = start_slack(m, whitened.largest()).clamp(START_SLACK_MIN, START_SLACK_MAX);
-        let start = 1.0 / ((1.0 + slack) * largest);
+        let largest = whitened.largest();
+        let slack = start_slack(m, largest).clamp(START_SLACK_MIN, START_SLACK_MAX);
+        let start = 1.0 / ((1.0 + slack) * (1.0 + largest));
         let mut identity = vec![0.0; m * m];
         (0..m).for_each(|a| identity[a * m + a] = start);
         let matrix = svec(&identity, m);
