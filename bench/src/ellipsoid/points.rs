@@ -23,7 +23,9 @@ pub(super) fn solve(
 ) -> Result<Solved> {
     let points = Points::new(values, d)?;
     let options = EllipsoidOptions { epsilon: EPSILON, ..EllipsoidOptions::default() };
-    let beside = Opponents { peers, rows: (values, d), reads: None };
+    // As for balls, the pool reads the rows once before each run, which wakes its threads; but not beside peers, whose processes do not.
+    let reads = peers.is_empty().then(|| bytemuck::cast_slice(values));
+    let beside = Opponents { peers, rows: (values, d), reads };
     let solve = || Ok(ellipsoid(&points, &options)?);
     let rounds = rounds::run(context, runs, beside, solve, |_| Ok(()))?;
     let verdict = rounds.found.check(&points).map_err(|why| why.to_string());
