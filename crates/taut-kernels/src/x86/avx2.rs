@@ -114,8 +114,6 @@ impl Lanes for Avx2 {
                 }
                 ScalarKind::F64 => {
                     let from = from.cast::<f64>();
-                    let wide =
-                        |mask: *const i32| _mm256_cvtepi32_epi64(_mm_loadu_si128(mask.cast()));
                     let low = _mm256_maskload_pd(from, four_masks!(mask));
                     Avx2(low, _mm256_maskload_pd(from.wrapping_add(4), four_masks!(mask.add(4))))
                 }
