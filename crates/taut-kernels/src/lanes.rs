@@ -22,7 +22,7 @@ pub(super) trait Lanes: Copy {
     /// The `count` < 8 values at `from`, widened, then zeros.
     ///
     /// # Safety
-    /// `count` values must be readable at `from`; nothing beyond is read.
+    /// `count` is below 8, and as many values must be readable at `from`; nothing beyond is read.
     unsafe fn load_first<T: Scalar>(from: *const T, count: usize) -> Self;
     /// self − other.
     ///

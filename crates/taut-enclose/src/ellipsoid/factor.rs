@@ -97,7 +97,9 @@ impl Factor {
 
     /// v with Hv = b.
     pub(crate) fn solution(&self) -> Vec<f64> {
-        self.back(self.right.clone())
+        let mut v = vec![];
+        self.solution_into(&mut v);
+        v
     }
 
     /// Writes v with Hv = b.
