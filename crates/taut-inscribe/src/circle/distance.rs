@@ -143,7 +143,7 @@ impl<'a> Edges<'a> {
         let heights = vertices().map(|p| cross(from_first(p), from_first(far)) / length);
         let (least, most) = heights.fold((0.0, 0.0), |(a, b), h| (h.min(a), h.max(b)));
         let long = MARGIN * (most - least) / PRODUCT_ERROR;
-        // No edge is longer: nearly every polygon ends here.
+        // Nearly every polygon ends here, far from too thin.
         if long.is_nan() || long > length {
             return false;
         }
