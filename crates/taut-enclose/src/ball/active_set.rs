@@ -108,6 +108,27 @@ impl ActiveSet {
         active
     }
 
+    /// The support is what a factor of all items leaves of them: those with positive multipliers at its stationary point, and of
+    /// these what [`Self::settle`] keeps. Where most items belong to the support, this takes one factor and few deletions
+    /// in place of an entry for each.
+    pub(super) fn of_all(set: &WorkingSet, reach2: f64) -> Self {
+        let mut active = ActiveSet::new(set, reach2);
+        active.support = (0..set.len()).collect();
+        active.lambda = vec![1.0; set.len()];
+        active.rebuild_with(set, DEPENDENT_RATIO);
+        active.lambda = active.factor.stationary();
+        let is_kept: Vec<bool> = active.lambda.iter().map(|&l| l > 0.0).collect();
+        if is_kept.contains(&false) {
+            let mut kept = is_kept.iter();
+            active.support.retain(|_| *kept.next().expect("one for each item"));
+            active.lambda.retain(|&l| l > 0.0);
+            active.rebuild(set);
+            active.settle(set);
+        }
+        active.pivots = active.support.len() as u64;
+        active
+    }
+
     /// Lets [`Self::maximize`] end early, after so many deletions in one call.
     pub(super) fn give_up_after(&mut self, deletions: Option<u32>) {
         self.patience = deletions;
@@ -365,11 +386,13 @@ impl ActiveSet {
             let a: Vec<f64> =
                 self.support.iter().map(|&i| set.gram_row(j)[i] + self.sigma).collect();
             let mut z = self.factor.forward(&a);
-            let mut y = self.factor.back(&z);
+            let mut recomputed = None;
             let mut distance2 = length2 - dot(&z, &z);
             if distance2.min(self.factor.smallest_pivot()) < RECOMPUTED_RATIO * length2 {
+                let mut y = self.factor.back(&z);
                 distance2 = self.distance_from_coordinates(set, j, &mut y);
                 z = self.factor.times(&y);
+                recomputed = Some(y);
             }
             // More than d + 1 affinely independent points do not exist: a fact, where the tolerance is a guess.
             if distance2 > DEPENDENT_RATIO * length2 && self.support.len() <= set.dim() {
@@ -378,6 +401,7 @@ impl ActiveSet {
                 self.lambda.push(weight);
                 return true;
             }
+            let y = recomputed.unwrap_or_else(|| self.factor.back(&z));
             let Some((blocker, step)) = exchange(&self.lambda, &y) else { return false };
             add_scaled(&mut self.lambda, -step, &y);
             weight += step;

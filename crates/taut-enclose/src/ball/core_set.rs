@@ -45,6 +45,9 @@ const DELETIONS_LEAST: usize = 64;
 /// Smallest batch of which the share that entered the support says anything.
 const TELLING_BATCH: usize = 16;
 
+/// Of a first batch with so many dimensions for each item, most belong to the support of its ball.
+const SUPPORTED_DIMENSIONS: usize = 2;
+
 /// Far items per pass: where passes are cheap beside the work on the set they bring, fewer.
 fn batch_for(dim: usize) -> usize {
     match dim {
@@ -79,7 +82,12 @@ fn solve_with_patience(
     outcome.bounds(PassBounds { lower: 0.0, upper, working_set: 0 });
     // Two at least, as one alone proves no lower bound.
     add(&mut set, reader, found.far.iter().map(|far| far.id), batch.max(2))?;
-    let mut active = ActiveSet::new(&set, found.farthest.reach2);
+    let is_small = SUPPORTED_DIMENSIONS * set.len() <= reader.dim();
+    let mut active = if is_small && reader.items() == Items::Points {
+        ActiveSet::of_all(&set, found.farthest.reach2)
+    } else {
+        ActiveSet::new(&set, found.farthest.reach2)
+    };
     if reader.items() == Items::Points {
         active.give_up_after(Some(patience));
     }
