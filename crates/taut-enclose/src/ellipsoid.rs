@@ -6,7 +6,6 @@
 mod batch;
 mod counters;
 pub(crate) mod dense;
-pub(crate) mod factor;
 mod first_order;
 mod flat;
 mod fourth_moments;

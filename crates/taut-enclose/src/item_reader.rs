@@ -142,6 +142,16 @@ impl<'a> ItemReader<'a> {
         self.source.len()
     }
 
+    /// Numbers in a row: coordinates, and the radius of a ball.
+    pub(crate) fn columns(&self) -> usize {
+        self.source.dim()
+    }
+
+    /// Tests whether single rows are read as fast as many at once.
+    pub(crate) fn is_in_memory(&self) -> bool {
+        self.source.in_memory().is_some()
+    }
+
     /// Points or balls.
     pub(crate) fn items(&self) -> Items {
         self.view.items
@@ -265,7 +275,7 @@ impl<'a> ItemReader<'a> {
         };
         let (mut mean, mut first_shares) = (vec![], vec![]);
         // A copy of few rows stays in the cache. From elsewhere they come at once.
-        let rows_at_once = if self.source.in_memory().is_some() { 32 } else { ids.len() };
+        let rows_at_once = if self.is_in_memory() { 32 } else { ids.len() };
         for ids in ids.chunks(rows_at_once) {
             let rows = self.rows(ids)?;
             if mean.is_empty() {

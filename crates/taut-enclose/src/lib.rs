@@ -35,6 +35,7 @@
 
 mod ball;
 mod centers;
+mod cholesky;
 mod dop;
 mod ellipsoid;
 mod error;

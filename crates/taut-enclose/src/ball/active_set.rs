@@ -462,6 +462,10 @@ impl ActiveSet {
 
     /// The same for a part of the squared length below which the squared distance to those before it is dependence.
     fn rebuild_with(&mut self, set: &WorkingSet, dependent_ratio: f64) {
+        if self.factor_at_once(set) {
+            self.normalize();
+            return;
+        }
         self.factor.clear();
         let (support, lambda) =
             (std::mem::take(&mut self.support), std::mem::take(&mut self.lambda));
@@ -485,6 +489,26 @@ impl ActiveSet {
                 self.lambda.push(l);
             }
         }
+        self.normalize();
+    }
+
+    /// Makes the factor of the support by products of matrices; false where some of it depends on the rest, or nearly so.
+    fn factor_at_once(&mut self, set: &WorkingSet) -> bool {
+        if self.support.len() > set.dim() + 1 {
+            return false;
+        }
+        let entries = |&i: &usize| {
+            let row = set.gram_row(i);
+            self.support.iter().map(|&j| row[j] + self.sigma)
+        };
+        let a = self.support.iter().flat_map(entries).collect();
+        let half_b: Vec<f64> = self.support.iter().map(|&i| self.b(set, i) / 2.0).collect();
+        let Some(factor) = Factor::of(a, &half_b, RECOMPUTED_RATIO) else { return false };
+        self.factor = factor;
+        true
+    }
+
+    fn normalize(&mut self) {
         let sum: f64 = self.lambda.iter().sum();
         self.lambda.iter_mut().for_each(|l| *l /= sum);
     }
@@ -500,8 +524,7 @@ impl ActiveSet {
         }
         self.correct_by(halves);
         // What solving left beside 1 is more than the certificate may state.
-        let sum: f64 = self.lambda.iter().sum();
-        self.lambda.iter_mut().for_each(|l| *l /= sum);
+        self.normalize();
     }
 }
 

@@ -222,7 +222,7 @@ mod tests {
         let dim = rows[0].len() - 1;
         let mut set = WorkingSet::new(rows[0][..dim].to_vec(), 0.0);
         for (id, row) in (0..).zip(rows) {
-            set.add(&[id], row, true);
+            set.add(&[id], row.to_vec(), true);
         }
         let mut hull = Hull::default();
         hull.grow(&set);

@@ -186,7 +186,7 @@ fn empty_set(reader: &ItemReader<'_>, middle: Center) -> Result<WorkingSet, Erro
     let Some(largest) = reader.largest() else { return Ok(WorkingSet::new(middle.high, 0.0)) };
     let row = reader.rows(&[largest])?;
     let mut set = WorkingSet::new(row[..reader.dim()].to_vec(), row[reader.dim()]);
-    set.add(&[largest], &row, true);
+    set.add(&[largest], row, true);
     Ok(set)
 }
 
@@ -197,7 +197,7 @@ fn add(
     most: usize,
 ) -> Result<(), Error> {
     let ids: Vec<u64> = ids.filter(|&id| !set.contains(id)).take(most).collect();
-    set.add(&ids, &reader.rows(&ids)?, reader.items() == Items::Balls);
+    set.add(&ids, reader.rows(&ids)?, reader.items() == Items::Balls);
     Ok(())
 }
 

@@ -1,112 +1,90 @@
-//! The triangular factor of the support, grown and shrunk by one point at a time.
+//! The triangular factor of the support, and what an active set asks of it.
 //!
-//! RᵀR = A with A = G + σ11ᵀ over the support, R upper triangular and kept by rows. Two right-hand sides ride along,
-//! w_b = R⁻ᵀ(b/2) and w_1 = R⁻ᵀ1, so that the circumcenter of the support costs one back substitution.
-//! Appending a point is one forward substitution; deleting one is a shift of columns and a rotation for each row
-//! below, which works on contiguous rows. Both are O(s²) for s points.
-//! *Reference.* Golub and Van Loan, Matrix Computations, 6.5 (updating a Cholesky factor).
+//! RᵀR = A with A = G + σ11ᵀ over the support. Two right-hand sides ride along, w_b = R⁻ᵀ(b/2) and w_1 = R⁻ᵀ1, so that the
+//! circumcenter of the support costs one back substitution.
 
-use taut_kernels::vector::{add_scaled, dot, rotate};
+use taut_kernels::vector::{add_scaled, dot};
+
+use crate::cholesky::Cholesky;
+
+/// The right-hand side b/2.
+const HALF_B: usize = 0;
+/// The right-hand side of ones.
+const ONES: usize = 1;
 
 #[derive(Clone, Debug, Default)]
-pub(super) struct Factor {
-    /// Row i holds `R[i][i..s]`.
-    rows: Vec<Vec<f64>>,
-    w_b: Vec<f64>,
-    w_1: Vec<f64>,
-}
+pub(super) struct Factor(Cholesky<2>);
 
 impl Factor {
+    /// The factor of A, s × s, of which only the upper triangle is read; `None` when the square of a pivot is below `least` times its
+    /// diagonal entry.
+    pub(super) fn of(a: Vec<f64>, half_b: &[f64], least: f64) -> Option<Self> {
+        Cholesky::of(a, [half_b, &vec![1.0; half_b.len()]], least).map(Factor)
+    }
+
     pub(super) fn clear(&mut self) {
-        self.rows.clear();
-        self.w_b.clear();
-        self.w_1.clear();
+        self.0.clear();
+    }
+
+    /// The number of points.
+    fn len(&self) -> usize {
+        self.0.right(ONES).len()
     }
 
     /// The smallest `R[i][i]`²: how near the support is to affine dependence.
     pub(super) fn smallest_pivot(&self) -> f64 {
-        self.rows.iter().map(|row| row[0] * row[0]).fold(f64::INFINITY, f64::min)
+        (0..self.len()).map(|i| self.0.row(i)[0].powi(2)).fold(f64::INFINITY, f64::min)
     }
 
     /// z with Rᵀz = a.
     pub(super) fn forward(&self, a: &[f64]) -> Vec<f64> {
-        let mut z = a.to_vec();
-        for (i, row) in self.rows.iter().enumerate() {
-            z[i] /= row[0];
-            let (head, tail) = z.split_at_mut(i + 1);
-            add_scaled(tail, -head[i], &row[1..]);
-        }
-        z
+        self.0.forward(a)
     }
 
     /// y with Ry = z.
     pub(super) fn back(&self, z: &[f64]) -> Vec<f64> {
-        let mut y = z.to_vec();
-        for (i, row) in self.rows.iter().enumerate().rev() {
-            y[i] = (y[i] - dot(&row[1..], &y[i + 1..])) / row[0];
-        }
-        y
+        self.0.back(z.to_vec())
     }
 
     /// Ry.
     pub(super) fn times(&self, y: &[f64]) -> Vec<f64> {
-        self.rows.iter().enumerate().map(|(i, row)| dot(row, &y[i..])).collect()
+        (0..self.len()).map(|i| dot(self.0.row(i), &y[i..])).collect()
     }
 
     /// Appends a point with column z = R⁻ᵀa, pivot √(a_jj − |z|²) and right-hand side b/2.
     pub(super) fn append(&mut self, z: &[f64], pivot: f64, half_b: f64) {
-        self.w_b.push((half_b - dot(z, &self.w_b)) / pivot);
-        self.w_1.push((1.0 - dot(z, &self.w_1)) / pivot);
-        for (row, &z) in self.rows.iter_mut().zip(z) {
-            row.push(z);
-        }
-        self.rows.push(vec![pivot]);
+        self.0.append(z, pivot, [half_b, 1.0]);
     }
 
     pub(super) fn delete(&mut self, position: usize) {
-        for (i, row) in self.rows.iter_mut().enumerate().take(position) {
-            row.remove(position - i);
-        }
-        // The deleted column leaves its own row and those below one entry below the diagonal each: rotate it away.
-        let mut carry = self.rows.remove(position);
-        carry.remove(0);
-        let (mut carry_b, mut carry_1) = (self.w_b.remove(position), self.w_1.remove(position));
-        for i in position..self.rows.len() {
-            let next = &mut self.rows[i];
-            let length = carry[0].hypot(next[0]);
-            let (c, s) = (carry[0] / length, next[0] / length);
-            rotate(&mut carry, next, c, s);
-            std::mem::swap(&mut carry, next);
-            carry.remove(0);
-            (self.w_b[i], carry_b) = (c * carry_b + s * self.w_b[i], c * self.w_b[i] - s * carry_b);
-            (self.w_1[i], carry_1) = (c * carry_1 + s * self.w_1[i], c * self.w_1[i] - s * carry_1);
-        }
+        self.0.delete(position);
     }
 
     /// Replaces the right-hand side b/2.
     pub(super) fn set_half_b(&mut self, half_b: &[f64]) {
-        self.w_b = self.forward(half_b);
+        self.0.set_right(HALF_B, half_b);
     }
 
     /// The affine combination of the support whose point has equal b-distance to all of it: the stationary point of
     /// the dual on the affine hull. ν = (1 − w_1·w_b)/|w_1|², then Rs = w_b + νw_1.
     pub(super) fn stationary(&self) -> Vec<f64> {
-        let mut right = self.w_b.clone();
-        add_scaled(&mut right, self.multiplier(), &self.w_1);
-        self.back(&right)
+        let mut right = self.0.right(HALF_B).to_vec();
+        add_scaled(&mut right, self.multiplier(), self.0.right(ONES));
+        self.0.back(right)
     }
 
     /// ν of the stationary point s: As = b/2 + ν1.
     pub(super) fn multiplier(&self) -> f64 {
-        (1.0 - dot(&self.w_1, &self.w_b)) / dot(&self.w_1, &self.w_1)
+        let [w_b, w_1] = [HALF_B, ONES].map(|side| self.0.right(side));
+        (1.0 - dot(w_1, w_b)) / dot(w_1, w_1)
     }
 
     /// x with Ax = v + ν1 and Σx = 0: the correction of multipliers that evens out v.
     pub(super) fn correction(&self, v: &[f64]) -> Vec<f64> {
-        let mut right = self.forward(v);
-        let nu = -dot(&self.w_1, &right) / dot(&self.w_1, &self.w_1);
-        add_scaled(&mut right, nu, &self.w_1);
-        self.back(&right)
+        let (mut right, w_1) = (self.0.forward(v), self.0.right(ONES));
+        let nu = -dot(w_1, &right) / dot(w_1, w_1);
+        add_scaled(&mut right, nu, w_1);
+        self.0.back(right)
     }
 }
 

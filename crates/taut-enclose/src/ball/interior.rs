@@ -16,7 +16,7 @@ use taut_kernels::vector::{add_combination, dot};
 use taut_points::parallel::ParallelSlice;
 use taut_points::{Cancelled, Monitor};
 
-use crate::ellipsoid::factor::Factor;
+use crate::cholesky::Cholesky;
 
 /// A step goes this part of the way to where a slack or a multiplier becomes 0.
 const STEP_FRACTION: f64 = 0.99;
@@ -204,7 +204,7 @@ impl InteriorPoint {
         // With g = 0 the rows drop out of the right-hand side.
         let mut right: Vec<f64> = self.center.iter().map(|c| -2.0 * c).collect();
         right.push(-1.0);
-        let Some(solver) = Factor::of(rows.normal(&ratio), &right, 0.0) else { return false };
+        let Some(solver) = Cholesky::of(rows.normal(&ratio), [&right], 0.0) else { return false };
         let mu = dot(&self.slacks, &self.multipliers) / k as f64;
 
         let slacks = rows.times(&solver.solution());

@@ -165,7 +165,7 @@ fn add(
         .iter()
         .flat_map(|t| framed.touching(t.item, &t.direction))
         .collect();
-    set.add(&ids, &rows, false);
+    set.add(&ids, rows, false);
 }
 
 /// Asks every item for its farthest point from a center.

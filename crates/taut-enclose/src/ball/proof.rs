@@ -9,7 +9,7 @@
 use taut_certify::{Ball, BallCertificate, PassBounds, Solution, Stop, Trace};
 use taut_kernels::{Center, Difference, DoubleDouble, relative_error, vanishes};
 use taut_points::parallel::ParallelSlice;
-use taut_points::{Cancelled, OrderBy, ReadError};
+use taut_points::{OrderBy, ReadError};
 
 use super::BallOptions;
 use super::core_set::ROUNDING;
@@ -135,10 +135,20 @@ impl Measurement {
         center: &Center,
     ) -> Result<Self, Error> {
         debug_assert!(weights.is_empty() || weights.len() == ids.len());
-        let rows = reader.rows_as_given(ids)?;
-        let columns = rows.len() / ids.len().max(1);
-        let part = |(k, rows): (usize, &[f64])| -> Result<Measurement, Cancelled> {
-            reader.monitor().check()?;
+        let columns = reader.columns();
+        // From elsewhere they come at once; in memory each part copies its own.
+        let far = if reader.is_in_memory() { None } else { Some(reader.rows_as_given(ids)?) };
+        let part = |(k, ids): (usize, &[u64])| -> Result<Measurement, Error> {
+            reader.monitor().check().map_err(ReadError::from)?;
+            let first = k * ROWS_AT_ONCE;
+            let near;
+            let rows = match &far {
+                Some(far) => &far[first * columns..(first + ids.len()) * columns],
+                None => {
+                    near = reader.rows_as_given(ids)?;
+                    &near[..]
+                }
+            };
             let mut items = vec![];
             let mut beside =
                 vec![DoubleDouble::ZERO; if weights.is_empty() { 0 } else { reader.dim() }];
@@ -150,20 +160,19 @@ impl Measurement {
                     radius.first().copied().unwrap_or(0.0),
                     reader.scale(),
                 ));
-                if let Some(&weight) = weights.get(k * ROWS_AT_ONCE + i) {
+                if let Some(&weight) = weights.get(first + i) {
                     difference.add_times(weight, &mut beside);
                 }
             }
             Ok(Measurement { items, beside })
         };
-        let size = (ROWS_AT_ONCE * columns).max(1);
-        let parts: Result<Vec<Measurement>, Cancelled> = if rows.len() <= size {
-            rows.chunks(size).enumerate().map(part).collect()
+        let parts: Result<Vec<Measurement>, Error> = if ids.len() <= ROWS_AT_ONCE {
+            ids.chunks(ROWS_AT_ONCE).enumerate().map(part).collect()
         } else {
-            rows.par_chunks(size).enumerate().map(part).collect()
+            ids.par_chunks(ROWS_AT_ONCE).enumerate().map(part).collect()
         };
         let mut all = Measurement { items: vec![], beside: vec![DoubleDouble::ZERO; reader.dim()] };
-        for part in parts.map_err(ReadError::from)? {
+        for part in parts? {
             all.items.extend(part.items);
             for (sum, more) in all.beside.iter_mut().zip(part.beside) {
                 *sum = *sum + more;

@@ -60,13 +60,13 @@ impl<'s, 'a> Run<'s, 'a> {
     pub(super) fn set_of(&self, ids: &[u64]) -> Result<WorkingSet, Error> {
         let rows = self.reader.rows(ids)?;
         let mut set = WorkingSet::new(rows[..self.reader.dim()].to_vec(), 0.0);
-        set.add(ids, &rows, self.reader.items() == Items::Balls);
+        set.add(ids, rows, self.reader.items() == Items::Balls);
         Ok(set)
     }
 
     /// X ← X ∪ {item}.
     pub(super) fn add(&self, set: &mut WorkingSet, id: u64) -> Result<(), Error> {
-        set.add(&[id], &self.reader.rows(&[id])?, self.reader.items() == Items::Balls);
+        set.add(&[id], self.reader.rows(&[id])?, self.reader.items() == Items::Balls);
         Ok(())
     }
 

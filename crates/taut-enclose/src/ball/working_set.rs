@@ -137,16 +137,31 @@ impl WorkingSet {
     }
 
     /// Adds items that are not in the set yet. `rows` holds for each its coordinates, and its radius if `with_radius`.
-    pub(super) fn add(&mut self, ids: &[u64], rows: &[f64], with_radius: bool) {
+    pub(super) fn add(&mut self, ids: &[u64], mut rows: Vec<f64>, with_radius: bool) {
         let before = self.len();
-        let columns = self.dim + usize::from(with_radius);
-        self.rows.reserve(ids.len() * self.dim);
-        for (&id, row) in ids.iter().zip(rows.chunks_exact(columns)) {
+        for &id in ids {
             debug_assert!(!self.contains(id));
             self.position.insert(id, self.ids.len());
             self.ids.push(id);
-            self.rows.extend(row.iter().zip(&self.origin).map(|(x, o)| x - o));
-            self.radii.push(if with_radius { row[self.dim] - self.radius_offset } else { 0.0 });
+        }
+        let columns = self.dim + usize::from(with_radius);
+        if with_radius {
+            let radius = |row: &[f64]| row[self.dim] - self.radius_offset;
+            self.radii.extend(rows.chunks_exact(columns).map(radius));
+        } else {
+            self.radii.resize(self.ids.len(), 0.0);
+        }
+        if before == 0 && !with_radius {
+            // The first batch is the largest, and need not be copied.
+            for row in rows.chunks_exact_mut(columns) {
+                row.iter_mut().zip(&self.origin).for_each(|(x, o)| *x -= o);
+            }
+            self.rows = rows;
+        } else {
+            self.rows.reserve(ids.len() * self.dim);
+            for row in rows.chunks_exact(columns) {
+                self.rows.extend(row.iter().zip(&self.origin).map(|(x, o)| x - o));
+            }
         }
         self.grow(before);
         self.multiply(before);
@@ -158,7 +173,8 @@ impl WorkingSet {
         if k <= self.stride {
             return;
         }
-        let stride = (2 * self.stride).max(k).next_multiple_of(8);
+        // Room for later batches, which mostly are small beside the first.
+        let stride = (2 * self.stride).max(k + k / 4).next_multiple_of(8);
         let mut gram = vec![0.0; stride * stride];
         for i in 0..before {
             gram[i * stride..i * stride + before]
@@ -229,7 +245,7 @@ mod tests {
         let mut set = WorkingSet::new(vec![0.5; dim], 0.0);
         for (first, end) in [(0, 1), (1, 20), (20, 150), (150, 300)] {
             let ids: Vec<u64> = (first..end).collect();
-            set.add(&ids, &rows[first as usize * dim..end as usize * dim], false);
+            set.add(&ids, rows[first as usize * dim..end as usize * dim].to_vec(), false);
         }
         assert_eq!(
             (set.len(), set.id(7), set.contains(299), set.contains(300)),
@@ -246,7 +262,7 @@ mod tests {
     #[test]
     fn radii_are_relative_to_the_largest() {
         let mut set = WorkingSet::new(vec![1.0, 1.0], 5.0);
-        set.add(&[3, 8], &[1.0, 2.0, 5.0, 4.0, 5.0, 0.5], true);
+        set.add(&[3, 8], vec![1.0, 2.0, 5.0, 4.0, 5.0, 0.5], true);
         assert_eq!((set.radius(0), set.radius(1)), (0.0, -4.5));
         assert_eq!(set.row(1), [3.0, 4.0]);
         assert_eq!(set.norm2(1), 25.0);

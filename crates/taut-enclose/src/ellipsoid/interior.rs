@@ -23,12 +23,12 @@ use taut_points::{Monitor, OrderBy, ReadError};
 
 use super::counters::Counters;
 use super::dense::{cholesky, divide_rows};
-use super::factor::Factor;
 use super::fourth_moments::FourthMoments;
 use super::newton::{REBASE_TOLERANCE, gap};
 use super::whitener::{Rebased, Whitened, Whitener};
 use super::working_set::WorkingSet;
 use crate::Error;
+use crate::cholesky::Cholesky;
 
 /// The active set takes over at this gap at the latest: what points differ by may be far less than a gap of 1e-9.
 const GAP_MIN: f64 = 1e-13;
@@ -182,7 +182,9 @@ impl State {
         let ratio: Vec<f64> = self.z.iter().zip(&self.s).map(|(z, s)| z / s).collect();
         let normal = self.normal(&inverse, &ratio);
         let mu = dot(&self.z, &self.s) / k as f64;
-        let Some(solver) = Factor::of(normal, &svec(&inverse, self.m), 0.0) else { return false };
+        let Some(solver) = Cholesky::of(normal, [&svec(&inverse, self.m)], 0.0) else {
+            return false;
+        };
         let predictor = self.direction(&solver.solution(), vec![0.0; k], &ratio);
         let (primal, dual) =
             (self.primal_length(&predictor, 1.0), self.dual_length(&predictor, 1.0));
@@ -221,7 +223,7 @@ impl State {
     }
 
     /// The step of one right-hand side.
-    fn corrected(&self, solver: &Factor, inverse: &[f64], g: Vec<f64>, ratio: &[f64]) -> Step {
+    fn corrected(&self, solver: &Cholesky<1>, inverse: &[f64], g: Vec<f64>, ratio: &[f64]) -> Step {
         let factors = g.iter().zip(&self.s).map(|(g, s)| g / s).collect();
         let pull = moments(self.m - 1, &self.whitened.blocks, &self.padded(factors));
         let mut right = svec(inverse, self.m);

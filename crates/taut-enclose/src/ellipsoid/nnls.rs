@@ -25,9 +25,9 @@ use taut_points::OrderBy;
 use taut_points::parallel::ParallelSlice;
 
 use super::counters::Counters;
-use super::factor::Factor;
 use super::whitener::Whitened;
 use super::working_set::{basis_max, copy_row};
+use crate::cholesky::Cholesky;
 
 /// A column whose squared distance from the span of the others is below this part of its square depends on them.
 const DEPENDENT_RATIO: f64 = 1e-11;
@@ -151,7 +151,7 @@ struct ActiveSet<'a> {
     /// Their w, `stride` apart: y, 1, and zeros.
     rows: Vec<f64>,
     stride: usize,
-    factor: Factor,
+    factor: Cholesky<1>,
 }
 
 impl<'a> ActiveSet<'a> {
@@ -163,7 +163,7 @@ impl<'a> ActiveSet<'a> {
             v: vec![],
             rows: vec![],
             stride: (dim + 1).next_multiple_of(8),
-            factor: Factor::default(),
+            factor: Cholesky::default(),
         }
     }
 
@@ -239,7 +239,9 @@ impl<'a> ActiveSet<'a> {
     fn take_up(&mut self, points: &[usize], v: &[f64]) -> bool {
         let rows = self.rows_of(points);
         let b: Vec<f64> = points.iter().map(|&i| self.b(i)).collect();
-        let Some(factor) = Factor::of(self.gram(&rows), &b, DEPENDENT_RATIO) else { return false };
+        let Some(factor) = Cholesky::of(self.gram(&rows), [&b], DEPENDENT_RATIO) else {
+            return false;
+        };
         (self.members, self.v, self.rows) = (points.to_vec(), v.to_vec(), rows);
         self.factor = factor;
         true
@@ -259,7 +261,7 @@ impl<'a> ActiveSet<'a> {
             let mut gram = self.gram(&rows);
             // Copies of a point would leave no factor: the ridge shares the weight among them.
             (0..points.len()).for_each(|i| gram[i * points.len() + i] *= 1.0 + RIDGE);
-            let Some(factor) = Factor::of(gram, &b, 0.0) else { return };
+            let Some(factor) = Cholesky::of(gram, [&b], 0.0) else { return };
             let v = factor.solution();
             counters.crashes += 1;
             if v.iter().all(|&v| v > 0.0) {
@@ -292,7 +294,7 @@ impl<'a> ActiveSet<'a> {
 
     /// Makes the point a member.
     fn append(&mut self, entering: &EnteringPoint, v: f64, pivot: f64) {
-        self.factor.append(&entering.reduced, pivot, self.b(entering.point));
+        self.factor.append(&entering.reduced, pivot, [self.b(entering.point)]);
         self.members.push(entering.point);
         self.v.push(v);
         self.rows.extend_from_slice(&entering.row);

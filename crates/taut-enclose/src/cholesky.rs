@@ -1,6 +1,6 @@
 //! The triangular factor of the Gram matrix of the points in use, grown and shrunk by one point at a time or grown by several.
 //!
-//! R′R = H with R upper triangular, kept by rows in one square of memory. The right-hand side w = R⁻ᵀb rides along, so
+//! R′R = H with R upper triangular, kept by rows in one square of memory. Right-hand sides w = R⁻ᵀb ride along, so
 //! that the solution of Hv = b costs one back substitution. Appending a point is one forward substitution; deleting one
 //! is a shift of columns and a rotation for each row below; both are O(s²) for s points. Many points at once are
 //! factored in blocks, by matrix products on all threads: tiles are fixed, so that the factor does not depend on these.
@@ -18,25 +18,50 @@ const PANEL_ROWS: usize = 16;
 /// One task takes a block of rows of R from so many rows of what is left.
 const TILE_ROWS: usize = 64;
 
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Factor {
+/// R, with so many right-hand sides.
+#[derive(Clone, Debug)]
+pub(crate) struct Cholesky<const SIDES: usize> {
     size: usize,
     /// Row i begins at i·stride; its entries from the diagonal on are used.
     rows: Vec<f64>,
     stride: usize,
-    /// R⁻ᵀb.
-    right: Vec<f64>,
+    /// R⁻ᵀb of each.
+    right: [Vec<f64>; SIDES],
 }
 
-impl Factor {
-    fn row(&self, i: usize) -> &[f64] {
+impl<const SIDES: usize> Default for Cholesky<SIDES> {
+    fn default() -> Self {
+        let right = std::array::from_fn(|_| vec![]);
+        Cholesky { size: 0, rows: vec![], stride: 0, right }
+    }
+}
+
+impl<const SIDES: usize> Cholesky<SIDES> {
+    /// Forgets all points.
+    pub(crate) fn clear(&mut self) {
+        self.size = 0;
+        self.right.iter_mut().for_each(Vec::clear);
+    }
+
+    /// Row i from the diagonal on.
+    pub(crate) fn row(&self, i: usize) -> &[f64] {
         &self.rows[i * self.stride + i..i * self.stride + self.size]
+    }
+
+    /// R⁻ᵀb of a right-hand side.
+    pub(crate) fn right(&self, side: usize) -> &[f64] {
+        &self.right[side]
+    }
+
+    /// Replaces b of a right-hand side.
+    pub(crate) fn set_right(&mut self, side: usize, b: &[f64]) {
+        self.right[side] = self.forward(b);
     }
 
     /// Factors H, s × s and symmetric, of which only the upper triangle is read; false when a pivot falls below
     /// `least` times its diagonal entry.
-    pub(crate) fn of(h: Vec<f64>, b: &[f64], least: f64) -> Option<Factor> {
-        let size = b.len();
+    pub(crate) fn of(h: Vec<f64>, b: [&[f64]; SIDES], least: f64) -> Option<Self> {
+        let size = b[0].len();
         let diagonal: Vec<f64> = (0..size).map(|i| h[i * size + i]).collect();
         let mut rows = h;
         for first in (0..size).step_by(BLOCK_ROWS) {
@@ -48,8 +73,8 @@ impl Factor {
                 return None;
             }
         }
-        let mut factor = Factor { size, rows, stride: size, right: vec![] };
-        factor.right = factor.forward(b);
+        let mut factor = Cholesky { size, rows, stride: size, ..Self::default() };
+        factor.right = b.map(|b| factor.forward(b));
         Some(factor)
     }
 
@@ -61,7 +86,7 @@ impl Factor {
     }
 
     /// a ← R⁻ᵀa.
-    pub(super) fn forward_in_place(&self, a: &mut [f64]) {
+    pub(crate) fn forward_in_place(&self, a: &mut [f64]) {
         substitution::forward(&self.rows, self.stride, a);
     }
 
@@ -90,8 +115,77 @@ impl Factor {
         z
     }
 
+    /// Appends a point with column z = R⁻ᵀh, pivot √(h_jj − |z|²) and entries b of the right-hand sides.
+    pub(crate) fn append(&mut self, z: &[f64], pivot: f64, b: [f64; SIDES]) {
+        self.grow(1);
+        let s = self.size;
+        for (i, &z) in z.iter().enumerate() {
+            self.rows[i * self.stride + s] = z;
+        }
+        self.rows[s * self.stride + s] = pivot;
+        for (right, b) in self.right.iter_mut().zip(b) {
+            right.push((b - dot(z, right)) / pivot);
+        }
+        self.size += 1;
+    }
+
+    /// Makes room for more points.
+    fn grow(&mut self, more: usize) {
+        if self.size + more <= self.stride {
+            return;
+        }
+        // A little at a time: most factors of many points are made at once, and gain few.
+        let spare = (self.stride / 8).max(16).max(more);
+        self.widen((self.stride + spare).next_multiple_of(8));
+    }
+
+    /// Makes room for so many points in all.
+    pub(crate) fn reserve(&mut self, count: usize) {
+        if count > self.stride {
+            self.widen(count.next_multiple_of(8));
+        }
+    }
+
+    fn widen(&mut self, stride: usize) {
+        let mut rows = vec![0.0; stride * stride];
+        for i in 0..self.size {
+            rows[i * stride + i..i * stride + self.size].copy_from_slice(self.row(i));
+        }
+        (self.rows, self.stride) = (rows, stride);
+    }
+
+    pub(crate) fn delete(&mut self, position: usize) {
+        let (stride, size) = (self.stride, self.size);
+        for i in 0..position {
+            self.rows
+                .copy_within(i * stride + position + 1..i * stride + size, i * stride + position);
+        }
+        // The row of the deleted point lives on as a carry: rotated with the next row it clears what that row has
+        // below the diagonal, which is its own old diagonal entry, and becomes the row above it.
+        let mut carries: [f64; SIDES] =
+            std::array::from_fn(|side| self.right[side].remove(position));
+        for i in position..size - 1 {
+            let (upper, lower) = self.rows.split_at_mut((i + 1) * stride);
+            let a = &mut upper[i * stride + i + 1..i * stride + size];
+            let b = &mut lower[i + 1..size];
+            let length = a[0].hypot(b[0]);
+            let (c, s) = (a[0] / length, b[0] / length);
+            rotate(a, b, c, s);
+            // Row i is now c·carry + s·row; what is left of the carry stands in the place of row i + 1.
+            upper.copy_within(i * stride + i + 1..i * stride + size, i * stride + i);
+            for (right, carry) in self.right.iter_mut().zip(&mut carries) {
+                let next = right[i];
+                right[i] = c * *carry + s * next;
+                *carry = c * next - s * *carry;
+            }
+        }
+        self.size -= 1;
+    }
+}
+
+impl Cholesky<1> {
     /// |Rd|² = d′Hd.
-    pub(super) fn square(&self, d: &[f64]) -> f64 {
+    pub(crate) fn square(&self, d: &[f64]) -> f64 {
         (0..self.size).map(|i| dot(self.row(i), &d[i..]).powi(2)).sum()
     }
 
@@ -103,26 +197,14 @@ impl Factor {
     }
 
     /// Writes v with Hv = b.
-    pub(super) fn solution_into(&self, v: &mut Vec<f64>) {
-        v.clone_from(&self.right);
+    pub(crate) fn solution_into(&self, v: &mut Vec<f64>) {
+        v.clone_from(&self.right[0]);
         substitution::back(&self.rows, self.stride, v);
-    }
-
-    /// Appends a point with column z = R⁻ᵀh, pivot √(h_jj − |z|²) and entry b of the right-hand side.
-    pub(super) fn append(&mut self, z: &[f64], pivot: f64, b: f64) {
-        self.grow(1);
-        let s = self.size;
-        for (i, &z) in z.iter().enumerate() {
-            self.rows[i * self.stride + s] = z;
-        }
-        self.rows[s * self.stride + s] = pivot;
-        self.right.push((b - dot(z, &self.right)) / pivot);
-        self.size += 1;
     }
 
     /// Appends several points at once, whose rows of H over the points in use are in `z`, over each other in `square`; returns
     /// false, with all as it was, if a pivot falls below `least` times its entry.
-    pub(super) fn append_all(
+    pub(crate) fn append_all(
         &mut self,
         mut z: Vec<f64>,
         mut square: Vec<f64>,
@@ -151,61 +233,11 @@ impl Factor {
             self.rows[(s + i) * self.stride + s + i..][..count - i].copy_from_slice(&row[i..]);
         }
         let mut right: Vec<f64> =
-            b.iter().zip(z.chunks_exact(s)).map(|(b, z)| b - dot(z, &self.right)).collect();
+            b.iter().zip(z.chunks_exact(s)).map(|(b, z)| b - dot(z, &self.right[0])).collect();
         substitution::forward(&square, count, &mut right);
-        self.right.extend(right);
+        self.right[0].extend(right);
         self.size += count;
         true
-    }
-
-    /// Makes room for more points.
-    fn grow(&mut self, more: usize) {
-        if self.size + more <= self.stride {
-            return;
-        }
-        // A little at a time: most factors of many points are made at once, and gain few.
-        let spare = (self.stride / 8).max(16).max(more);
-        self.widen((self.stride + spare).next_multiple_of(8));
-    }
-
-    /// Makes room for so many points in all.
-    pub(super) fn reserve(&mut self, count: usize) {
-        if count > self.stride {
-            self.widen(count.next_multiple_of(8));
-        }
-    }
-
-    fn widen(&mut self, stride: usize) {
-        let mut rows = vec![0.0; stride * stride];
-        for i in 0..self.size {
-            rows[i * stride + i..i * stride + self.size].copy_from_slice(self.row(i));
-        }
-        (self.rows, self.stride) = (rows, stride);
-    }
-
-    pub(super) fn delete(&mut self, position: usize) {
-        let (stride, size) = (self.stride, self.size);
-        for i in 0..position {
-            self.rows
-                .copy_within(i * stride + position + 1..i * stride + size, i * stride + position);
-        }
-        // The row of the deleted point lives on as a carry: rotated with the next row it clears what that row has
-        // below the diagonal, which is its own old diagonal entry, and becomes the row above it.
-        let mut carry = self.right.remove(position);
-        for i in position..size - 1 {
-            let (upper, lower) = self.rows.split_at_mut((i + 1) * stride);
-            let a = &mut upper[i * stride + i + 1..i * stride + size];
-            let b = &mut lower[i + 1..size];
-            let length = a[0].hypot(b[0]);
-            let (c, s) = (a[0] / length, b[0] / length);
-            rotate(a, b, c, s);
-            // Row i is now c·carry + s·row; what is left of the carry stands in the place of row i + 1.
-            upper.copy_within(i * stride + i + 1..i * stride + size, i * stride + i);
-            let right = self.right[i];
-            self.right[i] = c * carry + s * right;
-            carry = c * right - s * carry;
-        }
-        self.size -= 1;
     }
 }
 
@@ -274,7 +306,7 @@ mod tests {
         1.0 / (1.0 + (a - b).abs()) + if i == j { 1.5 + (3.0 * a).sin() } else { 0.0 }
     }
 
-    fn check(factor: &Factor, points: &[usize]) {
+    fn check(factor: &Cholesky<1>, points: &[usize]) {
         let v = factor.solution();
         for &i in points {
             let product: f64 = points.iter().zip(&v).map(|(&j, v)| entry(i, j) * v).sum();
@@ -282,13 +314,13 @@ mod tests {
         }
     }
 
-    fn appended(points: &[usize]) -> Factor {
-        let mut factor = Factor::default();
+    fn appended(points: &[usize]) -> Cholesky<1> {
+        let mut factor = Cholesky::default();
         for (s, &j) in points.iter().enumerate() {
             let column: Vec<f64> = points[..s].iter().map(|&i| entry(i, j)).collect();
             let z = factor.forward(&column);
             let pivot = (entry(j, j) - dot(&z, &z)).sqrt();
-            factor.append(&z, pivot, (j as f64).cos());
+            factor.append(&z, pivot, [(j as f64).cos()]);
         }
         factor
     }
@@ -305,13 +337,13 @@ mod tests {
         }
         let h = points.iter().flat_map(|&i| points.iter().map(move |&j| entry(i, j))).collect();
         let b: Vec<f64> = points.iter().map(|&i| (i as f64).cos()).collect();
-        let mut factor = Factor::of(h, &b, 1e-11).unwrap();
+        let mut factor = Cholesky::of(h, [&b], 1e-11).unwrap();
         check(&factor, &points);
         factor.delete(3);
         points.remove(3);
         check(&factor, &points);
         let z = factor.forward(&points.iter().map(|&i| entry(i, 70)).collect::<Vec<_>>());
-        factor.append(&z, (entry(70, 70) - dot(&z, &z)).sqrt(), 70f64.cos());
+        factor.append(&z, (entry(70, 70) - dot(&z, &z)).sqrt(), [70f64.cos()]);
         points.push(70);
         check(&factor, &points);
     }
@@ -322,7 +354,7 @@ mod tests {
         let points: Vec<usize> = (0..2 * BLOCK_ROWS + TILE_ROWS + 5).collect();
         let h = points.iter().flat_map(|&i| points.iter().map(move |&j| entry(i, j))).collect();
         let b: Vec<f64> = points.iter().map(|&i| (i as f64).cos()).collect();
-        let factor = Factor::of(h, &b, 1e-11).unwrap();
+        let factor = Cholesky::of(h, [&b], 1e-11).unwrap();
         check(&factor, &points);
         let d: Vec<f64> = points.iter().map(|&i| (2.0 * i as f64).sin()).collect();
         let product = |i: usize| points.iter().map(|&j| entry(i, j) * d[j]).sum::<f64>();
@@ -351,6 +383,6 @@ mod tests {
 
     #[test]
     fn dependent_points_are_not_factored() {
-        assert!(Factor::of(vec![1.0, 1.0, 1.0, 1.0], &[1.0, 1.0], 1e-11).is_none());
+        assert!(Cholesky::of(vec![1.0, 1.0, 1.0, 1.0], [&[1.0, 1.0]], 1e-11).is_none());
     }
 }
