@@ -105,7 +105,7 @@ pub(super) fn solve(
     order.truncate(weighty.min(CANDIDATES_MAX * (dim + 1)).max(spare));
     let mut fewer = WorkingSet::new(set.origin().to_vec(), 0.0);
     let chosen: Vec<u64> = order.iter().map(|&i| ids[i]).collect();
-    fewer.add(&chosen, &reader.rows(&chosen)?, false);
+    fewer.add(&chosen, reader.rows(&chosen)?, false);
     let lambda: Vec<f64> = order.iter().map(|&i| multipliers[i]).collect();
     let better = ActiveSet::resting_on(&fewer, point.radius2(), &lambda, active);
     Ok((proved(&fewer, &better) > proved(set, active)).then_some((fewer, better)))
