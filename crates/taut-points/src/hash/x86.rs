@@ -56,7 +56,8 @@ fn avx512<T: Scalar>(values: &[T]) -> BlockHash {
 fn avx2<T: Scalar>(values: &[T]) -> BlockHash {
     let mut lanes = start();
     let low = _mm256_set1_epi64x((MULTIPLIER & 0xFFFF_FFFF).cast_signed());
-    let high = _mm256_set1_epi64x((MULTIPLIER >> 32).cast_signed());
+    let swapped = _mm256_set1_epi64x(MULTIPLIER.rotate_left(32).cast_signed());
+    let zero = _mm256_setzero_si256();
     // SAFETY: as in `avx512`, in groups of four.
     unsafe {
         let mut hashes = [_mm256_setzero_si256(); LANES / 4];
@@ -72,15 +73,14 @@ fn avx2<T: Scalar>(values: &[T]) -> BlockHash {
                 };
                 let bits = _mm256_castpd_si256(_mm256_add_pd(value, _mm256_setzero_pd()));
                 let mixed = _mm256_xor_si256(bits, _mm256_srli_epi64::<32>(bits));
-                // The product modulo 2⁶⁴ from products of halves, of which the registers have no other.
-                let crossed = _mm256_add_epi64(
-                    _mm256_mul_epu32(*hash, high),
-                    _mm256_mul_epu32(_mm256_srli_epi64::<32>(*hash), low),
-                );
-                let product = _mm256_add_epi64(
-                    _mm256_mul_epu32(*hash, low),
+                // The product modulo 2⁶⁴ from products of halves, of which the registers have no other: that of the low
+                // halves, and above it the low halves of the two others.
+                let crossed = _mm256_mullo_epi32(*hash, swapped);
+                let above = _mm256_add_epi32(
                     _mm256_slli_epi64::<32>(crossed),
+                    _mm256_blend_epi32::<0b1010_1010>(zero, crossed),
                 );
+                let product = _mm256_add_epi64(_mm256_mul_epu32(*hash, low), above);
                 *hash = _mm256_add_epi64(product, mixed);
             }
         }
