@@ -53,9 +53,10 @@ impl<const SIDES: usize> Cholesky<SIDES> {
         &self.right[side]
     }
 
-    /// Replaces b of a right-hand side.
-    pub(crate) fn set_right(&mut self, side: usize, b: &[f64]) {
-        self.right[side] = self.forward(b);
+    /// Replaces R⁻ᵀb of a right-hand side.
+    pub(crate) fn set_right(&mut self, side: usize, right: Vec<f64>) {
+        debug_assert_eq!(right.len(), self.size);
+        self.right[side] = right;
     }
 
     /// Factors H, s × s and symmetric, of which only the upper triangle is read; false when a pivot falls below

@@ -21,7 +21,7 @@ use taut_kernels::vector::{add_combination, add_scaled, dot};
 use taut_points::parallel::ParallelSlice;
 use taut_points::{Cancelled, Monitor};
 
-use super::factor::Factor;
+use super::factor::{DIVIDED_MAX, Factor};
 use super::working_set::WorkingSet;
 
 /// An item violates when its f exceeds the level by this part of the squared radius. Below 1e-13 the steps of a
@@ -389,7 +389,7 @@ impl ActiveSet {
             let mut recomputed = None;
             let mut distance2 = length2 - dot(&z, &z);
             if distance2.min(self.factor.smallest_pivot()) < RECOMPUTED_RATIO * length2 {
-                let mut y = self.factor.back(&z);
+                let mut y = self.factor.back(z.clone());
                 distance2 = self.distance_from_coordinates(set, j, &mut y);
                 z = self.factor.times(&y);
                 recomputed = Some(y);
@@ -401,7 +401,7 @@ impl ActiveSet {
                 self.lambda.push(weight);
                 return true;
             }
-            let y = recomputed.unwrap_or_else(|| self.factor.back(&z));
+            let y = recomputed.unwrap_or_else(|| self.factor.back(z));
             let Some((blocker, step)) = exchange(&self.lambda, &y) else { return false };
             add_scaled(&mut self.lambda, -step, &y);
             weight += step;
@@ -423,7 +423,7 @@ impl ActiveSet {
         let (e, s) = residual(y);
         let right: Vec<f64> =
             self.support.iter().map(|&i| dot(set.row(i), &e) + self.sigma * s).collect();
-        let dy = self.factor.back(&self.factor.forward(&right));
+        let dy = self.factor.back(self.factor.forward(&right));
         add_scaled(y, 1.0, &dy);
         let (e, s) = residual(y);
         dot(&e, &e) + self.sigma * s * s
@@ -479,7 +479,7 @@ impl ActiveSet {
             let length2 = set.norm2(i) + self.sigma;
             let mut distance2 = length2 - dot(&z, &z);
             if distance2 < RECOMPUTED_RATIO * length2 {
-                let mut y = self.factor.back(&z);
+                let mut y = self.factor.back(z.clone());
                 distance2 = self.distance_from_coordinates(set, i, &mut y);
                 z = self.factor.times(&y);
             }
@@ -492,9 +492,10 @@ impl ActiveSet {
         self.normalize();
     }
 
-    /// Makes the factor of the support by products of matrices; false where some of it depends on the rest, or nearly so.
+    /// Makes the factor of the support by products of matrices; false where some of it depends on the rest, or nearly so, and where it is
+    /// small.
     fn factor_at_once(&mut self, set: &WorkingSet) -> bool {
-        if self.support.len() > set.dim() + 1 {
+        if self.support.len() > set.dim() + 1 || self.support.len() <= DIVIDED_MAX {
             return false;
         }
         let entries = |&i: &usize| {
