@@ -309,6 +309,40 @@ mod tests {
         assert!(given_way.iter().filter(|&&times| times > 0).count() >= 6, "{given_way:?}");
     }
 
+    /// A set whose items all come to the support at once has the ball of one whose items enter one by one.
+    #[test]
+    fn supports_of_all_items_have_the_same_ball() {
+        let monitor = Monitor::silent();
+        let mut left_out = 0;
+        let distributions = [
+            Distribution::Normal,
+            Distribution::CubeVertices,
+            Distribution::Shell { thickness: 1e-8 },
+            Distribution::Clusters { count: 5, spread: 0.0 },
+            Distribution::Clusters { count: 5, spread: 1e-12 },
+            Distribution::Poisson,
+        ];
+        for (k, &distribution) in distributions.iter().enumerate() {
+            for (n, dim) in [(1, 2), (2, 4), (9, 18), (24, 48), (130, 260)] {
+                let rows: Vec<f64> = generate(distribution, n, dim, 60 + k as u64).unwrap();
+                let mut set = WorkingSet::new(vec![0.0; dim], 0.0);
+                set.add(&(0..n as u64).collect::<Vec<_>>(), rows, false);
+                let reach2 = (0..n).map(|i| set.norm2(i)).fold(0.0, f64::max);
+                let radius = |mut active: ActiveSet| {
+                    let found = solve_working_set(&mut active, &set, 0.0, &monitor).unwrap();
+                    (found, active.support().len())
+                };
+                let (one_by_one, size) = radius(ActiveSet::new(&set, reach2));
+                let (at_once, _) = radius(ActiveSet::of_all(&set, reach2));
+                let error = (at_once - one_by_one).abs();
+                let rounding = 1e-12 * one_by_one + 8.0 * f64::EPSILON * reach2.sqrt();
+                assert!(error <= rounding, "{distribution:?}: {at_once} {one_by_one}");
+                left_out += usize::from(1 < size && size < n);
+            }
+        }
+        assert!(left_out >= 8, "{left_out}");
+    }
+
     #[test]
     fn giving_way_at_once_does_no_harm_on_lines_and_at_the_ends_of_the_range() {
         for scale in [1e300, 1.0, 1e-300] {
