@@ -65,9 +65,7 @@ fn solve(
     monitor.check()?;
     let mut scratch = Scratch::new();
     let rows = source.read(0..source.len(), &mut scratch)?;
-    if let Some((row, column, value)) = rows.first_non_finite() {
-        return Err(Error::Input(InputError::NonFinite { row: row as u64, column, value }));
-    }
+    rows.check_finite(0)?;
     let rows = match rows {
         Rows::F32(points) => order(&points, curve),
         Rows::F64(points) => order(&points, curve),

@@ -65,10 +65,7 @@ pub fn bounding_dop(
     }
     options.monitor.pass(1, points.len());
     let blocks = map_blocks(points, &options.monitor, |first, rows| {
-        if let Some((row, column, value)) = rows.first_non_finite() {
-            let row = first + row as u64;
-            return Err(Error::Input(InputError::NonFinite { row, column, value }));
-        }
+        rows.check_finite(first)?;
         let mut largest = vec![(f64::NEG_INFINITY, first); normals.len()];
         let mut p = [0.0; 3];
         for row in 0..rows.len() {

@@ -9,8 +9,8 @@
 //! twice.
 
 use taut_points::{
-    BlockHash, ByteReader, ByteWriter, InputError, Monitor, PartsError, PointSource, Points,
-    PointsHash, Rows, Scalar, gather, hash_block, map_blocks,
+    BlockHash, ByteReader, ByteWriter, Monitor, PartsError, PointSource, Points, PointsHash, Rows,
+    Scalar, gather, hash_block, map_blocks,
 };
 
 use crate::Error;
@@ -175,12 +175,8 @@ pub(crate) fn survey_blocks<R: Send>(
             Rows::F32(points) => extent(points),
             Rows::F64(points) => extent(points),
         };
-        if !finite && let Some((row, column, value)) = rows.first_non_finite() {
-            return Err(Error::Input(InputError::NonFinite {
-                row: first + row as u64,
-                column,
-                value,
-            }));
+        if !finite {
+            rows.check_finite(first)?;
         }
         let extent = Extent { low, high };
         Ok(SurveyedBlock { hash: hash_block(&rows), extent, more: more(&rows) })
@@ -275,7 +271,10 @@ mod tests {
             values[5 * dim] = f32::NAN;
             let found = frame_pass(&Points::new(&values, dim).unwrap(), &Monitor::silent());
             assert!(
-                matches!(found, Err(Error::Input(InputError::NonFinite { row: 4, column: 0, .. }))),
+                matches!(
+                    found,
+                    Err(Error::Input(taut_points::InputError::NonFinite { row: 4, column: 0, .. }))
+                ),
                 "{dim}"
             );
         }

@@ -114,19 +114,13 @@ fn read(source: &dyn PointSource, monitor: &Monitor<'_>) -> Result<HalfSpaces, E
     }
     monitor.pass(1, source.len());
     let blocks = map_blocks(source, monitor, |first, rows| {
-        if let Some((row, column, value)) = rows.first_non_finite() {
-            return Err(Error::Input(InputError::NonFinite {
-                row: first + row as u64,
-                column,
-                value,
-            }));
-        }
+        rows.check_finite(first)?;
         let hash = hash_block(&rows);
         let values: Vec<f64> = match rows {
             Rows::F32(points) => points.values().iter().map(|&v| v.into()).collect(),
             Rows::F64(points) => points.values().to_vec(),
         };
-        Ok((hash, values))
+        Ok::<_, Error>((hash, values))
     })?;
     let hash = PointsHash::of_blocks(source.len(), columns, blocks.iter().map(|block| block.0));
     let mut values: Vec<f64> = blocks.into_iter().flat_map(|b| b.1).collect();

@@ -19,8 +19,7 @@ use taut_certify::Items;
 use taut_kernels::DoubleDouble;
 use taut_points::parallel::IntoParallel;
 use taut_points::{
-    BlockHash, InputError, Monitor, PointSource, PointsHash, Rows, ScalarKind, hash_block,
-    map_blocks,
+    BlockHash, Monitor, PointSource, PointsHash, Rows, ScalarKind, hash_block, map_blocks,
 };
 
 use self::eigen::eigen;
@@ -205,9 +204,7 @@ impl Shapes {
 
 /// The hash and the values of a block of finite rows.
 fn block(first: u64, rows: &Rows<'_>) -> Result<(BlockHash, Vec<f64>), Error> {
-    if let Some((row, column, value)) = rows.first_non_finite() {
-        return Err(Error::Input(InputError::NonFinite { row: first + row as u64, column, value }));
-    }
+    rows.check_finite(first)?;
     let values = match rows {
         Rows::F32(points) => points.values().iter().map(|&v| v.into()).collect(),
         Rows::F64(points) => points.values().to_vec(),

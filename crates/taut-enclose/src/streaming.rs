@@ -196,13 +196,7 @@ impl StreamingCenters {
                 expected: "points of the dimension that the cover was made for",
             }));
         }
-        if let Some((row, column, value)) = T::rows(*points).first_non_finite() {
-            return Err(Error::Input(InputError::NonFinite {
-                row: self.seen + row as u64,
-                column,
-                value,
-            }));
-        }
+        T::rows(*points).check_finite(self.seen)?;
         let mut taken = 0;
         while self.instances.is_empty() && taken < points.len() {
             let row: Vec<f64> = points.row(taken).iter().map(|&v| v.into()).collect();

@@ -127,10 +127,7 @@ fn summary(views: &[[u64; 2]]) -> Occlusion {
 fn rows(source: &dyn PointSource, monitor: &Monitor<'_>) -> Result<Vec<[[f64; 3]; 3]>, Error> {
     check_dim(source)?;
     let blocks = map_blocks(source, monitor, |first, rows| {
-        if let Some((row, column, value)) = rows.first_non_finite() {
-            let row = first + row as u64;
-            return Err(Error::Input(InputError::NonFinite { row, column, value }));
-        }
+        rows.check_finite(first)?;
         let (mut row, mut triangles) = ([0.0; 10], vec![]);
         for k in 0..rows.len() {
             rows.copy_row(k, &mut row[..source.dim()]);
@@ -139,7 +136,7 @@ fn rows(source: &dyn PointSource, monitor: &Monitor<'_>) -> Result<Vec<[[f64; 3]
                 triangles.push([[a, b, c], [d, e, f], [g, h, i]]);
             }
         }
-        Ok(triangles)
+        Ok::<_, Error>(triangles)
     })?;
     Ok(blocks.concat())
 }

@@ -136,19 +136,13 @@ fn rows(
 ) -> Result<(Vec<[f64; 3]>, PointsHash), Error> {
     monitor.pass(1, source.len());
     let blocks = map_blocks(source, monitor, |first, rows| {
-        if let Some((row, column, value)) = rows.first_non_finite() {
-            return Err(Error::Input(InputError::NonFinite {
-                row: first + row as u64,
-                column,
-                value,
-            }));
-        }
+        rows.check_finite(first)?;
         let mut point = [0.0; 3];
         let points = (0..rows.len()).map(|row| {
             rows.copy_row(row, &mut point[..source.dim()]);
             point
         });
-        Ok((hash_block(&rows), points.collect::<Vec<_>>()))
+        Ok::<_, Error>((hash_block(&rows), points.collect::<Vec<_>>()))
     })?;
     let hashes = blocks.iter().map(|block| block.0);
     let hash = PointsHash::of_blocks(source.len(), source.dim(), hashes);

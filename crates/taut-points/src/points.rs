@@ -2,7 +2,7 @@
 
 use bytemuck::Pod;
 
-use crate::Error;
+use crate::{Error, InputError};
 
 mod sealed {
     pub trait Sealed {}
@@ -172,6 +172,19 @@ impl Rows<'_> {
                 }
             }
             Rows::F64(points) => out.copy_from_slice(points.row(i)),
+        }
+    }
+
+    /// Refuses a coordinate that is NaN or infinite; `first_row` is the number of the first of these rows.
+    ///
+    /// # Errors
+    /// [`InputError::NonFinite`] for the first of them.
+    pub fn check_finite(&self, first_row: u64) -> Result<(), InputError> {
+        match self.first_non_finite() {
+            None => Ok(()),
+            Some((row, column, value)) => {
+                Err(InputError::NonFinite { row: first_row + row as u64, column, value })
+            }
         }
     }
 

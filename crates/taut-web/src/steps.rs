@@ -79,10 +79,7 @@ impl Table {
         let (rows, dim) = (source.len().min(most), source.dim());
         let mut scratch = Scratch::new();
         let read = source.read(0..rows, &mut scratch).map_err(|error| error.to_string())?;
-        if let Some((row, column, value)) = read.first_non_finite() {
-            let row = row as u64;
-            return Err(points.explain(taut::points::InputError::NonFinite { row, column, value }));
-        }
+        read.check_finite(0).map_err(|error| points.explain(error))?;
         let mut values = vec![0.0; read.len() * dim];
         for (i, row) in values.chunks_exact_mut(dim).enumerate() {
             read.copy_row(i, row);

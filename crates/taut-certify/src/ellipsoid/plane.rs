@@ -16,6 +16,7 @@ use std::cmp::Ordering;
 use taut_points::{Monitor, OrderBy, PointSource, gather, map_blocks};
 
 use self::basis::Basis;
+use crate::hashed_pass::all_finite;
 use crate::{CheckError, Violation};
 
 /// The facts that exact arithmetic proved of the support of an ellipse.
@@ -66,9 +67,7 @@ pub fn ellipse_support(
     let (basis, rows) = find(points, support).ok_or(Violation::NoBasis { rows: support.len() })?;
     monitor.pass(1, source.len());
     let counts = map_blocks(source, monitor, |first, rows| {
-        if let Some((row, column, value)) = rows.first_non_finite() {
-            return Err(Violation::NonFinite { row: first + row as u64, column, value }.into());
-        }
+        all_finite(first, &rows)?;
         let (mut on_border, mut near_border) = (0, 0);
         let mut point = [0.0; 2];
         for i in 0..rows.len() {

@@ -9,6 +9,7 @@
 use taut_points::{Monitor, PointSource, PointsHash, hash_block, map_blocks};
 
 use super::{Order, OrderCertificate, OrderVerdict, OrderViolation, cell};
+use crate::hashed_pass::all_finite;
 use crate::{CheckError, Violation};
 
 /// Up to this many points of one cell are in order of their coordinates.
@@ -77,13 +78,10 @@ fn read(
 ) -> Result<Vec<f64>, CheckError> {
     let dim = source.dim();
     let blocks = map_blocks(source, monitor, |first, rows| {
-        if let Some((row, column, value)) = rows.first_non_finite() {
-            let row = first + row as u64;
-            return Err(CheckError::from(Violation::NonFinite { row, column, value }));
-        }
+        all_finite(first, &rows)?;
         let mut values = vec![0.0; rows.len() * dim];
         values.chunks_exact_mut(dim).enumerate().for_each(|(i, row)| rows.copy_row(i, row));
-        Ok((hash_block(&rows), values))
+        Ok::<_, CheckError>((hash_block(&rows), values))
     })?;
     let hashes: Vec<_> = blocks.iter().map(|block| block.0).collect();
     let found = PointsHash::of_blocks(source.len(), dim, hashes);

@@ -113,9 +113,7 @@ fn values_of(
     rows: &Rows<'_>,
     group: Option<usize>,
 ) -> Result<(Vec<f64>, Vec<f64>), Error> {
-    if let Some((row, column, value)) = rows.first_non_finite() {
-        return Err(Error::Input(InputError::NonFinite { row: first + row as u64, column, value }));
-    }
+    rows.check_finite(first)?;
     let (values, columns): (Vec<f64>, usize) = match rows {
         Rows::F32(points) => (points.values().iter().map(|&v| v.into()).collect(), points.dim()),
         Rows::F64(points) => (points.values().to_vec(), points.dim()),

@@ -11,8 +11,8 @@ use taut_kernels::extremes::{all_finite, largest};
 use taut_kernels::triangle::{POINTS, above, leverages};
 use taut_points::parallel::ParallelSlice;
 use taut_points::{
-    BlockHash, InputError, Monitor, OrderBy, PointSource, Points, PointsHash, ReadError, Rows,
-    Scalar, gather, hash_block, map_blocks,
+    BlockHash, Monitor, OrderBy, PointSource, Points, PointsHash, ReadError, Rows, Scalar, gather,
+    hash_block, map_blocks,
 };
 
 use super::question::{Kind, Question, TakenIds};
@@ -208,18 +208,8 @@ impl<'a> PointReader<'a> {
 
 /// The hash of a block, or an error that names the first coordinate that is not finite.
 fn hash_finite(first_row: u64, rows: &Rows<'_>) -> Result<BlockHash, Error> {
-    check_finite(first_row, rows)?;
+    rows.check_finite(first_row)?;
     Ok(hash_block(rows))
-}
-
-fn check_finite(first_row: u64, rows: &Rows<'_>) -> Result<(), Error> {
-    match rows.first_non_finite() {
-        None => Ok(()),
-        Some((row, column, value)) => {
-            let row = first_row + row as u64;
-            Err(Error::Input(InputError::NonFinite { row, column, value }))
-        }
-    }
 }
 
 /// Calls `work` with the number of the first row and the rows of each block; in a first pass blocks are hashed, too.
@@ -373,7 +363,7 @@ fn take_block<T: Scalar>(
     if first {
         let rows = T::rows(*points);
         if !finite {
-            check_finite(first_row, &rows)?;
+            rows.check_finite(first_row)?;
         }
         hash = Some(hash_block(&rows));
     }
@@ -444,7 +434,7 @@ fn block<T: Scalar>(
         let rows = T::rows(*points);
         // A coordinate that is not finite makes a leverage that is not; large coordinates do, too.
         if !report.finite {
-            check_finite(first_row, &rows)?;
+            rows.check_finite(first_row)?;
         }
         report.hash = Some(hash_block(&rows));
     }
@@ -469,8 +459,11 @@ mod tests {
             // Neither is in the sample of 4096.
             (values[123_458], values[190_003]) = (f64::NAN, f64::INFINITY);
             let narrow: Vec<f32> = values.iter().map(|&value| value as f32).collect();
-            let wanted =
-                Error::Input(InputError::NonFinite { row: 12_345, column: 8, value: f64::NAN });
+            let wanted = Error::Input(taut_points::InputError::NonFinite {
+                row: 12_345,
+                column: 8,
+                value: f64::NAN,
+            });
             for threads in [1, 2] {
                 let options = EllipsoidOptions { threads: Some(threads), ..Default::default() };
                 let wide = ellipsoid(&Points::new(&values, 10).unwrap(), &options);

@@ -6,9 +6,7 @@ use std::sync::{Mutex, PoisonError};
 use taut_certify::Items;
 use taut_kernels::extremes::{all_finite, largest};
 use taut_kernels::{Center, squared_distances};
-use taut_points::{
-    BlockHash, InputError, Monitor, PointSource, Points, Rows, Scalar, hash_block, map_blocks,
-};
+use taut_points::{BlockHash, Monitor, PointSource, Points, Rows, Scalar, hash_block, map_blocks};
 
 use super::row_bounds::{KnownRows, distance_at_most};
 use super::{PassResult, Query, View};
@@ -172,12 +170,8 @@ impl<'p> Pass<'p> {
         let rows = T::rows(*points);
         let Measured { farthest, finite, distances } = self.block(first_row, points);
         // A coordinate that is not finite makes a reach that is not; large coordinates do, too.
-        if !finite && let Some((row, column, value)) = rows.first_non_finite() {
-            return Err(Error::Input(InputError::NonFinite {
-                row: first_row + row as u64,
-                column,
-                value,
-            }));
+        if !finite {
+            rows.check_finite(first_row)?;
         }
         let largest = match self.view.items {
             Items::Balls => Some(largest_radius(first_row, points)?),

@@ -1,7 +1,7 @@
 //! The first pass over all points: whether they are numbers, their hash, and whether they are all the same.
 
 use taut_points::{
-    BlockHash, InputError, Monitor, PointSource, PointsHash, Rows, Scalar, hash_block, map_blocks,
+    BlockHash, Monitor, PointSource, PointsHash, Rows, Scalar, hash_block, map_blocks,
 };
 
 use crate::Error;
@@ -19,10 +19,7 @@ pub(super) fn first_pass(source: &dyn PointSource, monitor: &Monitor<'_>) -> Res
     let dim = source.dim();
     let first = taut_points::gather(source, &[0])?;
     let blocks = map_blocks(source, monitor, |number, rows| {
-        if let Some((row, column, value)) = rows.first_non_finite() {
-            let row = number + row as u64;
-            return Err(Error::Input(InputError::NonFinite { row, column, value }));
-        }
+        rows.check_finite(number)?;
         let extent = match rows {
             Rows::F32(points) => farthest_coordinate(points.values(), &first),
             Rows::F64(points) => farthest_coordinate(points.values(), &first),

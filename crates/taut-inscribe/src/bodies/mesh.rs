@@ -216,10 +216,7 @@ fn rows(
     monitor.pass(1, source.len());
     let dim = source.dim();
     let blocks = map_blocks(source, monitor, |first, rows| {
-        if let Some((row, column, value)) = rows.first_non_finite() {
-            let row = first + row as u64;
-            return Err(Error::Input(InputError::NonFinite { row, column, value }));
-        }
+        rows.check_finite(first)?;
         let mut row = [0.0; 10];
         let (mut triangles, mut surfaces) = (vec![], vec![]);
         for k in 0..rows.len() {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use taut_points::{InputError, Points};
+use taut_points::Points;
 
 use crate::Error;
 
@@ -19,7 +19,7 @@ impl<'a> Labeled<'a> {
     ///
     /// # Errors
     /// [`Error::LabelCount`], [`Error::Label`], [`Error::ClassPoints`] where a class has no point, [`Error::ClassName`], and
-    /// [`InputError::NonFinite`].
+    /// [`taut_points::InputError::NonFinite`].
     pub fn new(
         points: Points<'a, f64>,
         labels: &'a [u32],
@@ -84,14 +84,7 @@ impl<'a> Labeled<'a> {
 }
 
 pub(crate) fn check_finite(points: &Points<'_, f64>) -> Result<(), Error> {
-    match points.values().iter().position(|value| !value.is_finite()) {
-        None => Ok(()),
-        Some(at) => Err(Error::Input(InputError::NonFinite {
-            row: (at / points.dim()) as u64,
-            column: at % points.dim(),
-            value: points.values()[at],
-        })),
-    }
+    Ok(taut_points::Rows::F64(*points).check_finite(0)?)
 }
 
 /// Labeled rows that a rule learns from; a class may have none.

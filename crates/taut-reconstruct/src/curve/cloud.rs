@@ -34,9 +34,7 @@ impl Cloud {
         monitor.pass(1, points);
         let mut scratch = Scratch::new();
         let rows = source.read(0..points, &mut scratch)?;
-        if let Some((row, column, value)) = rows.first_non_finite() {
-            return Err(Error::Input(InputError::NonFinite { row: row as u64, column, value }));
-        }
+        rows.check_finite(0)?;
         monitor.check()?;
         // −0 equals 0, but is another pattern of bits.
         Ok(match rows {

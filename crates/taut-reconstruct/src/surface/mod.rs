@@ -178,9 +178,7 @@ fn check_dim(source: &dyn PointSource) -> Result<(), Error> {
 fn read(source: &dyn PointSource) -> Result<Vec<[f64; 3]>, Error> {
     let mut scratch = Scratch::new();
     let rows = source.read(0..source.len(), &mut scratch)?;
-    if let Some((row, column, value)) = rows.first_non_finite() {
-        return Err(Error::Input(InputError::NonFinite { row: row as u64, column, value }));
-    }
+    rows.check_finite(0)?;
     Ok(match rows {
         Rows::F32(points) => points.rows().map(|p| [0, 1, 2].map(|k| f64::from(p[k]))).collect(),
         Rows::F64(points) => points.rows().map(|p| [p[0], p[1], p[2]]).collect(),

@@ -9,6 +9,7 @@ use taut_points::{
 use super::super::MeshViolation;
 use super::signs::Signs;
 use crate::arithmetic::parts;
+use crate::hashed_pass::all_finite;
 use crate::{CheckError, Violation};
 
 pub(crate) struct Input<'a, const D: usize> {
@@ -33,10 +34,8 @@ impl Block {
             Rows::F32(points) => extent(points.values()),
             Rows::F64(points) => extent(points.values()),
         };
-        if !f64::from_bits(largest).is_finite()
-            && let Some((row, column, value)) = rows.first_non_finite()
-        {
-            return Err(Violation::NonFinite { row: first + row as u64, column, value });
+        if !f64::from_bits(largest).is_finite() {
+            all_finite(first, rows)?;
         }
         let mut most = i32::MIN;
         if largest > 0 {
