@@ -18,7 +18,7 @@ const PANEL_ROWS: usize = 16;
 /// One task takes a block of rows of R from so many rows of what is left.
 const TILE_ROWS: usize = 64;
 
-/// R, with so many right-hand sides.
+/// R, with `SIDES` right-hand sides.
 #[derive(Clone, Debug)]
 pub(crate) struct Cholesky<const SIDES: usize> {
     size: usize,
@@ -59,8 +59,8 @@ impl<const SIDES: usize> Cholesky<SIDES> {
         self.right[side] = right;
     }
 
-    /// Factors H, s × s and symmetric, of which only the upper triangle is read; false when a pivot falls below
-    /// `least` times its diagonal entry.
+    /// Factors H, s × s and symmetric, of which only the upper triangle is read; `None` when the square of a pivot is at
+    /// most `least` times its diagonal entry.
     pub(crate) fn of(h: Vec<f64>, b: [&[f64]; SIDES], least: f64) -> Option<Self> {
         let size = b[0].len();
         let diagonal: Vec<f64> = (0..size).map(|i| h[i * size + i]).collect();
@@ -88,6 +88,7 @@ impl<const SIDES: usize> Cholesky<SIDES> {
 
     /// a ← R⁻ᵀa.
     pub(crate) fn forward_in_place(&self, a: &mut [f64]) {
+        debug_assert_eq!(a.len(), self.size);
         substitution::forward(&self.rows, self.stride, a);
     }
 
@@ -112,8 +113,14 @@ impl<const SIDES: usize> Cholesky<SIDES> {
 
     /// y with Ry = z.
     pub(crate) fn back(&self, mut z: Vec<f64>) -> Vec<f64> {
+        debug_assert_eq!(z.len(), self.size);
         substitution::back(&self.rows, self.stride, &mut z);
         z
+    }
+
+    /// |Rd|² = d′Hd.
+    pub(crate) fn square(&self, d: &[f64]) -> f64 {
+        (0..self.size).map(|i| dot(self.row(i), &d[i..]).powi(2)).sum()
     }
 
     /// Appends a point with column z = R⁻ᵀh, pivot √(h_jj − |z|²) and entries b of the right-hand sides.
@@ -185,11 +192,6 @@ impl<const SIDES: usize> Cholesky<SIDES> {
 }
 
 impl Cholesky<1> {
-    /// |Rd|² = d′Hd.
-    pub(crate) fn square(&self, d: &[f64]) -> f64 {
-        (0..self.size).map(|i| dot(self.row(i), &d[i..]).powi(2)).sum()
-    }
-
     /// v with Hv = b.
     pub(crate) fn solution(&self) -> Vec<f64> {
         let mut v = vec![];

@@ -147,9 +147,9 @@ impl<'a> ItemReader<'a> {
         self.source.dim()
     }
 
-    /// Tests whether single rows are read as fast as many at once.
+    /// Tests whether this process holds all rows in its memory, and reads them there.
     pub(crate) fn is_in_memory(&self) -> bool {
-        self.source.in_memory().is_some()
+        self.source.elsewhere().is_none() && self.source.in_memory().is_some()
     }
 
     /// Points or balls.
@@ -274,7 +274,7 @@ impl<'a> ItemReader<'a> {
             if count.is_power_of_two() { value * inverse } else { value / count as f64 }
         };
         let (mut mean, mut first_shares) = (vec![], vec![]);
-        // A copy of few rows stays in the cache. From elsewhere they come at once.
+        // A copy of few rows stays in the cache. Other sources are asked once for all.
         let rows_at_once = if self.is_in_memory() { 32 } else { ids.len() };
         for ids in ids.chunks(rows_at_once) {
             let rows = self.rows(ids)?;

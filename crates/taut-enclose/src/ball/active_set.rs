@@ -108,24 +108,23 @@ impl ActiveSet {
         active
     }
 
-    /// The support is what a factor of all items leaves of them: those with positive multipliers at its stationary point, and of
-    /// these what [`Self::settle`] keeps. Where most items belong to the support, this takes one factor and few deletions
-    /// in place of an entry for each.
+    /// Starts from all items: factors their matrix, keeps those with positive multipliers at the stationary point, and settles. Items
+    /// that belong to the support may be lost; [`Self::maximize`] takes them again. Where most items belong to it, this takes two
+    /// factors and few deletions in place of an entry for each.
     pub(super) fn of_all(set: &WorkingSet, reach2: f64) -> Self {
         let mut active = ActiveSet::new(set, reach2);
         active.support = (0..set.len()).collect();
         active.lambda = vec![1.0; set.len()];
         active.rebuild_with(set, DEPENDENT_RATIO);
         active.lambda = active.factor.stationary();
-        let is_kept: Vec<bool> = active.lambda.iter().map(|&l| l > 0.0).collect();
-        if is_kept.contains(&false) {
-            let mut kept = is_kept.iter();
-            active.support.retain(|_| *kept.next().expect("one for each item"));
-            active.lambda.retain(|&l| l > 0.0);
+        if active.lambda.iter().any(|&l| l <= 0.0) {
+            let all = active.support.iter().copied().zip(active.lambda.iter().copied());
+            (active.support, active.lambda) = all.filter(|(_, l)| *l > 0.0).unzip();
             active.rebuild(set);
             active.settle(set);
         }
-        active.pivots = active.support.len() as u64;
+        // The first item is no step, as in `new`.
+        active.pivots = set.len() as u64 - 1;
         active
     }
 
@@ -462,10 +461,14 @@ impl ActiveSet {
 
     /// The same for a part of the squared length below which the squared distance to those before it is dependence.
     fn rebuild_with(&mut self, set: &WorkingSet, dependent_ratio: f64) {
-        if self.factor_at_once(set) {
-            self.normalize();
-            return;
+        if !self.factor_at_once(set) {
+            self.factor_one_by_one(set, dependent_ratio);
         }
+        self.normalize();
+    }
+
+    /// Makes the factor of the support item by item, and drops those that depend on the ones before.
+    fn factor_one_by_one(&mut self, set: &WorkingSet, dependent_ratio: f64) {
         self.factor.clear();
         let (support, lambda) =
             (std::mem::take(&mut self.support), std::mem::take(&mut self.lambda));
@@ -489,26 +492,26 @@ impl ActiveSet {
                 self.lambda.push(l);
             }
         }
-        self.normalize();
     }
 
-    /// Makes the factor of the support by products of matrices; false where some of it depends on the rest, or nearly so, and where it is
-    /// small.
+    /// Makes the factor of the support by a blocked Cholesky factorization; false where items may depend on others, as their squared
+    /// distance to those before is below [`RECOMPUTED_RATIO`] or they are more than d + 1, and where they are few.
     fn factor_at_once(&mut self, set: &WorkingSet) -> bool {
         if self.support.len() > set.dim() + 1 || self.support.len() <= DIVIDED_MAX {
             return false;
         }
-        let entries = |&i: &usize| {
+        let mut a = Vec::with_capacity(self.support.len() * self.support.len());
+        for &i in &self.support {
             let row = set.gram_row(i);
-            self.support.iter().map(|&j| row[j] + self.sigma)
-        };
-        let a = self.support.iter().flat_map(entries).collect();
+            a.extend(self.support.iter().map(|&j| row[j] + self.sigma));
+        }
         let half_b: Vec<f64> = self.support.iter().map(|&i| self.b(set, i) / 2.0).collect();
         let Some(factor) = Factor::of(a, &half_b, RECOMPUTED_RATIO) else { return false };
         self.factor = factor;
         true
     }
 
+    /// Makes the multipliers sum to 1.
     fn normalize(&mut self) {
         let sum: f64 = self.lambda.iter().sum();
         self.lambda.iter_mut().for_each(|l| *l /= sum);

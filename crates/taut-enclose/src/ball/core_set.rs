@@ -16,6 +16,7 @@
 //! the passes on cube vertices. When most of a batch enters, the support is large, and the batch is doubled.
 //! *Hard input.* Near a sphere an active set takes thousands of steps. When it drops too many items within one pass, an
 //! interior-point method looks for a better support ([`super::interior_rounds`]), once, and for points only.
+//! *First batch.* Of far points in many dimensions nearly all belong to the support: they come to it at once ([`ActiveSet::of_all`]).
 //! *Few dimensions.* The first pass starts from the ball of a sample and lists the points far from its center; the rounds
 //! are over that list as long as no other point can be outside ([`super::shortlist`]). Then one pass is all.
 //! *Many dimensions.* The ball of a sample has its center too far off for that, and saves no pass. But the last centers are near to one
@@ -45,8 +46,9 @@ const DELETIONS_LEAST: usize = 64;
 /// Smallest batch of which the share that entered the support says anything.
 const TELLING_BATCH: usize = 16;
 
-/// Of a first batch with so many dimensions for each item, most belong to the support of its ball.
-const SUPPORTED_DIMENSIONS: usize = 2;
+/// Points of the first batch come to the support at once where there are at least so many dimensions for each. Measured: of the batch of
+/// 10⁴ × 1000 normal points 105 of 128 stay.
+const DIMENSIONS_PER_POINT_MIN: usize = 2;
 
 /// Far items per pass: where passes are cheap beside the work on the set they bring, fewer.
 fn batch_for(dim: usize) -> usize {
@@ -82,8 +84,10 @@ fn solve_with_patience(
     outcome.bounds(PassBounds { lower: 0.0, upper, working_set: 0 });
     // Two at least, as one alone proves no lower bound.
     add(&mut set, reader, found.far.iter().map(|far| far.id), batch.max(2))?;
-    let is_small = SUPPORTED_DIMENSIONS * set.len() <= reader.dim();
-    let mut active = if is_small && reader.items() == Items::Points {
+    let has_many_dimensions = DIMENSIONS_PER_POINT_MIN * set.len() <= reader.dim();
+    // A larger batch, of the caller's choice, takes steps of which each asks whether to go on.
+    let comes_at_once = has_many_dimensions && set.len() <= BATCH_MAX;
+    let mut active = if comes_at_once && reader.items() == Items::Points {
         ActiveSet::of_all(&set, found.farthest.reach2)
     } else {
         ActiveSet::new(&set, found.farthest.reach2)

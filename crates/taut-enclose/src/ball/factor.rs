@@ -2,8 +2,8 @@
 //!
 //! RᵀR = A with A = G + σ11ᵀ over the support. Two right-hand sides ride along, w_b = R⁻ᵀ(b/2) and w_1 = R⁻ᵀ1, so that the
 //! circumcenter of the support costs one back substitution.
-//! *Small supports.* Kernels multiply by the inverses of pivots. Here a division serves as well, and quotients that are numbers
-//! come out exact: the ball of two points has its center halfway.
+//! *Small supports.* Kernels multiply by the inverses of pivots, which rounds twice. In small systems a division takes no longer, and
+//! quotients that `f64` can represent are exact: the ball of two points has its center halfway.
 
 use taut_kernels::vector::{add_scaled, dot};
 
@@ -115,60 +115,86 @@ impl Factor {
 mod tests {
     use super::*;
 
-    /// A = rows·rowsᵀ + σ of given points, and its factor by appending one after the other.
-    fn factor_of(points: &[Vec<f64>], sigma: f64) -> Factor {
-        let mut factor = Factor::default();
+    /// Few points, which are solved by division, and one more than that.
+    const COUNTS: [usize; 3] = [6, DIVIDED_MAX + 1, 20];
+    const DIM: usize = 24;
+    const SIGMA: f64 = 2.0;
+
+    /// Appends points one after the other to an empty factor of A = rows·rowsᵀ + σ.
+    fn append_all(factor: &mut Factor, points: &[Vec<f64>]) {
         for (j, p) in points.iter().enumerate() {
-            let a: Vec<f64> = points[..j].iter().map(|q| dot(p, q) + sigma).collect();
+            let a: Vec<f64> = points[..j].iter().map(|q| dot(p, q) + SIGMA).collect();
             let z = factor.forward(&a);
-            let pivot = (dot(p, p) + sigma - dot(&z, &z)).sqrt();
+            let pivot = (dot(p, p) + SIGMA - dot(&z, &z)).sqrt();
             factor.append(&z, pivot, dot(p, p) / 2.0);
         }
+    }
+
+    fn factor_of(points: &[Vec<f64>]) -> Factor {
+        let mut factor = Factor::default();
+        append_all(&mut factor, points);
         factor
     }
 
-    fn points() -> Vec<Vec<f64>> {
+    fn points(count: usize) -> Vec<Vec<f64>> {
         let values: Vec<f64> =
-            taut_points::generate(taut_points::Distribution::Normal, 6, 8, 1).unwrap();
-        values.chunks(8).map(<[f64]>::to_vec).collect()
+            taut_points::generate(taut_points::Distribution::Normal, count, DIM, 1).unwrap();
+        values.chunks(DIM).map(<[f64]>::to_vec).collect()
+    }
+
+    fn are_near(a: &[f64], b: &[f64]) -> bool {
+        a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12)
     }
 
     #[test]
     fn the_stationary_point_is_equally_far_from_the_support() {
-        let points = points();
-        let s = factor_of(&points, 2.0).stationary();
-        assert!((s.iter().sum::<f64>() - 1.0).abs() < 1e-13);
-        let center: Vec<f64> =
-            (0..8).map(|j| points.iter().zip(&s).map(|(p, s)| s * p[j]).sum()).collect();
-        let distances: Vec<f64> = points
-            .iter()
-            .map(|p| p.iter().zip(&center).map(|(p, c)| (p - c) * (p - c)).sum())
-            .collect();
-        for d in &distances {
-            assert!((d - distances[0]).abs() < 1e-12, "{distances:?}");
+        for count in COUNTS {
+            let points = points(count);
+            let s = factor_of(&points).stationary();
+            assert!((s.iter().sum::<f64>() - 1.0).abs() < 1e-13);
+            let coordinate = |j| points.iter().zip(&s).map(|(p, s): (&Vec<f64>, _)| s * p[j]).sum();
+            let center: Vec<f64> = (0..DIM).map(coordinate).collect();
+            let distance =
+                |p: &Vec<f64>| p.iter().zip(&center).map(|(p, c)| (p - c) * (p - c)).sum();
+            let distances: Vec<f64> = points.iter().map(distance).collect();
+            assert!(are_near(&distances, &vec![distances[0]; count]), "{distances:?}");
         }
     }
 
     #[test]
     fn deleting_gives_the_factor_of_what_is_left() {
-        for position in 0..6 {
-            let mut points = points();
-            let mut factor = factor_of(&points, 2.0);
+        for (count, position) in COUNTS.iter().flat_map(|&n| (0..n).map(move |k| (n, k))) {
+            let mut points = points(count);
+            let mut factor = factor_of(&points);
             factor.delete(position);
             points.remove(position);
-            let fresh = factor_of(&points, 2.0);
-            for (a, b) in factor.stationary().iter().zip(fresh.stationary()) {
-                assert!((a - b).abs() < 1e-12);
-            }
-            let v = [1.0, -2.0, 0.5, 3.0, 1.0];
-            for (a, b) in factor.correction(&v).iter().zip(fresh.correction(&v)) {
-                assert!((a - b).abs() < 1e-12);
-            }
-            for (a, b) in factor.times(&v).iter().zip(factor.forward(&v)) {
-                assert!(a.is_finite() && b.is_finite());
-            }
-            let y = factor.back(factor.times(&v));
-            assert!(y.iter().zip(v).all(|(y, v)| (y - v).abs() < 1e-12));
+            let fresh = factor_of(&points);
+            assert!(are_near(&factor.stationary(), &fresh.stationary()));
+            let v: Vec<f64> = (0..count - 1).map(|k| (k as f64).cos()).collect();
+            assert!(are_near(&factor.correction(&v), &fresh.correction(&v)));
+            assert!(are_near(&factor.back(factor.times(&v)), &v));
         }
+    }
+
+    #[test]
+    fn a_factor_of_all_points_at_once_is_that_of_one_after_the_other() {
+        for count in COUNTS {
+            let points = points(count);
+            let row = |p: &Vec<f64>| points.iter().map(|q| dot(p, q) + SIGMA).collect::<Vec<_>>();
+            let half_b: Vec<f64> = points.iter().map(|p| dot(p, p) / 2.0).collect();
+            let factor = Factor::of(points.iter().flat_map(row).collect(), &half_b, 1e-9).unwrap();
+            let (wanted, v) = (factor_of(&points), &half_b);
+            assert!(are_near(&factor.stationary(), &wanted.stationary()));
+            assert!(are_near(&factor.correction(v), &wanted.correction(v)));
+        }
+        assert!(Factor::of(vec![3.0; 4], &[1.0, 1.0], 1e-9).is_none());
+    }
+
+    #[test]
+    fn a_factor_that_was_cleared_is_that_of_its_new_points() {
+        let mut factor = factor_of(&points(20));
+        factor.clear();
+        append_all(&mut factor, &points(9));
+        assert_eq!(factor.stationary(), factor_of(&points(9)).stationary());
     }
 }

@@ -136,17 +136,17 @@ impl Measurement {
     ) -> Result<Self, Error> {
         debug_assert!(weights.is_empty() || weights.len() == ids.len());
         let columns = reader.columns();
-        // From elsewhere they come at once; in memory each part copies its own.
-        let far = if reader.is_in_memory() { None } else { Some(reader.rows_as_given(ids)?) };
+        // Rows in memory are copied by each part; those of other sources are read once, by this thread.
+        let read = if reader.is_in_memory() { None } else { Some(reader.rows_as_given(ids)?) };
         let part = |(k, ids): (usize, &[u64])| -> Result<Measurement, Error> {
             reader.monitor().check().map_err(ReadError::from)?;
             let first = k * ROWS_AT_ONCE;
-            let near;
-            let rows = match &far {
-                Some(far) => &far[first * columns..(first + ids.len()) * columns],
+            let copied;
+            let rows = match &read {
+                Some(rows) => &rows[first * columns..(first + ids.len()) * columns],
                 None => {
-                    near = reader.rows_as_given(ids)?;
-                    &near[..]
+                    copied = reader.rows_as_given(ids)?;
+                    &copied[..]
                 }
             };
             let mut items = vec![];

@@ -14,9 +14,10 @@ use taut_points::parallel::IntoParallel;
 /// One task multiplies this many columns of the Gram matrix, which depends on the size of the set only: so the result does not depend on
 /// threads. Narrow tiles of a small set keep two threads busy, and leave out most of what is known by symmetry.
 const fn tile_columns(items: usize) -> usize {
-    const SMALL_SET: usize = 512;
     if items <= SMALL_SET { 32 } else { 128 }
 }
+/// Items of a small set.
+const SMALL_SET: usize = 512;
 /// A center with a coordinate beyond this many radii is kept in two terms: rounding it to one would cost 8·2⁻⁵³ radii.
 const FAR_OFF: f64 = 8.0;
 
@@ -139,6 +140,7 @@ impl WorkingSet {
     /// Adds items that are not in the set yet. `rows` holds for each its coordinates, and its radius if `with_radius`.
     pub(super) fn add(&mut self, ids: &[u64], mut rows: Vec<f64>, with_radius: bool) {
         let before = self.len();
+        debug_assert_eq!(rows.len(), ids.len() * (self.dim + usize::from(with_radius)));
         for &id in ids {
             debug_assert!(!self.contains(id));
             self.position.insert(id, self.ids.len());
@@ -152,7 +154,7 @@ impl WorkingSet {
             self.radii.resize(self.ids.len(), 0.0);
         }
         if before == 0 && !with_radius {
-            // The first batch is the largest, and need not be copied.
+            // Most often the largest batch, which need not be copied.
             for row in rows.chunks_exact_mut(columns) {
                 row.iter_mut().zip(&self.origin).for_each(|(x, o)| *x -= o);
             }
@@ -173,8 +175,9 @@ impl WorkingSet {
         if k <= self.stride {
             return;
         }
-        // Room for later batches, which mostly are small beside the first.
-        let stride = (2 * self.stride).max(k + k / 4).next_multiple_of(8);
+        // A small set has room for the second batch of ordinary data, which is a sixth of the first.
+        let room = if k <= SMALL_SET { k + k / 4 } else { k };
+        let stride = (2 * self.stride).max(room).next_multiple_of(8);
         let mut gram = vec![0.0; stride * stride];
         for i in 0..before {
             gram[i * stride..i * stride + before]

@@ -245,7 +245,7 @@ pub(super) fn take(
         Rows::F64(points) => take_block(query, share, row, &points, first),
     })?;
     let hashes = reports.iter().map(|report| report.1).collect();
-    // A list that grows as it is put together costs a quarter of its page faults.
+    // Growing these lists caused a quarter of the page faults of 10⁵ × 10 normal points.
     let count = reports.iter().filter_map(|(taken, _)| Some(taken.as_ref()?.ids.len())).sum();
     let mut squares = Vec::with_capacity(count);
     let (ids, rows) = (Vec::with_capacity(count), Vec::with_capacity(reports.len()));
