@@ -1,4 +1,5 @@
-//! The triangular factor of the Gram matrix of the points in use, grown and shrunk by one point at a time or grown by several.
+//! The triangular factor of a positive definite matrix, most often the Gram matrix of the points in use, grown and shrunk by one point at a
+//! time or grown by several.
 //!
 //! R′R = H with R upper triangular, kept by rows in one square of memory. Right-hand sides w = R⁻ᵀb ride along, so
 //! that the solution of Hv = b costs one back substitution. Appending a point is one forward substitution; deleting one
@@ -206,7 +207,7 @@ impl Cholesky<1> {
     }
 
     /// Appends several points at once, whose rows of H over the points in use are in `z`, over each other in `square`; returns
-    /// false, with all as it was, if a pivot falls below `least` times its entry.
+    /// false, with all as it was, if the square of a pivot is at most `least` times its entry.
     pub(crate) fn append_all(
         &mut self,
         mut z: Vec<f64>,

@@ -46,8 +46,8 @@ const DELETIONS_LEAST: usize = 64;
 /// Smallest batch of which the share that entered the support says anything.
 const TELLING_BATCH: usize = 16;
 
-/// Points of the first batch come to the support at once where there are at least so many dimensions for each. Measured: of the batch of
-/// 10⁴ × 1000 normal points 105 of 128 stay.
+/// Points of the first batch come to the support at once where there are at least so many dimensions for each. Most stay: of the 148 points
+/// of the last working set of 10⁴ × 1000 normal points 125 are in the support.
 const DIMENSIONS_PER_POINT_MIN: usize = 2;
 
 /// Far items per pass: where passes are cheap beside the work on the set they bring, fewer.
