@@ -256,7 +256,8 @@ def test_real_sets_have_the_volumes_known_for_them():
     folder = Path(os.environ["TAUT_DATA"]) / "ellipsoid"
     optima = json.loads((folder / "reference_optima.json").read_text(encoding="utf-8"))
     assert len(optima) > 20
-    for name, known in optima.items():
+    step = 1 if "TAUT_LONG_TESTS" in os.environ else 3
+    for name, known in list(optima.items())[::step]:
         points = np.loadtxt(folder / name, delimiter=",", skiprows=1, ndmin=2)
         found = taut.ellipsoid(points, epsilon=1e-11)
         assert found.check(points).gap <= 1e-11, name

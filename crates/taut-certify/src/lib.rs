@@ -86,6 +86,8 @@ mod registry;
 mod robust;
 mod solution;
 mod surface;
+#[cfg(test)]
+mod test_length;
 mod triangle;
 mod triangulation;
 mod unrolled;

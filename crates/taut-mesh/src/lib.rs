@@ -51,6 +51,8 @@ mod self_intersection;
 #[cfg(test)]
 mod shapes;
 mod surface;
+#[cfg(test)]
+mod test_length;
 mod topology;
 mod union_find;
 

@@ -37,6 +37,8 @@ mod points;
 mod processor;
 mod room;
 mod source;
+#[cfg(test)]
+mod test_length;
 mod threads;
 
 pub use allocator::keep_freed_memory;

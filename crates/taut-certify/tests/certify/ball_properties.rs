@@ -66,7 +66,7 @@ fn odd_number() -> impl Strategy<Value = f64> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: crate::test_length::long_or(400, 150), failure_persistence: None, ..ProptestConfig::default() })]
 
     /// Small integers with radii from Pythagorean squares bring exact ties; one ulp beside them decides.
     #[test]

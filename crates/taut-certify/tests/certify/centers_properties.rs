@@ -92,7 +92,7 @@ fn apart(
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 24, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: long_or(24, 10), failure_persistence: None, ..ProptestConfig::default() })]
 
     /// Small integers bring ties, duplicates and lines.
     #[test]

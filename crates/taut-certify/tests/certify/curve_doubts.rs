@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use crate::test_length::long_or;
 use taut_certify::{
     CheckError, Curve, CurveCertificate, CurveComponent, CurveDoubt, CurveVerdict, Solution, Trace,
 };
@@ -165,7 +166,7 @@ fn few_outliers_far_away_change_nothing() {
     let mut rows = ring(1.0, 0.01, 2000, 3);
     let anywhere = (0..380).map(|k| [0, 1].map(|i| 3.0 * random(8, 2 * k + i) - 1.5));
     rows.extend(anywhere.filter(|p| (p[0].hypot(p[1]) - 1.0).abs() > 0.024));
-    for far in [0.0, 10.0, 1e3, 1e20, 1e100] {
+    for &far in long_or(&[0.0, 10.0, 1e3, 1e20, 1e100][..], &[0.0, 10.0, 1e100]) {
         let doubt = |count: usize| {
             let mut rows = rows.clone();
             rows.extend((0..count).map(|k| at(far, 0.1 + 0.2 * k as f64)));

@@ -209,7 +209,7 @@ fn damaged(loops: &[Loop], delta: f64, random: &mut Random) -> (&'static str, Ve
 
 #[test]
 fn no_damaged_curve_is_certified() {
-    for trial in 0..trials(100) {
+    for trial in 0..trials(long_or(100, 40)) {
         let mut random = Random(trial * 7919 + 1);
         let truth = truth(&mut random);
         let (rows, delta) = sampled(&truth, &mut random);

@@ -71,7 +71,7 @@ fn true_gap(case: &Case) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, cases: 200, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { failure_persistence: None, cases: crate::test_length::long_or(200, 80), ..ProptestConfig::default() })]
 
     /// Any multipliers over random points: what is proved is true, and no more than rounding above the truth.
     #[test]

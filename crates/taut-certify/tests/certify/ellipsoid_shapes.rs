@@ -143,7 +143,7 @@ fn reach_by_climbing(answer: &Ellipsoid, center: &[f64], root: &[Vec<f64>], seed
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, cases: 60, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { failure_persistence: None, cases: crate::test_length::long_or(60, 25), ..ProptestConfig::default() })]
 
     /// A random ellipsoid within the unit ball, scaled so that it just touches: accepted, and refused when 1e-6 larger.
     #[test]

@@ -41,7 +41,7 @@ fn triangles(rows: usize, numbers: &[usize]) -> Vec<[u32; 3]> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, cases: 1500, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { failure_persistence: None, cases: crate::test_length::long_or(1500, 600), ..ProptestConfig::default() })]
 
     /// Each ball of a triangle is accepted just where exact arithmetic finds it empty.
     #[test]

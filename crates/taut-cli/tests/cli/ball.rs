@@ -1,6 +1,8 @@
 //! `taut ball`: the summary, the JSON, and the exit codes of runs that end well.
 
 use crate::test_folder::TestFolder;
+#[cfg(unix)]
+use crate::test_length::long_or;
 
 /// Smallest disc: center (1, 0), radius 1, by the first two points.
 const TRIANGLE: &str = "x,y\n0,0\n2,0\n1,0.5\n";
@@ -150,7 +152,7 @@ fn a_reader_that_leaves_early_is_no_failure() {
 fn a_stop_by_budget_stays_one_when_nobody_listens() {
     let folder = TestFolder::new();
     folder.taut("generate normal -n 500 -d 30 -o points.npy").ends(0);
-    for to in ["-o ball.json", "-o -", "--json"] {
+    for to in ["-o ball.json", "-o -", "--json"].into_iter().step_by(long_or(1, 2)) {
         let line = format!("taut ball points.npy --batch 1 --max-passes 3 --epsilon 0 {to}");
         let run = folder.shell(&format!("{{ sleep 0.3; {line}; echo code $? >&2; }} | true"));
         assert_eq!(run.err, "code 3\n", "{to}");

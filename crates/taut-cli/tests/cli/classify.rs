@@ -3,6 +3,7 @@
 use serde_json::Value;
 
 use crate::test_folder::TestFolder;
+use crate::test_length::long_or;
 
 /// Numbers of the generator SplitMix64 in [0, 1).
 fn draws(seed: u64) -> impl FnMut() -> f64 {
@@ -135,11 +136,11 @@ fn each_method_is_the_same_for_any_number_of_threads() {
     ] {
         let train =
             format!("classify train train.csv --label kind --method {method} --reject 0.02");
-        for threads in [1, 2, 8] {
+        for &threads in long_or(&[1, 8, 2][..], &[1, 8]) {
             folder.taut(&format!("{train} --threads {threads} --model {threads}.json -q")).ends(0);
+            let model = folder.bytes(&format!("{threads}.json"));
+            assert!(model == folder.bytes("1.json"), "{method}, {threads} threads");
         }
-        assert!(folder.bytes("1.json") == folder.bytes("2.json"), "{method}");
-        assert!(folder.bytes("1.json") == folder.bytes("8.json"), "{method}");
         let report = folder
             .taut("classify evaluate test.csv --label kind --model 1.json --json")
             .ends(0)

@@ -3,6 +3,7 @@
 use serde_json::Value;
 
 use crate::test_folder::TestFolder;
+use crate::test_length::long_or;
 
 /// Points of circles, each with a center, a radius and a number.
 fn circles(list: &[([f64; 2], f64, usize)]) -> String {
@@ -276,6 +277,7 @@ fn few_points_are_no_error() {
         ]
         .into_iter()
         .enumerate()
+        .step_by(long_or(1, 3))
         {
             let out = format!("out.{}", ["json", "csv", "geojson"][(at + points.len()) % 3]);
             let outputs = format!("-o {out} --path path.svg --draw p.svg");
@@ -335,7 +337,7 @@ fn threads_and_the_order_of_rows_change_nothing() {
     rows.reverse();
     rows.rotate_left(123);
     folder.put("other.csv", format!("x,y\n{}\n", rows.join("\n")));
-    for method in ["hnn-crust", "corners", "tour"] {
+    for method in ["hnn-crust", "corners", "tour"].into_iter().step_by(long_or(1, 2)) {
         let write = |input: &str, threads: usize| {
             folder
                 .taut(&format!("curve {input} --method {method} --threads {threads} -o a.csv"))

@@ -1,6 +1,7 @@
 //! `taut hand`: scans are made, measured and drawn; what gives no reliable features is refused with the reason.
 
 use crate::test_folder::TestFolder;
+use crate::test_length::long_or;
 
 /// The columns of a table, by their names.
 fn table(text: &str) -> Vec<std::collections::BTreeMap<&str, &str>> {
@@ -12,13 +13,16 @@ fn table(text: &str) -> Vec<std::collections::BTreeMap<&str, &str>> {
 #[test]
 fn scans_are_made_and_measured_as_they_were_made() {
     let folder = TestFolder::new();
+    let (people, dpi) = long_or((4, 90), (3, 60));
+    let synthesize =
+        format!("hand synthesize scans --people {people} --scans 1 --dpi {dpi} --clean --seed 6");
     folder
-        .taut("hand synthesize scans --people 4 --scans 1 --clean --seed 6")
+        .taut(&synthesize)
         .ends(0)
-        .stdout_has(&["4 scans of 4 people in scans"]);
+        .stdout_has(&[&format!("{people} scans of {people} people in scans")]);
     let truth = folder.text("scans/truth.csv");
     let rows = table(&truth);
-    assert_eq!(rows.len(), 4);
+    assert_eq!(rows.len(), people);
     let mut measured = 0;
     for row in rows {
         let file = row["file"];
@@ -36,7 +40,7 @@ fn scans_are_made_and_measured_as_they_were_made() {
             .taut(&format!("hand measure scans/{file} -o hand.json --draw hand.svg"))
             .ends(0)
             .stdout_has(&[
-                "A right hand at 90 dots per inch\n",
+                &format!("A right hand at {dpi} dots per inch\n"),
                 "\n  thumb length",
                 "\n  middle length",
             ]);
@@ -57,7 +61,7 @@ fn scans_are_made_and_measured_as_they_were_made() {
     assert!(measured >= 2, "{measured}");
     // The same seed gives the same bytes, and only a folder of such files is replaced.
     let before = std::fs::read(folder.path("scans/person-0001-scan-00.png")).unwrap();
-    folder.taut("hand synthesize scans --people 4 --scans 1 --clean --seed 6 --threads 1").ends(0);
+    folder.taut(&format!("{synthesize} --threads 1")).ends(0);
     assert_eq!(std::fs::read(folder.path("scans/person-0001-scan-00.png")).unwrap(), before);
     folder.put("scans/mine.txt", "kept");
     folder.taut("hand synthesize scans --people 1 --scans 1").ends(2);
@@ -92,37 +96,40 @@ fn what_cannot_be_measured_is_refused_with_the_file_and_the_reason() {
 #[test]
 fn recognition_is_evaluated_from_scans_and_from_their_table() {
     let folder = TestFolder::new();
-    // Two scans for training, a probe, and one in reserve for those that are refused.
-    let protocol = "--training 2 --splits 3 --folds 2 --method thesis-box,all-plda";
+    // Two scans for training, a probe, and in the long tests one in reserve for those that are refused.
+    let (people, scans, seed, pairs) = long_or((6, 4, 3, 36), (4, 3, 1, 2));
+    let protocol =
+        format!("--seed {seed} --training 2 --splits 3 --folds 2 --method thesis-box,all-plda");
+    let synthetic = format!("--synthetic {people}x{scans} {protocol}");
     folder
-        .taut(&format!(
-            "hand evaluate --synthetic 6x4 --seed 3 {protocol} --table features.csv --draw rates.svg"
-        ))
+        .taut(&format!("hand evaluate {synthetic} --table features.csv --draw rates.svg"))
         .ends(0)
         .stdout_has(&[
-            "24 scans of 6 people\n",
+            &format!("{} scans of {people} people\n", people * scans),
             "Training with 2 scans of ",
             "thesis-box",
             "all-plda",
-            "  2 training scans, unseen people: ",
-            "36 different comparisons of impostors, at most: 300 are needed to tell rejections at FAR ≤ 1 %",
+            &format!(
+                "  2 training scans, unseen people: {pairs} different comparisons of impostors, at most: \
+                 300 are needed to tell rejections at FAR ≤ 1 %"
+            ),
         ]);
     assert!(folder.text("rates.svg").contains("false rejection rate"));
-    folder
-        .taut(&format!("hand evaluate features.csv --seed 3 {protocol} --json -o table.json"))
-        .ends(0);
+    folder.taut(&format!("hand evaluate features.csv {protocol} --json -o table.json")).ends(0);
     let of_table = folder.text("table.json");
-    folder.taut("hand synthesize scans --people 6 --scans 4 --seed 3").ends(0);
+    folder
+        .taut(&format!("hand synthesize scans --people {people} --scans {scans} --seed {seed}"))
+        .ends(0);
     // A PNG file has whole pixels for each meter, so that 90 dots per inch are not exactly these.
-    let scans = "hand evaluate scans --dpi 90 --labels scans/truth.csv";
-    for words in [format!("{scans} --threads 1"), "hand evaluate scans --dpi 90".to_owned()] {
-        folder.taut(&format!("{words} --seed 3 {protocol} --json -o scans.json")).ends(0);
+    for options in ["--labels scans/truth.csv --threads 1", ""] {
+        let words = format!("hand evaluate scans --dpi 90 {options} {protocol}");
+        folder.taut(&format!("{words} --json -o scans.json")).ends(0);
         // The same scans, whichever way they come, and whatever people are called.
         assert_eq!(folder.text("scans.json"), of_table);
     }
     let found: serde_json::Value = serde_json::from_str(&of_table).unwrap();
     let rows = found["rows"].as_array().unwrap();
-    assert_eq!((rows.len(), &found["scans"]), (2, &serde_json::json!(24)));
+    assert_eq!((rows.len(), &found["scans"]), (2, &serde_json::json!(people * scans)));
     for row in rows {
         for rates in [&row["seen"], &row["unseen"]] {
             let (errors, probes) =
@@ -165,7 +172,8 @@ fn an_evaluation_that_cannot_be_is_refused() {
 #[test]
 fn scans_of_others_in_a_folder_of_synthetic_ones_stay() {
     let folder = TestFolder::new();
-    let command = "hand synthesize scans --people 1 --scans 1 --quiet";
+    let dpi = long_or(90, 40);
+    let command = &format!("hand synthesize scans --people 1 --scans 1 --dpi {dpi} --quiet");
     folder.taut(command).ends(0);
     folder.taut(command).ends(0);
     folder.put("scans/person-0000-scan-07.png", "mine");

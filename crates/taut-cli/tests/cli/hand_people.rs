@@ -3,13 +3,18 @@
 use serde_json::json;
 
 use crate::test_folder::TestFolder;
+use crate::test_length::long_or;
+
+/// Dots per inch of scans.
+fn dpi() -> u32 {
+    long_or(60, 40)
+}
 
 /// A folder with scans of three people, a key, and a store with two of them.
 fn folder() -> TestFolder {
     let folder = TestFolder::new();
-    folder
-        .taut("hand synthesize scans --people 3 --scans 4 --dpi 60 --clean --seed 3 --quiet")
-        .ends(0);
+    let options = format!("--dpi {} --clean --seed 3 --quiet", dpi());
+    folder.taut(&format!("hand synthesize scans --people 3 --scans 4 {options}")).ends(0);
     folder.taut("hand key -o key").ends(0);
     folder
         .taut(&format!("hand enroll --create --failures 2 {STORE} --person Ada {}", scans(0)))
@@ -126,9 +131,8 @@ fn a_key_from_the_environment_serves_as_well() {
 #[test]
 fn a_matcher_is_learned_from_a_folder() {
     let folder = TestFolder::new();
-    folder
-        .taut("hand synthesize scans --people 8 --scans 3 --dpi 60 --clean --seed 4 --quiet")
-        .ends(0);
+    let options = format!("--dpi {} --clean --seed 4 --quiet", dpi());
+    folder.taut(&format!("hand synthesize scans --people 8 --scans 3 {options}")).ends(0);
     folder
         .taut("hand train scans -o matcher.json --scans 1 --fmr 0.2 --source tests")
         .ends(0)
@@ -152,12 +156,12 @@ fn a_matcher_is_learned_from_a_folder() {
 #[test]
 fn a_matcher_of_both_hands_says_so() {
     let folder = TestFolder::new();
-    folder
-        .taut("hand synthesize scans --people 8 --scans 3 --dpi 60 --clean --seed 4 --quiet")
-        .ends(0);
-    folder
-        .taut("hand synthesize left --left --people 8 --scans 3 --dpi 60 --clean --seed 4 --quiet")
-        .ends(0);
+    let options = format!("--dpi {} --clean --seed 4 --quiet", dpi());
+    let scans = long_or(3, 2);
+    folder.taut(&format!("hand synthesize scans --people 8 --scans {scans} {options}")).ends(0);
+    let scans = long_or(3, 1);
+    let left = format!("hand synthesize left --left --people 8 --scans {scans} {options}");
+    folder.taut(&left).ends(0);
     for person in 0..8 {
         let name =
             |folder: &str, scan: u32| format!("{folder}/person-{person:04}-scan-{scan:02}.png");
@@ -174,7 +178,8 @@ fn a_matcher_of_both_hands_says_so() {
 #[test]
 fn a_failed_enrollment_leaves_no_new_store() {
     let folder = TestFolder::new();
-    folder.taut("hand synthesize scans --people 2 --scans 3 --clean --seed 3 --quiet").ends(0);
+    let options = format!("--dpi {} --clean --seed 3 --quiet", long_or(90, 40));
+    folder.taut(&format!("hand synthesize scans --people 2 --scans 3 {options}")).ends(0);
     folder.taut("hand key -o key").ends(0);
     let files = folder.files();
     let others = format!("{} {} {}", image(0, 0), image(0, 1), image(1, 0));

@@ -1,6 +1,7 @@
 //! `taut inscribe bodies`: free facets, given points, holes that are closed, and a coverage.
 
 use crate::test_folder::TestFolder;
+use crate::test_length::long_or;
 
 /// A tetrahedron of which no face is in a direction of k-dops.
 const TETRAHEDRON: &str =
@@ -88,9 +89,9 @@ fn bodies_are_added_until_the_coverage_is_reached() {
 
 #[test]
 fn bodies_are_merged_and_hide_a_part() {
-    let folder = folder();
+    let (folder, events) = (folder(), long_or(3000, 600));
     let found = |command: &str| -> serde_json::Value {
-        folder.taut(&format!("inscribe {command} --events 3000 -o bodies.json")).ends(0);
+        folder.taut(&format!("inscribe {command} --events {events} -o bodies.json")).ends(0);
         folder.taut("verify bodies.json mesh.off").ends(0);
         serde_json::from_str(&folder.text("bodies.json")).unwrap()
     };

@@ -201,13 +201,13 @@ fn a_page_of_ten_thousand_points_is_below_a_megabyte() {
         "dop sphere.npy -k 18",
         "delaunay plane.npy",
         "delaunay sphere.npy",
-        "curve curve.npy",
-        "surface torus.npy -o torus.ply",
-        "inscribe bodies torus.ply --max-events 1000",
         "inscribe circle ring.csv --epsilon 0.1",
     ];
     if long_or(true, false) {
         commands.extend([
+            "curve curve.npy",
+            "surface torus.npy -o torus.ply",
+            "inscribe bodies torus.ply --max-events 1000",
             "ellipsoid plane.npy --robust mcd",
             "ellipsoid sphere.npy --robust mcd",
             "ball plane.npy --kernel gaussian --gamma 0.1 --nu 0.5 --epsilon 0.5",

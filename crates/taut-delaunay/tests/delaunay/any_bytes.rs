@@ -14,7 +14,7 @@ fn any_bytes_are_triangulated_and_the_checker_agrees() {
         state ^= state << 17;
         (state >> 24) as u8
     };
-    for run in 0..long_or(3000u32, 250) {
+    for run in 0..long_or(3000u32, 80) {
         let length = 3 + (run % 97) as usize * 3;
         let input: Vec<u8> = (0..length).map(|_| next()).collect();
         bytes::solve_and_check(2 + run as usize % 2, &input);

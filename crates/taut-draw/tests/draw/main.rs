@@ -10,4 +10,6 @@ mod gaps;
 mod inscribed;
 mod robust;
 mod surface;
+#[cfg(feature = "png")]
+mod test_length;
 mod viewer;

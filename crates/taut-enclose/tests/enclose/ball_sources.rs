@@ -303,7 +303,7 @@ fn threads_and_sources_change_no_byte() {
         (Distribution::Clusters { count: 7, spread: 1e-9 }, 40_000, 20),
         (Distribution::Uniform, 3_000, 250),
     ];
-    for (distribution, n, dim) in cases {
+    for (distribution, n, dim) in cases.into_iter().step_by(crate::test_length::long_or(1, 2)) {
         assert!(n * dim > 10 * taut_points::Blocks::VALUES);
         let values: Vec<f64> = generate(distribution, n, dim, 17).unwrap();
         let wanted = json(&Points::new(&values, dim).unwrap(), Items::Points, 0.0);

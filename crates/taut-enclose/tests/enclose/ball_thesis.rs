@@ -101,7 +101,7 @@ fn balls(n: usize, dim: usize, seed: u64, spread: f64) -> Vec<f64> {
 
 #[test]
 fn the_four_distributions_are_solved_to_epsilon() {
-    for distribution in DISTRIBUTIONS {
+    for distribution in DISTRIBUTIONS.into_iter().step_by(crate::test_length::long_or(1, 2)) {
         for (n, dim) in [(60, 1), (200, 2), (200, 3), (150, 20), (40, 60)] {
             let values: Vec<f64> = generate(distribution, n, dim, 7).unwrap();
             for method in THESIS {
@@ -122,7 +122,9 @@ fn any_accuracy_of_the_core_sets_leads_to_epsilon() {
     let (dim, epsilon) = (50, 1e-3);
     let values: Vec<f64> = generate(Distribution::Normal, 500, dim, 11).unwrap();
     let mut sizes = vec![];
-    for delta in [0.9, 1e-3, 1e-6, 1e-9, 1e-300] {
+    for &delta in
+        crate::test_length::long_or(&[0.9, 1e-3, 1e-6, 1e-9, 1e-300][..], &[0.9, 1e-6, 1e-300])
+    {
         for method in CONIC {
             let options = BallOptions { delta: Some(delta), ..options(method, epsilon) };
             judge(&format!("δ = {delta:e}"), &values, dim, Items::Points, &options);

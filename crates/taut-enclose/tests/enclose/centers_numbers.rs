@@ -212,7 +212,7 @@ fn many_dimensions_end() {
 /// Rows far from the origin, and rows in other units, where that is exact: the same question.
 #[test]
 fn far_and_scaled_rows_have_the_same_radius() {
-    for seed in 0..60 {
+    for seed in 0..crate::test_length::long_or(60, 20) {
         let random = &mut Random(seed);
         let (dim, k) = (random.of(&[1, 2, 3, 10]), 1 + random.below(4) as usize);
         let z = random.below(2);

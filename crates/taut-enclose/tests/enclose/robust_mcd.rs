@@ -229,7 +229,7 @@ fn h_points_in_a_hyperplane_are_reported() {
 
 #[test]
 fn shifts_scales_and_turns_go_along() {
-    for (n, dim) in [(120, 3), (crate::test_length::long_or(6000, 1200), 4)] {
+    for (n, dim) in [(120, 3), (crate::test_length::long_or(6000, 700), 4)] {
         let values = contaminated(n, dim, n / 4, 20.0, 17);
         let plain = solve("plain", &values, dim, &mcd());
         let mut scales = vec![0.0; dim * dim];
@@ -316,7 +316,7 @@ fn bad_input_is_named() {
 #[test]
 fn few_values_with_many_ties_are_solved() {
     // Small integers: ties of distances, flat halves, copies.
-    for seed in 0..60 {
+    for seed in 0..crate::test_length::long_or(60, 20) {
         for dim in 1..4 {
             let values: Vec<f64> = normal(9 + seed as usize % 20, dim, seed)
                 .iter()

@@ -68,7 +68,7 @@ fn whatever_is_answered_is_proved() {
                 RobustOptions { coverage: Some(1.0), ..base.clone() },
                 RobustOptions { coverage: Some(0.6), epsilon: 1e-4, ..base },
             ];
-            for options in options.into_iter().take(crate::test_length::long_or(5, 2)) {
+            for options in options.into_iter().take(crate::test_length::long_or(5, 1)) {
                 match robust_ellipsoid(&points, &options) {
                     Ok(found) => {
                         if let Err(error) = found.check(&points) {
@@ -130,10 +130,16 @@ fn copies_that_leave_few_places_are_an_exact_fit() {
         [0b000110, 0b001000, 0b010100, 0b010110, 0b011110, 0b100001, 0b110001, 0b110011];
     let cube: Vec<f64> =
         bits.iter().flat_map(|row| (0..6).rev().map(move |j| f64::from(row >> j & 1))).collect();
-    let mut refused = by_all("corners", &corners, 3, &[0.5, 0.75, 0.9, 1.0]);
-    refused.extend(by_all("tenths", &tenths, 3, &[0.5, 0.75, 0.9, 1.0]));
-    refused.extend(by_all("line", &line, 2, &[0.5, 0.75, 0.9, 1.0]));
-    refused.extend(by_all("cube", &cube, 6, &[0.5, 0.65, 0.75, 0.9, 1.0]));
+    let some = crate::test_length::long_or(&[0.5, 0.75, 0.9, 1.0][..], &[0.5, 0.9]);
+    let mut refused = by_all("corners", &corners, 3, some);
+    refused.extend(by_all("tenths", &tenths, 3, some));
+    refused.extend(by_all("line", &line, 2, some));
+    refused.extend(by_all(
+        "cube",
+        &cube,
+        6,
+        crate::test_length::long_or(&[0.5, 0.65, 0.75, 0.9, 1.0][..], &[0.65, 0.9]),
+    ));
     assert!(refused.is_empty(), "{refused:#?}");
 }
 
@@ -146,7 +152,7 @@ fn lattices_are_fitted_or_laid_flat() {
             state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (state >> 33) % below
     };
-    for which in 0..crate::test_length::long_or(400, 20) {
+    for which in 0..crate::test_length::long_or(400, 6) {
         let (dim, n) = (1 + lot(7) as usize, 8 + lot(23) as usize);
         let (levels, unit) = (2 + lot(2), [1.0, 0.1, 1.0 / 3.0, 1e8][lot(4) as usize]);
         // Rows that are 0 but for the last columns, so that many are copies.

@@ -166,7 +166,7 @@ fn self_touching_countries_are_refused_fast() {
 
 #[test]
 fn random_rings_are_answered_or_refused_with_two_edges_that_meet() {
-    let count = long_or(10_000, 3000);
+    let count = long_or(10_000, 1000);
     let mut random = Random(11);
     let (mut answered, mut not_simple, mut short) = (0, 0, 0);
     for _ in 0..count {

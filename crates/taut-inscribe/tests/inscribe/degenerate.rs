@@ -151,7 +151,8 @@ fn edges_far_from_a_thin_circle_are_not_called_touched() {
     let corner = [2.5379418373156492e-116, 4.445517498970155e-162];
     let apex = [4.641336831775293e-215, 1.329227995784916e36];
     let ring = [[0.0, width], corner, [width, 0.0], apex];
-    for ring in [ring, ring.map(|[x, y]| [y, x])] {
+    let rings = [ring, ring.map(|[x, y]| [y, x])];
+    for ring in rings.into_iter().take(crate::test_length::long_or(2, 1)) {
         let options = CircleOptions { max_cells: 200, ..Default::default() };
         let found = solve_with(&ring, &options).unwrap();
         let verdict = verify(&found, &ring);

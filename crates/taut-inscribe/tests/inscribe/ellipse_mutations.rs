@@ -117,7 +117,7 @@ fn changed_letters_of_the_tree_are_rejected_or_true() {
             violation(&changed, &rings)
         };
         let best = solve(&rings, 1e-5).unwrap().answer.area;
-        for (place, letter) in tree.char_indices().step_by(tree.len().div_ceil(long_or(300, 80))) {
+        for (place, letter) in tree.char_indices().step_by(tree.len().div_ceil(long_or(300, 30))) {
             let (before, after) = (&tree[..place], &tree[place + 1..]);
             let letter = letter.to_string();
             for other in ["s", "t", "x", "y", "f", "n", "o", "b", "z", "é", ""] {
@@ -167,7 +167,7 @@ fn changed_leaves_prove_no_more_than_is_true() {
                 Err(error) => panic!("{error}"),
             };
         let leaves = found.certificate.leaves.len();
-        for place in (0..leaves).step_by(leaves.div_ceil(60)) {
+        for place in (0..leaves).step_by(leaves.div_ceil(long_or(60, 15))) {
             let with = |leaf: Option<Vec<u64>>| {
                 let mut changed = found.clone();
                 match leaf {

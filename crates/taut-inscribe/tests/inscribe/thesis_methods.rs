@@ -2,6 +2,7 @@
 
 use super::common::{Random, Ring, regular, star_shaped, tour};
 use super::rings::{rows, square};
+use crate::test_length::long_or;
 use taut_certify::{InscribedEllipse, InscribedTriangle, Solution, Stop};
 use taut_inscribe::{
     EllipseMethod, EllipseOptions, EllipseThesisOptions, Error, TriangleMethod, TriangleOptions,
@@ -101,7 +102,7 @@ fn no_sampled_triangle_holds_a_hole() {
 #[test]
 fn ellipses_among_samples_come_near_closed_forms_and_stay_below_the_bound() {
     let pi = std::f64::consts::PI;
-    for map in MAPS {
+    for map in MAPS.into_iter().take(long_or(MAPS.len(), 1)) {
         let determinant = map[0][0] * map[1][1] - map[0][1] * map[1][0];
         let pentagon = (0.2 * pi).cos().powi(2) * pi;
         for (ring, area) in [
@@ -124,7 +125,7 @@ fn ellipses_among_samples_come_near_closed_forms_and_stay_below_the_bound() {
 
 #[test]
 fn ellipses_of_the_thesis_stay_below_the_bound_with_holes_and_bays() {
-    for seed in 0..6 {
+    for seed in 0..long_or(6, 2) {
         let mut rings = vec![mapped(&star_shaped(seed, 18), MAPS[seed as usize % 3])];
         if seed % 2 == 0 {
             rings = vec![square(0.0, 0.0, 4.0), square(1.0 + 0.1 * seed as f64, 1.2, 1.0)];

@@ -123,7 +123,7 @@ fn changed_letters_of_the_tree_are_rejected_or_true() {
             changed.certificate.tree = tree;
             changed
         };
-        for (place, letter) in tree.char_indices().step_by(tree.len().div_ceil(long_or(250, 60))) {
+        for (place, letter) in tree.char_indices().step_by(tree.len().div_ceil(long_or(250, 25))) {
             let (before, after) = (&tree[..place], &tree[place + 1..]);
             for other in ["0", "3", "5", "a", "b", "c", "e", "l", "o", "z", "é", ""] {
                 let letter = letter.to_string();
@@ -168,7 +168,7 @@ fn changed_leaves_prove_no_more_than_is_true() {
                 Err(error) => panic!("{error}"),
             };
         let leaves = found.certificate.leaves.len();
-        for place in (0..leaves).step_by(leaves.div_ceil(long_or(50, 15))) {
+        for place in (0..leaves).step_by(leaves.div_ceil(long_or(50, 6))) {
             let with = |leaf: Option<Vec<i64>>| {
                 let mut changed = found.clone();
                 match leaf {

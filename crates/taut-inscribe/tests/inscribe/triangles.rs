@@ -72,9 +72,9 @@ fn largest_of_vertices(ring: &[[f64; 2]]) -> f64 {
 #[test]
 fn parallelograms_triangles_and_regular_polygons_have_the_areas_of_closed_forms() {
     let unit = [[1.0, 0.0], [0.0, 1.0]];
-    for map in
-        [unit, [[3.0, 1.0], [0.5, 0.75]], [[1.0, 900.0], [0.0, 1.0]], [[0.0, -2.0], [1e-3, 0.25]]]
-    {
+    let maps =
+        [unit, [[3.0, 1.0], [0.5, 0.75]], [[1.0, 900.0], [0.0, 1.0]], [[0.0, -2.0], [1e-3, 0.25]]];
+    for map in maps.into_iter().skip(long_or(0, 1)).step_by(long_or(1, 2)) {
         let determinant: f64 = map[0][0] * map[1][1] - map[0][1] * map[1][0];
         for &shift in long_or(&[[-7.0, 1000.0], [0.0, 0.0]][..], &[[-7.0, 1000.0]]) {
             let of = |ring: &[[f64; 2]]| vec![mapped(ring, map, shift)];

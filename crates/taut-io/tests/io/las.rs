@@ -50,7 +50,7 @@ fn expected(points: i32, keep: impl Fn(i32) -> bool) -> Vec<f64> {
 
 #[test]
 fn coordinates_are_those_of_scale_and_offset_bit_by_bit() {
-    for format in [0, 1, 2, 3, 6, 7] {
+    for &format in crate::test_length::long_or(&[0, 1, 2, 3, 6, 7][..], &[0, 7]) {
         for is_compressed in [false, true] {
             let bytes = file(40_000, format, is_compressed);
             let name = if is_compressed { "scan.laz" } else { "scan.las" };
@@ -182,7 +182,7 @@ fn file_of(points: i32, is_compressed: bool) -> Vec<u8> {
 #[test]
 fn damaged_files_are_refused_with_the_place() {
     for is_compressed in [false, true] {
-        let bytes = file(crate::test_length::long_or(40_000, 3000), 1, is_compressed);
+        let bytes = file(crate::test_length::long_or(40_000, 1000), 1, is_compressed);
         let name = if is_compressed { "scan.laz" } else { "scan.las" };
         for part in [2, 3, 7] {
             let cut = bytes[..bytes.len() / part].to_vec();

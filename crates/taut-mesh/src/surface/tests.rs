@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::shapes::*;
+use crate::test_length::long_or;
 
 fn compare(reference: &Shape, result: &Shape) -> SurfaceQuality {
     compare_surfaces(&reference.view(), &result.view(), &SurfaceOptions::default())
@@ -96,7 +97,8 @@ fn a_spike_is_seen_by_its_vertex() {
 #[test]
 fn spheres_converge_as_the_square_of_their_edges() {
     let finest = sphere(6);
-    let found: Vec<SurfaceQuality> = (1..4).map(|k| few(&finest, &sphere(k), 20_000)).collect();
+    let samples = long_or(20_000, 5000);
+    let found: Vec<SurfaceQuality> = (1..4).map(|k| few(&finest, &sphere(k), samples)).collect();
     for pair in found.windows(2) {
         for of in [SurfaceQuality::hausdorff, SurfaceQuality::mean] {
             let ratio = of(&pair[0]) / of(&pair[1]);
@@ -108,7 +110,7 @@ fn spheres_converge_as_the_square_of_their_edges() {
     near(found[0].diagonal, 12f64.sqrt(), 1e-14);
     // All vertices of a coarse sphere are those of the fine one.
     assert_eq!((found[0].edges.both, found[0].triangles.both), (0, 0));
-    let shells = few(&finest, &sphere(6).scaled(1.25), 20_000);
+    let shells = few(&finest, &sphere(6).scaled(1.25), samples);
     // The chords of the larger sphere are 1.25·(1 − cos) deep, with edges of at most 0.03.
     near(shells.mean(), 0.25, 1e-3);
     near(shells.hausdorff(), 0.25, 1e-3);
@@ -235,8 +237,9 @@ fn what_has_no_area_is_measured_at_its_vertices() {
 #[test]
 fn the_seed_counts_and_threads_do_not() {
     let (reference, result) = (sphere(4), torus(40, 30));
+    let samples = long_or(20_000, 6000);
     let of = |seed| {
-        let options = SurfaceOptions { samples: 20_000, seed };
+        let options = SurfaceOptions { samples, seed };
         compare_surfaces(&reference.view(), &result.view(), &options)
     };
     let pool = |n| rayon::ThreadPoolBuilder::new().num_threads(n).build().expect("threads");
@@ -247,5 +250,5 @@ fn the_seed_counts_and_threads_do_not() {
     let other = of(2);
     assert_ne!(other.reference_to_result.mean, one.reference_to_result.mean);
     // Distances below 3, five deviations of either mean.
-    near(other.mean(), one.mean(), 2.0 * 5.0 * 1.5 / 20_000f64.sqrt());
+    near(other.mean(), one.mean(), 2.0 * 5.0 * 1.5 / (samples as f64).sqrt());
 }

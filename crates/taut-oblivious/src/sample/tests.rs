@@ -10,6 +10,7 @@ use super::random::Random;
 use super::weights::{binomial, hypergeometric};
 use super::*;
 use crate::error::Error;
+use crate::test_length::long_or;
 
 /// The normal deviate that χ² amounts to (Wilson and Hilferty); above 4.5 it is one of 300 000.
 fn deviate<T: Eq + Hash>(seen: &HashMap<T, u32>, expected: &[(T, f64)]) -> f64 {
@@ -167,7 +168,8 @@ fn every_order_is_equally_likely() {
         for n in 0..=if cfg!(miri) { 2 } else { 6 } {
             let orders = orders(n);
             let mut seen = HashMap::new();
-            for seed in 0..if cfg!(miri) { 6 } else { 60 } * orders.len() as u64 {
+            let each = if n < 6 { 60 } else { long_or(60, 12) };
+            for seed in 0..if cfg!(miri) { 6 } else { each } * orders.len() as u64 {
                 let mut items: Vec<u8> = (0..n).collect();
                 draw(&mut items, seed);
                 *seen.entry(items).or_insert(0) += 1;
@@ -187,7 +189,7 @@ fn every_order_is_equally_likely() {
 
 /// Two large numbers: mean and variance within five standard errors.
 fn moments(draw: impl Fn(&mut Random) -> u64, mean: f64, variance: f64) {
-    let draws = 20_000;
+    let draws = long_or(20_000, 6000);
     let mut random = Random::new(3, 3);
     let found: Vec<f64> = (0..draws).map(|_| draw(&mut random) as f64 - mean).collect();
     let n = f64::from(draws);

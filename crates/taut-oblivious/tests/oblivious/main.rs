@@ -3,4 +3,5 @@
 mod bytes;
 mod certified;
 mod memory_bytes;
+mod test_length;
 mod threads;

@@ -11,6 +11,8 @@ use taut_oblivious::kdtree::KdTree;
 use taut_oblivious::*;
 use taut_points::Monitor;
 
+use crate::test_length::long_or;
+
 /// Words without pattern.
 fn words(n: usize, seed: u64) -> Vec<u64> {
     let word = |i: u64| {
@@ -145,7 +147,10 @@ const JOBS: &[Job] = &[
 
 proptest! {
     #![proptest_config(Config {
-        cases: 2, rng_seed: RngSeed::Fixed(8), failure_persistence: None, ..Config::default()
+        cases: long_or(2, 1),
+        rng_seed: RngSeed::Fixed(8),
+        failure_persistence: None,
+        ..Config::default()
     })]
 
     #[test]

@@ -32,7 +32,7 @@ fn nearer(truth: &Exactly, vertices: &[usize], r: usize, s: usize) -> Sign {
 fn plane_agrees_with_exact_integers() {
     let (mut random, sphere) = (Random(4), lattice_sphere::<2>());
     let [mut diametral, mut sides, mut distances] = [(); 3].map(|()| Met::default());
-    for number in 0..long_or(150_000, 50_000) {
+    for number in 0..long_or(150_000, 15_000) {
         let points = case::<2, 5>(number, &mut random, &sphere).points;
         let [a, b, c, r, s] = points;
         let truth = Exactly::new(&points);
@@ -60,7 +60,7 @@ fn plane_agrees_with_exact_integers() {
 fn space_agrees_with_exact_integers() {
     let (mut random, sphere) = (Random(5), lattice_sphere::<3>());
     let [mut diametral, mut sides, mut distances] = [(); 3].map(|()| Met::default());
-    for number in 0..long_or(100_000, 35_000) {
+    for number in 0..long_or(100_000, 10_000) {
         let points = case::<3, 6>(number, &mut random, &sphere).points;
         let [a, b, c, d, r, s] = points;
         let truth = Exactly::new(&points);
@@ -86,7 +86,7 @@ fn space_agrees_with_exact_integers() {
 fn facets_agree_with_exact_integers() {
     let (mut random, sphere) = (Random(6), lattice_sphere::<3>());
     let (mut whole, mut shrunk) = (Met::default(), Met::default());
-    for number in 0..long_or(100_000, 35_000) {
+    for number in 0..long_or(100_000, 10_000) {
         let points = case::<3, 4>(number, &mut random, &sphere).points;
         let [a, b, c, q] = points;
         let truth = Exactly::new(&points);

@@ -213,7 +213,8 @@ fn none_is_false() {
         let told = format!("trial {trial}, {method:?}, {kind}, {rows} rows: {verdict:?}");
         (method.name(), is_right, verdict, told)
     };
-    let found: Vec<_> = (0..trials(60)).into_par_iter().map(of_trial).collect();
+    let found: Vec<_> =
+        (0..trials(crate::test_length::long_or(60, 25))).into_par_iter().map(of_trial).collect();
     let mut counts: BTreeMap<&str, Count> = BTreeMap::new();
     let mut wrong = Vec::new();
     for (method, is_right, verdict, told) in found {
@@ -235,7 +236,7 @@ fn none_is_false() {
 /// Samples of curves as dense as the certificate asks for.
 #[test]
 fn dense_samples_without_noise_are_certified() {
-    for name in NAMES {
+    for name in NAMES.into_iter().step_by(crate::test_length::long_or(1, 2)) {
         let truth = TestCurve::named(name).unwrap().build_with(3000);
         let n = (60.0 * truth.length_over_feature) as usize;
         let rows = sample_curve(&truth, n, &CurveNoise::default(), 3).points;

@@ -188,7 +188,7 @@ mod tests {
 
     #[test]
     fn a_sparse_circle_among_outliers_is_an_arc_and_chance_makes_none() {
-        for seed in 0..20 {
+        for seed in 0..crate::test_length::long_or(20, 8) {
             assert_eq!(arc(&places(seed, 150, 0), 1.0, 0.02), None, "{seed}");
             let found = arc(&places(seed, 150, 40), 1.0, 0.02);
             assert!(matches!(found, Some(CurveDoubt::Arc { .. })), "{seed}: {found:?}");

@@ -413,7 +413,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig { failure_persistence: None, cases: 2000, ..ProptestConfig::default() })]
+        #![proptest_config(ProptestConfig { failure_persistence: None, cases: crate::test_length::long_or(2000, 600), ..ProptestConfig::default() })]
 
         /// Points on a grid of 2^−k, moved by a few ulps or not: ties, near-ties, and all stages on the way to them.
         #[test]

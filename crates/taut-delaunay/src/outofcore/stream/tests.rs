@@ -126,7 +126,7 @@ fn parity(rows: &[u64]) -> bool {
 
 #[test]
 fn streams_of_the_plane_are_the_triangulation_in_memory() {
-    for (name, points) in sets::plane() {
+    for (name, points) in sets::some(sets::plane(), 2) {
         for axis in 0..2 {
             check(name, &points, Coherence::Sorted { axis }, 60);
         }
@@ -138,7 +138,7 @@ fn streams_of_the_plane_are_the_triangulation_in_memory() {
 
 #[test]
 fn streams_of_space_are_the_triangulation_in_memory() {
-    for (name, points) in sets::space() {
+    for (name, points) in sets::some(sets::space(), 2) {
         for axis in 0..3 {
             check(name, &points, Coherence::Sorted { axis }, 200);
         }

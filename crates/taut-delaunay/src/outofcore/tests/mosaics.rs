@@ -135,7 +135,7 @@ macro_rules! test_of {
                     assert!(found == expected, "{name}");
                 }
             }
-            let least = long_or(5000, 2500);
+            let least = long_or(5000, 1000);
             assert!(facets > least && cells > least, "{facets} facets, {cells} cells");
         }
     };

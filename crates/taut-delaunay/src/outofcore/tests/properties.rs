@@ -5,6 +5,7 @@ use proptest::prelude::*;
 
 use super::buckets::Cut;
 use super::canonical::check_same;
+use crate::test_length::long_or;
 
 fn cut() -> impl Strategy<Value = Cut> {
     (0u32..6, 0u64..60, 1usize..4, 1usize..9).prop_map(|(levels, merge_above, threads, stride)| {
@@ -13,7 +14,7 @@ fn cut() -> impl Strategy<Value = Cut> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 300, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig::with_cases(long_or(300, 80)))]
 
     /// Most circles through three of these points pass through more.
     #[test]

@@ -5,13 +5,13 @@ use std::f64::consts::TAU;
 use crate::numbers::numbers;
 use crate::test_length::long_or;
 
-/// All sets in the long tests; else the small ones, and every second of the others, from the first or the next.
-pub(super) fn some<const D: usize>(
+/// All sets in the long tests; else the small ones, and every fifth of the others, from the one with the number `first`.
+pub(in super::super) fn some<const D: usize>(
     sets: Vec<(&'static str, Vec<[f64; D]>)>,
     first: usize,
 ) -> impl Iterator<Item = (&'static str, Vec<[f64; D]>)> {
     let is_taken = move |place: usize, points: usize| {
-        points <= SMALL_SET_POINTS_MAX || place % long_or(1, 2) == first % long_or(1, 2)
+        points <= SMALL_SET_POINTS_MAX || place % long_or(1, 5) == first % long_or(1, 5)
     };
     let sets = sets.into_iter().enumerate();
     sets.filter(move |(place, set)| is_taken(*place, set.1.len())).map(|(_, set)| set)

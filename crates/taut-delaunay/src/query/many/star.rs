@@ -106,7 +106,7 @@ mod tests {
     #[test]
     fn stars_are_those_of_the_hash_set() {
         let mut values = vec![0.0, 0.0, 0.0];
-        let on_sphere = crate::test_length::long_or(3000, 1200);
+        let on_sphere = crate::test_length::long_or(3000, 650);
         values.extend((0..on_sphere).flat_map(|i| {
             let angle = 0.1 + f64::from(i) * 2.399963;
             let z = 1.0 - (2.0 * f64::from(i) + 1.0) / f64::from(on_sphere);

@@ -99,7 +99,7 @@ fn events(all: u64) -> u64 {
 
 #[test]
 fn free_bodies_cover_what_the_documentation_says() {
-    for (name, count, least) in PACKED {
+    for (name, count, least) in PACKED.into_iter().step_by(long_or(1, 2)) {
         let Some(mesh) = model(name) else { return };
         let base = BodiesOptions { close_holes: true, count, ..BodiesOptions::default() };
         let part = packed(name, &mesh, &BodiesOptions { events: events(base.events), ..base });
@@ -116,7 +116,9 @@ fn k_dops_cover_what_the_documentation_says() {
         ("bunny_res2", 45, [0.86, 0.76]),
         ("horse", 10, [0.67, 0.57]),
     ];
-    for (name, count, [overlapping, disjoint]) in covered.into_iter().take(long_or(4, 2)) {
+    for (name, count, [overlapping, disjoint]) in
+        covered.into_iter().skip(long_or(0, 1)).take(long_or(4, 1))
+    {
         let Some(mesh) = model(name) else { return };
         for (is_disjoint, least) in [(false, overlapping), (true, disjoint)] {
             let options = BodiesOptions {
@@ -148,7 +150,7 @@ fn few_free_facets_are_worth_more_than_fixed_ones() {
 #[test]
 fn bodies_of_all_models_are_proved_inside() {
     let (mut packed_models, mut tried) = (0, 0);
-    for name in ALL.into_iter().step_by(long_or(1, 2)) {
+    for name in ALL.into_iter().step_by(long_or(1, 4)) {
         let Some(mesh) = model(name) else { return };
         for shape in [BodyShape::Dop(18), BodyShape::Free(256)] {
             let options = BodiesOptions {
@@ -216,7 +218,7 @@ fn no_body_of_a_turned_model_is_outside() {
     let rotations = long_or(20, 1);
     let mut random = Random(28);
     let (mut judged, mut ambiguous, mut tried) = (0, 0, 0);
-    for name in ALL.into_iter().step_by(long_or(1, 2)) {
+    for name in ALL.into_iter().skip(long_or(0, 2)).step_by(long_or(1, 4)) {
         let Some(mesh) = model(name) else { return };
         for turn in 0..rotations {
             let rows = rotation(&mut random);
@@ -282,14 +284,17 @@ fn open_models_are_refused_by_name_of_an_edge() {
 #[test]
 fn ten_dops_hide_more_where_that_is_the_objective() {
     let mut better = 0;
-    for (name, least) in [("beethoven", 0.86), ("porsche", 0.79), ("bunny_res2", 0.78)] {
+    let shares = [("beethoven", 0.86), ("porsche", 0.79), ("bunny_res2", 0.78)];
+    let shares = &shares[..long_or(3, 2)];
+    for &(name, least) in shares {
         let Some(mesh) = model(name) else { return };
         let hidden = |objective| {
             let base = BodiesOptions { close_holes: true, count: 10, ..BodiesOptions::default() };
             let (shape, events) = (BodyShape::Dop(18), events(base.events));
             let found = solve(&mesh, &BodiesOptions { shape, objective, events, ..base }).unwrap();
             found.check(&points(&mesh)).unwrap();
-            let options = OcclusionOptions { lines: 300_000, ..OcclusionOptions::default() };
+            let options =
+                OcclusionOptions { lines: long_or(300_000, 60_000), ..OcclusionOptions::default() };
             occlusion(&points(&mesh), &found.answer, &options).unwrap().share
         };
         let [by_volume, by_lines] = [Objective::Volume, Objective::Occlusion].map(hidden);
@@ -300,7 +305,7 @@ fn ten_dops_hide_more_where_that_is_the_objective() {
         );
         let slack = if cfg!(debug_assertions) { 0.1 } else { 0.0 };
         assert!(by_lines >= least - slack, "{name}: {by_lines}");
-        better += u32::from(by_lines > by_volume);
+        better += usize::from(by_lines > by_volume);
     }
-    assert!(better >= 2, "{better} of 3");
+    assert!(3 * better >= 2 * shares.len(), "{better} of {}", shares.len());
 }

@@ -62,7 +62,7 @@ fn counts_that_are_not_true_cost_nothing() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(crate::test_length::long_or(256, 48)))]
+    #![proptest_config(ProptestConfig::with_cases(crate::test_length::long_or(256, 16)))]
 
     #[test]
     fn changed_bytes_are_no_panic(

@@ -1,4 +1,5 @@
 use super::*;
+use crate::test_length::long_or;
 use proptest::prelude::*;
 
 /// Different elements, as far as their width allows.
@@ -114,7 +115,10 @@ fn bands_of_rows_meet() {
         (2 * BAND_ROWS, 11 * 48 + 64),
         (2 * BAND_ROWS + 7, 11 * 48 + 5),
         (3 * BAND_ROWS + 9, 131),
-    ] {
+    ]
+    .into_iter()
+    .step_by(long_or(1, 2))
+    {
         for shift in [0, 3] {
             check::<u64>(rows, columns, shift);
             check::<u32>(rows, columns, shift);

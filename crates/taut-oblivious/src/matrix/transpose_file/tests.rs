@@ -151,6 +151,7 @@ mod faults;
 
 mod on_disk {
     use super::*;
+    use crate::test_length::long_or;
 
     const MATRIX: FileMatrix = FileMatrix { rows: 300, columns: 211, width: 8, offset: 3 };
     const OPTIONS: TransposeFileOptions = TransposeFileOptions { memory: 64 << 10 };
@@ -320,7 +321,7 @@ mod on_disk {
         let new = plain(&from, 1500, 1000, 8);
         let to = folder.path().join("to.bin");
         let (mut killed, mut whole) = (0, 0);
-        for delay in (0..1000).step_by(3) {
+        for delay in (0..1000).step_by(long_or(3, 10)) {
             std::fs::write(&to, "earlier").unwrap();
             let mut child = std::process::Command::new(std::env::current_exe().unwrap())
                 .args(["--ignored", "--exact", "--test-threads=1"])

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::*;
+use crate::test_length::long_or;
 
 fn truth(name: &str) -> TruthCurves {
     TestCurve::named(name).unwrap().build()
@@ -18,7 +19,7 @@ fn length_over_feature_and_largest_feature_are_the_published_ones() {
         ("gear20", 217.9, 3.02),
         ("multi4", 96.1, 4.0),
     ];
-    for (name, length, largest) in known {
+    for (name, length, largest) in known.into_iter().step_by(long_or(1, 3)) {
         let truth = truth(name);
         let smallest = truth.features.iter().flatten().fold(f64::INFINITY, |a, &b| a.min(b));
         assert!((smallest - 1.0).abs() < 1e-12, "{name}: {smallest}");
@@ -118,7 +119,7 @@ fn every_point_of_a_curve_is_served_by_an_epsilon_sample_and_its_edges_are_the_c
         .map(|name| TestCurve::named(name).unwrap())
         .into_iter()
         .chain((0..6).map(TestCurve::random));
-    for (seed, curve) in (0..).zip(curves) {
+    for (seed, curve) in (0..).zip(curves).step_by(long_or(1, 3)) {
         let truth = curve.build_with(4000);
         for epsilon in [0.25, 0.45] {
             let sample = epsilon_sample(&truth, epsilon, seed);
@@ -149,7 +150,8 @@ fn every_point_of_a_curve_is_served_by_an_epsilon_sample_and_its_edges_are_the_c
 
 #[test]
 fn random_curves_differ_and_stay_within_their_bounds() {
-    let mut lengths: Vec<f64> = (0..10)
+    let curves = long_or(10, 3);
+    let mut lengths: Vec<f64> = (0..curves)
         .map(|seed| {
             let truth = TestCurve::random(seed).build_with(2000);
             // Twice around at the least for anything closed: a circle has 2π.
@@ -161,7 +163,7 @@ fn random_curves_differ_and_stay_within_their_bounds() {
         })
         .collect();
     lengths.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
-    assert_eq!(lengths.len(), 10);
+    assert_eq!(lengths.len(), curves as usize);
     assert_eq!(TestCurve::random(7), TestCurve::random(7));
 }
 

@@ -97,7 +97,7 @@ impl Case {
     /// Each call of each file, with all that may happen to it.
     fn every_call(&self, names: &[&str]) {
         for name in names {
-            for call in (0..self.calls(name).0).step_by(long_or(1, 3)) {
+            for call in (0..self.calls(name).0).step_by(long_or(1, 9)) {
                 self.is_overcome(name, Fault::Refused(call, ErrorKind::Interrupted));
                 // In turn a byte, and a page and a half, as the system may leave it past the cache.
                 let moved = if call % 2 == 0 { 1 } else { 4096 + 2048 };
@@ -137,11 +137,13 @@ fn any_call_by_way_of_the_cache() {
 #[cfg_attr(miri, ignore = "files")]
 fn a_disk_full_from_any_byte_on() {
     let bytes = |n: u64, width| 0..n * width;
-    Case::new(40, 16, MEMORY_MIN, false).full_at("out", bytes(40, 16));
+    Case::new(40, 16, MEMORY_MIN, false).full_at("out", bytes(40, 16).step_by(long_or(1, 7)));
     // Numbers without a common factor with blocks or records.
-    by_runs(false).full_at("out", bytes(75, 900).step_by(997));
-    by_runs(false).full_at("runs", bytes(75, 900).step_by(997));
-    by_runs(true).full_at("runs", (0..400).step_by(41).chain(bytes(75, 900).step_by(9001)));
+    let step = long_or(997, 2999);
+    by_runs(false).full_at("out", bytes(75, 900).step_by(step));
+    by_runs(false).full_at("runs", bytes(75, 900).step_by(step));
+    let head = (0..400).step_by(long_or(41, 97));
+    by_runs(true).full_at("runs", head.chain(bytes(75, 900).step_by(long_or(9001, 20_011))));
 }
 
 #[test]
@@ -195,7 +197,7 @@ fn any_call_that_cannot_pass_the_cache_after_all() {
     let case = past_the_cache(false);
     for name in ["runs", "out"] {
         let (calls, _) = case.calls(name);
-        for call in 0..calls {
+        for call in (0..calls).step_by(long_or(1, 4)) {
             let (record, kind) = (Record::default(), ErrorKind::InvalidInput);
             let found = case.sort(name, Some(Fault::Refused(call, kind)), &record);
             assert!(record.has_failed.into_inner());
@@ -222,7 +224,8 @@ fn a_disk_full_from_any_place_on_past_the_cache() {
     }
     let size = RECORDS * 2048;
     // At all distances from the start of a page.
-    let places = || (0..size).step_by(9 * 4096 + 1365).chain([size - 1]);
+    let step = long_or(9, 29) * 4096 + 1365;
+    let places = || (0..size).step_by(step).chain([size - 1]);
     let case = past_the_cache(false);
     case.full_at("runs", places());
     case.full_at("out", places());

@@ -1,6 +1,7 @@
 //! Going on where another process stopped.
 
 use super::*;
+use crate::test_length::long_or;
 
 const N: u64 = 40_000;
 
@@ -28,7 +29,8 @@ fn runs_that_are_there_are_not_made_again() {
     let bytes = records(N, 32, 0, 0xFFFF);
     let folder = Folder::with(&bytes);
     let mut before = 0;
-    for limit in [9000, 20_000, 39_000, N + 5000, 2 * N - 2000] {
+    let limits = [9000, 20_000, 39_000, N + 5000, 2 * N - 2000];
+    for limit in limits.into_iter().step_by(long_or(1, 4)) {
         stop_at(&folder, limit);
         let monitor = Monitor::silent();
         let kept = fs::read(folder.path("runs")).expect("runs");

@@ -80,7 +80,7 @@ fn brackets_are_those_of_closed_forms() {
         assert!((lower - wanted).abs() < 1e-13, "{lower} in place of {wanted}");
         assert!((0.0..1e-17).contains(&width), "{width:e}");
     };
-    for dim in 1..=long_or(4, 3) {
+    for dim in 1..=long_or(4, 2) {
         let d = dim as f64;
         near(&cube(dim), dim, Items::Points, kappa(dim).ln() + 0.5 * d * d.ln());
         let cross: Vec<f64> = (0..2 * dim * dim)
@@ -123,7 +123,7 @@ fn brackets_are_those_of_closed_forms() {
 
 fn cases() -> Vec<Case> {
     let mut cases = vec![];
-    for dim in 2..=long_or(5, 4) {
+    for dim in 2..=long_or(5, 3) {
         cases.push(Case::solved(cube(dim), dim, Items::Points));
         for (n, seed) in [(dim + 1, 1), (12, 2), (30, 3)] {
             cases.push(Case::solved(random(n, dim, seed), dim, Items::Points));

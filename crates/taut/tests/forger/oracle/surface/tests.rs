@@ -102,7 +102,7 @@ fn solved(values: &[f64]) -> Vec<Solved> {
 #[test]
 fn honest_surfaces_are_true() {
     let [mut all, mut sound, mut moved, mut closed, mut bad] = [0; 5];
-    for values in inputs() {
+    for values in inputs().into_iter().skip(long_or(0, 1)).step_by(long_or(1, 2)) {
         let oracle = SurfaceOracle::new(&values, 3);
         for (solution, verdict) in solved(&values) {
             let truth = oracle.judge(&solution, &verdict);
@@ -116,7 +116,8 @@ fn honest_surfaces_are_true() {
         }
     }
     eprintln!("{all} surfaces: {sound} sound, {closed} closed, {moved} moved, {bad} bad");
-    assert!(sound >= 30 && moved >= 20 && closed >= 40 && bad >= 20);
+    let least = long_or([30, 20, 40, 20], [15, 10, 20, 10]);
+    assert!([sound, moved, closed, bad].iter().zip(&least).all(|(count, least)| count >= least));
 }
 
 /// Each change alone is a lie wherever it is a change.
@@ -238,7 +239,7 @@ fn doctored_surfaces_are_false() {
         }),
     ];
     let mut judged = [0; 21];
-    for values in inputs() {
+    for values in inputs().into_iter().step_by(long_or(1, 2)) {
         let oracle = SurfaceOracle::new(&values, 3);
         for honest in solved(&values) {
             for (count, (name, change)) in judged.iter_mut().zip(&changes) {
@@ -259,7 +260,7 @@ fn doctored_surfaces_are_false() {
         }
     }
     eprintln!("{judged:?}");
-    assert!(judged.iter().all(|&count| count >= 3), "{judged:?}");
+    assert!(judged.iter().all(|&count| count >= long_or(3, 1)), "{judged:?}");
 }
 
 /// A ball through a row is empty or not as every other row says: of all apexes of a triangle of a sphere with its center,
