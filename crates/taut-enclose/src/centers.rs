@@ -191,7 +191,8 @@ fn solve_in<P: Position>(
     options: &CentersOptions<'_>,
     monitor: &Monitor<'_>,
 ) -> Result<Solution<Centers>, Error> {
-    let cloud = Cloud::<P>::new(table.items(), &table.rows.groups);
+    let mut cloud = Cloud::<P>::new(table.items(), &table.rows.groups);
+    cloud.is_grouped = options.group.is_some();
     // More centers than items are of no use, but what is proved is proved of as many as were asked for.
     let asked = k;
     let k = k.min(cloud.group_count());

@@ -15,6 +15,7 @@ use std::ops::Range;
 
 use taut_points::{Monitor, OrderBy, ReadError};
 
+use super::avoiding_ball::AvoidingBall;
 use super::grouping::Grouping;
 use super::items::{ItemSet, Position, Shape, distance, square};
 use super::links::Links;
@@ -39,6 +40,9 @@ pub(super) struct Cloud<P> {
     pub(super) place_error: f64,
     /// None where each item stands for itself.
     pub(super) grouping: Option<Grouping<P>>,
+    /// True if the rows name groups, of one item each where there is no `grouping`. Proofs are of groups then: none may rest on what an item left
+    /// out says, as its group may be left out for another one, nor on nogoods.
+    pub(super) is_grouped: bool,
 }
 
 struct Cell<P> {
@@ -97,7 +101,8 @@ impl<P: Position> Cloud<P> {
             Grouping::new(&items, of)
         });
         let rows = order.into_iter().map(u64::from).collect();
-        Cloud { items, rows, cells, place_error: 0.0, grouping }
+        let is_grouped = grouping.is_some();
+        Cloud { items, rows, cells, place_error: 0.0, grouping, is_grouped }
     }
 
     /// Number of groups; of items where each stands for itself.
@@ -116,6 +121,11 @@ impl<P: Position> Cloud<P> {
         let mut links = Links::default();
         items.iter().for_each(|&item| links.add(grouping.of[item as usize]));
         Some(links)
+    }
+
+    /// Returns true if balls can be asked to avoid the items left out.
+    pub(super) fn can_avoid(&self) -> bool {
+        !self.is_grouped && AvoidingBall::applies(&self.items)
     }
 
     /// The items that go where an item goes, itself among them.

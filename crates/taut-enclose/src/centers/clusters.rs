@@ -118,6 +118,8 @@ pub(super) struct Clusters<P> {
     left_out: Vec<bool>,
     /// The items left out, in the order of decisions, where balls can be asked to avoid them; else none.
     avoided: Vec<u32>,
+    /// True if balls are asked to avoid the items left out.
+    can_avoid: bool,
     /// A cluster each of whose balls holds an item left out, in a dead end.
     held_out: Option<usize>,
     avoiding: AvoidingBall,
@@ -156,6 +158,7 @@ impl<P: Position> Clusters<P> {
         k: usize,
         outliers_left: u64,
         threshold: f64,
+        can_avoid: bool,
     ) -> Self {
         let (left_out, levels) = (vec![false; items.len()], vec![0; items.len()]);
         let work = Workspace::new(items.dim());
@@ -169,6 +172,7 @@ impl<P: Position> Clusters<P> {
             outliers_left,
             left_out,
             avoided: vec![],
+            can_avoid,
             held_out: None,
             avoiding: AvoidingBall::default(),
             levels,
@@ -240,7 +244,7 @@ impl<P: Position> Clusters<P> {
                 self.left_out[item as usize] = true;
                 self.outliers_left -= 1;
                 let mut before = vec![];
-                if self.links.is_none() && AvoidingBall::applies(&self.items) {
+                if self.can_avoid {
                     self.avoided.push(item);
                     let all = self.clusters.iter();
                     before.extend(all.map(|cluster| (cluster.feasible.clone(), cluster.asked)));

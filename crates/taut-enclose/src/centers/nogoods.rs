@@ -134,7 +134,7 @@ pub(super) fn applies<P: Position>(task: &Task<'_, P>, items: usize, gap: f64) -
     let cloud = task.cloud;
     cloud.items.shape() == Shape::Points
         && cloud.items.dim() == 2
-        && cloud.grouping.is_none()
+        && !cloud.is_grouped
         && cloud.place_error == 0.0
         && task.z == 0
         && (DISCS_MIN..=DISCS_MAX).contains(&task.k)

@@ -118,7 +118,7 @@ impl Proof {
         let root = |core_set: &[u32], threshold| {
             let items = Arc::new(cloud.items.some(core_set));
             let links = cloud.links(core_set);
-            Clusters::new(items, links, k, z as u64, threshold)
+            Clusters::new(items, links, k, z as u64, threshold, cloud.can_avoid())
         };
         let separated = root(core_set, threshold).large_clique(capacity);
         if separated.len() > capacity {

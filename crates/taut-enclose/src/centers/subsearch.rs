@@ -94,7 +94,8 @@ impl<'c, P: Position> Subsearch<'c, P> {
         let items = Arc::new(task.cloud.items.some(core_set));
         let threshold = best.radius / (1.0 + gap);
         let links = task.cloud.links(core_set);
-        let mut state = Clusters::new(items, links, task.k, task.z as u64, threshold);
+        let mut state =
+            Clusters::new(items, links, task.k, task.z as u64, threshold, task.cloud.can_avoid());
         state.end_early();
         let capacity = task.k.saturating_add(task.z);
         let clique = state.large_clique(capacity);

@@ -156,21 +156,23 @@ impl Instance {
         let reaches = std::mem::take(&mut self.reaches);
         for ((point, row), reach) in old.chunks_exact(dim).zip(rows).zip(reaches) {
             monitor.check().map_err(ReadError::from)?;
-            let mut nearest = (0, f64::INFINITY);
+            let mut nearest = None;
             for (i, kept) in self.centers.chunks_exact(dim).enumerate() {
                 let distance = distance(kept, point)?;
-                if distance < nearest.1 {
-                    nearest = (i, distance);
+                if nearest.is_none_or(|(_, least)| distance < least) {
+                    nearest = Some((i, distance));
                 }
             }
-            let (at, distance) = nearest;
-            if distance <= 2.0 * self.guess {
-                let over = rounded_up(distance + reach, dim);
-                self.reaches[at] = self.reaches[at].max(over);
-            } else {
-                self.centers.extend_from_slice(point);
-                self.rows.push(row);
-                self.reaches.push(reach);
+            match nearest {
+                Some((at, distance)) if distance <= 2.0 * self.guess => {
+                    let over = rounded_up(distance + reach, dim);
+                    self.reaches[at] = self.reaches[at].max(over);
+                }
+                _ => {
+                    self.centers.extend_from_slice(point);
+                    self.rows.push(row);
+                    self.reaches.push(reach);
+                }
             }
         }
         Ok(())

@@ -54,7 +54,7 @@ fn walk(shape: Shape, z: u64, grid: f64, seed: u64) -> usize {
         let extra = 0.05 + 0.1 * draws.next();
         items.push(&position, if shape == Shape::Weighted { 1.0 + extra } else { extra });
     }
-    let mut state = Clusters::new(Arc::new(items), None, 3, z, 0.45);
+    let mut state = Clusters::new(Arc::new(items), None, 3, z, 0.45, shape == Shape::Points);
     state.end_early();
     let mut undos: Vec<Undo<[f64; 2]>> = vec![];
     let mut early = 0;
