@@ -15,6 +15,8 @@ mod forge;
 mod oracle;
 #[path = "../../crates/taut/tests/forger/random.rs"]
 mod random;
+#[path = "../../crates/test_length.rs"]
+mod test_length;
 
 use attack::Attack;
 use cases::Case;

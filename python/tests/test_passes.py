@@ -120,7 +120,7 @@ def test_centers_to_a_gap_are_found_over_a_core_set():
 
 def test_robust_ellipsoids():
     is_long = "TAUT_LONG_TESTS" in os.environ
-    rows = taut.generate("normal", 60_000 if is_long else 12_000, 3, seed=4)
+    rows = taut.generate("normal", 60_000 if is_long else 17_000, 3, seed=4)
     rows[::4] += 30
     found = solve(passes.RobustSolver(*rows.shape), in_parts(rows, 4))
     if is_long:

@@ -277,7 +277,7 @@ fn few_points_are_no_error() {
         ]
         .into_iter()
         .enumerate()
-        .step_by(long_or(1, 3))
+        .step_by(long_or(1, 2))
         {
             let out = format!("out.{}", ["json", "csv", "geojson"][(at + points.len()) % 3]);
             let outputs = format!("-o {out} --path path.svg --draw p.svg");

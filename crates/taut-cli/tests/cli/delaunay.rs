@@ -232,7 +232,7 @@ fn bad_input_is_named() {
 #[test]
 fn neither_threads_nor_order_nor_seed_change_a_byte() {
     let folder = TestFolder::new();
-    // Enough for two threads, of 4000 points each in the plane and 1500 in space.
+    // These are enough for two threads, each of which takes 4000 points in the plane and 1500 in space at least.
     let (plane, space) = long_or((40_000, 5000), (9000, 4000));
     folder.taut(&format!("generate normal -n {plane} -d 2 -o plane.npy")).ends(0);
     folder.taut(&format!("generate normal -n {space} -d 3 -o space.npy")).ends(0);

@@ -5,7 +5,7 @@ use serde_json::json;
 use crate::test_folder::TestFolder;
 use crate::test_length::long_or;
 
-/// Dots per inch of scans.
+/// Returns how many dots per inch scans have.
 fn dpi() -> u32 {
     long_or(60, 40)
 }

@@ -70,7 +70,7 @@ fn a_curve_that_is_perhaps_open_is_told() {
     folder.put("arc.csv", (0..60).map(|i| sample(i, 60)).collect::<String>());
     folder.put("circle.csv", (0..72).map(|i| sample(i, 72)).collect::<String>());
     let shapes = ["circle", "ellipse", "rectangle", "triangle", "polygon"];
-    for shape in shapes.into_iter().take(long_or(5, 4)) {
+    for shape in shapes.into_iter().take(long_or(usize::MAX, 4)) {
         folder.taut(&format!("inscribe {shape} arc.csv --samples")).ends(0).stdout_has(&[
             "  samples ",
             "joined to 1 closed curve; evidence: not certified: ",

@@ -149,7 +149,7 @@ fn space_sets() -> Vec<(&'static str, Vec<[f64; 3]>)> {
     ]
 }
 
-/// All sets in the long tests; else the small ones, and every fourth of the others, from the one with the number `first`.
+/// All sets in the long tests; else the small ones, and of the others those with every fourth number, from `first` on.
 fn some<const D: usize>(
     sets: Vec<(&'static str, Vec<[f64; D]>)>,
     first: usize,
@@ -178,7 +178,7 @@ fn same_whatever_the_way<const D: usize>(name: &str, points: &[[f64; D]]) {
     let source = Points::new(points.as_flattened(), D).expect("whole rows");
     expected.check(&source).unwrap_or_else(|e| panic!("{name}: {e}"));
     for &threads in long_or(&[2, 3, 8, 30][..], &[3, 30]) {
-        for &sites_per_thread in long_or(&[Some(1), Some(40), None][..], &[Some(1), None]) {
+        for &sites_per_thread in long_or(&[Some(1), Some(40), None][..], &[Some(1), Some(40)]) {
             let options =
                 DelaunayOptions { threads: Some(threads), sites_per_thread, ..alone.clone() };
             let found = build(points, &options);

@@ -40,8 +40,9 @@ pub(super) struct Cloud<P> {
     pub(super) place_error: f64,
     /// None where each item stands for itself.
     pub(super) grouping: Option<Grouping<P>>,
-    /// True if the rows name groups, of one item each where there is no `grouping`. Proofs are of groups then: none may rest on what an item left
-    /// out says, as its group may be left out for another one, nor on nogoods.
+    /// True if the rows name groups, even where each has one item and there is no `grouping`. A proof is about groups then, and its checker knows
+    /// of a group only the items of the core-set: for all it knows, a group left out has others outside. So no proof asks balls to avoid items
+    /// left out, and none is made of nogoods.
     pub(super) is_grouped: bool,
 }
 

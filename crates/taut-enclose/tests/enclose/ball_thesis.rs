@@ -100,7 +100,7 @@ fn balls(n: usize, dim: usize, seed: u64, spread: f64) -> Vec<f64> {
 }
 
 #[test]
-fn the_four_distributions_are_solved_to_epsilon() {
+fn the_distributions_are_solved_to_epsilon() {
     for distribution in DISTRIBUTIONS.into_iter().step_by(crate::test_length::long_or(1, 2)) {
         for (n, dim) in [(60, 1), (200, 2), (200, 3), (150, 20), (40, 60)] {
             let values: Vec<f64> = generate(distribution, n, dim, 7).unwrap();

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
-use taut_certify::{Centers, Items, Placement, Solution, Stop};
+use taut_certify::{Centers, Items, LowerBound, Placement, Solution, Stop};
 use taut_enclose::{
     BallOptions, CentersMethod, CentersOptions, Error, StreamingOptions, ball, centers,
 };
@@ -403,8 +403,7 @@ fn wrong_input_is_named() {
     ));
 }
 
-/// With every row its own group, proofs are of groups all the same: of what is left out no ball need avoid anything, and no nogoods are
-/// taken.
+/// With every row its own group, proofs are of groups all the same: no ball need avoid what is left out, and no nogoods are taken.
 #[test]
 fn proofs_of_single_rows_are_those_of_groups() {
     let places = [
@@ -420,14 +419,22 @@ fn proofs_of_single_rows_are_those_of_groups() {
         [-2, 0],
         [1, 2],
     ];
-    let single = |places: &[[f64; 2]]| Groups {
-        rows: (0..).zip(places).map(|(at, [x, y])| vec![*x, *y, f64::from(at)]).collect(),
-    };
-    let few = single(&places.map(|place| place.map(f64::from)));
-    let radius = few.radius(1, &CentersOptions { outliers: 2, ..few.options() });
-    assert!(is_near(radius, 2.576941016), "{radius}");
-    let many: Vec<f64> = generate(Distribution::Uniform, 400, 2, 6).unwrap();
-    let many = single(many.as_chunks::<2>().0);
-    let found = many.found(13, &CentersOptions { epsilon: 0.05, ..many.options() });
-    assert!(found.certificate.gap <= 0.05, "{}", found.certificate.gap);
+    let many: Vec<f64> = generate(Distribution::Uniform, 1000, 2, 6).unwrap();
+    for (places, k, outliers, epsilon) in [
+        (&places.map(|place| place.map(f64::from))[..], 1, 2, 1e-9),
+        (many.as_chunks::<2>().0, 13, 0, 0.01),
+    ] {
+        let row = |(at, [x, y]): (u32, &[f64; 2])| vec![*x, *y, f64::from(at)];
+        let single = Groups { rows: (0..).zip(places).map(row).collect() };
+        let options = CentersOptions { outliers, epsilon, ..single.options() };
+        let found = single.found(k, &options);
+        assert!(found.certificate.gap <= epsilon, "{}", found.certificate.gap);
+        assert!(matches!(found.certificate.proof, LowerBound::Branches { .. }));
+        // Of points alone these are others.
+        let points = Points::new(places.as_flattened(), 2).unwrap();
+        let plain = centers(&points, k, &CentersOptions { group: None, ..options }).unwrap();
+        assert!(!matches!(plain.certificate.proof, LowerBound::Branches { .. }));
+        let (found, plain) = (found.answer.radius, plain.answer.radius);
+        assert!((found - plain).abs() <= epsilon * plain, "{found} {plain}");
+    }
 }

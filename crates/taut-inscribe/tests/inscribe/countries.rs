@@ -134,10 +134,9 @@ const TRIANGLES: [(&str, f64); 6] = [
 
 #[test]
 fn countries_have_a_proved_triangle() {
-    for (file, gap) in [
-        ("countries_110m.json.xz", long_or(1e-3, 1e-2)),
-        ("countries_10m.json.xz", long_or(1e-2, 1e-1)),
-    ] {
+    for (file, gap) in
+        [("countries_110m.json.xz", 1e-3), ("countries_10m.json.xz", long_or(1e-2, 1e-1))]
+    {
         let Some(rings) = rings(file) else { return };
         for (name, ring) in rings {
             if ring.len() > long_or(usize::MAX, SHORT_RING_MAX) {

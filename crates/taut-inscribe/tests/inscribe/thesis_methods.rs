@@ -102,7 +102,7 @@ fn no_sampled_triangle_holds_a_hole() {
 #[test]
 fn ellipses_among_samples_come_near_closed_forms_and_stay_below_the_bound() {
     let pi = std::f64::consts::PI;
-    for map in MAPS.into_iter().take(long_or(MAPS.len(), 1)) {
+    for map in MAPS.into_iter().skip(long_or(0, 1)).take(long_or(MAPS.len(), 1)) {
         let determinant = map[0][0] * map[1][1] - map[0][1] * map[1][0];
         let pentagon = (0.2 * pi).cos().powi(2) * pi;
         for (ring, area) in [

@@ -60,6 +60,7 @@ fn radii_agree_with_exact_integers() {
             assert_eq!(space::sphere_radius(d, b, a, c, rho), sign, "{points:?} {rho}");
         }
     }
+    // Of few facets fewer than 1 in 100 have a sign of zero.
     let one_in = long_or(100, 150);
     assert!(facets.is_balanced(one_in) && cells.is_balanced(one_in), "{facets:?} {cells:?}");
 }

@@ -42,9 +42,9 @@ fn mesh(test: &str, name: &str) -> Option<(Vec<Point>, Vec<[u32; 3]>)> {
 }
 
 #[test]
-fn seven_of_seven_are_exact() {
+fn the_seven_are_exact() {
     for (name, components, genus) in SEVEN.into_iter().step_by(crate::test_length::long_or(1, 2)) {
-        let Some((points, _)) = mesh("seven_of_seven_are_exact", name) else { return };
+        let Some((points, _)) = mesh("the_seven_are_exact", name) else { return };
         assert_exact(&closed(&points), components, genus);
     }
 }

@@ -128,7 +128,7 @@ fn rings_on_common_circles() {
 }
 
 #[test]
-fn a_thousand_spheres() {
+fn many_spheres() {
     let mut points = Vec::new();
     let count = crate::test_length::long_or(1000, 300);
     for k in 0..count {

@@ -12,8 +12,10 @@ use crate::oracle::{CaseOracle, Interval, Truth};
 use crate::random::Random;
 use crate::test_length::long_or;
 
-/// Forgeries of each kind in long tests where `TAUT_FORGERIES` does not say another number, and in others.
-const FORGERIES_DEFAULT: [u64; 2] = [1000, 400];
+/// Forgeries of each kind where `TAUT_FORGERIES` does not say another number, in long tests.
+const FORGERIES_LONG: u64 = 1000;
+/// The same in other tests.
+const FORGERIES_SHORT: u64 = 400;
 
 /// Undecided oracle calls are to be fewer than one in so many accepted forgeries.
 const UNDECIDED_ONE_IN: u64 = 1000;
@@ -105,8 +107,7 @@ impl Tally {
 /// Returns how many forgeries are to be made of a kind.
 pub fn budget() -> u64 {
     let wanted = std::env::var("TAUT_FORGERIES").ok().and_then(|count| count.parse().ok());
-    let [all, few] = FORGERIES_DEFAULT;
-    wanted.unwrap_or(long_or(all, few))
+    wanted.unwrap_or(long_or(FORGERIES_LONG, FORGERIES_SHORT))
 }
 
 /// Judges the documents of the solvers, then forges those of all cases in turn, and judges what the checker lets pass.

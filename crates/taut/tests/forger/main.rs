@@ -1,7 +1,8 @@
 //! Forged answers against the checkers, and exact oracles that judge what the checkers let pass.
 //!
-//! `cargo test -p taut --test forger -- --nocapture` makes 400 forgeries of each kind of answer, 1000 where the tests
-//! are long, and prints what came of them; `TAUT_FORGERIES=100000` makes so many of each kind, and `TAUT_FORGER_REASONS=1` lists why they were refused.
+//! `cargo test -p taut --test forger -- --nocapture` makes 400 forgeries of each kind of answer, 1000 where the tests are long, and prints
+//! what came of them; `TAUT_LONG_TESTS=1 TAUT_FORGERIES=100000` makes so many of each kind, of all inputs, and `TAUT_FORGER_REASONS=1` lists
+//! why they were refused.
 #![allow(unreachable_pub)] // modules of one test binary
 
 mod attack;

@@ -23,7 +23,7 @@ fn turned(values: &[u8], rows: usize, columns: usize, width: usize) -> Vec<u8> {
 fn arrays_of_any_type_and_order_are_turned() {
     let folder = TestFolder::new();
     let types =
-        [("<f8", 8), (">f4", 4), ("|u1", 1), ("<c16", 16), ("|S3", 3), ("<U2", 8), ("<M8[ns]", 8)];
+        [("<f8", 8), (">f4", 4), ("<U2", 8), ("|S3", 3), ("<c16", 16), ("|u1", 1), ("<M8[ns]", 8)];
     for (dtype, width) in types.into_iter().step_by(long_or(1, 3)) {
         let values: Vec<u8> =
             words((70 * 30 * width) as u64).into_iter().map(|word| word as u8).collect();

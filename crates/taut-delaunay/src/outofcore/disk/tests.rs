@@ -103,7 +103,7 @@ fn bytes_do_not_depend_on_threads() {
 #[test]
 fn a_stopped_run_is_resumed_to_the_same_bytes() {
     use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-    let n = long_or(300_000, 120_000);
+    let n = long_or(300_000, 230_000);
     let source = GeneratedSource::new(Distribution::Uniform, n, 2, 5, ScalarKind::F64).unwrap();
     let whole = tempfile::tempdir().unwrap();
     delaunay_to_folder(&source, whole.path(), &options()).unwrap();
@@ -111,7 +111,7 @@ fn a_stopped_run_is_resumed_to_the_same_bytes() {
     let mut stops = 0;
     for round in 0..200u64 {
         let (cancel, seen) = (AtomicBool::new(false), AtomicU64::new(0));
-        let allowed = 20_000 + round * long_or(10_000, 16_000);
+        let allowed = 20_000 + round * long_or(10_000, 30_000);
         let count = |points: u64| {
             if seen.fetch_add(points, Ordering::Relaxed) + points > allowed {
                 cancel.store(true, Ordering::Relaxed);

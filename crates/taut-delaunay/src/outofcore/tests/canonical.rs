@@ -150,14 +150,14 @@ const CUTS: [Cut; 7] = [
 #[test]
 fn tiles_of_the_plane_are_the_triangulation_in_memory() {
     for (name, points) in sets::some(sets::plane(), 0) {
-        check_same(name, &points, &CUTS[..long_or(7, 5)]);
+        check_same(name, &points, &CUTS[..long_or(CUTS.len(), 5)]);
     }
 }
 
 #[test]
 fn tiles_of_space_are_the_triangulation_in_memory() {
     for (name, points) in sets::some(sets::space(), 0) {
-        check_same(name, &points, &CUTS[..long_or(7, 5)]);
+        check_same(name, &points, &CUTS[..long_or(CUTS.len(), 5)]);
     }
 }
 

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use crate::numbers::numbers;
 use crate::test_length::long_or;
 
-/// All sets in the long tests; else the small ones, and every fifth of the others, from the one with the number `first`.
+/// All sets in the long tests; else the small ones, and of the others those with every fifth number, from `first` on.
 pub(in super::super) fn some<const D: usize>(
     sets: Vec<(&'static str, Vec<[f64; D]>)>,
     first: usize,

@@ -150,7 +150,7 @@ fn no_body_is_in_a_solid() {
         &[([1.0; 3], [2.0; 3]), ([1.0; 3], [2.0; 3])],
         &[([-1.0, -1.0, -1.0], [2.0, 5.0, 5.0])],
     ];
-    for boxes in solids.into_iter().step_by(long_or(1, 4)) {
+    for boxes in solids.into_iter().step_by(long_or(1, 3)) {
         let all: Vec<Mesh> = boxes.iter().map(|&(low, high)| cuboid(low, high)).collect();
         let mut apart = Scene::around(&rows_of(&cuboid(room.0, room.1))).unwrap();
         let mut as_one = apart.clone();

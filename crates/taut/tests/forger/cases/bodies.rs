@@ -101,7 +101,7 @@ fn solve(input: &Input) -> Vec<Solved> {
         ),
     ];
     ways.into_iter()
-        .step_by(long_or(1, 3))
+        .step_by(long_or(1, 2))
         .map(|(way, options)| {
             let found = input.with(|source| inscribed_bodies(source, &options));
             (way.to_owned(), found.ok().map(|found| document(&found)))

@@ -5,7 +5,7 @@ use taut::certify::Placement;
 use taut::enclose::StreamingOptions;
 use taut::{CentersMethod, CentersOptions, Items, Monitor, centers};
 
-use super::{Case, Input, Solved, ball, cases, clouds, document};
+use super::{Case, Input, Solved, ball, cases, clouds, document, some};
 
 use crate::random::Random;
 /// Returns the cases of k centers.
@@ -14,17 +14,17 @@ pub fn all() -> Vec<Case> {
     for (dim, count) in [(1, 6), (2, 8), (3, 7)] {
         let mut inputs = clouds::points(dim, count);
         inputs.truncate(if dim == 2 { inputs.len() } else { 4 });
-        found.extend(cases(inputs, |input| solve(input, Items::Points, false, None)));
+        found.extend(cases(some(inputs, dim), |input| solve(input, Items::Points, false, None)));
     }
     found.extend(cases(weighted(), |input| solve(input, Items::Points, true, None)));
     found.extend(cases(balls(), |input| solve(input, Items::Balls, false, None)));
     // The last column, or the first: the others are coordinates, a radius or a weight.
-    found.extend(cases(grouped(2), |input| solve(input, Items::Points, false, Some(2))));
-    found.extend(cases(grouped(0), |input| solve(input, Items::Points, false, Some(0))));
-    found.extend(cases(grouped(2), |input| solve(input, Items::Balls, false, Some(2))));
-    found.extend(cases(grouped(2), |input| solve(input, Items::Points, true, Some(2))));
+    found.extend(cases(some(grouped(2), 0), |input| solve(input, Items::Points, false, Some(2))));
+    found.extend(cases(some(grouped(0), 1), |input| solve(input, Items::Points, false, Some(0))));
+    found.extend(cases(some(grouped(2), 1), |input| solve(input, Items::Balls, false, Some(2))));
+    found.extend(cases(some(grouped(2), 0), |input| solve(input, Items::Points, true, Some(2))));
     for dim in 1..=3 {
-        let inputs = ball::ellipsoids(dim);
+        let inputs = some(ball::ellipsoids(dim), dim);
         found.extend(cases(inputs, |input| solve(input, Items::Ellipsoids, false, None)));
     }
     for case in &mut found {

@@ -3,7 +3,7 @@
 use taut::enclose::EllipsoidMethod;
 use taut::{EllipsoidOptions, Items, Monitor, ellipsoid};
 
-use super::{Case, Input, Solved, ball, cases, clouds, document, hand};
+use super::{Case, Input, Solved, ball, cases, clouds, document, hand, some};
 use crate::random::Random;
 use crate::test_length::long_or;
 
@@ -11,16 +11,16 @@ use crate::test_length::long_or;
 pub fn all() -> Vec<Case> {
     let mut found = vec![];
     for (dim, count) in [(1, 5), (2, 12), (3, 10), (5, 10)] {
-        let mut inputs = clouds::points(dim, count);
+        let mut inputs = some(clouds::points(dim, count), dim);
         inputs.extend([1e-5, 1e-9].map(|width| skew(dim, count, width)));
         found.extend(around(inputs, dim, Items::Points));
     }
     for dim in 2..=3 {
         // The exact optima of shapes in space take half of the time of the attack.
         let step = if dim == 3 { long_or(1, 3) } else { 1 };
-        let some = |inputs: Vec<Input>| inputs.into_iter().step_by(step).collect::<Vec<_>>();
-        found.extend(around(some(ball::balls(dim)), dim, Items::Balls));
-        let shapes = some(ball::ellipsoids(dim));
+        let part = |inputs: Vec<Input>| inputs.into_iter().step_by(step).collect::<Vec<_>>();
+        found.extend(around(part(ball::balls(dim)), dim, Items::Balls));
+        let shapes = part(ball::ellipsoids(dim));
         let single: Vec<Input> = shapes.iter().map(Input::single).collect();
         found.extend(around(shapes, dim, Items::Ellipsoids));
         found.extend(around(single, dim, Items::Ellipsoids));

@@ -3,7 +3,7 @@
 use taut::certify::RobustScale;
 use taut::{Monitor, RobustMethod, RobustOptions, robust_ellipsoid};
 
-use super::{Case, Input, Solved, cases, clouds, document};
+use super::{Case, Input, Solved, cases, clouds, document, some};
 
 use crate::random::Random;
 /// Returns the cases of robust ellipsoids.
@@ -11,7 +11,7 @@ pub fn all() -> Vec<Case> {
     let mut found = vec![];
     for dim in 1..=3 {
         let mut inputs = vec![with_outliers(dim), on_a_flat(dim)];
-        inputs.extend(clouds::points(dim, 12));
+        inputs.extend(some(clouds::points(dim, 12), dim));
         found.extend(cases(inputs, solve));
     }
     found

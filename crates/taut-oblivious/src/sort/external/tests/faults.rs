@@ -97,7 +97,10 @@ impl Case {
     /// Each call of each file, with all that may happen to it.
     fn every_call(&self, names: &[&str]) {
         for name in names {
-            for call in (0..self.calls(name).0).step_by(long_or(1, 9)) {
+            let calls = self.calls(name).0;
+            // Odd, so that faults take turns.
+            let step = long_or(1, (calls / 4 | 1).min(9));
+            for call in (0..calls).step_by(step as usize) {
                 self.is_overcome(name, Fault::Refused(call, ErrorKind::Interrupted));
                 // In turn a byte, and a page and a half, as the system may leave it past the cache.
                 let moved = if call % 2 == 0 { 1 } else { 4096 + 2048 };
