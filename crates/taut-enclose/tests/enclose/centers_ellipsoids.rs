@@ -101,7 +101,9 @@ impl Ellipsoids {
             (0..d).for_each(|j| rotate(&mut full, j * d, j * d + 1));
             // Of a flat ellipsoid that comes to lie almost along an axis, rounding leaves less than nothing across.
             let across = 5e-16 * (full[0] + full[d + 1]);
-            [0, d + 1].map(|at| full[at] += across);
+            for at in [0, d + 1] {
+                full[at] += across;
+            }
             for j in 0..d {
                 for k in 0..=j {
                     row[d + j * (j + 1) / 2 + k] = full[j * d + k];
