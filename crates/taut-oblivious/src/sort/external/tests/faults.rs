@@ -99,7 +99,7 @@ impl Case {
         for name in names {
             let calls = self.calls(name).0;
             // Odd, so that faults take turns.
-            let step = long_or(1, (calls / 4 | 1).min(9));
+            let step = long_or(1, ((calls / 4) | 1).min(9));
             for call in (0..calls).step_by(step as usize) {
                 self.is_overcome(name, Fault::Refused(call, ErrorKind::Interrupted));
                 // In turn a byte, and a page and a half, as the system may leave it past the cache.
