@@ -8,7 +8,7 @@
 
 use rayon::prelude::*;
 use taut_oblivious::hilbert_order;
-use taut_points::{InputError, Monitor, Points, Scalar};
+use taut_points::{InputError, Monitor, Points, Scalar, exponent_of, two_to_in_steps};
 
 use crate::Error;
 use crate::kernel::Settings;
@@ -45,8 +45,7 @@ pub(crate) struct Scale {
 
 impl Scale {
     fn by(exponent: i32) -> Self {
-        let half = exponent / 2;
-        Self { exponent, steps: [2f64.powi(half), 2f64.powi(exponent - half)] }
+        Self { exponent, steps: two_to_in_steps(exponent) }
     }
 
     /// `x` scaled, −0 as 0.
@@ -156,13 +155,6 @@ fn lowest_exponent(x: f64) -> i32 {
     exponent.max(1) - 1075 + significand.trailing_zeros() as i32
 }
 
-/// The exponent of the highest bit of a number that is not 0.
-fn highest_exponent(x: f64) -> i32 {
-    let bits = x.to_bits() & (u64::MAX >> 1);
-    let exponent = (bits >> 52) as i32;
-    if exponent > 0 { exponent - 1023 } else { -1011 - bits.leading_zeros() as i32 }
-}
-
 /// The exponent of the lowest bit of any coordinate, if it is at least `floor`.
 fn lowest_exponent_above<T: Scalar>(points: &Points<'_, T>, floor: i32) -> Option<i32> {
     let mut lowest = i32::MAX;
@@ -194,7 +186,7 @@ fn normalization_by(
     if largest == 0.0 {
         return (Scale::by(0), true, true);
     }
-    let top = highest_exponent(largest) + 1;
+    let top = exponent_of(largest) + 1;
     if let Some(unit) = lowest_exponent_above(top - 40) {
         return (Scale::by(-unit), true, true);
     }
@@ -252,8 +244,8 @@ impl Magnitudes {
         self.largest = largest.into_iter().fold(self.largest, f64::max);
         let least = least.into_iter().fold(f64::INFINITY, f64::min);
         let bits_of_significand = 52;
-        let is_clear = least > 0.0
-            && highest_exponent(least) >= self.lowest.saturating_add(bits_of_significand);
+        let is_clear =
+            least > 0.0 && exponent_of(least) >= self.lowest.saturating_add(bits_of_significand);
         if !is_clear {
             blocks.as_flattened().iter().for_each(|&x| self.add(x));
         }
@@ -336,9 +328,9 @@ mod tests {
             (5e-324, -1074, -1074),
             (f64::MIN_POSITIVE * 0.75, -1024, -1023),
         ] {
-            assert_eq!((lowest_exponent(x), highest_exponent(-x)), (low, high), "{x}");
+            assert_eq!((lowest_exponent(x), exponent_of(-x)), (low, high), "{x}");
         }
-        assert_eq!(highest_exponent(f64::MAX), 1023);
+        assert_eq!(exponent_of(f64::MAX), 1023);
     }
 
     #[test]

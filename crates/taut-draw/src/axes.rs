@@ -5,18 +5,14 @@
 //! numbers are very large, very small or very close together, the axis says what they are counted in or from.
 //! *Trap.* Points that differ only in their last digits: labels are differences from an offset named in the title.
 
-use taut_points::OrderBy;
+use taut_points::{OrderBy, exponent_of, two_to};
 
 use crate::number::{superscript, typeset};
 
 /// The power of two near the largest of `values`; 1 if all are 0.
 pub(crate) fn unit(values: impl Iterator<Item = f64>) -> f64 {
     let largest = values.filter(|v| v.is_finite()).fold(0.0_f64, |a, v| a.max(v.abs()));
-    if largest == 0.0 {
-        1.0
-    } else {
-        2.0_f64.powi((largest.log2().floor() as i32).clamp(-1022, 1023))
-    }
+    if largest == 0.0 { 1.0 } else { two_to(exponent_of(largest).clamp(-1022, 1023)) }
 }
 
 /// An interval of an axis, in multiples of a unit, and the pixels it covers.

@@ -36,7 +36,7 @@ use std::collections::BTreeMap;
 use taut_certify::{
     Centers, CentersCertificate, Items, PassBounds, Placement, Solution, Stop, Trace,
 };
-use taut_points::{InputError, Monitor, PointSource, on_threads};
+use taut_points::{InputError, Monitor, PointSource, on_threads, two_to};
 
 use self::cloud::Cloud;
 use self::item_rows::ItemRows;
@@ -59,7 +59,7 @@ const GAP_MIN: f64 = 5e-12;
 /// Gaps up to this are rounding, if `epsilon` is 0.
 const ROUNDING: f64 = 2e-11;
 /// Bounds below this, in the units of the search, rest on squares that may have lost digits.
-const LEAST_PROVED: f64 = f64::from_bits((1023 - 480) << 52);
+const LEAST_PROVED: f64 = two_to(-480);
 /// A proof may take so many times the nodes of the search that came before it, and so many more.
 const PROOF_FACTOR: u64 = 20;
 const PROOF_NODES: u64 = 10_000;

@@ -22,6 +22,7 @@ pub(crate) mod question;
 mod rounds;
 mod sample;
 mod shortlist;
+mod tilt;
 mod whitener;
 mod working_set;
 

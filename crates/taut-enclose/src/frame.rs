@@ -10,7 +10,7 @@
 
 use taut_points::{
     BlockHash, ByteReader, ByteWriter, Monitor, PartsError, PointSource, Points, PointsHash, Rows,
-    Scalar, gather, hash_block, map_blocks,
+    Scalar, exponent_of, gather, hash_block, map_blocks, two_to,
 };
 
 use crate::Error;
@@ -20,7 +20,7 @@ use crate::passes::ask_extent;
 const SAFE_EXPONENT: i32 = 200;
 
 /// 2⁻⁹⁰⁰: squared distances below it have lost digits.
-pub(crate) const SQUARE_MIN: f64 = f64::from_bits((1023 - 900) << 52);
+pub(crate) const SQUARE_MIN: f64 = two_to(-900);
 
 /// The way in which coordinates are brought to the units of a calculation.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,10 +45,10 @@ impl Frame {
         } else {
             half
         };
-        if extent == 0.0 || exponent(extent).abs() <= SAFE_EXPONENT {
+        if extent == 0.0 || exponent_of(extent).abs() <= SAFE_EXPONENT {
             return Frame { scale: 1.0, shift: vec![] };
         }
-        let scale = 2f64.powi((-exponent(extent)).clamp(-1020, 1000));
+        let scale = two_to((-exponent_of(extent)).clamp(-1020, 1000));
         let shift = low.iter().zip(high).map(|(&l, &u)| if l == u { l } else { 0.0 }).collect();
         Frame { scale, shift }
     }
@@ -224,11 +224,6 @@ fn extent_of<T: Scalar, const D: usize>(points: &Points<'_, T>) -> ((Vec<f64>, V
 #[inline(always)]
 fn bits_if_odd<T: Scalar>(value: T) -> u64 {
     (value.into() * 0.0).to_bits()
-}
-
-/// The exponent of the leading bit: 2ᵉ ≤ |value| < 2ᵉ⁺¹.
-pub(crate) fn exponent(value: f64) -> i32 {
-    value.abs().log2().floor() as i32
 }
 
 #[cfg(test)]

@@ -15,7 +15,8 @@ use taut_certify::{InscribedCertificate, InscribedEllipsoid, PassBounds, Solutio
 use taut_kernels::DoubleDouble;
 use taut_kernels::vector::dot;
 use taut_points::{
-    InputError, Monitor, PointSource, PointsHash, Rows, hash_block, map_blocks, shown_number,
+    InputError, Monitor, PointSource, PointsHash, Rows, exponent_of, hash_block, map_blocks,
+    shown_number, two_to, two_to_in_steps,
 };
 
 use crate::Error;
@@ -130,10 +131,8 @@ fn read(source: &dyn PointSource, monitor: &Monitor<'_>) -> Result<HalfSpaces, E
             return Err(Error::NoNormal { row: row as u64 });
         }
         // In two steps: the power that takes the largest number to 1 is none itself.
-        let exponent = binary_exponent(largest);
-        let half = exponent / 2;
-        side.iter_mut().for_each(|v| *v *= 2f64.powi(-half));
-        side.iter_mut().for_each(|v| *v *= 2f64.powi(half - exponent));
+        let [first, second] = two_to_in_steps(-exponent_of(largest));
+        side.iter_mut().for_each(|v| *v = *v * first * second);
     }
     Ok(HalfSpaces { dim: columns - 1, values, hash })
 }
@@ -147,11 +146,6 @@ fn few(views: &[View], lambda: &[f64]) -> Option<Vec<f64>> {
         .map(|i| if weight(i) > MULTIPLIER_RATIO_MIN * most { lambda[i] } else { 0.0 })
         .collect();
     (few != lambda).then_some(few)
-}
-
-/// The e of a number in [2ᵉ, 2ᵉ⁺¹); of subnormal ones, the least there is.
-fn binary_exponent(value: f64) -> i32 {
-    ((value.to_bits() >> 52) & 0x7ff) as i32 - 1023
 }
 
 /// c, G by rows, multipliers of all rows, and how it came about.
@@ -185,7 +179,7 @@ fn seen(row: &[f64], center: &[f64], axes: &[f64]) -> View {
         }
     }
     let largest = normal.iter().fold(slack.high.abs(), |m, v| m.max(v.high.abs()));
-    let unit = 2f64.powi(binary_exponent(largest).clamp(-1000, 1000));
+    let unit = two_to(exponent_of(largest).clamp(-1000, 1000));
     View { normal: normal.iter().map(|v| v.high / unit).collect(), slack: slack.high / unit, unit }
 }
 

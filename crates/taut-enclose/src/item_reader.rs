@@ -12,7 +12,9 @@ mod pass;
 mod row_bounds;
 
 use taut_certify::Items;
-use taut_points::{InputError, Monitor, PointSource, PointsHash, gather, map_blocks};
+use taut_points::{
+    InputError, Monitor, PointSource, PointsHash, exponent_of, gather, map_blocks, two_to,
+};
 
 pub(crate) use self::pass::{Found, Pass, farther};
 use self::row_bounds::RowBounds;
@@ -223,7 +225,7 @@ impl<'a> ItemReader<'a> {
         self.hash = Some(answer.hash);
         self.largest = answer.largest;
         let found = answer.found.settle(query);
-        let safe = exponent(found.farthest.reach2).abs() <= SAFE_EXPONENT && !answer.overflow;
+        let safe = exponent_of(found.farthest.reach2).abs() <= SAFE_EXPONENT && !answer.overflow;
         let is_settled = safe || !self.choose_scale(query.center)?;
         if self.view.scale != 1.0 {
             self.row_bounds = None;
@@ -311,8 +313,8 @@ impl<'a> ItemReader<'a> {
         if spread == 0.0 {
             return Ok(false);
         }
-        self.view.scale = 2f64.powi((-exponent(spread)).clamp(-1000, 1000));
-        if exponent(largest) > SAFE_EXPONENT + exponent(spread) {
+        self.view.scale = two_to((-exponent_of(spread)).clamp(-1000, 1000));
+        if exponent_of(largest) > SAFE_EXPONENT + exponent_of(spread) {
             self.view.shift = center.high.clone();
         }
         Ok(true)
@@ -394,9 +396,4 @@ pub(crate) fn spread(
         Ok::<_, Error>((spread, largest))
     })?;
     Ok(spreads.into_iter().fold((0.0, 0.0), |a, b| (a.0.max(b.0), a.1.max(b.1))))
-}
-
-/// The exponent of the leading bit: 2ᵉ ≤ |value| < 2ᵉ⁺¹; that of the smallest `f64` for 0, of the largest for ∞.
-fn exponent(value: f64) -> i32 {
-    if value == 0.0 { -1074 } else { value.abs().min(f64::MAX).log2().floor() as i32 }
 }

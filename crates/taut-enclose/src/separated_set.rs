@@ -5,7 +5,7 @@
 //! again finds nothing outside; bounds go down by more than any checker's arithmetic takes.
 
 use taut_certify::{Centers, CentersCertificate, Items, LowerBound, Placement, Solution, Trace};
-use taut_points::PointsHash;
+use taut_points::{PointsHash, two_to};
 
 use crate::Error;
 
@@ -15,7 +15,7 @@ const U: f64 = f64::EPSILON / 2.0;
 /// A lower bound as it is claimed: less by what a few roundings at the lower end of the range may have added, which is nothing beside
 /// other bounds. `weight` is the largest of the weights by which a checker divides.
 pub(crate) fn claimed(bound: f64, weight: f64) -> f64 {
-    (bound - 2f64.powi(-1072) * weight.max(1.0)).max(0.0)
+    (bound - two_to(-1072) * weight.max(1.0)).max(0.0)
 }
 
 /// Points of which no two are nearer than some distance.

@@ -26,7 +26,7 @@ use std::collections::BTreeMap;
 use taut_certify::{
     InscribedOrientedRectangle, OrientedRectangleCertificate, Solution, Stop, Trace,
 };
-use taut_points::{InputError, Monitor, PointSource, shown_number};
+use taut_points::{InputError, Monitor, PointSource, shown_number, two_to};
 
 use crate::Error;
 use crate::levels::Levels;
@@ -37,7 +37,7 @@ use self::rows::Boundary;
 use self::search::Target;
 
 /// A bound of the errors of coordinates in units, less those of the pivot, here and in a checker: 2⁻⁵⁰.
-const COORDINATE_ERROR: f64 = f64::from_bits((1023 - 50) << 52);
+const COORDINATE_ERROR: f64 = two_to(-50);
 
 /// Share of a gap by which rounding may miss it.
 const GAP_SLACK: f64 = 1e-9;

@@ -4,6 +4,8 @@
 //! the lower end of the bounding box and scaled by a power of two that brings its extent to [1, 2): needles along an axis and
 //! polygons far from the origin are then as good as any other.
 
+use taut_points::{exponent_of, two_to_in_steps};
+
 use crate::pair::{Pair, minus};
 use crate::polygon::Segment;
 
@@ -128,11 +130,5 @@ impl Axis {
 
 /// Two powers of two whose product brings a number above 0 to [1, 2); both 1 for 0.
 pub(crate) fn factors_of(largest: f64) -> [f64; 2] {
-    let exponent = match largest {
-        0.0 => 0,
-        x if x >= f64::MIN_POSITIVE => (x.to_bits() >> 52) as i32 - 1023,
-        x => -1011 - x.to_bits().leading_zeros() as i32,
-    };
-    let half = -exponent / 2;
-    [half, -exponent - half].map(|power| f64::from_bits(((1023 + power) as u64) << 52))
+    if largest == 0.0 { [1.0; 2] } else { two_to_in_steps(-exponent_of(largest)) }
 }

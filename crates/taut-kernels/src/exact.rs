@@ -8,7 +8,7 @@
 use std::ops::{Add, Div, Mul, Sub};
 
 #[cfg(target_arch = "x86_64")]
-use taut_points::{InstructionSet, instruction_set};
+use taut_points::{InstructionSet, instruction_set, two_to};
 
 use crate::Center;
 
@@ -139,7 +139,7 @@ impl PartialOrd for DoubleDouble {
 #[inline(always)]
 pub fn vanishes(value: f64) -> bool {
     /// 2⁻⁴⁵⁰.
-    const BOUND: f64 = f64::from_bits((1023 - 450) << 52);
+    const BOUND: f64 = two_to(-450);
     (value != 0.0) & (value.abs() < BOUND)
 }
 

@@ -14,6 +14,7 @@ use std::cmp::Ordering;
 use std::ops::Range;
 
 use taut_points::parallel::{IntoParallel, ParallelSlice};
+use taut_points::two_to;
 
 use crate::hilbert::{self, bits_max};
 use crate::morton;
@@ -24,7 +25,7 @@ const COMPARISON_SORT_MAX: usize = 6;
 /// Points that one task of a pass handles.
 const TASK: usize = 1 << 14;
 /// 2⁶⁰⁰, from its bits: what a library makes of a power may differ between machines, and orders with it.
-const LIFT_FACTOR: f64 = f64::from_bits((1023 + 600) << 52);
+const LIFT_FACTOR: f64 = two_to(600);
 
 /// Maps points of a box to cells of the grid that a curve numbers; the same scale on all axes.
 struct Grid<const D: usize> {

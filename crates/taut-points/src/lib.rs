@@ -34,6 +34,7 @@ mod ordered;
 pub mod parallel;
 mod parts;
 mod points;
+mod power_of_two;
 mod processor;
 mod room;
 mod source;
@@ -54,6 +55,7 @@ pub use parts::{
     BlockRuns, ByteReader, ByteWriter, Elsewhere, PartsError, check_kernels, check_part,
 };
 pub use points::{Points, Rows, Scalar, ScalarKind};
+pub use power_of_two::{exponent_of, times_two_to, two_to, two_to_in_steps};
 pub use processor::{
     InstructionSet, KERNELS_VARIABLE, instruction_set, vectors, with_narrow_vectors,
 };

@@ -6,6 +6,8 @@
 //! out is asked exactly, point by point.
 //! Trap: the center and the radius of a sliver's sphere are worthless in floating point; the form needs neither.
 
+use taut_points::two_to;
+
 use crate::vector::{cross, difference, dot, largest, square};
 
 /// α|q − a|² + β·(q − a), positive where `q` conflicts.
@@ -27,7 +29,7 @@ const FORM_ROUNDING: f64 = 1.0 / (1u64 << 42) as f64;
 
 /// The error that underflow may add to the form, 2⁻⁹⁰⁰. A product that underflows is off by less than 2⁻¹⁰⁷⁴ and is
 /// multiplied by at most four coordinates, which `filtered` bounds by 2⁴⁰, and their differences.
-const UNDERFLOW_ERROR: f64 = f64::from_bits((1023 - 900) << 52);
+const UNDERFLOW_ERROR: f64 = two_to(-900);
 
 impl Reach<2> {
     /// The inside of the circle through a, b, c in counter-clockwise order.

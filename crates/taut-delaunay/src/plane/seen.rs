@@ -10,6 +10,7 @@
 //! underflow may add is far below `UNDERFLOW_ERROR` as long as coordinates do not exceed 2⁴⁰, which is what `filtered` promises.
 //! *Reference.* Shewchuk, Discrete & Computational Geometry 18, 1997.
 
+use taut_points::two_to;
 use taut_predicates::plane::{conflict_exact, in_circle_filter, orient_exact, orient_filter};
 use taut_predicates::{Exact, MulAdd, Separate, Sign};
 
@@ -19,7 +20,7 @@ const ORIENT_ERROR: f64 = 1.75 * EPSILON;
 const IN_CIRCLE: f64 = 11.0 * EPSILON;
 /// The error that underflow may add, 2⁻⁹⁰⁰. A product that underflows is off by less than 2⁻¹⁰⁷⁴ and is multiplied by
 /// at most a lift, below 2⁸⁴.
-const UNDERFLOW_ERROR: f64 = f64::from_bits((1023 - 900) << 52);
+const UNDERFLOW_ERROR: f64 = two_to(-900);
 
 /// The coordinates of the ghost vertex: every comparison with it is false, so the common path need not ask for it.
 const NOWHERE: [f64; 2] = [f64::NAN; 2];

@@ -8,12 +8,14 @@
 
 use std::ops::{Add, Mul, Sub};
 
+use taut_points::two_to;
+
 use super::signs::{Lane, Number, determinant, product};
 
 /// As for the filter, with u² for u.
 const IN_SPHERE_ERROR: f64 = 73.0 * 8.0 * 16.0 * (f64::EPSILON * f64::EPSILON / 4.0);
 /// 2⁻⁶⁵⁰: more than all underflows can cost.
-const UNDERFLOW_ERROR: f64 = f64::from_bits((1023 - 650) << 52);
+const UNDERFLOW_ERROR: f64 = two_to(-650);
 
 /// The unevaluated sum of two numbers, of which the second is at most half a unit in the last place of the first. Only
 /// for lanes with fused multiply-add.

@@ -5,7 +5,7 @@
 //! *Guarantee.* At a corner the height of the corner, on an edge a function of that edge alone. So a surface has one value at
 //! each place, whichever triangle is asked. No value is outside the heights of the corners.
 
-use taut_points::OrderBy;
+use taut_points::{OrderBy, exponent_of, two_to};
 use taut_predicates::{Sign, plane};
 
 use super::wide::Wide;
@@ -18,12 +18,12 @@ pub(super) struct Corner {
 }
 
 /// Heights beyond this are scaled down for the computation.
-const HEIGHT_MAX: f64 = f64::from_bits((1023 + 900) << 52);
+const HEIGHT_MAX: f64 = two_to(900);
 /// What they are scaled by.
-const HEIGHT_SCALE: f64 = f64::from_bits((1023 - 200) << 52);
+const HEIGHT_SCALE: f64 = two_to(-200);
 
 /// What sums of a few products in numbers of 100 bits may lose of the largest height, with room: 2⁻⁸⁵.
-const LOST: f64 = f64::from_bits((1023 - 85) << 52);
+const LOST: f64 = two_to(-85);
 
 /// Where a place lies in a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -128,7 +128,6 @@ fn rounded(value: Wide, largest: f64, scale: f64) -> f64 {
 
 /// A power of two that brings a length to about 1.
 fn power_below(length: f64) -> f64 {
-    let exponent = (length.to_bits() >> 52 & 0x7ff) as i64 - 1023;
     // Neither the power nor what is multiplied with it leaves the range of doubles by far.
-    f64::from_bits(((1023 - exponent.clamp(-900, 900)) as u64) << 52)
+    two_to(-exponent_of(length).clamp(-900, 900))
 }

@@ -9,7 +9,7 @@
 use taut_certify::{Ball, BallCertificate, PassBounds, Solution, Stop, Trace};
 use taut_kernels::{Center, Difference, DoubleDouble, relative_error, vanishes};
 use taut_points::parallel::ParallelSlice;
-use taut_points::{OrderBy, ReadError};
+use taut_points::{OrderBy, ReadError, two_to};
 
 use super::BallOptions;
 use super::core_set::ROUNDING;
@@ -227,7 +227,7 @@ pub(crate) fn reach_up(difference: &Difference, squared: DoubleDouble, r: f64) -
         return f64::INFINITY;
     }
     // More than double-double can be off by, in parts of the square: what is nearer is a tie, to be told exactly.
-    let doubt = squared.high * (difference.dim() as f64 + 8.0) * 2f64.powi(-98);
+    let doubt = squared.high * (difference.dim() as f64 + 8.0) * two_to(-98);
     let holds = |reach: f64| {
         let beyond = (DoubleDouble::sum(reach, -r).square() - squared).high;
         if beyond.abs() > doubt { beyond > 0.0 } else { difference.is_within(reach, r) }

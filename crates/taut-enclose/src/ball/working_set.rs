@@ -10,6 +10,7 @@ use taut_kernels::matrix::{Matrix, MatrixMut, set_product};
 use taut_kernels::vector::{add_combination, add_scaled_exactly};
 use taut_kernels::{Center, DoubleDouble, squared_distances};
 use taut_points::parallel::IntoParallel;
+use taut_points::{exponent_of, two_to};
 
 /// One task multiplies this many columns of the Gram matrix, which depends on the size of the set only: so the result does not depend on
 /// threads. Narrow tiles of a small set keep two threads busy, and leave out most of what is known by symmetry.
@@ -228,7 +229,7 @@ fn as_center(terms: &[DoubleDouble], radius: f64) -> Center {
     }
     // A coordinate near 0 would keep digits far below the rounding of the others, and of all distances: a center
     // that should be 0 would be 1e-17 and cost the radius an ulp.
-    let grid = 2f64.powi(radius.log2().floor() as i32 - 53);
+    let grid = two_to(exponent_of(radius) - 53);
     Center {
         high: high.into_iter().map(|c| (c / grid).round() * grid + 0.0).collect(),
         low: vec![],

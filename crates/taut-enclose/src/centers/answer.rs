@@ -2,7 +2,7 @@
 //! returned.
 
 use taut_kernels::{Center, Difference, relative_error};
-use taut_points::OrderBy;
+use taut_points::{OrderBy, exponent_of, two_to};
 
 use super::cloud::{Cloud, Far};
 use super::grouping::{Grouping, Served};
@@ -11,7 +11,6 @@ use super::nearest::{EXACT_DISTANCES, length};
 use super::read::Table;
 use crate::Error;
 use crate::ball::reach_up;
-use crate::frame::exponent;
 
 /// At most this many items that may reach as far as the farthest are measured exactly: mostly two or three for each of
 /// some centers.
@@ -206,7 +205,7 @@ pub(crate) fn reach_of(place: &[f64], center: &[f64], weight: f64, radius: f64) 
     let halves = place.iter().zip(center).map(|(x, c)| (x / 2.0 - c / 2.0).abs());
     // Units of its own, in which the square is near 1.
     let size = halves.fold(radius / 2.0, f64::max).max(f64::MIN_POSITIVE);
-    let scale = 2f64.powi((-exponent(size)).clamp(-1000, 1000));
+    let scale = two_to((-exponent_of(size)).clamp(-1000, 1000));
     let difference = Difference::new(place, &Center { high: center.to_vec(), low: vec![] }, scale);
     let up = reach_up(&difference, difference.squared(), radius * scale);
     // What vanishes is less than an ulp, but not nothing.

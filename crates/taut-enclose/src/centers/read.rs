@@ -4,10 +4,11 @@
 //! values differ by little is therefore moved by the least of them, which is exact: both are within a factor of 2 (Sterbenz).
 //! *Guarantee.* Moved and scaled rows are the rows, without rounding; what cannot be is refused.
 
+use taut_points::{exponent_of, two_to};
+
 use super::item_rows::ItemRows;
 use super::items::{ItemSet, Position, Shape};
 use crate::Error;
-use crate::frame::exponent;
 
 /// Numbers between 2⁻²⁰⁰ and 2²⁰⁰ stay as they are: squares of their differences are at least 2⁻⁵⁰⁶.
 const SAFE_EXPONENT: i32 = 200;
@@ -117,7 +118,7 @@ impl Exponents {
             let (least, most) = range.unwrap_or((size, size));
             Some((least.min(size), most.max(size)))
         });
-        Exponents(range.map(|(least, most)| (exponent(least), exponent(most))))
+        Exponents(range.map(|(least, most)| (exponent_of(least), exponent_of(most))))
     }
 
     fn are_safe(&self) -> bool {
@@ -126,6 +127,6 @@ impl Exponents {
 
     /// The power of two that brings the largest to about this exponent.
     fn scale(&self, wanted: i32) -> f64 {
-        self.0.map_or(1.0, |(_, most)| 2f64.powi((wanted - most).clamp(-1000, 1000)))
+        self.0.map_or(1.0, |(_, most)| two_to((wanted - most).clamp(-1000, 1000)))
     }
 }

@@ -152,9 +152,11 @@ pub(super) fn solve<P: Position>(
         // What is proved already needs no tree.
         if before > (1.0 + search.gap) * lower {
             match search.tree() {
+                // A tree that finds much better centers ends at a bound that may be known.
+                Ok(threshold) if threshold <= lower => {}
                 Ok(threshold) => {
                     proved.push(ProvedBound { threshold, items: search.core_set.len() });
-                    lower = lower.max(threshold);
+                    lower = threshold;
                 }
                 Err(Halt::Error(error)) => return Err(error),
                 Err(_) => {

@@ -22,7 +22,7 @@ use taut_points::{PointSource, Points, ReadError, Rows, Scalar, ScalarKind, Scra
 use super::counters::Counters;
 use super::outcome::{Candidate, Outcome, log_unit_ball};
 use super::point_reader::{PassResult, PointReader};
-use super::proof::{answer, settle, solution, spread};
+use super::proof::{Flat, answer, settle, solution, spread};
 use super::question::{Kind, Question};
 use super::sample::Sample;
 use super::whitener::{Rebased, Whitener};
@@ -336,11 +336,12 @@ fn flat(
             .for_each(|(m, _)| *m = 0.0);
     }
     let map = Map { matrix: &matrix, center: &center, triangular: false };
-    let settled = settle(reader, inner, map, spread(&matrix, &extents))?;
-    let logs: f64 = (0..rank).map(|a| inner.matrix[a * rank + a].ln()).sum();
-    let log_volume = log_unit_ball(rank) - logs - rank as f64 * settled.scale.ln();
     let basis = directions.chunks_exact(dim).map(<[f64]>::to_vec).collect();
     let hull = Hull { basis, distance };
+    let flat = Flat { hull: &hull, reach: extents.iter().sum() };
+    let settled = settle(reader, inner, map, spread(&matrix, &extents), Some(flat))?;
+    let logs: f64 = (0..rank).map(|a| inner.matrix[a * rank + a].ln()).sum();
+    let log_volume = log_unit_ball(rank) - logs - rank as f64 * settled.scale.ln();
     let answer = answer(&settled.factor, center, log_volume, Some(hull))?;
     Ok(solution(reader, answer, outcome, settled.gap, options))
 }

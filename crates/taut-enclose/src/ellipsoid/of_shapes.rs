@@ -18,7 +18,6 @@ mod pass;
 mod proof;
 mod rounds;
 mod support_points;
-mod tilt;
 
 use taut_certify::{Ellipsoid, EllipsoidCertificate, Solution, Trace};
 use taut_kernels::Center;

@@ -18,6 +18,7 @@ use super::dense::{cholesky, divide_rows};
 use super::outcome::{Candidate, Outcome, log_unit_ball};
 use super::point_reader::PointReader;
 use super::question::{Kind, Question};
+use super::tilt::Tilt;
 use super::{EllipsoidOptions, ROUNDING};
 use crate::Error;
 use crate::top::{Far, Top};
@@ -42,7 +43,7 @@ pub(super) fn prove(
     let dim = reader.dim();
     let best = &outcome.best;
     let map = Map { matrix: &best.matrix, center: &best.center, triangular: true };
-    let settled = settle(reader, best, map, triangular_spread(&best.matrix, dim))?;
+    let settled = settle(reader, best, map, triangular_spread(&best.matrix, dim), None)?;
     let logs: f64 = (0..dim).map(|a| settled.factor[a * dim + a].ln()).sum();
     let log_volume = log_unit_ball(dim) - logs;
     let answer = answer(&settled.factor, best.center.clone(), log_volume, None)?;
@@ -152,12 +153,19 @@ pub(super) struct Settled {
     pub(super) gap: f64,
 }
 
+/// The hull of a flat set, and the sum over the coordinates of how far points are from the center.
+pub(super) struct Flat<'a> {
+    pub(super) hull: &'a Hull,
+    pub(super) reach: f64,
+}
+
 /// Scales M so that every point is inside; `spread` bounds | |M||x − c| | where |M(x − c)| ≤ 1.
 pub(super) fn settle(
     reader: &mut PointReader<'_>,
     best: &Candidate,
     map: Map<'_>,
     spread: f64,
+    flat: Option<Flat<'_>>,
 ) -> Result<Settled, Error> {
     let found = &best.found;
     let near = found.largest * (1.0 - 2.0 * pass_error(map.dim(), spread));
@@ -185,8 +193,12 @@ pub(super) fn settle(
         let (_, other_squares) = scaled.images(&others);
         let largest = squares.iter().chain(&other_squares).fold(0.0f64, |m, &v| m.max(v));
         if largest <= 1.0 || attempt == SCALES_MAX || !all_measured {
-            let gap = lower_gap(&images, &best.multipliers, map.rank(), &[]);
-            let gap = (gap + LOGARITHM_ROUNDING * map.rank() as f64).min(f64::MAX);
+            let tilt =
+                flat.map_or(0.0, |flat| Tilt::new(&factor, Some(flat.hull)).error(flat.reach, 0.0));
+            let errors = vec![tilt; best.support.len()];
+            let gap = lower_gap(&images, &best.multipliers, map.rank(), &errors);
+            // So far points may be outside, too.
+            let gap = (gap + (LOGARITHM_ROUNDING + tilt) * map.rank() as f64).min(f64::MAX);
             return Ok(Settled { factor, scale, gap });
         }
         scale *= (1.0 - f64::from(1u32 << attempt) * UNIT_ROUNDOFF) / largest.sqrt();

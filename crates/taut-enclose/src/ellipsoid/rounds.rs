@@ -55,6 +55,11 @@ const SMALL_SHARE: f64 = 1e-2;
 /// as well.
 const LAST_OUTSIDE_MAX: usize = 16;
 
+/// The claimed gap may exceed that of a pass by this for each dimension, and is not taken to exceed it by more than this share of what is
+/// wanted: of three shells in 2 and 4 dimensions that missed 1e-12 for that alone, it did so by 1e-14 to 4e-14.
+const PROOF_ROUNDING: f64 = 4e-14;
+const PROOF_SHARE: f64 = 0.1;
+
 /// This many passes without a better gap show that rounding is in the way, of gaps below [`SMALL_GAP`].
 const STALE_PASSES_MAX: u32 = 3;
 /// Below this gap, rounding may be what keeps passes from improving it.
@@ -88,7 +93,9 @@ pub(super) fn solve(
     options: &EllipsoidOptions<'_>,
 ) -> Result<Outcome, Error> {
     let dim = reader.dim();
-    let wanted = options.epsilon.max(ROUNDING * dim as f64);
+    // A pass finds the gap in plain arithmetic, and what is claimed of it includes roundings.
+    let rounding = (PROOF_ROUNDING * dim as f64).min(PROOF_SHARE * options.epsilon);
+    let wanted = (options.epsilon - rounding).max(ROUNDING * dim as f64);
     let (first, later) = sizes(dim, reader.len());
     let mut counters = Counters::default();
     let mut progress = Progress::new(dim);

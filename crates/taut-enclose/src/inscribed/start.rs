@@ -9,12 +9,15 @@
 //! *Interior.* The largest ball inside, a linear program; if its radius is not positive, its multipliers are those of
 //! Farkas: Σλᵢâᵢ = 0 and Σλᵢbᵢ ≤ 0.
 
+use std::f64::consts::SQRT_2;
+
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{
     DefaultSettingsBuilder, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus,
     SupportedConeT, ZeroConeT,
 };
 use taut_kernels::vector::{add_scaled, dot};
+use taut_points::{exponent_of, two_to};
 
 use super::HalfSpaces;
 use crate::Error;
@@ -107,7 +110,7 @@ fn equilibrated(sides: &HalfSpaces) -> (Vec<f64>, Vec<f64>, Vec<f64>) {
             let most = normals[j..].iter().step_by(dim).fold(0.0f64, |m, v| m.max(v.abs()));
             if most > 0.0 {
                 // A power of two, so that coordinates keep their digits.
-                *unit *= 2f64.powi(-(most.log2().round().clamp(-500.0, 500.0) as i32));
+                *unit *= two_to(-exponent_of(most * SQRT_2).clamp(-500, 500));
             }
         }
     }

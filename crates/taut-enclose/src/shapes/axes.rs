@@ -6,6 +6,7 @@
 use taut_kernels::Center;
 use taut_kernels::vector::{add_scaled, dot};
 use taut_points::parallel::IntoParallel;
+use taut_points::{exponent_of, two_to};
 
 use super::Shapes;
 use super::eigen::eigen;
@@ -70,5 +71,5 @@ pub(crate) fn units(shapes: &Shapes) -> Result<(Center, f64), Error> {
 
 /// The power of two of about a size above 0, kept away from the ends of the range.
 pub(crate) fn power_below(size: f64) -> f64 {
-    2f64.powi(size.log2().floor().clamp(-1000.0, 1000.0) as i32)
+    two_to(exponent_of(size).clamp(-1000, 1000))
 }

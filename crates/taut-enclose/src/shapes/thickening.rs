@@ -8,12 +8,13 @@
 //! not be found again, and answers would be refused.
 
 use taut_kernels::DoubleDouble;
+use taut_points::{exponent_of, two_to};
 
 /// Unit roundoff of doubled precision with room for quotients: 64·2⁻¹⁰⁶, as the checker takes it.
-const ROUNDOFF: f64 = f64::from_bits((1023 - 100) << 52);
+const ROUNDOFF: f64 = two_to(-100);
 
 /// The least τ that is tried, 2⁻⁵⁶.
-const TAU_MIN: f64 = f64::from_bits((1023 - 56) << 52);
+const TAU_MIN: f64 = two_to(-56);
 
 /// 2τ for the lower triangle of S, row by row; `None` where no τ ≤ 1 makes S positive semidefinite.
 pub(super) fn thickening(shape: &[f64], dim: usize) -> Option<f64> {
@@ -23,7 +24,7 @@ pub(super) fn thickening(shape: &[f64], dim: usize) -> Option<f64> {
         return None;
     }
     let wide: Vec<usize> = (0..dim).filter(|&j| diagonal(j) > 0.0).collect();
-    let unit = |j: usize| 2f64.powi(-(diagonal(j).sqrt().log2().floor() as i32));
+    let unit = |j: usize| two_to(-exponent_of(diagonal(j).sqrt()));
     let rows: Vec<Vec<f64>> = wide
         .iter()
         .map(|&j| wide.iter().map(|&k| entry(j, k) * unit(j) * unit(k)).collect())

@@ -6,9 +6,8 @@
 //! *Trap.* Sizes of all kinds meet in one tree: distances are taken in units of the ball at hand.
 
 use taut_certify::Ball;
-use taut_points::{Points, Scalar};
+use taut_points::{Points, Scalar, exponent_of, two_to};
 
-use crate::frame::exponent;
 use crate::{BallOptions, Error, ball};
 
 /// Most times that centers are moved; few sets ask for more than five.
@@ -76,7 +75,7 @@ struct Units {
 impl Units {
     fn of(radius: f64) -> Self {
         let before = if radius > f64::MAX / 8.0 { 0.5 } else { 1.0 };
-        Units { before, after: 2f64.powi((-exponent(radius)).clamp(-1000, 1000)) }
+        Units { before, after: two_to((-exponent_of(radius)).clamp(-1000, 1000)) }
     }
 
     fn square<T: Scalar>(self, row: &[T], center: &[f64]) -> f64 {

@@ -1,11 +1,13 @@
 //! One guess of the radius, and points of the stream that are more than twice that apart.
 
 use taut_kernels::{Center, squared_distances};
-use taut_points::{ByteReader, ByteWriter, Monitor, PartsError, Points, ReadError, Scalar};
+use taut_points::{
+    ByteReader, ByteWriter, Monitor, PartsError, Points, ReadError, Scalar, exponent_of, two_to,
+};
 
 use super::{SeparatedSet, rounded_up};
 use crate::Error;
-use crate::frame::{SQUARE_MIN, exponent};
+use crate::frame::SQUARE_MIN;
 
 /// It is asked whether to go on each time this many points have gone by.
 const POINTS_BETWEEN_ASKS: u64 = 64;
@@ -213,7 +215,7 @@ pub(super) fn distance(a: &[f64], b: &[f64]) -> Result<f64, Error> {
         return Err(Error::Overflow);
     }
     // By a power of two that brings the largest to about 1, and does not overflow itself.
-    let scale = 2f64.powi((-exponent(largest)).clamp(-1020, 1020));
+    let scale = two_to((-exponent_of(largest)).clamp(-1020, 1020));
     let root = differences().map(|d| (d * scale).powi(2)).sum::<f64>().sqrt() / scale;
     if root.is_finite() { Ok(root) } else { Err(Error::Overflow) }
 }

@@ -50,6 +50,25 @@ fn close(a: f64, b: f64, tolerance: f64) -> bool {
     (a - b).abs() <= tolerance * a.abs().max(b.abs())
 }
 
+/// Radii just below a power of two, whose logarithm is rounded to that of the power in some units only.
+#[test]
+fn powers_of_two_are_exact_where_the_radius_is_next_to_one() {
+    let mut next = 0;
+    for seed in 0..60 {
+        let values: Vec<f64> = generate(Distribution::CubeVertices, 96, 16, seed).unwrap();
+        let plain = exact("plain", &values, 16, GAP);
+        next += u32::from((plain.answer.radius - 2.0).abs() < 1e-14);
+        for k in [-9, -3, -1, 1, 4] {
+            let factor = 2f64.powi(k);
+            let scaled: Vec<f64> = values.iter().map(|v| v * factor).collect();
+            let found = exact("scaled", &scaled, 16, GAP);
+            let wanted: Vec<f64> = plain.answer.center.iter().map(|c| c * factor).collect();
+            assert_eq!(found.answer.center, wanted, "seed {seed}, 2^{k}");
+        }
+    }
+    assert!(next >= 10, "{next}");
+}
+
 proptest! {
     #![proptest_config(seeded(400))]
 

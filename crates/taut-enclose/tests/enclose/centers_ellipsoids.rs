@@ -44,10 +44,17 @@ impl Ellipsoids {
 
     /// The radius, where the gap is what was asked for.
     fn radius(&self, k: usize, options: &CentersOptions<'_>) -> f64 {
+        self.radius_to(options.epsilon.max(2e-11), k, options)
+    }
+
+    /// The same where rounding may leave a larger gap.
+    fn radius_to(&self, gap_max: f64, k: usize, options: &CentersOptions<'_>) -> f64 {
         let found = self.found(k, options);
         let gap = found.certificate.gap;
-        assert!(gap <= options.epsilon.max(2e-11), "gap {gap}, k = {k}\n{self:?}\n{found:?}");
-        assert_eq!(found.trace.stop, Stop::Converged);
+        assert!(gap <= gap_max, "gap {gap}, k = {k}\n{self:?}\n{found:?}");
+        let is_reached = gap <= options.epsilon.max(2e-11);
+        let stop = if is_reached { Stop::Converged } else { Stop::Rounding };
+        assert_eq!(found.trace.stop, stop);
         found.answer.radius
     }
 
@@ -165,8 +172,8 @@ proptest! {
 
     #[test]
     fn one_center_is_that_of_the_ball(given in few_ellipsoids(1..=5, 30)) {
-        let (found, wanted) = (given.radius(1, &options(0.0)), given.ball(0..given.rows.len()));
-        prop_assert!(is_near(found, wanted, 4e-11), "{found} {wanted}");
+        let (found, wanted) = (given.radius_to(1e-10, 1, &options(0.0)), given.ball(0..given.rows.len()));
+        prop_assert!(is_near(found, wanted, 2e-10), "{found} {wanted}");
     }
 
     #[test]
@@ -206,13 +213,15 @@ proptest! {
         other.rows.extend(given.rows.clone());
         let again = other.radius(k, &options(1e-9));
         prop_assert!(is_near(again, radius, 2e-9), "doubled: {again} {radius}");
-        let again = given.turned(angle).radius(k, &options(1e-9));
-        // A flat ellipsoid that is turned has a little width: the root of what was rounded.
+        // A flat ellipsoid that is turned, or scaled by what is no power of two, has a little width or lacks it: the root of what was
+        // rounded.
+        let of_flat = 2e-8;
+        let again = given.turned(angle).radius_to(of_flat, k, &options(1e-9));
         prop_assert!((again - radius).abs() <= 2e-9 * radius + 3e-7, "turned: {again} {radius}");
         for exponent in [-140, -60, 40, 140] {
             let factor = 10f64.powi(exponent);
-            let again = given.moved(factor, 0.0).radius(k, &options(1e-9));
-            prop_assert!(is_near(again, radius * factor, 1e-8), "1e{exponent}: {again} {radius}");
+            let again = given.moved(factor, 0.0).radius_to(of_flat, k, &options(1e-9));
+            prop_assert!(is_near(again, radius * factor, 2e-8), "1e{exponent}: {again} {radius}");
         }
         let again = given.moved(1.0, 1e6).radius(k, &options(1e-6));
         prop_assert!((again - radius).abs() <= 2e-6 * radius + 1e-8, "far: {again} {radius}");

@@ -438,3 +438,28 @@ fn proofs_of_single_rows_are_those_of_groups() {
         assert!((found - plain).abs() <= epsilon * plain, "{found} {plain}");
     }
 }
+
+/// Found by other seeds than those of the properties.
+#[test]
+fn a_few_groups_on_a_line_are_proved() {
+    let rows = [
+        [7.0, 2.5],
+        [0.0, -0.5],
+        [-9.0, -2.5],
+        [7.0, 2.5],
+        [1.0, -0.5],
+        [7.0, 2.5],
+        [-3.0, -0.5],
+        [-13.0, 1.5],
+        [0.0, -1.5],
+        [0.0, 0.5],
+        [0.0, -1.5],
+        [-2.0, 0.5],
+        [0.0, -1.5],
+        [3.0, 0.5],
+        [0.0, -1.5],
+    ];
+    let groups = Groups { rows: rows.map(Vec::from).to_vec() };
+    let options = CentersOptions { outliers: 1, assignment: true, ..groups.options() };
+    assert!(is_near(groups.radius(2, &options), 3.0));
+}

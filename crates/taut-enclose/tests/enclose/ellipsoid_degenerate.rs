@@ -1,10 +1,11 @@
 //! Ellipsoids of what is not in general position, of any size, and of what has no ellipsoid.
 
-use ellipsoids::{exact, log_unit_ball, mapped, normal, rotation, shell, uniform};
-use taut_enclose::{EllipsoidOptions, Error, ellipsoid};
+use ellipsoids::{by, exact, log_unit_ball, mapped, normal, rotation, shell, uniform};
+use taut_enclose::{EllipsoidMethod, EllipsoidOptions, Error, ellipsoid};
 use taut_points::{InputError, Points};
 
 use crate::ellipsoids;
+use crate::test_length::long_or;
 
 const GAP: f64 = 1e-12;
 
@@ -53,6 +54,34 @@ fn fewer_points_than_dimensions_span_a_simplex() {
             assert!(
                 found.certificate.multipliers.iter().all(|u| (u * n as f64 - 1.0).abs() < 1e-12)
             );
+        }
+    }
+}
+
+/// Rounding makes rows of F lean out of the hull, and where axes are of very different lengths, points far along it see that.
+#[test]
+fn what_leaning_out_of_a_hull_costs_is_claimed() {
+    let tetrahedron = [
+        [-2.384185791015625e-7, 0.0, -1.9073486328125e-6, 1.0],
+        [0.125, 0.0, -7.450580596923828e-9, -201326592.0],
+        [0.0, 9.313225746154785e-10, 0.0, 0.0],
+        [2.384185791015625e-7, 1.1920928955078125e-7, 0.0, -0.046875],
+    ];
+    let mut sets = vec![(tetrahedron.as_flattened().to_vec(), 4)];
+    for (seed, dim) in (0..long_or(2000, 200)).map(|seed| (seed, 3 + seed as usize % 3)) {
+        // Three points: a triangle in its plane, with sides from 2⁻³⁰ to 2³⁰.
+        let sizes = uniform(3 * dim, seed);
+        let digits = uniform(3 * dim, seed + 10_000);
+        let coordinate = |(size, digit): (&f64, &f64)| {
+            (digit * 7.0 - 3.5).round() * ((size * 60.0).round() - 30.0).exp2()
+        };
+        sets.push((sizes.iter().zip(&digits).map(coordinate).collect(), dim));
+    }
+    for (k, (values, dim)) in sets.iter().enumerate() {
+        let points = Points::new(values, *dim).unwrap();
+        for method in [EllipsoidMethod::Newton, EllipsoidMethod::ThesisCoreSet] {
+            let found = ellipsoid(&points, &by(method, 0.1)).unwrap();
+            found.check(&points).unwrap_or_else(|error| panic!("{k}, {method:?}: {error}"));
         }
     }
 }

@@ -2,7 +2,9 @@
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-use taut_points::{InputError, Monitor, PointSource, PointsHash, hash_block, map_blocks};
+use taut_points::{
+    InputError, Monitor, PointSource, PointsHash, exponent_of, hash_block, map_blocks, two_to,
+};
 
 use super::caps;
 use super::scene::{MESH, WALL};
@@ -100,7 +102,7 @@ impl GridMesh {
         if !EXPONENTS.contains(&exponent) {
             return Err(Error::Grid { side });
         }
-        let per_unit = 2f64.powi(-exponent);
+        let per_unit = two_to(-exponent);
         if low.iter().chain(&high).any(|x| (x * per_unit).abs() >= UNITS_MAX) {
             return Err(Error::Grid { side });
         }
@@ -148,7 +150,7 @@ impl GridMesh {
 
     /// The place of a point on the grid, rounded; `None` beyond the bounding box of the mesh, or for what is no number.
     pub(super) fn place(&self, point: [f64; 3]) -> Option<[i32; 3]> {
-        let per_unit = 2f64.powi(-self.exponent);
+        let per_unit = two_to(-self.exponent);
         let place = [0, 1, 2].map(|c| (point[c] * per_unit).round() - self.origin[c] as f64);
         let most = f64::from(1 << SIDE_BITS);
         place.iter().all(|x| (0.0..=most).contains(x)).then(|| place.map(|x| x as i32))
@@ -201,11 +203,6 @@ fn bounding_box<'a>(triangles: impl IntoIterator<Item = &'a Triangle>) -> ([[f64
 /// Whether a row is a point that bodies do not contain: a triangle with three equal corners.
 pub(super) fn is_point([a, b, c]: &Triangle) -> bool {
     a == b && b == c
-}
-
-/// The exponent e of a positive number with 2^e ≤ x < 2^(e + 1); less for subnormal numbers, more for what is not finite.
-fn exponent_of(x: f64) -> i32 {
-    (x.to_bits() >> 52) as i32 - 1023
 }
 
 /// All triangles, which must be finite, the numbers of their surfaces, and the hash of the rows.

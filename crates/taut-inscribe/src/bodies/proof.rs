@@ -7,7 +7,7 @@
 //! by at most Σ λⱼ|uⱼ|₁. Offsets that are smaller by |uⱼ|₁ have the same weights for the mesh as given.
 
 use taut_certify::{BodyProof, ConvexBody};
-use taut_points::OrderBy;
+use taut_points::{OrderBy, two_to};
 
 use super::directions::{Directions, Offsets, gcd, opposite};
 use super::grow::Dop;
@@ -86,7 +86,7 @@ pub(super) fn prove_dop(
     make_disjoint(directions, &mut h, others)?;
     let sides = Sides::of_dop(directions, &h);
     let inside = inner_point(mesh, tree, &sides, &Sides::of_dop(directions, &dop.h), dop.anchor)?;
-    let unit = 2f64.powi(mesh.exponent);
+    let unit = two_to(mesh.exponent);
     let body = ConvexBody {
         normals: directions.normals.clone(),
         offsets: h[..directions.len()].iter().map(|&h| h.into()).collect(),

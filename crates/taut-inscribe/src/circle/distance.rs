@@ -1,14 +1,17 @@
 //! Distances to edges: fast for the search, accurate for what is claimed.
 
-/// Bound of the errors of cross products in double-double, relative to the differences of coordinates: 2⁻⁹³.
-const PRODUCT_ERROR: f64 = f64::from_bits((1023 - 93) << 52);
-
-/// Unit roundoff.
-const U: f64 = f64::EPSILON / 2.0;
+use taut_points::two_to;
 
 use crate::pair::{Pair, cross, minus};
 use crate::polygon::Segment;
 use crate::runs::Runs;
+use crate::units::factors_of;
+
+/// Bound of the errors of cross products in double-double, relative to the differences of coordinates.
+const PRODUCT_ERROR: f64 = two_to(-93);
+
+/// Unit roundoff.
+const U: f64 = f64::EPSILON / 2.0;
 
 /// The edges of a polygon, with coordinates scaled by a power of two.
 pub(super) struct Edges<'a> {
@@ -169,16 +172,6 @@ impl<'a> Edges<'a> {
         let size = |p: [f64; 2], q: [f64; 2]| (p[0] - q[0]).abs() + (p[1] - q[1]).abs();
         PRODUCT_ERROR * (size(p, a) + size(b, a))
     }
-}
-
-/// Two powers of two whose product brings `largest` to [1, 2).
-fn factors_of(largest: f64) -> [f64; 2] {
-    let exponent = match largest >= f64::MIN_POSITIVE {
-        true => (largest.to_bits() >> 52) as i32 - 1023,
-        false => -1011 - largest.to_bits().leading_zeros() as i32,
-    };
-    let half = -exponent / 2;
-    [half, -exponent - half].map(|power| f64::from_bits(((1023 + power) as u64) << 52))
 }
 
 #[cfg(test)]

@@ -14,7 +14,7 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use taut_certify::Stop;
-use taut_points::{Cancelled, Monitor};
+use taut_points::{Cancelled, Monitor, two_to};
 
 use super::cell::Cell;
 use super::distance::Edges;
@@ -35,7 +35,7 @@ const GAP_GROWTH: f64 = 16.0;
 const GAP_OF_USE_MAX: f64 = 1e3;
 
 /// The least scaled radius for which distances have digits, 2⁻⁹³.
-const RADIUS_LEAST: f64 = f64::from_bits((1023 - 93) << 52);
+const RADIUS_LEAST: f64 = two_to(-93);
 
 /// Half diagonal of a cell, in radii, above which weights are not worth their cost: many edges are about as near as the nearest.
 const LARGE_CELL: f64 = 1.4;

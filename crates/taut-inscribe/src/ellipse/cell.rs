@@ -8,14 +8,16 @@
 //! square of the size of the cell.
 //! *Bound by widths.* In the direction n the ellipse reaches r·√((n₁ − s·n₂)²/t + t·n₂²) from its center.
 
+use taut_points::{exponent_of, two_to};
+
 use super::shape::Shape;
 use crate::polygon::Segment;
 
 /// What rounding of coordinates in units can change, as a checker may bound it: 2⁻⁴⁵.
-const COORDINATE_ERROR: f64 = f64::from_bits((1023 - 45) << 52);
+const COORDINATE_ERROR: f64 = two_to(-45);
 
 /// Relative rounding errors of a bound, as a checker may bound them: 2⁻⁴³.
-const BOUND_ERROR: f64 = f64::from_bits((1023 - 43) << 52);
+const BOUND_ERROR: f64 = two_to(-43);
 
 /// A direction, and the square of half the width of the polygon in it.
 #[derive(Clone, Copy, Debug)]
@@ -157,10 +159,9 @@ impl Cell {
 
 /// The middle of a range of t: a power of two where the ends are farther apart than a factor of two.
 fn middle_of_t([low, high]: [f64; 2]) -> Option<f64> {
-    let exponent = |x: f64| (x.to_bits() >> 52) as i64;
     let at = match high > 2.0 * low {
         // Both ends are powers of two.
-        true => f64::from_bits((((exponent(low) + exponent(high)) / 2) as u64) << 52),
+        true => two_to((exponent_of(low) + exponent_of(high)).div_euclid(2)),
         false => 0.5 * low + 0.5 * high,
     };
     (low < at && at < high).then_some(at)

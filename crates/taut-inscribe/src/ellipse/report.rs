@@ -1,13 +1,14 @@
 //! The ellipse found, as numbers of the input that no edge enters.
 
 use taut_certify::{InscribedEllipse, Stop};
+use taut_points::two_to;
 
 use super::ascent::Ellipse;
 use super::shape::Shape;
 use crate::units::Units;
 
 /// What rounding of coordinates, axes and distances can change, relative to what they are made of: 2⁻⁴⁷.
-const ROUNDING: f64 = f64::from_bits((1023 - 47) << 52);
+const ROUNDING: f64 = two_to(-47);
 
 /// How much farther than the size a touching edge may be, relative to the size; rounding comes on top.
 const TOUCHING_SLACK: f64 = 1e-9;

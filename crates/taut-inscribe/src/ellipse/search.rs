@@ -11,7 +11,7 @@ use std::cmp::Ordering;
 use std::sync::Arc;
 
 use taut_points::parallel::ParallelSlice;
-use taut_points::{Cancelled, OrderBy};
+use taut_points::{Cancelled, OrderBy, two_to};
 
 use super::ascent::Ellipse;
 use super::cell::{Axis, Cell, Frame, Width};
@@ -54,10 +54,10 @@ const GOAL_SLACK: f64 = 1e-12;
 const EXPONENT_MAX: f64 = 200.0;
 
 /// Errors of coordinates in a frame, per 1 + |m|, by which an edge must be apart from a box: 2⁻⁴⁰.
-const SIDE_ERROR: f64 = f64::from_bits((1023 - 40) << 52);
+const SIDE_ERROR: f64 = two_to(-40);
 
 /// Errors by which a box of all centers is enlarged, per 1 + |m|: 2⁻⁴⁶.
-const BOX_ERROR: f64 = f64::from_bits((1023 - 46) << 52);
+const BOX_ERROR: f64 = two_to(-46);
 
 /// What a search found.
 pub(super) struct Found {
@@ -150,8 +150,7 @@ pub(super) fn search(
     }
     let (root, beyond) = search.root();
     search.frontier.close(beyond);
-    let power = |exponent: i32| f64::from_bits(((1023 + exponent) as u64) << 52);
-    let [s, low, high] = root.map(power);
+    let [s, low, high] = root.map(two_to);
     let list: Arc<[u32]> = (0..units.edges.len() as u32).collect();
     let cell = Cell { s: [-s, s], t: [low, high], frame: None };
     let examined = search.examine(cell, &list, false);

@@ -3,6 +3,8 @@
 //! A rectangle is {q : uₖ·q ≤ sₖ for k = 0, 1, 2, 3} with u₀ = (1, m) and each next normal a quarter turn further, m in [−1, 1]. The
 //! *height* of a point above side k is uₖ·q. The area is (s₀ + s₂)(s₁ + s₃)/(1 + m²).
 
+use taut_points::two_to;
+
 use crate::polygon::Segment;
 
 /// Place of the slope among the five coordinates.
@@ -13,7 +15,7 @@ const OFFSET_MAX: f64 = 2.25;
 
 /// How surely one number has to be below another, in units, besides errors of coordinates: 2⁻⁴², twice
 /// that of a checker.
-pub(super) const MARGIN: f64 = f64::from_bits((1023 - 42) << 52);
+pub(super) const MARGIN: f64 = two_to(-42);
 
 /// The height of a point above a side is the first number plus m times the second.
 pub(super) fn height_parts(side: usize, w: [f64; 2]) -> [f64; 2] {

@@ -1,6 +1,7 @@
 //! The rectangle found, as numbers of the input that no edge enters.
 
 use taut_certify::InscribedOrientedRectangle;
+use taut_points::two_to;
 
 use crate::levels::is_left;
 use crate::polygon::Segment;
@@ -18,7 +19,7 @@ const CLEARANCE_WANTED: f64 = 32.0 * f64::EPSILON;
 
 /// Smallest square of a half side, and smallest size of a vector along an edge whose line is looked at, where the largest coordinate of the
 /// polygon is from 1 to 2: a checker takes 2⁻⁴⁰⁰, as products of smaller numbers underflow.
-const TESTED_MIN: f64 = f64::from_bits((1023 - 390) << 52);
+const TESTED_MIN: f64 = two_to(-390);
 
 /// An answer.
 pub(super) struct Reported {
@@ -42,7 +43,7 @@ pub(super) fn rounded(best: &Candidate, target: &Target<'_>) -> Option<Reported>
         false => (halves[1], [-m, 1.0], halves[0] / halves[1]),
     };
     let found = SHRINK_BITS.rev().find_map(|bits| {
-        let share = 1.0 - f64::from_bits(((1023 - bits) as u64) << 52);
+        let share = 1.0 - two_to(-bits);
         let axis = [0, 1].map(|k| units.given_length(k, share * long * normal[k] / square));
         // What is thin is also made thinner, as rounding of its direction moves its sides by a share of the longer one.
         let ratio = ratio * share;

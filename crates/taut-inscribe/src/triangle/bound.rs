@@ -4,11 +4,13 @@
 //! half-planes n·p ≤ h that hold p, is linear in each of the six coordinates alone: largest at one of the 64 choices of corners
 //! of the boxes. It has a part for each side and one for each corner, which are tabled.
 
+use taut_points::two_to;
+
 use super::cell::Cell;
 use super::gauge::{cross, turn};
 
 /// Bound of the rounding errors of a term, as a checker may bound them: 2⁻⁴⁰.
-const TERM_ERROR: f64 = f64::from_bits((1023 - 40) << 52);
+const TERM_ERROR: f64 = two_to(-40);
 
 /// A condition with its weight.
 #[derive(Clone, Copy, Debug)]

@@ -4,6 +4,8 @@
 //! coordinates x, y + m·x, with the second one shifted and scaled, it is as good as any other. The extent of y + m·x is a convex
 //! function of m.
 
+use taut_points::two_to;
+
 use super::gauge::Triangle;
 use crate::pair::cross;
 use crate::polygon::Segment;
@@ -22,13 +24,13 @@ const SKEW_SHARE: f64 = 0.75;
 const GROWTH_MAX: f64 = (1u64 << 24) as f64;
 
 /// Bound of the errors of coordinates in units: 2⁻⁵⁰.
-const COORDINATE_ERROR: f64 = f64::from_bits((1023 - 50) << 52);
+const COORDINATE_ERROR: f64 = two_to(-50);
 
 /// Bound of the errors of skewed coordinates before they are scaled: 2⁻⁴⁶.
-const SKEW_ERROR: f64 = f64::from_bits((1023 - 46) << 52);
+const SKEW_ERROR: f64 = two_to(-46);
 
 /// Bound of the error of twice an area, here and in a checker, relative to the sum of the sizes of the two products: 2⁻⁹³.
-const AREA_ERROR: f64 = f64::from_bits((1023 - 93) << 52);
+const AREA_ERROR: f64 = two_to(-93);
 
 /// How much the root is larger than the polygon on each side, besides errors of coordinates.
 const ROOT_MARGIN: f64 = 1e-9;

@@ -1,6 +1,7 @@
 //! The triangle found, as numbers of the input that no edge enters.
 
 use taut_certify::{InscribedTriangle, Stop};
+use taut_points::two_to;
 use taut_predicates::plane::orient;
 
 use super::frame::Frame;
@@ -66,10 +67,9 @@ pub(super) fn rounded(best: &Triangle, target: &Target<'_>) -> Option<Reported> 
             .find(is_there)
             .map_or_else(|| frame.given_point(p), |&edge| target.edges[edge as usize][0])
     });
-    let mut shrunk = SHRINK_BITS.rev().map(|bits| {
-        scaled(best, 1.0 - f64::from_bits(((1023 - bits) as u64) << 52))
-            .map(|p| frame.given_point(p))
-    });
+    let mut shrunk = SHRINK_BITS
+        .rev()
+        .map(|bits| scaled(best, 1.0 - two_to(-bits)).map(|p| frame.given_point(p)));
     let plain = best.map(|p| frame.given_point(p));
     let corners = [snapped, plain]
         .into_iter()

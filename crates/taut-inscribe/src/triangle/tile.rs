@@ -6,14 +6,14 @@
 use std::collections::HashMap;
 use std::sync::{Arc, OnceLock};
 
-use taut_points::OrderBy;
+use taut_points::{OrderBy, two_to};
 
 use super::frame::Frame;
 use super::gauge::turn;
 use crate::levels::Levels;
 
 /// How much boxes are enlarged beyond the errors of coordinates, more than in a checker: 2⁻⁴³.
-const CLIP_ERROR: f64 = f64::from_bits((1023 - 43) << 52);
+const CLIP_ERROR: f64 = two_to(-43);
 
 /// Edges in the lists of boxes after which boxes that no cell holds are forgotten, so that memory is bounded.
 const LISTED_MAX: usize = 1 << 25;

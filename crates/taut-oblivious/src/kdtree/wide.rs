@@ -12,6 +12,8 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
+use taut_points::two_to;
+
 use super::query::{Candidate, keep};
 use super::{BUCKET_SIZE, IS_BUCKET, KdTree, Nearest, Node};
 use crate::Probe;
@@ -26,11 +28,6 @@ const SCALE_UP: f64 = two_to(600);
 const SCALE_DOWN: f64 = two_to(-600);
 /// More than what roundings make of a bound.
 const BOUND_FACTOR: f64 = 1.0 - two_to(-40);
-
-/// 2ᵉ, for exponents of normal numbers.
-const fn two_to(exponent: i64) -> f64 {
-    f64::from_bits(((1023 + exponent) as u64) << 52)
-}
 
 /// Tests whether the squares of differences of such coordinates are neither infinite nor too small to be exact to rounding: each
 /// is zero, or between 2⁻⁴⁰⁰ and 2⁵⁰⁰, so that a difference is zero or more than 2⁻⁴⁵³.

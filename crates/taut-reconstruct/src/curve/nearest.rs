@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 use taut_certify::CurveComponent;
+use taut_points::{exponent_of, two_to};
 
 /// A box of the lowest level has this many edges, and a box of the next this many boxes.
 const FAN_OUT: usize = 4;
@@ -34,7 +35,7 @@ impl Segments {
         let largest = vertices().fold(0.0f64, |most, x| most.max(x.abs()));
         let scale = match (1e-100..1e100).contains(&largest) || largest == 0.0 {
             true => 1.0,
-            false => 2f64.powi(-(largest.log2() as i32).clamp(-1000, 1000)),
+            false => two_to(-exponent_of(largest).clamp(-1000, 1000)),
         };
         let (mut ends, mut first) = (Vec::new(), vec![0]);
         for one in curves {

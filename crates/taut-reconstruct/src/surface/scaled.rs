@@ -4,6 +4,7 @@
 //! on the unit, and neither products of six lengths nor reciprocals leave the range of numbers.
 
 use taut_points::parallel::ParallelSlice;
+use taut_points::{exponent_of, two_to_in_steps};
 
 use super::spheres::Point;
 
@@ -24,8 +25,7 @@ impl Scale {
     }
 
     fn by(exponent: i32) -> Self {
-        let first = if exponent > 1023 { exponent / 2 } else { exponent };
-        Self { steps: [first, exponent - first].map(|part| 2f64.powi(part)) }
+        Self { steps: two_to_in_steps(exponent) }
     }
 
     pub(super) fn apply(self, point: Point) -> Point {
@@ -36,12 +36,6 @@ impl Scale {
     pub(super) fn inverse(self) -> Self {
         Self { steps: self.steps.map(|step| 1.0 / step) }
     }
-}
-
-/// e with 2ᵉ ≤ x < 2ᵉ⁺¹.
-fn exponent_of(x: f64) -> i32 {
-    let exponent = (x.to_bits() >> 52) as i32 & 0x7ff;
-    if exponent > 0 { exponent - 1023 } else { exponent_of(x * 2f64.powi(64)) - 64 }
 }
 
 #[cfg(test)]
@@ -60,15 +54,6 @@ mod tests {
                     assert_eq!(Scale::by(-down).apply(point), there);
                 }
             }
-        }
-    }
-
-    #[test]
-    fn exponents_of_the_ends_of_a_double() {
-        for (x, exponent) in
-            [(1.0, 0), (7.9, 2), (f64::MAX, 1023), (5e-324, -1074), (3e-310, -1029)]
-        {
-            assert_eq!(exponent_of(x), exponent);
         }
     }
 

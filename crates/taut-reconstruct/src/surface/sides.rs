@@ -9,6 +9,7 @@
 //! for that is left as it is, and exact signs take longer.
 
 use taut_delaunay::{GHOST, Space, decode};
+use taut_points::{exponent_of, times_two_to};
 
 use super::check_span;
 use crate::Error;
@@ -56,12 +57,12 @@ impl Sides {
 
     /// A length in the unit of the points.
     pub(super) fn scaled(&self, length: f64) -> f64 {
-        times(length, -self.exponent)
+        times_two_to(length, -self.exponent)
     }
 
     /// A length in the unit of the input, not less than it was.
     pub(super) fn unscaled_up(&self, length: f64) -> f64 {
-        let back = times(length, self.exponent);
+        let back = times_two_to(length, self.exponent);
         if self.scaled(back) < length { back.next_up() } else { back }
     }
 
@@ -139,25 +140,13 @@ impl Sides {
 fn scale(points: &mut [[f64; 3]], lengths: &[f64]) -> i32 {
     let all = points.as_flattened();
     let largest = all.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-    let exponent = largest.log2().floor() as i32;
-    let ([less, again], [more, back]) = (factors(-exponent), factors(exponent));
-    let survives = |&x: &f64| x * less * again * more * back == x;
+    let exponent = exponent_of(largest);
+    let survives = |&x: &f64| times_two_to(times_two_to(x, -exponent), exponent) == x;
     if exponent == 0 || !all.iter().chain(lengths).all(survives) {
         return 0;
     }
-    points.as_flattened_mut().iter_mut().for_each(|x| *x = *x * less * again);
+    points.as_flattened_mut().iter_mut().for_each(|x| *x = times_two_to(*x, -exponent));
     exponent
-}
-
-/// x·2ᵏ.
-fn times(x: f64, k: i32) -> f64 {
-    let [first, second] = factors(k);
-    x * first * second
-}
-
-/// 2ᵏ in two factors, as it may be out of range itself.
-fn factors(k: i32) -> [f64; 2] {
-    [2f64.powi(k / 2), 2f64.powi(k - k / 2)]
 }
 
 #[cfg(test)]

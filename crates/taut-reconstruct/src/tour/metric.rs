@@ -1,5 +1,7 @@
 //! Distances between sites, in units in which none over- or underflows.
 
+use taut_points::{exponent_of, two_to_in_steps};
+
 /// Sites scaled by a power of two to an extent between 1 and 2, and one node more, at distance 0 from all of them: through it a
 /// closed tour of the nodes is a path of the sites.
 pub(super) struct Metric {
@@ -21,12 +23,14 @@ impl Metric {
             (0..2).map(|k| ends[1][k] * factor - ends[0][k] * factor).fold(0.0, f64::max)
         };
         // The difference of two large numbers may be none; that of their halves is.
-        let exponent =
-            if span(1.0).is_finite() { exponent_of(span(1.0)) } else { exponent_of(span(0.5)) + 1 };
-        let power = |e: i32| [2f64.powi(e / 2), 2f64.powi(e - e / 2)];
-        let [a, b] = power(-exponent);
+        let exponent = match span(1.0) {
+            0.0 => 0,
+            span if span.is_finite() => exponent_of(span),
+            _ => exponent_of(span(0.5)) + 1,
+        };
+        let [a, b] = two_to_in_steps(-exponent);
         let at = sites.iter().map(|p| p.map(|x| x * a * b)).collect();
-        Self { at, steps: power(exponent) }
+        Self { at, steps: two_to_in_steps(exponent) }
     }
 
     /// Returns how many sites there are; the number of the node at distance 0 from all.
@@ -59,15 +63,5 @@ impl Metric {
     pub(super) fn length(&self, order: &[u32]) -> f64 {
         let steps = order.iter().zip(order.iter().cycle().skip(1));
         steps.map(|(&i, &j)| self.between(i, j)).sum()
-    }
-}
-
-/// The exponent of the highest bit of a number of at least 0; of 0 that of 1.
-fn exponent_of(x: f64) -> i32 {
-    let exponent = (x.to_bits() >> 52) as i32;
-    match x {
-        0.0 => 0,
-        _ if exponent > 0 => exponent - 1023,
-        _ => -1011 - x.to_bits().leading_zeros() as i32,
     }
 }

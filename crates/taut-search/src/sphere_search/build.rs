@@ -8,9 +8,10 @@
 //! (Bădoiu and Clarkson's first method, which 2.4 of the thesis uses too) shrink it, and the best center is kept.
 
 use rayon::prelude::*;
+use taut_points::times_two_to;
 
 use super::cuts::{AXES_MAX, Cuts};
-use super::measure::{BALL_SLACK, scaled};
+use super::measure::BALL_SLACK;
 use super::nodes::{BLOCK_SIZE, FANOUT, Lanes, Level, NO_ROW, Nodes};
 
 /// Rows below which a part is not shared among threads.
@@ -214,7 +215,7 @@ fn ball(points: Rows<'_>, rows: &[u32], low: &[f64], high: &[f64]) -> (Vec<f64>,
     let farthest = |center: &[f64]| {
         let square = |row: u32| -> f64 {
             let along = points.at(row).iter().zip(center);
-            along.map(|(x, c)| scaled(x / 2.0 - c / 2.0, 1 - exponent).powi(2)).sum()
+            along.map(|(x, c)| times_two_to(x / 2.0 - c / 2.0, 1 - exponent).powi(2)).sum()
         };
         rows.iter()
             .map(|&row| (square(row), row))
@@ -232,6 +233,6 @@ fn ball(points: Rows<'_>, rows: &[u32], low: &[f64], high: &[f64]) -> (Vec<f64>,
             best = (square, center.clone());
         }
     }
-    let radius = scaled(best.0.sqrt() * BALL_SLACK, exponent);
+    let radius = times_two_to(best.0.sqrt() * BALL_SLACK, exponent);
     (best.1, radius.next_up())
 }

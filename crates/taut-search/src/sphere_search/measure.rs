@@ -10,6 +10,8 @@
 
 use std::fmt::Debug;
 
+use taut_points::{exponent_of, times_two_to, two_to};
+
 /// Relative slack of a bound that comes from a ball, above its few roundings.
 pub(super) const BALL_SLACK: f64 = 1.0 + 1.0 / (1u64 << 40) as f64;
 
@@ -75,17 +77,6 @@ pub(super) trait Measure: Copy + Send + Sync + 'static {
 pub(super) fn is_plain(coordinates: &[f64]) -> bool {
     let plain = |x: &f64| x.abs() >= two_to(-400) && x.abs() <= two_to(500) || *x == 0.0;
     coordinates.iter().all(plain)
-}
-
-/// 2ᵉ, for exponents of normal numbers.
-const fn two_to(exponent: i64) -> f64 {
-    f64::from_bits(((1023 + exponent) as u64) << 52)
-}
-
-/// x·2ᵉ for |e| up to 2000, in two steps: the power alone may be beyond `f64`.
-pub(super) fn scaled(x: f64, exponent: i32) -> f64 {
-    let half = exponent / 2;
-    x * two_to(i64::from(half)) * two_to(i64::from(exponent - half))
 }
 
 /// Squared distances.
@@ -184,25 +175,17 @@ impl WideSquares {
         if most == 0.0 {
             return WideSquare { exponent: i32::MIN, sum: 0.0 };
         }
-        // Of the largest difference; a number that is not normal is brought among the normal ones first.
-        let own = match most < two_to(-1022) {
-            true => exponent_of(most * two_to(100)) - 100,
-            false => exponent_of(most),
-        };
+        // Of the largest difference.
+        let own = exponent_of(most);
         let sum = (0..dim).fold(0.0, |sum, axis| {
-            let unit = scaled(differences(axis, scale)[lane], -own);
+            let unit = times_two_to(differences(axis, scale)[lane], -own);
             sum + unit * unit
         });
         exponent += own;
         // Powers of 4 alone are taken out: the sum of the squares of units is at least 1.
         let fours = exponent_of(sum) / 2;
-        WideSquare { exponent: exponent + fours, sum: sum * two_to(-2 * i64::from(fours)) }
+        WideSquare { exponent: exponent + fours, sum: sum * two_to(-2 * fours) }
     }
-}
-
-/// ⌊log₂ x⌋ of a positive normal number.
-fn exponent_of(x: f64) -> i32 {
-    (x.to_bits() >> 52) as i32 - 1023
 }
 
 impl Measure for WideSquares {
@@ -225,7 +208,7 @@ impl Measure for WideSquares {
     }
 
     fn distance(key: WideSquare) -> f64 {
-        if key.sum == 0.0 { 0.0 } else { scaled(key.sum.sqrt(), key.exponent) }
+        if key.sum == 0.0 { 0.0 } else { times_two_to(key.sum.sqrt(), key.exponent) }
     }
 
     fn key_above(_: f64) -> WideSquare {

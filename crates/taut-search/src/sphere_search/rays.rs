@@ -9,6 +9,8 @@
 
 use std::cmp::Ordering;
 
+use taut_points::{exponent_of, two_to};
+
 use super::batch::{Query, Work};
 use super::dim::Dim;
 use super::measure::{Measure, is_plain};
@@ -46,8 +48,8 @@ impl<'a> Ray<'a> {
         let sizes = origin.iter().chain([&tree.size, &hit_radius]);
         let size = sizes.fold(0.0, |size: f64, x| size.max(x.abs()));
         let is_plain = tree.is_plain && is_plain(origin);
-        let exponent = ((size.to_bits() >> 52) as i32 - 1023).clamp(-1000, 1000);
-        let scale = if is_plain { 1.0 } else { 2f64.powi(-exponent) };
+        let exponent = exponent_of(size).clamp(-1000, 1000);
+        let scale = if is_plain { 1.0 } else { two_to(-exponent) };
         let longest = direction.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         // Halves, as the quotient of a number that is not normal may be off by as much as it is.
         let half = direction.iter().map(|x| x / longest).collect::<Vec<_>>();

@@ -6,8 +6,8 @@
 //! overflow or vanish they are taken again in other units, so that only a distance that is no `f64` itself is lost.
 
 use taut_kernels::{Center, Difference, relative_error, squared_distances};
-use taut_points::PointsHash;
 use taut_points::parallel::{IntoParallel, ParallelSlice};
+use taut_points::{PointsHash, exponent_of, times_two_to};
 
 use crate::centers::item_rows::ItemRows;
 use crate::centers::items::Shape;
@@ -397,10 +397,9 @@ fn careful_distance(x: &[f64], center: &[f64]) -> f64 {
     if largest == 0.0 || !largest.is_finite() {
         return largest;
     }
-    // Two steps, as the inverse of the smallest numbers is no f64.
-    let half = 2f64.powi((-largest.log2() / 2.0) as i32);
-    let squares: f64 = differences().map(|d| (d * half * half).powi(2)).sum();
-    squares.sqrt() / half / half
+    let exponent = exponent_of(largest);
+    let squares: f64 = differences().map(|d| times_two_to(d, -exponent).powi(2)).sum();
+    times_two_to(squares.sqrt(), exponent)
 }
 
 #[cfg(test)]

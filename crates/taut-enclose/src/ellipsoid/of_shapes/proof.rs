@@ -7,10 +7,10 @@ use taut_points::parallel::ParallelSlice;
 
 use super::base::Base;
 use super::rounds::Best;
-use super::tilt::Tilt;
 use crate::Error;
 use crate::ellipsoid::outcome::log_unit_ball;
 use crate::ellipsoid::proof::{LOGARITHM_ROUNDING, answer, lower_gap};
+use crate::ellipsoid::tilt::Tilt;
 use crate::ellipsoid::{EllipsoidOptions, ROUNDING};
 use crate::shapes::Shapes;
 use crate::shapes::eigen::eigen;
@@ -44,7 +44,7 @@ impl Base {
         let mut factor = self.factor(&best.matrix, scale);
         let map = Map { matrix: &factor, center: &center };
         let tilt = Tilt::new(&factor, hull.as_ref());
-        let off_hull = near.iter().map(|&i| tilt.error(map, shapes, i)).fold(0.0, f64::max);
+        let off_hull = near.iter().map(|&i| tilt_error(&tilt, map, shapes, i)).fold(0.0, f64::max);
         // The error of a reach found from exact coordinates: eigenvalues, roots and sums.
         let rounding = 16.0 * (rank + 4) as f64 * f64::EPSILON + off_hull;
         scale /= 1.0 + rounding;
@@ -82,7 +82,7 @@ impl Base {
         let tilt = Tilt::new(&factor, hull.as_ref());
         let errors: Vec<f64> = support
             .iter()
-            .map(|(i, a, _)| map.touching_error(shapes, *i, a) + tilt.error(map, shapes, *i))
+            .map(|(i, a, _)| map.touching_error(shapes, *i, a) + tilt_error(&tilt, map, shapes, *i))
             .collect();
         let lower = lower_gap(&images, &multipliers, rank, &errors);
         let gap = (lower + rank as f64 * (excess + LOGARITHM_ROUNDING)).min(f64::MAX);
@@ -110,6 +110,13 @@ impl Base {
         };
         Ok(Solution { answer: answer(&factor, center, log_volume, hull)?, certificate, trace })
     }
+}
+
+/// What images of the points of an item may be off by, as it lies off the hull and F leans out of it.
+fn tilt_error(tilt: &Tilt, map: Map<'_>, shapes: &Shapes, i: usize) -> f64 {
+    let center = &map.center.high;
+    let offset = shapes.center(i).iter().zip(center).map(|(m, c)| (m - c).abs()).sum();
+    tilt.error(offset, (0..center.len()).map(|j| shapes.width(i, j)).sum())
 }
 
 /// The largest |y|² of an ellipsoid given by its matrix and center.

@@ -89,9 +89,18 @@ pub fn normal(n: usize, dim: usize, seed: u64) -> Vec<f64> {
 
 /// A matrix of random entries, d × d, far enough from singular for what the tests ask of it.
 pub fn map(dim: usize, seed: u64) -> Vec<f64> {
-    let mut entries = normal(dim, dim, seed);
-    (0..dim).for_each(|a| entries[a * dim + a] += 3.0);
-    entries
+    let drawn = |seed| {
+        let mut entries = normal(dim, dim, seed);
+        (0..dim).for_each(|a| entries[a * dim + a] += 3.0);
+        entries
+    };
+    // Of Hadamard's bound on the determinant, not less than a thousandth.
+    let is_wide = |entries: &Vec<f64>| {
+        let length = |row: &[f64]| row.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let bound: f64 = entries.chunks(dim).map(|row| length(row).ln()).sum();
+        log_determinant(entries, dim) >= bound - 1000f64.ln()
+    };
+    (seed..).step_by(1000).map(drawn).find(is_wide).expect("one of many maps is wide")
 }
 
 /// Ax + b for each row x.

@@ -2,6 +2,7 @@
 //! did not grow are proved as k-dops.
 
 use taut_certify::{BodyProof, ConvexBody};
+use taut_points::two_to;
 
 use super::super::grow::Dop;
 use super::super::mesh::GridMesh;
@@ -19,7 +20,7 @@ pub(in super::super) fn prove(
     bodies: Vec<FreeBody>,
     disjoint: bool,
 ) -> Result<Proved, Error> {
-    let unit = 2f64.powi(mesh.exponent);
+    let unit = two_to(mesh.exponent);
     let mut kept: Vec<Shape> = vec![];
     let mut pairs: Vec<Vec<Vec<u64>>> = vec![];
     let mut proved = Proved::default();

@@ -15,7 +15,7 @@ mod tests;
 use std::borrow::Cow;
 
 use taut_certify::CurveComponent;
-use taut_points::Monitor;
+use taut_points::{Monitor, exponent_of, times_two_to};
 
 use super::answer::Outcome;
 use super::chains::{chains, remove_crossings, repair};
@@ -115,12 +115,10 @@ fn edges(
 /// coordinates 2⁸⁰⁰ times smaller than the largest.
 pub(super) fn normalized(sites: &[[f64; 2]]) -> Cow<'_, [[f64; 2]]> {
     let largest = sites.as_flattened().iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-    let exponent = if largest > 0.0 { largest.log2().floor() as i32 } else { 0 };
+    let exponent = if largest > 0.0 { exponent_of(largest) } else { 0 };
     if exponent.abs() <= SAFE_EXPONENT {
         return Cow::Borrowed(sites);
     }
-    // In two steps, as the factor itself may be out of range.
-    let (half, rest) = (-exponent / 2, -exponent - -exponent / 2);
-    let scale = |x: f64| x * 2f64.powi(half) * 2f64.powi(rest);
+    let scale = |x: f64| times_two_to(x, -exponent);
     Cow::Owned(sites.iter().map(|site| site.map(scale)).collect())
 }

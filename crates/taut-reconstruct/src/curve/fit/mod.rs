@@ -27,7 +27,7 @@ mod seeds;
 mod spline;
 mod split;
 
-use taut_points::{Monitor, OrderBy};
+use taut_points::{Monitor, OrderBy, exponent_of, two_to};
 
 use super::Ends;
 use super::answer::Outcome;
@@ -157,12 +157,13 @@ impl Frame {
         }
         // Halves, so that nothing overflows.
         let extent = (0.5 * high[0] - 0.5 * low[0]).max(0.5 * high[1] - 0.5 * low[1]);
-        let exponent = if extent > 0.0 { -extent.log2().ceil() } else { 0.0 };
+        // That of the power of two which is not less.
+        let exponent = if extent > 0.0 { exponent_of(extent.next_down()) + 1 } else { 0 };
         let median = |i: usize| {
             let mut all: Vec<f64> = points.iter().map(|p| p[i]).collect();
             *all.select_nth_unstable_by(points.len() / 2, f64::total_cmp).1
         };
-        Self { middle: [0, 1].map(median), scale: exponent.clamp(-1020.0, 1020.0).exp2() }
+        Self { middle: [0, 1].map(median), scale: two_to(-exponent.clamp(-1020, 1020)) }
     }
 
     fn inward(&self, p: Point) -> Point {

@@ -23,8 +23,8 @@ mod strip;
 #[cfg(test)]
 mod tests;
 
-use taut_points::Monitor;
 use taut_points::parallel::IntoParallel;
+use taut_points::{Monitor, exponent_of, times_two_to};
 
 use super::answer::Outcome;
 use super::cloud::Cloud;
@@ -229,19 +229,14 @@ struct Scale {
 impl Scale {
     fn of(sites: &[[f64; 2]]) -> Self {
         let largest = sites.as_flattened().iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-        Self { exponent: if largest > 0.0 { largest.log2().floor() as i32 } else { 0 } }
+        Self { exponent: if largest > 0.0 { exponent_of(largest) } else { 0 } }
     }
 
     fn down(self, x: f64) -> f64 {
-        times(x, -self.exponent)
+        times_two_to(x, -self.exponent)
     }
 
     fn up(self, x: f64) -> f64 {
-        times(x, self.exponent)
+        times_two_to(x, self.exponent)
     }
-}
-
-/// x·2ᵏ, in two steps as the factor itself may be out of range.
-fn times(x: f64, k: i32) -> f64 {
-    x * 2f64.powi(k / 2) * 2f64.powi(k - k / 2)
 }

@@ -8,9 +8,6 @@ use taut_certify::Hull;
 use taut_kernels::DoubleDouble;
 use taut_kernels::vector::dot;
 
-use crate::shapes::Shapes;
-use crate::shapes::frame::Map;
-
 pub(super) struct Tilt {
     /// The root of Σ|(I − B′B)f|² over the rows f of F.
     lean: f64,
@@ -33,14 +30,12 @@ impl Tilt {
         Tilt { lean: dot(&leans, &leans).sqrt(), distance: hull.distance, rounding }
     }
 
-    /// Bounds the difference for the points of an item.
-    pub(super) fn error(&self, map: Map<'_>, shapes: &Shapes, i: usize) -> f64 {
+    /// Bounds the difference for the points of an item whose center is this far from that of the ellipsoid and whose width is this; both are
+    /// summed over the coordinates.
+    pub(super) fn error(&self, offset: f64, width: f64) -> f64 {
         if self.lean == 0.0 {
             return 0.0;
         }
-        let center = &map.center.high;
-        let offset: f64 = shapes.center(i).iter().zip(center).map(|(m, c)| (m - c).abs()).sum();
-        let width: f64 = (0..center.len()).map(|j| shapes.width(i, j)).sum();
         // Once for the offset of the point, once for the reach of the item.
         let off =
             2.0 * (self.distance + self.rounding * (offset + width) + self.rounding.sqrt() * width);
