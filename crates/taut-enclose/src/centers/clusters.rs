@@ -116,6 +116,9 @@ pub(super) struct Clusters<P> {
     /// The number of further items that may be left out.
     outliers_left: u64,
     left_out: Vec<bool>,
+    /// Whether an item is in a cluster or left out. It is not asked for again: of nearly equal points, a fit may tell that a ball with one of
+    /// them is too large, by rounding of the center, and the ball itself that it is not.
+    is_decided: Vec<bool>,
     /// The items left out, in the order of decisions, where balls can be asked to avoid them; else none.
     avoided: Vec<u32>,
     /// True if balls are asked to avoid the items left out.
@@ -170,6 +173,7 @@ impl<P: Position> Clusters<P> {
             threshold,
             k,
             outliers_left,
+            is_decided: left_out.clone(),
             left_out,
             avoided: vec![],
             can_avoid,
@@ -206,6 +210,7 @@ impl<P: Position> Clusters<P> {
             links.add(group);
         }
         self.left_out.push(false);
+        self.is_decided.push(false);
         self.levels.push(0);
         self.fit_counts.push();
     }
@@ -227,6 +232,7 @@ impl<P: Position> Clusters<P> {
     /// Puts an item where it may go, as the decision of this level.
     pub(super) fn put_at(&mut self, item: u32, place: Place, level: u32) -> Undo<P> {
         self.levels[item as usize] = level;
+        self.is_decided[item as usize] = true;
         let cluster = cluster_of(place, self.clusters.len());
         if let Some(links) = &mut self.links {
             links.decide(item, cluster, level);
@@ -275,7 +281,7 @@ impl<P: Position> Clusters<P> {
                         feasible.push(FeasibleItem { item: other, radius });
                     } else if other < asked_by_all
                         && self.fit_counts.is_only_place(candidate, ball.radius)
-                        && !self.left_out[other as usize]
+                        && !self.is_decided[other as usize]
                     {
                         self.placeless = Some(other);
                         break;
@@ -514,7 +520,7 @@ impl<P: Position> Clusters<P> {
         let mut next = 0;
         while let Some(item) = self.next_uncovered(next, fewest) {
             next = item + 1;
-            if self.is_left_out(item as u32) {
+            if self.is_decided[item] || self.is_left_out(item as u32) {
                 continue;
             }
             let is_settled = self.home(item as u32).is_some();
@@ -552,7 +558,7 @@ impl<P: Position> Clusters<P> {
                 let (counts, rises) = (&self.fit_counts, &mut self.rises);
                 let first = item as usize;
                 let clusters = &self.clusters;
-                item = counts.steepest(clusters, fewest, first, &self.left_out, rises) as u32;
+                item = counts.steepest(clusters, fewest, first, &self.is_decided, rises) as u32;
             }
             return NodeState::Branch(item);
         }
@@ -621,10 +627,12 @@ impl<P: Position> State for Clusters<P> {
             Undo::Open => {
                 self.uncount(self.clusters.len() - 1);
                 let cluster = self.clusters.pop().expect("it was opened");
+                self.is_decided[cluster.members[0] as usize] = false;
                 self.lists.push(cluster.feasible);
             }
             Undo::LeaveOut { item, before } => {
                 self.left_out[item as usize] = false;
+                self.is_decided[item as usize] = false;
                 self.outliers_left += 1;
                 if self.avoided.last() == Some(&item) {
                     self.avoided.pop();
@@ -643,7 +651,8 @@ impl<P: Position> State for Clusters<P> {
                     self.uncount(at);
                 }
                 let cluster = &mut self.clusters[at];
-                cluster.members.pop();
+                let item = cluster.members.pop().expect("it was put into");
+                self.is_decided[item as usize] = false;
                 self.balls.push(std::mem::replace(&mut cluster.ball, ball));
                 cluster.asked = asked;
                 self.lists.push(std::mem::replace(&mut cluster.feasible, feasible));

@@ -351,3 +351,50 @@ fn nodes_that_run_out_leave_what_is_proved() {
         assert!(found.answer.lower_bound > 0.0 && found.certificate.gap < 1.5, "{max_nodes}");
     }
 }
+
+/// Points of the ellipsoids come so near to one another that fits of points to balls are off by their centers; a proof went on with one
+/// point until its nodes were spent.
+#[test]
+fn a_point_in_a_ball_is_not_asked_for_again() {
+    let given = Ellipsoids {
+        dim: 3,
+        rows: vec![
+            vec![0.0; 9],
+            vec![
+                0.16139334421502352,
+                -0.21448828487086966,
+                0.17505090417489222,
+                1.4868492567532212,
+                -0.9720023295442703,
+                0.8549993255682322,
+                0.22209482029006156,
+                -0.09797532661367576,
+                0.38170375334438345,
+            ],
+            vec![
+                -0.1228319485714959,
+                0.0,
+                0.12042750484634264,
+                0.07626044025104065,
+                0.13239597315926832,
+                1.8793315266608395,
+                0.3275819057221361,
+                -0.14950732261956,
+                1.7198822835863716,
+            ],
+            vec![
+                -0.05791883318863558,
+                -0.05284145041143137,
+                0.1554151499898314,
+                1.376379297792508,
+                0.8005714245361142,
+                0.7032016772522484,
+                0.525461283887925,
+                0.24579330146047446,
+                0.21568047647580993,
+            ],
+        ],
+    };
+    let found = given.found(1, &options(0.0));
+    assert!(found.certificate.gap <= 1e-10 && found.trace.stop != Stop::ProofBudget, "{found:?}");
+}

@@ -80,13 +80,13 @@ impl FitCounts {
     }
 
     /// Returns the item that makes the clusters into which it fits grow most in all, the first of several. Asked are those items that no ball
-    /// holds, that fit into so many clusters and are not left out; `first` is the first of them.
+    /// holds, that fit into so many clusters and are not decided; `first` is the first of them.
     pub(super) fn steepest<P>(
         &self,
         clusters: &[Cluster<P>],
         places: u32,
         first: usize,
-        left_out: &[bool],
+        is_decided: &[bool],
         rises: &mut Vec<f64>,
     ) -> usize {
         rises.clear();
@@ -102,7 +102,7 @@ impl FitCounts {
         }
         let mut steepest = first;
         for item in first + 1..self.counts.len() {
-            let is_one = self.counts[item] == count && !left_out[item];
+            let is_one = self.counts[item] == count && !is_decided[item];
             if is_one && rises[item] > rises[steepest] {
                 steepest = item;
             }
