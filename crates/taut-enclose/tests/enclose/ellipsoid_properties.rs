@@ -107,7 +107,8 @@ proptest! {
             .filter(|i| *i != support[heaviest])
             .flat_map(|i| rows[i as usize].iter().copied())
             .collect();
-        let left = exact("without the heaviest", &left, dim, GAP);
+        // What is left may be a thin simplex, of which leverages are known less well.
+        let left = exact("without the heaviest", &left, dim, 10.0 * GAP);
         if left.answer.rank() == dim {
             prop_assert!(left.answer.log_volume < plain.answer.log_volume - 1e-9);
         }
