@@ -18,7 +18,7 @@ use std::cmp::Ordering;
 
 use num_bigint::{BigInt, Sign};
 
-pub(crate) use self::functions::{log_unit_ball, pi};
+pub(crate) use self::functions::log_unit_ball;
 use self::radius::Radius;
 
 /// This many bits of the integer m are kept.

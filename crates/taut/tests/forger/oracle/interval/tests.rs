@@ -1,6 +1,7 @@
 //! Intervals contain what they must, and little more.
 
-use super::{Interval, pi};
+use super::Interval;
+use super::functions::pi;
 
 fn exact(value: f64) -> Interval {
     Interval::exact(value).unwrap()
