@@ -3,7 +3,9 @@
 //! *Problem.* Maximize D(λ) = ½ Σ λᵢλⱼρᵢⱼ over Σλ = 1 and 0 ≤ λᵢ ≤ C.
 //! *Idea.* With aᵢ = Σ λⱼρᵢⱼ, moving t from λⱼ to λᵢ adds t(aᵢ − aⱼ) − t²ρᵢⱼ to D, which is most for t = (aᵢ − aⱼ)/(2ρᵢⱼ). The pair is the
 //! i of the largest aᵢ that can grow, and the j that then gains most.
-//! *Guarantee.* D never falls; the steps end when no aᵢ that can grow exceeds one that can shrink by more than the tolerance.
+//! *Guarantee.* D never falls; the steps end when no aᵢ that can grow exceeds one that can shrink by more than the tolerance. Those of a hard ball
+//! end as well when its squared radius over the working set, max aᵢ − D, exceeds D by no more than that: of points near a sphere, pairs with
+//! small multipliers are off for much longer.
 //! *Cost.* O(|W|) for each step, and the columns of ρ that it has not seen, O(|W|d).
 //! *Trap.* a and Σλ are brought up to date with each step, and their errors grow with them: they are corrected from time to time.
 //! *Reference.* Fan, Chen and Lin, Working set selection using second order information, JMLR 6, 2005.
@@ -128,6 +130,7 @@ impl Pairs {
         monitor: &Monitor<'_>,
     ) -> Result<f64, Cancelled> {
         let mut since_sum = 0;
+        let mut spread = self.spread();
         loop {
             if self.steps.is_multiple_of(STEPS_BETWEEN_LOOKS) {
                 monitor.check()?;
@@ -142,10 +145,11 @@ impl Pairs {
                 }
             }
             let is_off = highest - lowest > tolerance * self.spread_from(highest, lowest);
-            let is_settled = !is_off;
+            let is_near = self.most >= 1.0 && highest - 2.0 * spread <= tolerance * spread;
+            let is_settled = !is_off || is_near;
             if (is_settled && since_sum > 0) || since_sum >= STEPS_BETWEEN_SUMS {
                 self.sum_up();
-                since_sum = 0;
+                (since_sum, spread) = (0, self.spread());
                 continue;
             }
             if is_settled {
@@ -157,7 +161,7 @@ impl Pairs {
                 return Ok((highest + lowest) / 2.0);
             };
             self.load(shrinks, Some(grows));
-            self.step(grows, shrinks);
+            spread += self.step(grows, shrinks);
             since_sum += 1;
         }
     }
@@ -186,9 +190,11 @@ impl Pairs {
         best.1
     }
 
-    fn step(&mut self, grows: usize, shrinks: usize) {
+    /// Moves from one multiplier to the other; returns by how much D grows.
+    fn step(&mut self, grows: usize, shrinks: usize) -> f64 {
         let rho = self.column(grows)[shrinks];
-        let wanted = (self.mean[grows] - self.mean[shrinks]) / (2.0 * rho);
+        let excess = self.mean[grows] - self.mean[shrinks];
+        let wanted = excess / (2.0 * rho);
         let room = self.most - self.lambda[grows];
         let step = wanted.min(room).min(self.lambda[shrinks]);
         // The bounds are reached exactly, so that points at them are known to be there.
@@ -203,6 +209,7 @@ impl Pairs {
             }
         }
         self.steps += 1;
+        step * (excess - step * rho)
     }
 
     /// Replaces the working set by the rows with λ > 0, or all where `keeps_all`, and new ones with λ = 0.
