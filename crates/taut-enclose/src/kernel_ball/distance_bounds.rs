@@ -131,7 +131,7 @@ mod tests {
             for tolerance in [0.5, 1e-2, 1e-4, 1e-6, 1e-9, 1e-12] {
                 let before = PreviousMultipliers::of(&pairs);
                 let old = pairs.lambda.clone();
-                pairs.maximize(tolerance, &Monitor::silent()).unwrap();
+                pairs.maximize(tolerance, false, &Monitor::silent()).unwrap();
                 let displacement = before.displacement(&pairs);
                 let way = displacement.length;
                 // |c′ − c|² = −½ Σ (λ′ᵢ − λᵢ)(λ′ⱼ − λⱼ)ρᵢⱼ.

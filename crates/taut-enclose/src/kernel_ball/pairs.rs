@@ -3,9 +3,9 @@
 //! *Problem.* Maximize D(λ) = ½ Σ λᵢλⱼρᵢⱼ over Σλ = 1 and 0 ≤ λᵢ ≤ C.
 //! *Idea.* With aᵢ = Σ λⱼρᵢⱼ, moving t from λⱼ to λᵢ adds t(aᵢ − aⱼ) − t²ρᵢⱼ to D, which is most for t = (aᵢ − aⱼ)/(2ρᵢⱼ). The pair is the
 //! i of the largest aᵢ that can grow, and the j that then gains most.
-//! *Guarantee.* D never falls; the steps end when no aᵢ that can grow exceeds one that can shrink by more than the tolerance. Those of a hard ball
-//! end as well when its squared radius over the working set, max aᵢ − D, exceeds D by no more than that: of points near a sphere, pairs with
-//! small multipliers are off for much longer.
+//! *Guarantee.* D never falls; the steps end when no aᵢ that can grow exceeds one that can shrink by more than the tolerance. On the last
+//! working set those of a hard ball end as well when its squared radius, max aᵢ − D, exceeds D by no more than that: of points near a sphere,
+//! pairs with small multipliers are off for much longer. Earlier, what is exact in these multipliers spares passes.
 //! *Cost.* O(|W|) for each step, and the columns of ρ that it has not seen, O(|W|d).
 //! *Trap.* a and Σλ are brought up to date with each step, and their errors grow with them: they are corrected from time to time.
 //! *Reference.* Fan, Chen and Lin, Working set selection using second order information, JMLR 6, 2005.
@@ -123,10 +123,12 @@ impl Pairs {
         self.lambda.iter().zip(&self.mean).map(|(l, a)| l * a).sum::<f64>() / 2.0
     }
 
-    /// Takes steps until no pair is off by more than `tolerance` times D. Returns the a at which points change from inside to outside.
+    /// Takes steps until no pair is off by more than `tolerance` times D or, where `ends_by_gap`, a hard ball is within it. Returns the a at
+    /// which points change from inside to outside.
     pub(super) fn maximize(
         &mut self,
         tolerance: f64,
+        ends_by_gap: bool,
         monitor: &Monitor<'_>,
     ) -> Result<f64, Cancelled> {
         let mut since_sum = 0;
@@ -145,7 +147,8 @@ impl Pairs {
                 }
             }
             let is_off = highest - lowest > tolerance * self.spread_from(highest, lowest);
-            let is_near = self.most >= 1.0 && highest - 2.0 * spread <= tolerance * spread;
+            let is_near =
+                ends_by_gap && self.most >= 1.0 && highest - 2.0 * spread <= tolerance * spread;
             let is_settled = !is_off || is_near;
             if (is_settled && since_sum > 0) || since_sum >= STEPS_BETWEEN_SUMS {
                 self.sum_up();

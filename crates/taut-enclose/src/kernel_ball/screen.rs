@@ -505,7 +505,7 @@ mod tests {
             let mut bounds = DistanceBounds::new(n).unwrap();
             for (round, tolerance) in [0.3, 1e-2, 1e-4, 1e-6].into_iter().enumerate() {
                 let before = PreviousMultipliers::of(&pairs);
-                pairs.maximize(tolerance, &silent).unwrap();
+                pairs.maximize(tolerance, false, &silent).unwrap();
                 bounds.move_center(before.displacement(&pairs));
                 let places = pairs.support();
                 let lambda: Vec<f64> = places.iter().map(|&i| pairs.lambda[i]).collect();

@@ -57,7 +57,8 @@ pub(super) fn solve(
         let least = (SHARE_OF_PAIRS * options.epsilon).max(TOLERANCE_MIN);
         let tolerance = least.max(SHARE_OF_GAP * gap);
         let before = PreviousMultipliers::of(&pairs);
-        let border = pairs.maximize(tolerance, monitor).map_err(ReadError::from)?;
+        let border =
+            pairs.maximize(tolerance, tolerance == least, monitor).map_err(ReadError::from)?;
         let spread = pairs.spread();
         let center = center_of(&pairs, spread);
         if let Some(bounds) = &mut bounds {
