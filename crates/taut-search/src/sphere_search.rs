@@ -405,17 +405,12 @@ fn read(source: &dyn PointSource, monitor: &Monitor<'_>) -> Result<Vec<f64>, Err
     }
     monitor.check().map_err(ReadError::from)?;
     let mut scratch = Scratch::new();
-    let values: Vec<f64> = match source.read(0..source.len(), &mut scratch)? {
+    let rows = source.read(0..source.len(), &mut scratch)?;
+    rows.check_finite(0)?;
+    Ok(match rows {
         Rows::F32(points) => points.values().iter().map(|&x| x.into()).collect(),
         Rows::F64(points) => points.values().to_vec(),
-    };
-    match values.iter().position(|x| !x.is_finite()) {
-        None => Ok(values),
-        Some(at) => {
-            let (row, column) = ((at / source.dim()) as u64, at % source.dim());
-            Err(InputError::NonFinite { row, column, value: values[at] }.into())
-        }
-    }
+    })
 }
 
 /// Centers and radii.

@@ -15,6 +15,7 @@
 //! 155(13), 2007, for the steps away.
 
 use taut_certify::Stop;
+use taut_points::{Points, ReadError, Rows};
 
 use super::counters::Counters;
 use super::initial;
@@ -97,6 +98,9 @@ fn all(reader: &PointReader<'_>, sample: &Sample) -> Result<WorkingSet, Error> {
     let mut set = WorkingSet::new(reader.dim());
     let ids: Vec<u64> = (0..reader.len()).collect();
     for ids in ids.chunks(4096) {
+        // No pass has read them yet, which would refuse such a number.
+        Rows::F64(Points::new(&reader.rows(ids)?, reader.dim()).map_err(ReadError::from)?)
+            .check_finite(ids[0])?;
         let rows = reader.rows_from(&sample.origin, ids)?;
         for (&id, row) in ids.iter().zip(rows.chunks_exact(reader.dim())) {
             set.push(id, row, 1.0);

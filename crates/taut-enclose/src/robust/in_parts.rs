@@ -9,8 +9,8 @@
 
 use taut_certify::{RobustEllipsoid, RobustMethod, Stop, Trace, Unweighted};
 use taut_points::{
-    Elsewhere, InputError, Monitor, PartsError, PointSource, Points, PointsHash, ReadError, gather,
-    on_threads,
+    Elsewhere, InputError, Monitor, PartsError, PointSource, Points, PointsHash, ReadError, Rows,
+    gather, on_threads,
 };
 
 use super::chi_square::{mcd_reweighted_scale, mcd_scale, quantile};
@@ -78,11 +78,11 @@ fn sample(source: &dyn PointSource) -> Result<Vec<f64>, Error> {
     ids.dedup();
     let values = gather(source, &ids)?;
     // The first pass over all rows, which refuses such a number as well, comes after the search over these.
-    match values.iter().position(|value| !value.is_finite()) {
+    match Rows::F64(Points::new(&values, source.dim()).map_err(ReadError::from)?).first_non_finite()
+    {
         None => Ok(values),
-        Some(at) => {
-            let (row, column) = (ids[at / source.dim()], at % source.dim());
-            Err(InputError::NonFinite { row, column, value: values[at] }.into())
+        Some((row, column, value)) => {
+            Err(InputError::NonFinite { row: ids[row], column, value }.into())
         }
     }
 }

@@ -215,10 +215,14 @@ fn what_is_not_finite_is_named() {
     let mut values = normal(50_000, 3, 4);
     values[3 * 40_000 + 2] = f64::NAN;
     values[3 * 45_000] = f64::INFINITY;
-    let refused = ellipsoid(&Points::new(&values, 3).unwrap(), &EllipsoidOptions::default());
-    assert!(
-        matches!(refused, Err(Error::Input(InputError::NonFinite { row: 40_000, column: 2, value })) if value.is_nan())
-    );
+    for method in EllipsoidMethod::ALL {
+        let options = EllipsoidOptions { method, ..Default::default() };
+        let refused = ellipsoid(&Points::new(&values, 3).unwrap(), &options);
+        assert!(
+            matches!(refused, Err(Error::Input(InputError::NonFinite { row: 40_000, column: 2, value })) if value.is_nan()),
+            "{method:?}: {refused:?}"
+        );
+    }
     values[4] = f64::NEG_INFINITY;
     let refused = ellipsoid(&Points::new(&values, 3).unwrap(), &EllipsoidOptions::default());
     assert!(matches!(refused, Err(Error::Input(InputError::NonFinite { row: 1, column: 1, .. }))));
