@@ -118,6 +118,9 @@ fn step(set: &mut WorkingSet, whitener: &mut Whitener, i: usize, beta: f64) {
     let weights = set.weights_mut();
     weights.iter_mut().for_each(|u| *u *= 1.0 - beta);
     weights[i] = (weights[i] + beta).max(0.0);
+    // Roundings of many steps add up to more than a checker lets a sum be off.
+    let total: f64 = weights.iter().sum();
+    weights.iter_mut().for_each(|u| *u /= total);
 }
 
 /// Moves weight away from the point of least leverage, if that is farther below m than the largest is above.

@@ -31,6 +31,17 @@ fn all_methods_reach_a_coarse_gap() {
     }
 }
 
+/// Of few points a checker lets the sum of multipliers be off by little, and each step rounds it.
+#[test]
+fn many_steps_leave_a_sum_of_one() {
+    let values = [1.0, 2.0, 3.0, 4.0, 2.0, 1.0, 5.0, 1.0];
+    for method in [ThesisKhachiyan, ThesisCoreSet] {
+        let found = solve(&format!("{method}"), &values, 2, &by(method, 1e-3));
+        assert_eq!(found.trace.stop, Stop::Converged, "{method}");
+        assert!(found.trace.iterations > 100, "{method}: {}", found.trace.iterations);
+    }
+}
+
 /// Theorem 3.4.3 with the constants of its proof; and Khachiyan's core-set is the whole set.
 #[test]
 fn iterations_and_core_sets_stay_within_their_bounds() {
